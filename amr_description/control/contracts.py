@@ -1,0 +1,353 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The page to read before writing a controller, a hardware component or a simulated world.
+
+Nothing here knows ROS, MuJoCo or a clock. One thread, **the owner**, calls every method below;
+what comes from other threads arrives through :class:`Input`. Times and periods are integer
+nanoseconds. All physical values are SI.
+
+A transition or an update that cannot be done raises (:mod:`amr_description.errors`); nothing
+returns a flag.
+"""
+
+from abc import ABC, abstractmethod
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+import enum
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from amr_description.control.interfaces import (
+    CommandInterface,
+    InterfaceRequest,
+    NO_INTERFACES,
+    StateInterface,
+)
+
+if TYPE_CHECKING:
+    from amr_description.model.frames import Transform
+    from amr_description.model.ros2_control_tag import HardwareInfo
+    from amr_description.model.urdf import Robot
+
+
+# --- Log -----------------------------------------------------------------------------------------
+
+
+class Severity(enum.IntEnum):
+    """Severities with rcutils' numbers."""
+
+    DEBUG = 10
+    INFO = 20
+    WARN = 30
+    ERROR = 40
+    FATAL = 50
+
+
+class Log(Protocol):
+    """
+    Where a component says something; it never logs by itself.
+
+    The caller's thread only stores the line. Whoever owns the node emits it, under the component's
+    own logger.
+    """
+
+    def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+        """
+        Say ``text``.
+
+        ``throttle``: the least time in s between two lines with the same format (``math.inf``:
+        once); the key is the text up to its first digit, so that a changing number does not defeat
+        it.
+        """
+
+
+# --- Ports: what a controller hears and says -----------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Qos:
+    """
+    A quality of service; ``'system_default'`` leaves the choice to the middleware, as rmw does.
+    """
+
+    depth: int = 0
+    reliability: str = 'system_default'
+    durability: str = 'system_default'
+
+
+SYSTEM_DEFAULT = Qos()
+
+
+@dataclass(frozen=True, slots=True)
+class Port:
+    """
+    One topic of a controller, declared instead of created.
+
+    ``name`` is resolved by the controller's node (``~/cmd_vel``, ``joint_states``, ``/tf``).
+    ``message`` is the ROS type. ``convert`` names a function, ``module:function``: for an input
+    ``(message) -> sample``, for an output ``(sample, message) -> None``, which fills a message
+    that is made once and used again. Samples are frozen dataclasses. A converter in another
+    package is named in the same way.
+    """
+
+    name: str
+    message: str
+    convert: str
+    qos: Qos = SYSTEM_DEFAULT
+
+
+class Input[Sample]:
+    """
+    The mailbox of an input port: any thread puts, the owner drains.
+
+    Closed (the state before activation) it takes nothing. When more than ``capacity`` samples
+    arrive between two updates, the oldest go.
+    """
+
+    def __init__(self, port: Port, capacity: int = 16) -> None:
+        self.port = port
+        self.is_open = False
+        self._samples: deque[Sample] = deque(maxlen=capacity)
+
+    def put(self, sample: Sample) -> bool:
+        """Store a sample; ``False`` when the input is closed, and the sample is gone."""
+        if self.is_open:
+            self._samples.append(sample)
+        return self.is_open
+
+    def drain(self) -> list[Sample]:
+        """All samples since the last call, oldest first."""
+        samples = self._samples
+        return [samples.popleft() for _ in range(len(samples))]
+
+    def open(self) -> None:
+        """Begin to take samples; the manager calls it when the controller is activated."""
+        self._samples.clear()
+        self.is_open = True
+
+    def close(self) -> None:
+        """Take no more samples and forget those that wait."""
+        self.is_open = False
+        self._samples.clear()
+
+
+class Output[Sample]:
+    """
+    The outlet of an output port; the owner sends.
+
+    ``sink`` is set by whoever gives the controller its node; without one (in a test, say) what is
+    sent is dropped.
+    """
+
+    def __init__(self, port: Port) -> None:
+        self.port = port
+        self.sink: Callable[[Sample], None] | None = None
+
+    def send(self, sample: Sample) -> None:
+        """
+        Publish a sample after this turn of the loop, behind the ``/clock`` of the same instant.
+        """
+        if self.sink is not None:
+            self.sink(sample)
+
+
+# --- Controller ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerContext:
+    """What a controller may know of its surroundings; handed over once, at construction."""
+
+    name: str
+    log: Log
+    namespace: str = '/'
+    update_rate: int = 100
+    """Hz, of this controller."""
+    robot: 'Robot | None' = None
+    """The robot's description, when the manager has one."""
+
+
+class Controller(ABC):
+    """
+    The logic between states and commands; one object per controller name.
+
+    Life: constructed (unconfigured) → ``configure`` → inactive → ``activate`` → active, ``update``
+    every period → ``deactivate`` → inactive → ``cleanup`` → unconfigured. ``configure`` may come
+    again after ``cleanup``.
+    """
+
+    parameters_type: ClassVar[type]
+    """The frozen dataclass of its parameters, see :mod:`amr_description.parameters`."""
+
+    def __init__(self, context: ControllerContext) -> None:
+        self.context = context
+        self.log = context.log
+
+    @abstractmethod
+    def configure(self, parameters: Any) -> None:
+        """
+        Take over checked parameters (an instance of ``parameters_type``). Raises ControllerError.
+        """
+
+    def command_interfaces(self) -> InterfaceRequest:
+        """The command interfaces to claim; asked after ``configure``."""
+        return NO_INTERFACES
+
+    def state_interfaces(self) -> InterfaceRequest:
+        """The state interfaces to read; asked after ``configure``."""
+        return NO_INTERFACES
+
+    def references(self) -> tuple[CommandInterface, ...]:
+        """
+        What a preceding controller may command in chained mode; not empty makes it chainable.
+        """
+        return ()
+
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """The topics it hears; asked after ``configure``, opened by ``activate``."""
+        return ()
+
+    def outputs(self) -> tuple[Output[Any], ...]:
+        """The topics it says; asked after ``configure``."""
+        return ()
+
+    @abstractmethod
+    def activate(
+        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
+    ) -> None:
+        """
+        Take the lent handles, in the order of the requests.
+
+        ``time``: of the simulation or the machine, ns. Raises ControllerError; the handles are
+        then taken back.
+        """
+
+    @abstractmethod
+    def update(self, time: int, period: int) -> None:
+        """
+        Read states, compute, write commands.
+
+        ``time``: of this update, ns. ``period``: since this controller's previous update, ns; the
+        nominal one at the first. Raising deactivates the controller.
+        """
+
+    def deactivate(self, time: int) -> None:
+        """Leave the actuators safe (a drive: at rest) and forget the handles."""
+
+    def cleanup(self) -> None:
+        """Forget what ``configure`` made."""
+
+    def reset(self, time: int) -> None:
+        """
+        Time went back (or jumped) to ``time``, ns: forget every stamp, and start from the present
+        states.
+        """
+
+
+# --- Hardware ------------------------------------------------------------------------------------
+
+
+class JointGroup(Protocol):
+    """
+    Some joints of one robot, in the order in which they were asked for; cheap to call in the tick.
+    """
+
+    def positions(self) -> list[float]:
+        """rad or m."""
+
+    def velocities(self) -> list[float]:
+        """rad/s or m/s."""
+
+    def efforts(self) -> list[float]:
+        """The actuators' generalised force, N·m or N."""
+
+    def command_velocities(self, values: Sequence[float]) -> None:
+        """
+        Target velocities, rad/s or m/s, one a joint, kept until the next call. Raises
+        SimulationError if not finite.
+        """
+
+
+class World(Protocol):
+    """
+    What a simulated hardware component sees of the world: its own robot, by the names of its URDF.
+
+    MuJoCo implements it in ``sim/``; a test's fake is twenty lines. It stays valid when other
+    robots come and go.
+    """
+
+    @property
+    def time(self) -> int:
+        """Simulated time, ns."""
+
+    def joints(self, names: Sequence[str]) -> JointGroup:
+        """
+        These joints, in this order. Raises SimulationError naming what is missing and what there
+        is.
+        """
+
+    def pose(self, link: str) -> 'Transform':
+        """The transform from ``link`` to the world frame: the true pose of the link."""
+
+    def velocity(self, link: str) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """
+        Linear (m/s) and angular (rad/s) velocity of the link's origin, both in the link's own
+        axes.
+        """
+
+
+class HardwareComponent(ABC):
+    """
+    The one layer that is swapped on a real robot: it turns commands into motion and encoders into
+    states.
+
+    Life as a controller's. ``read`` is called while inactive or active, ``write`` only while
+    active. Neither may block: a component that owns a device lets a thread of its own do the I/O
+    and exchanges snapshots with it.
+    """
+
+    def __init__(self, info: 'HardwareInfo', log: Log, world: World | None) -> None:
+        """
+        ``world`` is ``None`` on a real robot. Raises HardwareError when ``info`` asks what it
+        cannot do.
+        """
+        self.info = info
+        self.log = log
+        self.world = world
+
+    @abstractmethod
+    def state_interfaces(self) -> Sequence[StateInterface]:
+        """Its gauges; asked once, after construction."""
+
+    @abstractmethod
+    def command_interfaces(self) -> Sequence[CommandInterface]:
+        """Its knobs; asked once, after construction."""
+
+    def configure(self) -> None:
+        """Open the device."""
+
+    def activate(self) -> None:
+        """Power the actuators, holding still."""
+
+    def deactivate(self) -> None:
+        """Stop the actuators."""
+
+    def cleanup(self) -> None:
+        """Close the device."""
+
+    def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """
+        These of its command interfaces are about to be claimed and released. Raises HardwareError
+        to refuse.
+        """
+
+    @abstractmethod
+    def read(self, time: int, period: int) -> None:
+        """Bring the state cells up to date. Raises HardwareError."""
+
+    @abstractmethod
+    def write(self, time: int, period: int) -> None:
+        """
+        Put the command cells to the actuators; a NaN command is no command. Raises HardwareError.
+        """

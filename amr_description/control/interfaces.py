@@ -1,0 +1,109 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The words of ros2_control: interface names, state and command handles, lifecycle states.
+
+A **state interface** is a gauge (what an encoder reads), a **command interface** a knob (what a
+motor is told). Both are named ``<joint>/<interface>``, for instance
+``joint_wheel_front_left/velocity``. The hardware component owns the cells; controllers are lent
+them for as long as they are active.
+
+Units are SI: position rad or m, velocity rad/s or m/s, acceleration rad/s² or m/s², effort N·m or
+N.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+import enum
+import math
+
+POSITION = 'position'
+VELOCITY = 'velocity'
+ACCELERATION = 'acceleration'
+EFFORT = 'effort'
+
+NANOSECONDS = 1_000_000_000
+"""Nanoseconds in a second: every time and period in ``control`` is an integer of nanoseconds."""
+
+
+class LifecycleState(enum.IntEnum):
+    """
+    The primary states of ``lifecycle_msgs/msg/State``, of controllers and of hardware components.
+    """
+
+    UNKNOWN = 0
+    UNCONFIGURED = 1
+    INACTIVE = 2
+    ACTIVE = 3
+    FINALIZED = 4
+
+    @property
+    def label(self) -> str:
+        """The name as ROS prints it, for instance ``inactive``."""
+        return self.name.lower()
+
+
+class Handle:
+    """
+    One cell that a hardware component and a controller share.
+
+    ``value`` is NaN until it is first written. The cell is read and written on the owner's thread
+    only.
+    """
+
+    __slots__ = ('prefix', 'interface', 'data_type', 'value')
+
+    def __init__(
+        self, prefix: str, interface: str, value: float = math.nan, data_type: str = 'double'
+    ) -> None:
+        self.prefix = prefix
+        self.interface = interface
+        self.data_type = data_type
+        self.value = value
+
+    @property
+    def name(self) -> str:
+        """
+        ``<prefix>/<interface>``; the prefix is the joint, sensor, GPIO or chained controller.
+        """
+        return f'{self.prefix}/{self.interface}'
+
+    def __repr__(self) -> str:
+        return f'{type(self).__name__}({self.name!r}, value={self.value})'
+
+
+class StateInterface(Handle):
+    """A gauge: written by the hardware component in ``read``, read by controllers."""
+
+    __slots__ = ()
+
+
+class CommandInterface(Handle):
+    """A knob: written by the one controller that claimed it, read by the hardware in ``write``."""
+
+    __slots__ = ()
+
+
+class Claim(enum.Enum):
+    """How a controller asks for interfaces (``interface_configuration_type`` of ros2_control)."""
+
+    NONE = 'none'
+    ALL = 'all'
+    INDIVIDUAL = 'individual'
+
+
+@dataclass(frozen=True, slots=True)
+class InterfaceRequest:
+    """The interfaces that a controller wants; ``names`` counts only for ``Claim.INDIVIDUAL``."""
+
+    claim: Claim = Claim.NONE
+    names: tuple[str, ...] = ()
+
+    @classmethod
+    def individual(cls, names: Iterable[str]) -> 'InterfaceRequest':
+        """Exactly these interfaces, handed over in this order."""
+        return cls(Claim.INDIVIDUAL, tuple(names))
+
+
+NO_INTERFACES = InterfaceRequest()
+ALL_INTERFACES = InterfaceRequest(Claim.ALL)

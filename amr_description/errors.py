@@ -1,0 +1,79 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Every error that this package raises on purpose.
+
+::
+
+    AmrError
+    ├── DescriptionError     a URDF, or one of its <ros2_control> blocks, cannot be used
+    ├── ParameterError       a parameter, or a parameter file, cannot be used
+    ├── ControlError         ros2_control refuses or fails
+    │   ├── InterfaceError   an interface is unknown, unavailable or claimed
+    │   ├── ControllerError  a controller is unknown, in the wrong state, or failed
+    │   └── HardwareError    a hardware component failed
+    ├── SimulationError      the simulated world cannot do what was asked
+    │   └── SpawnError       an entity cannot be spawned; carries simulation_interfaces' code
+    ├── BringupError         a stack is malformed, or one of its steps failed
+    └── UsageError           a command line cannot be understood (exit code 2, as argparse)
+
+The text of an error is one line that says what was asked, what was found and what would do. A
+program that ends because of one prints that line, without a traceback, and exits with
+``exit_code``.
+"""
+
+
+class AmrError(Exception):
+    """Base of all errors raised on purpose; ``str(error)`` is one line made for a person."""
+
+    exit_code = 1
+
+
+class DescriptionError(AmrError):
+    """The robot description (URDF) cannot be used."""
+
+
+class ParameterError(AmrError):
+    """A parameter or a parameter file cannot be used."""
+
+
+class ControlError(AmrError):
+    """ros2_control refuses a request, or a part of it failed."""
+
+
+class InterfaceError(ControlError):
+    """A command or state interface is unknown, unavailable or claimed by another controller."""
+
+
+class ControllerError(ControlError):
+    """A controller is unknown, in the wrong state, or failed in a transition or an update."""
+
+
+class HardwareError(ControlError):
+    """A hardware component failed in a transition, a read or a write."""
+
+
+class SimulationError(AmrError):
+    """The simulated world cannot do what was asked."""
+
+
+class SpawnError(SimulationError):
+    """
+    An entity cannot be spawned.
+
+    ``code`` is the ``result`` number of ``simulation_interfaces/srv/SpawnEntity`` that says why.
+    """
+
+    def __init__(self, message: str, code: int) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+class BringupError(AmrError):
+    """A stack is malformed, or one of its steps failed."""
+
+
+class UsageError(AmrError):
+    """A command line cannot be understood."""
+
+    exit_code = 2
