@@ -1,0 +1,53 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Build the ament_python package `amr_description`: its modules, data files and executables."""
+
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = 'amr_description'
+SHARED_FOLDERS = ('urdf', 'config')
+
+
+def shared_files(folder: str) -> list[tuple[str, list[str]]]:
+    """Return (target, files) of every directory below `folder`, as `data_files` wants them."""
+    directories = [Path(folder), *(path for path in Path(folder).rglob('*') if path.is_dir())]
+    found = {
+        directory: sorted(str(path) for path in directory.iterdir() if path.is_file())
+        for directory in sorted(directories)
+    }
+    return [(f'share/{PACKAGE}/{directory}', files) for directory, files in found.items() if files]
+
+
+setup(
+    name=PACKAGE,
+    version='0.1.0',
+    packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    package_data={PACKAGE: ['viewer/static/**']},
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
+        (f'share/{PACKAGE}', ['package.xml']),
+        *(entry for folder in SHARED_FOLDERS for entry in shared_files(folder)),
+    ],
+    # ROS packages are named in package.xml only: their names on PyPI differ (ros-rclpy, ...).
+    install_requires=['setuptools'],
+    extras_require={'test': ['pytest']},
+    zip_safe=False,
+    maintainer='The amr_description authors',
+    maintainer_email='maintainers@users.noreply.github.com',
+    description='A four-wheel mobile robot to learn and try ROS 2 Jazzy with, physics included.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'bringup = amr_description.bringup.main:main',
+            'create = amr_description.nodes.create:main',
+            'listener = amr_description.nodes.listener:main',
+            'mujoco_sim = amr_description.nodes.mujoco_sim:main',
+            'robot_state_publisher = amr_description.nodes.robot_state_publisher:main',
+            'spawner = amr_description.nodes.spawner:main',
+            'talker = amr_description.nodes.talker:main',
+            'teleop_twist_keyboard = amr_description.nodes.teleop_twist_keyboard:main',
+        ],
+    },
+)
