@@ -1,0 +1,35 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The radio station: publish a greeting on the topic ``topic`` twice a second, whoever may listen."""
+
+from rclpy.node import Node
+from std_msgs.msg import String
+
+from amr_description.nodes.runtime import run
+
+
+class MinimalPublisher(Node):
+    """A node with a publisher and a timer. It knows no listener."""
+
+    def __init__(self) -> None:
+        super().__init__('minimal_publisher')
+        # Message type, topic name, and how many messages to keep for a slow listener.
+        self.publisher = self.create_publisher(String, 'topic', 10)
+        self.timer = self.create_timer(0.5, self.publish_greeting)  # every 0.5 s
+        self.count = 0
+
+    def publish_greeting(self) -> None:
+        """Publish the next greeting and log it; called by the timer."""
+        message = String(data=f'Hello World: {self.count}')
+        self.publisher.publish(message)
+        self.get_logger().info(f'Publishing: "{message.data}"')
+        self.count += 1
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the talker until Ctrl-C."""
+    return run(MinimalPublisher, args)
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())
