@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The radio: log every greeting that arrives on the topic ``topic``, whoever may send it."""
+"""The radio: log every greeting that arrives on ``topic``, whoever may send it."""
 
 from rclpy.node import Node
 from std_msgs.msg import String

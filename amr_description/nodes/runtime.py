@@ -3,7 +3,7 @@
 """
 Start, run and end a ROS program: the one place of init, spin, shutdown and exit codes.
 
-A node that only reacts (most of them)::
+A node that only reacts, as most do::
 
     def main(args: list[str] | None = None) -> int:
         return run(MinimalPublisher, args)
@@ -13,39 +13,39 @@ A program that drives itself::
     def main(args: list[str] | None = None) -> int:
         return program(lambda: spawn(args))
 
-    def spawn(args: list[str] | None) -> int:
+    def spawn(args: list[str] | None) -> None:
         with ros(args):
             node = Node('spawner')
-            ...  # Ctrl-C, SIGTERM and SIGHUP raise KeyboardInterrupt here, also out of rclpy's waits
-        return 0
+            ...  # Ctrl-C raises KeyboardInterrupt here, also out of rclpy's waits
 
-A program with a loop of its own that must end in good order, the ROS context still alive::
+A program with a loop of its own, which has to end in good order while ROS still works::
 
     with ros(args) as stop:
         ...
-        with stop.on_stop(loop.stop):  # a request to stop calls loop.stop(), and nothing else
+        with stop.on_stop(loop.stop):  # a request to stop calls loop.stop(), and that is all
             loop.run()
         publisher.publish(last_message)
 
 How a program ends:
 
-================================================== ===================================== =========
-what happened                                      what is printed                       exit code
-================================================== ===================================== =========
-its work is done                                   nothing                               0, or what it returns
-asked to stop (``run``: that is its normal end)    nothing                               0; ``program``: 128 + signal
-an :class:`~amr_description.errors.AmrError`       one FATAL line                        its ``exit_code``
-wrong ROS arguments (``-p``, ``-r``, names …)      one FATAL line                        1
-any other exception                                its traceback (it is a bug)           1
-================================================== ===================================== =========
+================================================  ================  ===========================
+what happened                                     what it prints    exit code
+================================================  ================  ===========================
+``body`` returned                                 nothing           what it returned; None is 0
+SIGINT, SIGTERM, SIGHUP, or the parent is gone    nothing           ``run``: 0, its normal end;
+                                                                    ``program``: 128 + signal
+an :class:`~amr_description.errors.AmrError`      one FATAL line    its ``exit_code``
+wrong ROS arguments: ``-p``, ``-r``, names, ...   one FATAL line    1
+any other exception: a bug                        its traceback     1
+================================================  ================  ===========================
 """
 
-import re
-import sys
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+import re
+import sys
+import threading
 
 import rclpy
 from rclpy.exceptions import NameValidationException, ParameterException
@@ -59,11 +59,8 @@ from rclpy.signals import SignalHandlerOptions
 from amr_description.errors import AmrError, ParameterError
 from amr_description.nodes.stop_requests import StopRequested, StopRequests
 
-# Measured with a 100 Hz timer on rclpy 7.1.6: EventsExecutor 2.6 % of a core, SingleThreadedExecutor 6.5 %; a request to
-# stop ends either within 10 ms. EventsExecutor has two faults there: spin() and spin_once() without a time-out never
-# run a callback (hence spin() below), and an `async def` service callback raises TypeError: such a node asks for
-# executor=SingleThreadedExecutor.
-_SPIN_TIMEOUT = 0.5  # s; only a bound: messages, timers and Executor.wake() end the wait at once
+# Only a bound, s: messages, timers and Executor.wake() end the wait at once.
+_SPIN_TIMEOUT = 0.5
 
 
 def run(
@@ -75,14 +72,18 @@ def run(
     """
     Run one node until it is asked to stop; return the exit code of the process.
 
-    :param make_node: Makes the node, once rclpy is initialised; the node's class will do.
+    :param make_node: Makes the node, once rclpy is initialised; a node class will do.
     :param args: The command line without the program's name; None: that of the process.
     :param executor: Makes the executor.
 
-    ``node.destroy_node()`` is called in every way out, while the context is still valid: the place for last messages.
+    In every way out ``destroy_node()`` is called while the node can still publish.
+
+    EventsExecutor costs 2.6 % of a core for a 100 Hz timer, SingleThreadedExecutor 6.5 %; with
+    either a stop takes about 10 ms (rclpy 7.1.6). A node with an ``async def`` service callback
+    needs ``executor=SingleThreadedExecutor``: EventsExecutor dies of it with a TypeError.
     """
 
-    def body() -> int:
+    def body() -> None:
         with ros(args) as stop:
             with argument_errors():
                 node = make_node()
@@ -91,16 +92,15 @@ def run(
             finally:
                 stop.leave()
                 node.destroy_node()
-        return 0
 
     return program(body, stopped=0)
 
 
 def program(body: Callable[[], int | None], *, stopped: int | None = None) -> int:
     """
-    Call ``body`` and return the exit code of the process, as the table above says.
+    Call ``body`` and return the exit code of the process, as the table of this module says.
 
-    :param stopped: The exit code of a program that was asked to stop before it was done; None: 128 + the signal, so
+    :param stopped: The exit code when it was asked to stop; None: 128 + the signal's number, so
         that whoever waits for its success does not go on.
     """
     try:
@@ -115,13 +115,12 @@ def program(body: Callable[[], int | None], *, stopped: int | None = None) -> in
 @contextmanager
 def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
     """
-    Initialise rclpy's default context, and shut it down in every way out.
+    Initialise rclpy's default context; shut it down in every way out. Yields the stop requests.
 
     :param args: The command line without the program's name; None: that of the process.
     :raises ParameterError: The ROS arguments cannot be understood.
-
-    Yields the requests to stop. One that finds the program outside of ``stop.on_stop`` raises ``KeyboardInterrupt``
-    in the main thread and shuts the context down, which ends every wait inside rclpy.
+    :raises StopRequested: (a KeyboardInterrupt) The program was asked to stop outside of
+        ``stop.on_stop``. The context is shut down then, which ends every wait inside rclpy.
     """
     with StopRequests(wake=rclpy.try_shutdown) as stop:
         try:
@@ -134,16 +133,16 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
 
 
 def spin_node(node: Node, executor: Executor, stop: StopRequests) -> None:
-    """Serve the callbacks of ``node`` until a request to stop; the executor is shut down afterwards."""
+    """Serve the callbacks of ``node`` until a request to stop, then shut the executor down."""
     stopped = threading.Event()
 
-    def wake() -> None:
+    def end_spin() -> None:
         stopped.set()
         executor.wake()
 
     executor.add_node(node)
     try:
-        with stop.on_stop(wake):
+        with stop.on_stop(end_spin):
             spin(executor, stopped.is_set)
     finally:
         executor.shutdown()
@@ -151,9 +150,11 @@ def spin_node(node: Node, executor: Executor, stop: StopRequests) -> None:
 
 def spin(executor: Executor, until: Callable[[], bool]) -> None:
     """
-    Serve the executor's callbacks in this thread until ``until()`` is true or the context is shut down.
+    Serve the executor's callbacks in this thread until ``until()``, or a shutdown of the context.
 
-    ``until`` is asked after each callback and twice a second; call ``executor.wake()`` to have it asked at once.
+    ``until`` is asked after every callback and twice a second; ``executor.wake()`` has it asked
+    at once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
+    never run a callback. This loop is right for every executor.)
     """
     try:
         while not until():
@@ -164,13 +165,13 @@ def spin(executor: Executor, until: Callable[[], bool]) -> None:
 
 @contextmanager
 def argument_errors() -> Iterator[None]:
-    """Turn what rclpy raises about wrong ROS arguments, names and parameters into :class:`ParameterError`."""
+    """Turn what rclpy raises about ROS arguments, names and parameters into ParameterError."""
     try:
         yield
     except rclpy_implementation.UnknownROSArgsError as error:
         raise ParameterError(
-            f'unknown ROS arguments {error}: between --ros-args and -- stand -r from:=to, -p name:=value, '
-            '--params-file file, --log-level level'
+            f'unknown ROS arguments {error}: between --ros-args and -- stand -r from:=to, '
+            '-p name:=value, --params-file file and --log-level level'
         ) from error
     except (
         rclpy_implementation.RCLError,
@@ -182,5 +183,5 @@ def argument_errors() -> Iterator[None]:
 
 
 def _one_line(text: str) -> str:
-    """Drop the positions in rcl's C sources (``, at /project/src/rcl/arguments.c:352``) and the line breaks."""
+    """Drop line breaks and the places in rcl's sources: ``, at /project/src/.../x.c:352``."""
     return ' '.join(re.sub(r',? at /\S+:\d+', '', text).split())

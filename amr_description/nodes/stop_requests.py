@@ -1,44 +1,46 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Every way in which a program is told to stop, as one request: SIGINT, SIGTERM, SIGHUP and the lifeline.
+Every way in which a program is told to stop, as one request.
 
-The lifeline is a pipe whose write end only the parent holds. The parent puts the number of the read end into the
-environment variable ``AMR_LIFELINE_FD``; when the read end reports end of file the parent is gone, even by SIGKILL,
-and the program stops as on SIGTERM.
+These are SIGINT, SIGTERM, SIGHUP and the lifeline: a pipe whose write end only the parent holds.
+The parent puts the number of the read end into the environment variable ``AMR_LIFELINE_FD``; when
+that end reports end of file the parent is gone, even by SIGKILL, and the program stops as on
+SIGTERM.
 
-rclpy's own signal handlers shut the context down at once, so that a node cannot send its last message (the zero
-velocity of a teleop), know nothing of SIGHUP (a closed terminal) and let a second Ctrl-C raise in the middle of the
-clean-up. Here a request has two phases at most, and a ``KeyboardInterrupt`` is raised at most once in a process:
+rclpy's own signal handlers do not serve: they shut the context down at once, so that a node
+cannot send its last message (the zero velocity of a teleop); they leave out SIGHUP (the terminal
+was closed); and a second Ctrl-C raises in the middle of the clean-up. Here:
 
-====================================== ==============================================================
-where the program is                   what the first signal does
-====================================== ==============================================================
-inside ``with stop.on_stop(callback)`` ``callback()``; a second signal raises ``KeyboardInterrupt``
-anywhere else                          ``KeyboardInterrupt`` in the main thread, ``wake()`` in ours
-after either (clean-up)                nothing: it is on its way out
-====================================== ==============================================================
+======================================  ===================================================
+where the program is                    what the first request does
+======================================  ===================================================
+inside ``with stop.on_stop(callback)``  ``callback()``; a second raises StopRequested
+cleaning up, after ``stop.leave()``     nothing: the program is on its way out
+anywhere else                           StopRequested in the main thread, once, and
+                                        ``wake()`` in a thread of its own
+======================================  ===================================================
 
 This module imports no rclpy.
 """
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 import os
+from select import select
 import signal
 import stat
 import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from select import select
 from types import FrameType, TracebackType
 from typing import Self
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 LIFELINE_VARIABLE = 'AMR_LIFELINE_FD'
-_LEAVE = 0  # written into the wake-up pipe to end the watching thread; no signal has this number
+_END_OF_WATCH = 0  # a byte for the wake-up pipe; no signal has this number
 
 
 class StopRequested(KeyboardInterrupt):
-    """Raised at most once in the main thread of a program that is asked to stop; ``signum`` is the reason."""
+    """The program was asked to stop by ``signum``; raised at most once, in the main thread."""
 
     def __init__(self, signum: signal.Signals) -> None:
         super().__init__(signum.name)
@@ -47,12 +49,13 @@ class StopRequested(KeyboardInterrupt):
 
 class StopRequests:
     """
-    A context manager that turns signals and the lifeline into requests to stop.
+    Turn signals and the lifeline into requests to stop, while inside this context manager.
 
-    :param wake: Called (in a thread of this class) when a request finds the program outside of :meth:`on_stop`.
-        It must end whatever wait in C the main thread may be in, so that ``KeyboardInterrupt`` gets its turn.
+    :param wake: Called from another thread when a request finds the program outside of
+        :meth:`on_stop`. It must end whatever wait in C the main thread may be in: only then
+        does Python give :class:`StopRequested` its turn.
 
-    Signals are handled only if it is entered in the main thread (a rule of Python); the lifeline always. SIGHUP stays
+    Signals are handled only if it is entered in the main thread (a rule of Python). SIGHUP stays
     ignored where it was (``nohup``).
     """
 
@@ -63,21 +66,19 @@ class StopRequests:
         self._callback: Callable[[], object] | None = None
         self._raised = False
         self._leaving = False
-        self._thread = threading.Thread(target=self._watch, name='stop_requests', daemon=True)
+        self._previous_handlers: dict[signal.Signals, signal._HANDLER] = {}
+        self._watcher = threading.Thread(target=self._watch, name='stop_requests', daemon=True)
 
     def __enter__(self) -> Self:
         self._lifeline = _inherited_lifeline()
         self._pipe_out, self._pipe_in = os.pipe()
         os.set_blocking(self._pipe_in, False)
-        self._previous = {}
         if threading.current_thread() is threading.main_thread():
-            self._previous_wakeup_fd = signal.set_wakeup_fd(
-                self._pipe_in, warn_on_full_buffer=False
-            )
+            self._previous_pipe = signal.set_wakeup_fd(self._pipe_in, warn_on_full_buffer=False)
             for signum in STOP_SIGNALS:
                 if signum != signal.SIGHUP or signal.getsignal(signum) != signal.SIG_IGN:
-                    self._previous[signum] = signal.signal(signum, self._handle)
-        self._thread.start()
+                    self._previous_handlers[signum] = signal.signal(signum, self._handle)
+        self._watcher.start()
         return self
 
     def __exit__(
@@ -87,23 +88,24 @@ class StopRequests:
         traceback: TracebackType | None,
     ) -> None:
         self.leave()
-        os.write(self._pipe_in, bytes([_LEAVE]))
-        self._thread.join()
-        for signum, handler in self._previous.items():
-            # Once asked to stop, the process ends soon: SIG_IGN lasts through the interpreter's own shutdown too.
+        os.write(self._pipe_in, bytes([_END_OF_WATCH]))
+        self._watcher.join()
+        for signum, handler in self._previous_handlers.items():
+            # A process asked to stop ends soon; SIG_IGN holds through Python's own shutdown.
             signal.signal(signum, handler if self.signum is None else signal.SIG_IGN)
-        if self._previous:
-            signal.set_wakeup_fd(self._previous_wakeup_fd)
+        if self._previous_handlers:
+            signal.set_wakeup_fd(self._previous_pipe)
         os.close(self._pipe_in)
         os.close(self._pipe_out)
 
     @contextmanager
     def on_stop(self, callback: Callable[[], object]) -> Iterator[None]:
         """
-        While inside, a request to stop calls ``callback`` instead of interrupting the program.
+        Have a request to stop call ``callback`` instead of interrupting the program.
 
-        The callback comes from another thread, must be quick, and may come more than once; the body leaves the block
-        soon after it. The block is the last working phase: once it is left, all further requests are ignored.
+        The callback comes from another thread, perhaps more than once, and must be quick; soon
+        after it the body leaves the block. The block is the last working phase of a program:
+        once it is left, requests are ignored.
         """
         self._callback = callback
         try:
@@ -115,13 +117,13 @@ class StopRequests:
             self._callback = None
 
     def leave(self) -> None:
-        """Ignore every request from now on: the program is cleaning up and ends by itself."""
+        """Ignore every request from now on: the program cleans up and ends by itself."""
         self._leaving = True
 
     def _handle(self, signum: int, _frame: FrameType | None) -> None:
-        """Run in the main thread, between two bytecodes, as every signal handler of Python."""
+        """Main thread, between two bytecodes, as every signal handler of Python."""
         first = self.signum is None
-        if first:
+        if self.signum is None:
             self.signum = signal.Signals(signum)
         if self._leaving or self._raised or (first and self._callback is not None):
             return
@@ -129,34 +131,29 @@ class StopRequests:
         raise StopRequested(self.signum)
 
     def _watch(self) -> None:
-        """Thread: the wake-up pipe gets a byte per signal at once, even while the main thread waits in C."""
-        sources = [self._pipe_out] if self._lifeline is None else [self._pipe_out, self._lifeline]
+        """Thread: the pipe gets a byte per signal at once, also while the main one waits in C."""
+        sources = [self._pipe_out]
+        if self._lifeline is not None:
+            sources.append(self._lifeline)
         while True:
             ready, _, _ = select(sources, [], [])
             if self._pipe_out in ready:
                 numbers = os.read(self._pipe_out, 64)
-                if _LEAVE in numbers:
+                if _END_OF_WATCH in numbers:
                     return
-                if any(number in STOP_SIGNALS for number in numbers):
-                    self._react()
+                if not self._leaving and any(number in STOP_SIGNALS for number in numbers):
+                    (self._callback or self._wake)()
             if self._lifeline in ready and not os.read(self._lifeline, 4096):
                 sources.remove(self._lifeline)
                 os.kill(os.getpid(), signal.SIGTERM)
 
-    def _react(self) -> None:
-        callback = self._callback
-        if callback is not None:
-            callback()
-        elif not self._leaving:
-            self._wake()
-
 
 def _inherited_lifeline() -> int | None:
     """
-    The read end of the lifeline, or None.
+    Return the read end of the lifeline, or None.
 
-    A grandchild may inherit the variable without the descriptor; whatever has that number then is not a pipe that was
-    open before the program opened anything, so it is left alone.
+    A grandchild may inherit the variable without the descriptor. The number then is nobody's, or
+    that of something else than a pipe.
     """
     text = os.environ.get(LIFELINE_VARIABLE, '')
     if not text.isdecimal():

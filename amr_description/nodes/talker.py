@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The radio station: publish a greeting on the topic ``topic`` twice a second, whoever may listen."""
+"""The radio station: publish a greeting on ``topic`` twice a second, whoever may listen."""
 
 from rclpy.node import Node
 from std_msgs.msg import String
