@@ -1,0 +1,276 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a robot is: links joined into a tree, as URDF tells it. Immutable; made by :mod:`amr_description.model.urdf`.
+
+Units are SI (m, rad, kg, kg·m²). Every part knows the line of the file it came from.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from amr_description.errors import DescriptionError
+from amr_description.model.findings import quote, quote_all
+from amr_description.model.frames import Transform, Vector
+
+
+class JointType(StrEnum):
+    """The joint types of URDF; each equals its text."""
+
+    REVOLUTE = 'revolute'
+    CONTINUOUS = 'continuous'
+    PRISMATIC = 'prismatic'
+    FIXED = 'fixed'
+    FLOATING = 'floating'
+    PLANAR = 'planar'
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A box about its centre; ``size`` are the full edge lengths x, y, z (m)."""
+
+    size: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """A cylinder about its centre, along z (m)."""
+
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Sphere:
+    """A sphere about its centre (m)."""
+
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """A mesh file; ``filename`` as written (``package://…``, ``file://…`` or a path), ``scale`` per axis."""
+
+    filename: str
+    scale: Vector = (1.0, 1.0, 1.0)
+
+
+type Geometry = Box | Cylinder | Sphere | Mesh
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """A look: ``color`` is red, green, blue, alpha in 0..1; ``texture`` a file name as written."""
+
+    name: str
+    color: tuple[float, float, float, float] | None = None
+    texture: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Visual:
+    """What is drawn; ``origin`` is ``transform_geometry_to_link``."""
+
+    geometry: Geometry
+    origin: Transform
+    material: Material | None
+    name: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """What touches; ``origin`` is ``transform_geometry_to_link``."""
+
+    geometry: Geometry
+    origin: Transform
+    name: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Inertia:
+    """The rotational inertia about the centre of mass, in the axes of the inertial frame (kg·m²)."""
+
+    ixx: float
+    ixy: float
+    ixz: float
+    iyy: float
+    iyz: float
+    izz: float
+
+
+@dataclass(frozen=True, slots=True)
+class Inertial:
+    """The mass (kg) of a link; ``origin`` is ``transform_inertial_to_link``, its translation the centre of mass."""
+
+    mass: float
+    inertia: Inertia
+    origin: Transform
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A rigid body. A link without ``inertial`` is a mere frame, such as ``base_footprint``."""
+
+    name: str
+    inertial: Inertial | None
+    visuals: tuple[Visual, ...]
+    collisions: tuple[Collision, ...]
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The limits of a joint: position (rad or m), effort (N·m or N) and velocity (rad/s or m/s)."""
+
+    lower: float
+    upper: float
+    effort: float
+    velocity: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mimic:
+    """position = ``multiplier`` · position of ``joint`` + ``offset``."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Dynamics:
+    """Viscous ``damping`` (N·m·s/rad or N·s/m) and Coulomb ``friction`` (N·m or N) of a joint."""
+
+    damping: float = 0.0
+    friction: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """
+    How ``child`` moves against ``parent``.
+
+    ``origin`` is ``transform_child_to_parent`` at position 0. ``axis`` is a unit vector in the joint's frame, which
+    is the child's frame at position 0; it means nothing for fixed and floating joints.
+    """
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    origin: Transform
+    axis: Vector
+    limit: Limit | None
+    mimic: Mimic | None
+    dynamics: Dynamics | None
+    line: int
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the child can move against the parent at all."""
+        return self.type is not JointType.FIXED
+
+    @property
+    def has_position(self) -> bool:
+        """Whether one number tells where the joint stands (not so: fixed, planar, floating)."""
+        return self.type in (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """
+    A robot description.
+
+    ``links`` and ``joints`` stand in the order of the file. ``source`` names the file for messages, ``text`` is the
+    URDF itself, as ``/robot_description`` carries it.
+
+    :func:`amr_description.model.urdf.parse` gives only sound trees: one root, every link reached once, names
+    unique. The checker also builds unsound ones; every method here ends on those, too.
+    """
+
+    name: str
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+    materials: tuple[Material, ...]
+    source: str
+    text: str = field(repr=False)
+    roots: tuple[Link, ...] = field(init=False, repr=False, compare=False)
+    """The links that are nobody's child: exactly one in a sound tree."""
+    _links: dict[str, Link] = field(init=False, repr=False, compare=False)
+    _joints: dict[str, Joint] = field(init=False, repr=False, compare=False)
+    _parents: dict[str, Joint] = field(init=False, repr=False, compare=False)
+    _children: dict[str, tuple[Joint, ...]] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        children: dict[str, list[Joint]] = {}
+        for joint in sorted(self.joints, key=lambda joint: joint.name):
+            children.setdefault(joint.parent, []).append(joint)
+        # Reversed, so that of two parts with one name the first is found.
+        indices = {
+            '_links': {link.name: link for link in reversed(self.links)},
+            '_joints': {joint.name: joint for joint in reversed(self.joints)},
+            '_parents': {joint.child: joint for joint in reversed(self.joints)},
+            '_children': {link: tuple(joints) for link, joints in children.items()},
+        }
+        for name, index in indices.items():
+            object.__setattr__(self, name, index)
+        roots = tuple(link for link in self.links if link.name not in self._parents)
+        object.__setattr__(self, 'roots', roots)
+
+    @property
+    def root(self) -> Link:
+        """The link that is nobody's child."""
+        return self.roots[0]
+
+    def has_link(self, name: str) -> bool:
+        """Tell whether there is a link of that name."""
+        return name in self._links
+
+    def has_joint(self, name: str) -> bool:
+        """Tell whether there is a joint of that name."""
+        return name in self._joints
+
+    def link(self, name: str) -> Link:
+        """Return a link by name; DescriptionError names those there are."""
+        return _lookup(self._links, name, 'link', self.source)
+
+    def joint(self, name: str) -> Joint:
+        """Return a joint by name; DescriptionError names those there are."""
+        return _lookup(self._joints, name, 'joint', self.source)
+
+    def child_joints(self, link: str) -> tuple[Joint, ...]:
+        """Return the joints whose parent is ``link``, by joint name: the order in which urdfdom lists children."""
+        return self._children.get(link, ())
+
+    def parent_joint(self, link: str) -> Joint | None:
+        """Return the joint that carries ``link``; None for the root."""
+        return self._parents.get(link)
+
+    def walk(self) -> Iterator[tuple[int, Joint]]:
+        """
+        Yield (depth, joint) from the root down, a parent always before its children; depth 1 hangs on the root.
+
+        Each link is visited once, whatever the tree looks like; a joint to an unknown link is left out.
+        """
+        seen = {link.name for link in self.roots}
+        for root in self.roots:
+            stack = [(1, joint) for joint in reversed(self.child_joints(root.name))]
+            while stack:
+                depth, joint = stack.pop()
+                if joint.child in seen or joint.child not in self._links:
+                    continue
+                seen.add(joint.child)
+                yield depth, joint
+                below = reversed(self.child_joints(joint.child))
+                stack.extend((depth + 1, next_joint) for next_joint in below)
+
+
+def _lookup[Part](parts: dict[str, Part], name: str, kind: str, source: str) -> Part:
+    if name not in parts:
+        known = quote_all([*reversed(parts)])
+        raise DescriptionError(f'{source}: there is no {kind} {quote(name)}; there are: {known}')
+    return parts[name]

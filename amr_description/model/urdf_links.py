@@ -1,0 +1,172 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``<link>`` and ``<material>`` elements of URDF -> :class:`~amr_description.model.robot.Link`."""
+
+from lxml import etree
+
+from amr_description.model.findings import quote
+from amr_description.model.frames import Transform
+from amr_description.model.robot import (
+    Box,
+    Collision,
+    Cylinder,
+    Geometry,
+    Inertia,
+    Inertial,
+    Link,
+    Material,
+    Mesh,
+    Sphere,
+    Visual,
+)
+from amr_description.model.xml_reader import ElementReader, line_of
+
+_ZERO = (0.0, 0.0, 0.0)
+_GEOMETRIES = ('box', 'cylinder', 'sphere', 'mesh')
+
+
+def read_links(
+    xml: etree._Element, reader: ElementReader, materials: dict[str, Material]
+) -> tuple[Link, ...]:
+    """Return every ``<link>`` below ``xml``; ``materials`` are the global ones, by name."""
+    links: dict[str, Link] = {}
+    for element in xml.iterchildren('link'):
+        link = _read_link(element, reader, materials)
+        if link.name in links:
+            reader.error(
+                element,
+                f'link {quote(link.name)} is not unique',
+                found=f'the first on line {links[link.name].line}',
+                fix='give every link a name of its own',
+                urdfdom=f"link '{link.name}' is not unique.",
+            )
+        links.setdefault(link.name, link)
+    if not links:
+        reader.error(
+            xml,
+            'the robot has no <link>',
+            fix='add at least <link name="base_link"/>',
+            urdfdom='No link elements found in urdf file',
+        )
+    return tuple(links.values())
+
+
+def _read_link(
+    element: etree._Element, reader: ElementReader, materials: dict[str, Material]
+) -> Link:
+    name = element.get('name', '')
+    reader = reader.of(f'link {quote(name)}')
+    if not name:
+        reader.error(element, '<link> has no attribute "name"')
+    inertial = element.find('inertial')
+    return Link(
+        name=name,
+        inertial=None if inertial is None else _read_inertial(inertial, reader),
+        visuals=tuple(
+            Visual(
+                geometry=geometry,
+                origin=read_origin(visual, reader),
+                material=_read_visual_material(visual, reader, materials),
+                name=visual.get('name', ''),
+                line=line_of(visual),
+            )
+            for visual in element.iterchildren('visual')
+            if (geometry := _read_geometry(visual, reader)) is not None
+        ),
+        collisions=tuple(
+            Collision(
+                geometry=geometry,
+                origin=read_origin(collision, reader),
+                name=collision.get('name', ''),
+                line=line_of(collision),
+            )
+            for collision in element.iterchildren('collision')
+            if (geometry := _read_geometry(collision, reader)) is not None
+        ),
+        line=line_of(element),
+    )
+
+
+def read_origin(element: etree._Element, reader: ElementReader) -> Transform:
+    """Return the ``<origin>`` of an element, the identity when there is none."""
+    origin = element.find('origin')
+    if origin is None:
+        return Transform()
+    xyz = reader.numbers(origin, 'xyz', 3, _ZERO)
+    rpy = reader.numbers(origin, 'rpy', 3, _ZERO)
+    return Transform.from_xyz_rpy(xyz, rpy)
+
+
+def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial | None:
+    mass, inertia = element.find('mass'), element.find('inertia')
+    if mass is None:
+        reader.error(element, '<inertial> has no <mass>', fix='add <mass value="…"/> in kg')
+    if inertia is None:
+        reader.error(
+            element,
+            '<inertial> has no <inertia>',
+            fix='add <inertia ixx="…" ixy="0" ixz="0" iyy="…" iyz="0" izz="…"/> in kg·m²',
+        )
+    if mass is None or inertia is None:
+        return None
+    moments = (reader.number(inertia, key) for key in ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz'))
+    return Inertial(
+        mass=reader.number(mass, 'value'),
+        inertia=Inertia(*moments),
+        origin=read_origin(element, reader),
+        line=line_of(element),
+    )
+
+
+def _read_geometry(element: etree._Element, reader: ElementReader) -> Geometry | None:
+    geometry = element.find('geometry')
+    shape = None if geometry is None else next(geometry.iterchildren(etree.Element), None)
+    expected = ', '.join(f'<{name}>' for name in _GEOMETRIES)
+    if shape is None:
+        reader.error(
+            element, f'<{element.tag}> has no shape', expected=f'<geometry> with one of {expected}'
+        )
+        return None
+    match shape.tag:
+        case 'box':
+            return Box(reader.numbers(shape, 'size', 3))
+        case 'cylinder':
+            return Cylinder(reader.number(shape, 'radius'), reader.number(shape, 'length'))
+        case 'sphere':
+            return Sphere(reader.number(shape, 'radius'))
+        case 'mesh':
+            scale = reader.numbers(shape, 'scale', 3, (1.0, 1.0, 1.0))
+            return Mesh(reader.required(shape, 'filename'), scale)
+    reader.error(shape, 'unknown geometry', found=f'<{shape.tag}>', expected=expected)
+    return None
+
+
+def read_material(element: etree._Element, reader: ElementReader) -> Material:
+    """Return a ``<material>`` element, with what it defines itself."""
+    name = reader.required(element, 'name')
+    color, texture = element.find('color'), element.find('texture')
+    return Material(
+        name=name,
+        color=None if color is None else reader.numbers(color, 'rgba', 4),
+        texture=None if texture is None else reader.required(texture, 'filename'),
+    )
+
+
+def _read_visual_material(
+    visual: etree._Element, reader: ElementReader, materials: dict[str, Material]
+) -> Material | None:
+    """Return a visual's look: its own, else the global one of that name (a new one becomes global, as urdfdom)."""
+    element = visual.find('material')
+    if element is None:
+        return None
+    material = read_material(element, reader)
+    if material.color is not None or material.texture is not None:
+        materials.setdefault(material.name, material)
+        return material
+    if material.name not in materials:
+        reader.warning(
+            element,
+            f'material {quote(material.name)} is not defined',
+            fix='add <color rgba="…"/> here or a <material> with a color below <robot>',
+        )
+    return materials.get(material.name, material)
