@@ -1,0 +1,273 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The controller manager of one robot: load, configure, switch; and read → update → write.
+
+Every method runs on the owner's thread. Other threads read :attr:`ControllerManager.snapshot`, an
+immutable object that is replaced as a whole.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from amr_description.control.contracts import Controller, Log, Severity
+from amr_description.control.interfaces import LifecycleState, NANOSECONDS
+from amr_description.control.loaded_controller import LoadedController
+from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.snapshots import ManagerSnapshot
+from amr_description.control.switching import (
+    NOTHING_TO_SWITCH,
+    Strictness,
+    SwitchPlan,
+    Switching,
+)
+from amr_description.control.taking_snapshots import take_snapshot
+from amr_description.errors import AmrError, ControllerError
+
+
+class ControllerManager:
+    """Runs the controllers of one robot at ``update_rate`` Hz."""
+
+    def __init__(self, resources: ResourceManager, update_rate: int, log: Log) -> None:
+        self.resources = resources
+        self.update_rate = update_rate
+        self.period = round(NANOSECONDS / update_rate)
+        """Nominal time between two ticks, ns."""
+        self._log = log
+        self._controllers: dict[str, LoadedController] = {}
+        self._last_tick: int | None = None
+        self.snapshot = ManagerSnapshot()
+        self.refresh()
+
+    # --- the tick -----------------------------------------------------------------------------
+
+    def tick(self, time: int) -> None:
+        """Read the hardware, update every active controller that is due, write; ``time`` in ns."""
+        last, self._last_tick = self._last_tick, time
+        period = self.period if last is None else time - last
+        self._abandon(self.resources.read(time, period), time)
+        failed = [c for c in self._controllers.values() if not self._update(c, time)]
+        if failed:
+            names = ' '.join(controller.name for controller in failed)
+            self._log(
+                Severity.ERROR,
+                f'Deactivating controllers : [ {names} ] as their update resulted in an error!',
+            )
+            self._deactivate(failed, time)
+        self._abandon(self.resources.write(time, period), time)
+
+    def reset(self, time: int) -> None:
+        """Time went back to ``time`` (ns): controllers stay as they are and begin anew."""
+        self._last_tick = None
+        for controller in self._controllers.values():
+            controller.reset(time)
+
+    def _update(self, controller: LoadedController, time: int) -> bool:
+        """Update one; ``False`` when it failed. The others must go on whatever it raises."""
+        if not controller.is_active:
+            return True
+        try:
+            controller.update(time, self.period)
+        except AmrError as error:
+            self._log(Severity.ERROR, f"Controller '{controller.name}': {error}")
+        except Exception as error:
+            self._log(
+                Severity.ERROR,
+                f"Caught exception of type : {type(error).__name__} while updating controller "
+                f"'{controller.name}': {error}",
+            )
+        else:
+            return True
+        return False
+
+    def _abandon(self, components: Sequence[str], time: int) -> None:
+        """Deactivate every controller that used a component which has just failed."""
+        if not components:
+            return
+        there = self.resources.available_commands().keys() | self.resources.available_states()
+        orphans = [
+            controller
+            for controller in self._controllers.values()
+            if controller.is_active
+            and not there >= {*controller.required_commands, *controller.required_states}
+        ]
+        names = ' '.join(controller.name for controller in orphans)
+        self._log(
+            Severity.ERROR,
+            f'Deactivating controllers : [ {names} ] as the hardware components '
+            f'[ {" ".join(components)} ] failed',
+        )
+        self._deactivate(orphans, time)
+
+    # --- load, configure, unload --------------------------------------------------------------
+
+    def load(self, controller: Controller, type_name: str) -> None:
+        """Take a controller that was made elsewhere. Raises ControllerError: name taken."""
+        name = controller.context.name
+        if name in self._controllers:
+            raise ControllerError(
+                f"A controller named '{name}' was already loaded inside the controller manager"
+            )
+        stride = self._stride(name, controller.context.update_rate)
+        self._controllers[name] = LoadedController(controller, type_name, stride)
+        self.refresh()
+
+    def configure(self, name: str, parameters: Any) -> Controller:
+        """Configure, from inactive again; return the controller. Raises ControllerError."""
+        loaded = self._find(name, 'configure')
+        if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
+            raise ControllerError(
+                f"Controller '{name}' can not be configured from '{loaded.state.label}' state."
+            )
+        try:
+            if loaded.state is LifecycleState.INACTIVE:
+                loaded.cleanup()
+            loaded.configure(parameters)
+            loaded.resolve(self.resources)
+        finally:
+            self.refresh()
+        return loaded.controller
+
+    def cleanup(self, name: str) -> None:
+        """Bring an inactive controller back to unconfigured. Raises ControllerError."""
+        loaded = self._find(name, 'cleanup')
+        if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
+            raise ControllerError(
+                f"Controller '{name}' can not be cleaned-up from '{loaded.state.label}' state."
+            )
+        if loaded.state is LifecycleState.INACTIVE:
+            loaded.cleanup()
+        self.refresh()
+
+    def unload(self, name: str) -> None:
+        """Remove a controller that is not active. Raises ControllerError."""
+        loaded = self._find(name, 'unload')
+        if loaded.is_active:
+            raise ControllerError(
+                f"Could not unload controller with name '{name}' because it is still active"
+            )
+        if loaded.state is LifecycleState.INACTIVE:
+            loaded.cleanup()
+        loaded.state = LifecycleState.FINALIZED
+        del self._controllers[name]
+        self.refresh()
+
+    # --- switch -------------------------------------------------------------------------------
+
+    def switch(
+        self,
+        activate: Sequence[str],
+        deactivate: Sequence[str],
+        strictness: Strictness,
+        time: int,
+    ) -> str:
+        """
+        Activate and deactivate in one go; return the message of success.
+
+        Needs no tick, so that it works while the simulation is paused. Raises ControllerError.
+        """
+        for verb, names in (('Activating', activate), ('Deactivating', deactivate)):
+            if names:
+                self._log(Severity.INFO, f'{verb} controllers: [ {" ".join(names)} ]')
+        switching = Switching(self._controllers, self.resources, strictness, self._log)
+        plan = switching.plan(activate, deactivate)
+        if not plan.activate and not plan.deactivate:
+            return NOTHING_TO_SWITCH
+        try:
+            self._switch_command_mode(plan)
+            self._deactivate(plan.deactivate, time)
+            self._activate(plan, strictness, time)
+        finally:
+            self.refresh()
+        if strictness is Strictness.STRICT:
+            return 'Successfully switched controllers!'
+        return (
+            'Successfully switched controllers! '
+            f'Deactivated controllers: [ {_names(plan.deactivate)} ] '
+            f'Activated controllers: [ {_names(plan.activate)} ]'
+        )
+
+    def _switch_command_mode(self, plan: SwitchPlan) -> None:
+        start = [name for c in plan.activate for name in c.required_commands]
+        stop = [name for c in plan.deactivate for name in c.required_commands]
+        try:
+            self.resources.switch_command_mode(start, stop)
+        except AmrError as error:
+            raise ControllerError(
+                'Could not switch controllers since prepare command mode switch was rejected. '
+                f'{error}'
+            ) from error
+
+    def _activate(self, plan: SwitchPlan, strictness: Strictness, time: int) -> None:
+        done: list[LoadedController] = []
+        failed: list[str] = []
+        for controller in plan.activate:
+            try:
+                controller.activate(self.resources, time)
+            except Exception as error:  # a foreign controller may raise anything
+                kind = '' if isinstance(error, AmrError) else f'{type(error).__name__}: '
+                self._log(
+                    Severity.ERROR, f"Failed to activate '{controller.name}': {kind}{error}"
+                )
+                failed.append(controller.name)
+            else:
+                done.append(controller)
+        if failed:
+            if strictness is Strictness.STRICT:
+                self._deactivate(done, time)
+            raise ControllerError(
+                'Failed switching controllers.... '
+                f'Unable to activate controllers: [ {" ".join(failed)} ]'
+            )
+
+    def _deactivate(self, controllers: Iterable[LoadedController], time: int) -> None:
+        for controller in controllers:
+            try:
+                controller.deactivate(self.resources, time)
+            except Exception as error:  # it is inactive all the same, and its claims are free
+                self._log(
+                    Severity.ERROR, f"Deactivation of controller '{controller.name}': {error}"
+                )
+        self.refresh()
+
+    # --- helpers ------------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Take a new snapshot, after anything has changed."""
+        self.snapshot = take_snapshot(self._controllers, self.resources, self.update_rate)
+
+    def is_loaded(self, name: str) -> bool:
+        """Tell whether a controller of that name is there."""
+        return name in self._controllers
+
+    def _find(self, name: str, verb: str) -> LoadedController:
+        loaded = self._controllers.get(name)
+        if loaded is None:
+            raise ControllerError(
+                f"Could not {verb} controller with name '{name}' because no controller with this "
+                'name exists'
+            )
+        return loaded
+
+    def _stride(self, name: str, rate: int) -> int:
+        """Ticks of the manager per update of a controller that asks for ``rate`` Hz."""
+        if rate > self.update_rate:
+            self._log(
+                Severity.WARN,
+                f"The update rate of controller '{name}', {rate} Hz, is above that of the "
+                f'controller manager, {self.update_rate} Hz, and is set to it',
+            )
+            return 1
+        stride = round(self.update_rate / rate)
+        if self.update_rate % rate:
+            self._log(
+                Severity.WARN,
+                f"The update rate of controller '{name}', {rate} Hz, is not achievable with a "
+                f'controller manager at {self.update_rate} Hz; it runs at '
+                f'{self.update_rate / stride:g} Hz',
+            )
+        return stride
+
+
+def _names(controllers: Iterable[LoadedController]) -> str:
+    return ' '.join(controller.name for controller in controllers)

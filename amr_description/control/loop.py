@@ -1,0 +1,153 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The owner's loop: the one thread that steps the world and ticks the managers.
+
+It sees the outside through ports: a stepper (a simulated world, or nothing), a pacer (the wall
+clock, or nothing), a queue of commands from other threads, and a publisher. With a stepper that
+is the wall clock itself, this same loop drives a real robot.
+
+One turn, at simulated time t::
+
+    drain the queue            # spawn, switch, pause, reset …; while paused: wait on it
+    set the clocks to t
+    tick the managers due at t # read, update, write
+    publish /clock, then what the controllers said at t
+    step the world to the next instant at which something is due
+    pace
+"""
+
+from collections.abc import Callable, Iterable
+from typing import Protocol
+
+from amr_description.control.controller_manager import ControllerManager
+
+
+class Stepper(Protocol):
+    """The world that is advanced."""
+
+    @property
+    def time(self) -> int:
+        """Present time, ns."""
+
+    def advance(self, period: int) -> int:
+        """Advance by ``period`` (ns), as nearly as its steps allow; return the time then, ns."""
+
+
+class Pacer(Protocol):
+    """Whatever holds the loop back."""
+
+    def pace(self, time: int) -> None:
+        """Return when the instant ``time`` (ns) is due; at once when it is over."""
+
+    def resume(self, time: int) -> None:
+        """Time begins, or goes on after a pause or a jump, at ``time`` (ns)."""
+
+
+class Commands(Protocol):
+    """Calls that other threads ask the owner to make; a call never raises."""
+
+    def take(self) -> Iterable[Callable[[], None]]:
+        """Return those that wait, oldest first."""
+
+    def wait(self) -> None:
+        """Block until there is one."""
+
+
+class Publisher(Protocol):
+    """What goes out of a turn."""
+
+    def set_clocks(self, time: int) -> None:
+        """Set the clocks of the nodes in this process to ``time``, ns."""
+
+    def publish(self, time: int) -> None:
+        """Publish ``/clock``, and then what was sent since the last call."""
+
+
+class Loop:
+    """
+    See the module. ``managers`` is a list, one entry a robot; only commands may change it.
+
+    ``clock_period``: ns, the longest time between two turns and so between two ``/clock``.
+    """
+
+    def __init__(
+        self,
+        stepper: Stepper,
+        pacer: Pacer,
+        commands: Commands,
+        publisher: Publisher,
+        clock_period: int,
+    ) -> None:
+        self._stepper = stepper
+        self._pacer = pacer
+        self._commands = commands
+        self._publisher = publisher
+        self._clock_period = clock_period
+        self._is_stopped = False
+        self._is_running = True
+        self.managers: list[ControllerManager] = []
+
+    @property
+    def time(self) -> int:
+        """Present time, ns."""
+        return self._stepper.time
+
+    @property
+    def is_running(self) -> bool:
+        """False while paused."""
+        return self._is_running
+
+    def run(self) -> None:
+        """Turn until :meth:`stop`."""
+        self._pacer.resume(self.time)
+        while not self._is_stopped:
+            self.turn()
+
+    def turn(self) -> None:
+        """Do one turn; while paused, only what the queue asks."""
+        for command in self._commands.take():
+            command()
+        if self._is_stopped:
+            return
+        if not self._is_running:
+            self._publisher.publish(self.time)
+            self._commands.wait()
+            return
+        self.tick()
+        self._pacer.pace(self._stepper.advance(self._until_next(self.time)))
+
+    def tick(self) -> None:
+        """Tick the managers due now, and publish."""
+        time = self.time
+        self._publisher.set_clocks(time)
+        for manager in self.managers:
+            if time % manager.period == 0:
+                manager.tick(time)
+        self._publisher.publish(time)
+
+    def stop(self) -> None:
+        """End :meth:`run`; for commands."""
+        self._is_stopped = True
+
+    def pause(self) -> None:
+        """Let time stand still; for commands."""
+        self._is_running = False
+
+    def resume(self) -> None:
+        """Let time go on; for commands."""
+        self._is_running = True
+        self._pacer.resume(self.time)
+
+    def reset(self) -> None:
+        """Tell everybody that the stepper's time has jumped, maybe back; for commands."""
+        time = self.time
+        self._publisher.set_clocks(time)
+        for manager in self.managers:
+            manager.reset(time)
+        self._pacer.resume(time)
+
+    def _until_next(self, time: int) -> int:
+        """Time to the next instant at which a manager or ``/clock`` is due, ns."""
+        periods = [manager.period for manager in self.managers]
+        return min(period - time % period for period in (*periods, self._clock_period))

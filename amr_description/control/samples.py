@@ -1,0 +1,64 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What goes through the ports of the controllers here: plain values, no ROS messages.
+
+Stamps are integer nanoseconds; quaternions are (x, y, z, w), as everywhere in ROS.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class TwistSample:
+    """A planar velocity command: what a differential drive hears of a TwistStamped."""
+
+    stamp: int
+    linear: float
+    """m/s along x of the base."""
+    angular: float
+    """rad/s about z of the base."""
+    frame_id: str = ''
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """What of an odometry message does not change: frames, and variances of six axes."""
+
+    frame_id: str
+    child_frame_id: str
+    pose_variances: tuple[float, ...]
+    twist_variances: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OdometrySample:
+    """A planar nav_msgs/Odometry: pose of the base in the odometry frame, twist of the base."""
+
+    stamp: int
+    x: float
+    """m."""
+    y: float
+    """m."""
+    heading: float
+    """rad, not wrapped."""
+    linear: float
+    """m/s along x of the child frame."""
+    angular: float
+    """rad/s about z."""
+    frames: Frames
+
+
+@dataclass(frozen=True, slots=True)
+class JointStateSample:
+    """A sensor_msgs/JointState; all four tuples have one length, NaN where nothing is known."""
+
+    stamp: int
+    frame_id: str
+    name: tuple[str, ...]
+    position: tuple[float, ...]
+    """rad or m."""
+    velocity: tuple[float, ...]
+    """rad/s or m/s."""
+    effort: tuple[float, ...]
+    """N·m or N."""

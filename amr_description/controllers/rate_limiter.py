@@ -1,0 +1,112 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Limits of a velocity and of its first and second derivative (``RateLimiter`` of control_toolbox).
+
+Speeding up and slowing down have limits of their own, and so have driving forward and in reverse::
+
+            max_acceleration_reverse        max_acceleration
+      reverse  ◄──────────────────── 0 ────────────────────►  forward
+               ────────────────────►   ◄────────────────────
+            max_deceleration_reverse        max_deceleration
+"""
+
+from dataclasses import dataclass
+import math
+
+from amr_description.errors import ParameterError
+
+_NAN = math.nan
+
+
+@dataclass(frozen=True)
+class RateLimiter:
+    """
+    Limits a command, given the two commands before it.
+
+    Units are those of the command per s (acceleration) and per s² (jerk). A kind of limit whose
+    maximum is NaN is off; a minimum that is NaN is the negative of its maximum. Raises
+    ParameterError when a minimum is above its maximum.
+    """
+
+    min_value: float = _NAN
+    max_value: float = _NAN
+    max_acceleration_reverse: float = _NAN
+    """≤ 0: away from zero, in reverse; NaN: −max_acceleration."""
+    max_acceleration: float = _NAN
+    """≥ 0: away from zero, forward."""
+    max_deceleration: float = _NAN
+    """≤ 0: towards zero, forward; NaN: max_acceleration_reverse."""
+    max_deceleration_reverse: float = _NAN
+    """≥ 0: towards zero, in reverse; NaN: max_acceleration."""
+    min_jerk: float = _NAN
+    max_jerk: float = _NAN
+
+    def __post_init__(self) -> None:
+        """Fill in what is NaN, and check the order."""
+        self._default('min_value', -self.max_value)
+        self._default('max_acceleration_reverse', -self.max_acceleration)
+        self._default('max_deceleration', self.max_acceleration_reverse)
+        self._default('max_deceleration_reverse', self.max_acceleration)
+        self._default('min_jerk', -self.max_jerk)
+        if self.min_value > self.max_value:
+            raise ParameterError(_invalid('value', self.min_value, self.max_value))
+        for low, high in (
+            (self.max_acceleration_reverse, self.max_acceleration),
+            (self.max_deceleration, self.max_deceleration_reverse),
+        ):
+            if low > high:
+                raise ParameterError(_invalid('first derivative', low, high))
+        if self.min_jerk > self.max_jerk:
+            raise ParameterError(_invalid('second derivative', self.min_jerk, self.max_jerk))
+
+    def limit(self, value: float, previous: float, before_previous: float, dt: float) -> float:
+        """
+        Return the command nearest to ``value`` that keeps the limits.
+
+        ``previous`` and ``before_previous``: the last two commands, as limited. ``dt``: time
+        between them, s. Jerk is limited first, then acceleration, then the value.
+        """
+        value = self.limit_jerk(value, previous, before_previous, dt)
+        value = self.limit_acceleration(value, previous, dt)
+        return self.limit_value(value)
+
+    def limit_value(self, value: float) -> float:
+        """Clamp the value itself."""
+        if math.isnan(self.max_value):
+            return value
+        return _clamp(value, self.min_value, self.max_value)
+
+    def limit_acceleration(self, value: float, previous: float, dt: float) -> float:
+        """Clamp the change since ``previous``; its sign decides which limits hold."""
+        if math.isnan(self.max_acceleration):
+            return value
+        low = self.max_acceleration_reverse if previous <= 0.0 else self.max_deceleration
+        high = self.max_acceleration if previous >= 0.0 else self.max_deceleration_reverse
+        return previous + _clamp(value - previous, low * dt, high * dt)
+
+    def limit_jerk(
+        self, value: float, previous: float, before_previous: float, dt: float
+    ) -> float:
+        """Clamp the change of the change, but only while the command gains on ``previous``."""
+        if math.isnan(self.max_jerk):
+            return value
+        change = value - previous
+        previous_change = previous - before_previous
+        if (change - previous_change) * change <= 0.0:
+            return value
+        square = dt * dt
+        gain = _clamp(change - previous_change, self.min_jerk * square, self.max_jerk * square)
+        return previous + previous_change + gain
+
+    def _default(self, name: str, value: float) -> None:
+        if math.isnan(getattr(self, name)):
+            object.__setattr__(self, name, value)
+
+
+def _clamp(value: float, low: float, high: float) -> float:
+    return min(max(value, low), high)
+
+
+def _invalid(kind: str, low: float, high: float) -> str:
+    return f'Invalid {kind} limits: the lower is {low:g}, above the upper, {high:g}'
