@@ -3,7 +3,7 @@
 """
 What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 
-============================ ============================================================================
+============================ ==================================================================
 ``frames.py``                SE(3): transforms, quaternions and their orders, forward kinematics
 ``robot.py``                 Robot, Link, Joint, Inertial and the shapes: the result of reading
 ``urdf.py``                  URDF text -> Robot: ``parse(text, source)``, ``load(path)``
@@ -14,6 +14,7 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 ``gazebo_tag.py``            the ``<gazebo>`` plugins: ``gazebo_plugins_of(robot)``
 ``checks.py``                the checker: ``RULES``, ``examine(text)``, ``require_sound(text)``
 ``findings.py``              Finding: severity, place, what, found, expected, fix
-``xml_reader.py``            safe XML with true line numbers; attributes read with a word on every fault
-============================ ============================================================================
+``xml_source.py``            safe XML with true line numbers
+``element_reader.py``        attributes of XML elements, read with a clear word on every fault
+============================ ==================================================================
 """

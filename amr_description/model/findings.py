@@ -1,11 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What is wrong with a description, where, and what would do: the currency of the readers and of the checker.
+What is wrong with a description, where, and what would do: the currency of the readers and of the
+checker.
 
-The readers of this package hand every fault to a ``report`` function. :func:`raise_error` makes them stop at the
-first one (:func:`amr_description.model.urdf.parse`); ``list.append`` makes them go on and collect all
-(:func:`amr_description.model.checks.examine`). So there is one reader, and both ways say the same.
+The readers of this package hand every fault to a ``report`` function. :func:`raise_error` makes
+them stop at the first one (:func:`amr_description.model.urdf.parse`); ``list.append`` makes them
+go on and collect all (:func:`amr_description.model.checks.examine`). So there is one reader, and
+both ways say the same.
 """
 
 from collections.abc import Callable
@@ -30,9 +32,9 @@ class Finding:
     """
     One fault of a description.
 
-    ``what`` names the thing and the fault, ``found`` and ``expected`` are optional, ``fix`` tells what to do.
-    ``urdfdom`` holds the words of urdfdom when that library refuses the file for this fault; it is empty for what
-    urdfdom lets pass.
+    ``what`` names the thing and the fault, ``found`` and ``expected`` are optional, ``fix`` tells
+    what to do. ``urdfdom`` holds the words of urdfdom when that library refuses the file for this
+    fault; it is empty for what urdfdom lets pass.
     """
 
     severity: Severity
@@ -77,7 +79,7 @@ def raise_error(finding: Finding) -> None:
 
 
 def one_line(text: str) -> str:
-    """Return ``text`` with every control character escaped: a file must not paint on the terminal."""
+    """Return ``text`` with control characters escaped: no file may paint on the terminal."""
     return ''.join(c if c.isprintable() else c.encode('unicode_escape').decode() for c in text)
 
 
@@ -89,7 +91,7 @@ def quote(text: str) -> str:
 
 
 def quote_all(texts: list[str], limit: int = 10) -> str:
-    """Return a list of names in quotes, the first ``limit`` of them; ``none`` for an empty list."""
+    """Return names in quotes, the first ``limit`` of them; ``none`` for an empty list."""
     if not texts:
         return 'none'
     more = f' and {len(texts) - limit} more' if len(texts) > limit else ''

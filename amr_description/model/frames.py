@@ -4,15 +4,18 @@
 Rigid transforms (SE(3)), the one place of quaternion orders, and forward kinematics.
 
 Quaternions are ``(x, y, z, w)`` as in every ROS message; MuJoCo's ``(w, x, y, z)`` exists only in
-:func:`wxyz_from_xyzw` and :func:`xyzw_from_wxyz`. Lengths are metres, angles radians, frames right-handed.
+:func:`wxyz_from_xyzw` and :func:`xyzw_from_wxyz`. Lengths are metres, angles radians, frames
+right-handed.
 
-A transform is named after what it does to coordinates: ``transform_child_to_parent.apply(p)`` takes a point given
-in ``child`` and returns it in ``parent``. It is the pose of ``child`` in ``parent``, what TF sends with
-``header.frame_id = parent`` and ``child_frame_id = child``. Transforms chain as their names do::
+A transform is named after what it does to coordinates: ``transform_child_to_parent.apply(p)``
+takes a point given in ``child`` and returns it in ``parent``. It is the pose of ``child`` in
+``parent``, what TF sends with ``header.frame_id = parent`` and ``child_frame_id = child``.
+Transforms chain as their names do::
 
     transform_c_to_a = transform_b_to_a @ transform_c_to_b
 
-Plain floats on purpose: at these sizes they are several times faster than numpy, and the control loop calls this.
+Plain floats on purpose: at these sizes they are several times faster than numpy, and the control
+loop calls this.
 """
 
 from collections.abc import Mapping, Sequence
@@ -78,7 +81,7 @@ def rotate(rotation: Quaternion, vector: Vector) -> Vector:
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Return R = Rz(yaw)·Ry(pitch)·Rx(roll): URDF's turns about the fixed axes x, then y, then z."""
+    """Return R = Rz(yaw)·Ry(pitch)·Rx(roll): turns about the fixed axes x, then y, then z."""
     sr, cr = math.sin(roll / 2.0), math.cos(roll / 2.0)
     sp, cp = math.sin(pitch / 2.0), math.cos(pitch / 2.0)
     sy, cy = math.sin(yaw / 2.0), math.cos(yaw / 2.0)
@@ -110,13 +113,13 @@ def quaternion_from_yaw(yaw: float) -> Quaternion:
 
 
 def yaw_of(rotation: Quaternion) -> float:
-    """Return the yaw of R = Rz(yaw)·Ry(pitch)·Rx(roll), in (-π, π]; the quaternion may have any length."""
+    """Return the yaw of R = Rz(yaw)·Ry(pitch)·Rx(roll), in (-π, π], at any length."""
     x, y, z, w = rotation
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
 
 
 def quaternion_from_axis_angle(axis: Vector, angle: float) -> Quaternion:
-    """Return the rotation by ``angle`` about ``axis`` (any length; a zero axis gives no rotation)."""
+    """Return the rotation by ``angle`` about ``axis`` of any length; a zero axis turns nothing."""
     length = math.hypot(*axis)
     if length == 0.0:
         return IDENTITY_QUATERNION
@@ -158,7 +161,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """A rigid transform: ``apply(p) = rotation · p + translation``; see the module for names and units."""
+    """A rigid transform: ``apply(p) = rotation · p + translation``; names as in the module."""
 
     translation: Vector = (0.0, 0.0, 0.0)
     rotation: Quaternion = IDENTITY_QUATERNION
@@ -197,7 +200,7 @@ class Transform:
         return Transform((-x, -y, -z), back)
 
     def apply(self, point: Vector) -> Vector:
-        """Return the coordinates of ``point`` in the target frame; a direction needs :func:`rotate`."""
+        """Return ``point`` in the target frame; a direction needs :func:`rotate` instead."""
         x, y, z = rotate(self.rotation, point)
         tx, ty, tz = self.translation
         return (x + tx, y + ty, z + tz)
@@ -207,8 +210,8 @@ def joint_transform(joint: 'Joint', position: float = 0.0) -> Transform:
     """
     Return ``transform_child_to_parent`` of a joint at ``position`` (rad; m for a prismatic joint).
 
-    It is origin ∘ motion along or about the axis. Fixed, planar and floating joints have no single coordinate and
-    stay at their origin, as KDL has it.
+    It is origin ∘ motion along or about the axis. Fixed, planar and floating joints have no single
+    coordinate and stay at their origin, as KDL has it.
     """
     origin = joint.origin
     if joint.type in ('revolute', 'continuous'):
@@ -226,7 +229,8 @@ def joint_position(joint: 'Joint', positions: Mapping[str, float]) -> float:
     """
     Return where a joint stands, given the known positions by joint name; unknown ones stand at 0.
 
-    A mimic joint that is not in ``positions`` itself follows: multiplier · source + offset (one level, as URDF).
+    A mimic joint that is not in ``positions`` itself follows: multiplier · source + offset (one
+    level, as URDF).
     """
     if joint.name in positions or joint.mimic is None:
         return positions.get(joint.name, 0.0)
@@ -236,7 +240,7 @@ def joint_position(joint: 'Joint', positions: Mapping[str, float]) -> float:
 def link_poses(
     robot: 'Robot', positions: Mapping[str, float] | None = None
 ) -> dict[str, Transform]:
-    """Return ``transform_link_to_root`` of every link (forward kinematics); joints not given stand at 0."""
+    """Return ``transform_link_to_root`` of every link; joints that are not given stand at 0."""
     poses = {link.name: Transform() for link in robot.roots}
     for _, joint in robot.walk():
         moved = joint_transform(joint, joint_position(joint, positions or {}))

@@ -1,7 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a robot is: links joined into a tree, as URDF tells it. Immutable; made by :mod:`amr_description.model.urdf`.
+What a robot is: links joined into a tree, as URDF tells it. Immutable; made by
+:mod:`amr_description.model.urdf`.
 
 Units are SI (m, rad, kg, kg·m²). Every part knows the line of the file it came from.
 """
@@ -50,7 +51,7 @@ class Sphere:
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """A mesh file; ``filename`` as written (``package://…``, ``file://…`` or a path), ``scale`` per axis."""
+    """A mesh; ``filename`` as written (``package://…``, ``file://…``, a path), scale per axis."""
 
     filename: str
     scale: Vector = (1.0, 1.0, 1.0)
@@ -91,7 +92,7 @@ class Collision:
 
 @dataclass(frozen=True, slots=True)
 class Inertia:
-    """The rotational inertia about the centre of mass, in the axes of the inertial frame (kg·m²)."""
+    """The rotational inertia about the centre of mass, along the inertial axes (kg·m²)."""
 
     ixx: float
     ixy: float
@@ -103,7 +104,7 @@ class Inertia:
 
 @dataclass(frozen=True, slots=True)
 class Inertial:
-    """The mass (kg) of a link; ``origin`` is ``transform_inertial_to_link``, its translation the centre of mass."""
+    """Mass (kg) and inertia; ``origin`` (``transform_inertial_to_link``) is the centre of mass."""
 
     mass: float
     inertia: Inertia
@@ -124,7 +125,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """The limits of a joint: position (rad or m), effort (N·m or N) and velocity (rad/s or m/s)."""
+    """Limits of position (rad or m), effort (N·m or N) and velocity (rad/s or m/s)."""
 
     lower: float
     upper: float
@@ -154,8 +155,9 @@ class Joint:
     """
     How ``child`` moves against ``parent``.
 
-    ``origin`` is ``transform_child_to_parent`` at position 0. ``axis`` is a unit vector in the joint's frame, which
-    is the child's frame at position 0; it means nothing for fixed and floating joints.
+    ``origin`` is ``transform_child_to_parent`` at position 0. ``axis`` is a unit vector in the
+    joint's frame, which is the child's frame at position 0; it means nothing for fixed and
+    floating joints.
     """
 
     name: str
@@ -185,11 +187,11 @@ class Robot:
     """
     A robot description.
 
-    ``links`` and ``joints`` stand in the order of the file. ``source`` names the file for messages, ``text`` is the
-    URDF itself, as ``/robot_description`` carries it.
+    ``links`` and ``joints`` stand in the order of the file. ``source`` names the file for
+    messages, ``text`` is the URDF itself, as ``/robot_description`` carries it.
 
-    :func:`amr_description.model.urdf.parse` gives only sound trees: one root, every link reached once, names
-    unique. The checker also builds unsound ones; every method here ends on those, too.
+    :func:`amr_description.model.urdf.parse` gives only sound trees: one root, every link reached
+    once, names unique. The checker also builds unsound ones; every method here ends on those, too.
     """
 
     name: str
@@ -243,7 +245,7 @@ class Robot:
         return _lookup(self._joints, name, 'joint', self.source)
 
     def child_joints(self, link: str) -> tuple[Joint, ...]:
-        """Return the joints whose parent is ``link``, by joint name: the order in which urdfdom lists children."""
+        """Return the joints whose parent is ``link``, by name, as urdfdom lists them."""
         return self._children.get(link, ())
 
     def parent_joint(self, link: str) -> Joint | None:
@@ -252,9 +254,11 @@ class Robot:
 
     def walk(self) -> Iterator[tuple[int, Joint]]:
         """
-        Yield (depth, joint) from the root down, a parent always before its children; depth 1 hangs on the root.
+        Yield (depth, joint) from the root down, a parent always before its children; depth 1 hangs
+        on the root.
 
-        Each link is visited once, whatever the tree looks like; a joint to an unknown link is left out.
+        Each link is visited once, whatever the tree looks like; a joint to an unknown link is left
+        out.
         """
         seen = {link.name for link in self.roots}
         for root in self.roots:

@@ -1,15 +1,34 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The rules that make links and joints one tree: known ends, one parent each, one root, everything reached from it.
+The rules that make links and joints one tree: known ends, one parent each, one root, everything
+reached from it.
 
-Each rule takes a Robot, sound or not, and yields findings, in the order in which urdfdom would stop at them.
+Each rule takes a Robot, sound or not, and yields findings, in the order in which urdfdom would
+stop at them.
 """
 
 from collections.abc import Callable, Iterator
 
 from amr_description.model.findings import Finding, quote, quote_all
 from amr_description.model.robot import Robot
+
+
+def ends_are_given(robot: Robot) -> Iterator[Finding]:
+    """Every joint names a parent and a child."""
+    for joint in robot.joints:
+        for end, link in (('child', joint.child), ('parent', joint.parent)):
+            if not link:
+                yield Finding.error(
+                    robot.source,
+                    joint.line,
+                    f'joint {quote(joint.name)} has no {end} link',
+                    fix=f'add <{end} link="…"/>',
+                    urdfdom=(
+                        f'Failed to build tree: Joint [{joint.name}] is missing a parent and/or '
+                        'child link specification.'
+                    ),
+                )
 
 
 def ends_are_known(robot: Robot) -> Iterator[Finding]:
@@ -33,16 +52,17 @@ def _unknown_end_in_urdfdom(end: str, link: str, joint: str) -> str:
     if end == 'child':
         return f'Failed to build tree: child link [{link}] of joint [{joint}] not found'
     return (
-        f'Failed to build tree: parent link [{link}] of joint [{joint}] not found.  This is not valid according to '
-        'the URDF spec. Every link you refer to from a joint needs to be explicitly defined in the robot '
-        f'description. To fix this problem you can either remove this joint [{joint}] from your urdf file, or add '
-        f'"<link name="{link}" />" to your urdf file.'
+        f'Failed to build tree: parent link [{link}] of joint [{joint}] not found.  This is not '
+        'valid according to the URDF spec. Every link you refer to from a joint needs to be '
+        'explicitly defined in the robot description. To fix this problem you can either remove '
+        f'this joint [{joint}] from your urdf file, or add "<link name="{link}" />" to your urdf '
+        'file.'
     )
 
 
 def one_root(robot: Robot) -> Iterator[Finding]:
     """Exactly one link is nobody's child."""
-    roots = robot.roots
+    roots = [link.name for link in robot.roots]
     if robot.links and not roots:
         yield Finding.error(
             robot.source,
@@ -56,13 +76,13 @@ def one_root(robot: Robot) -> Iterator[Finding]:
     if len(roots) > 1:
         yield Finding.error(
             robot.source,
-            roots[1].line,
+            robot.roots[1].line,
             f'the robot has {len(roots)} roots',
-            found=quote_all([link.name for link in roots]),
+            found=quote_all(roots),
             expected="one link that is nobody's child",
-            fix=f'join {quote(roots[1].name)} to the others by a joint',
+            fix=f'join {quote(roots[1])} to the others by a joint',
             urdfdom=(
-                f'Failed to find root link: Two root links found: [{roots[0].name}] and [{roots[1].name}]'
+                f'Failed to find root link: Two root links found: [{roots[0]}] and [{roots[1]}]'
             ),
         )
 
@@ -85,7 +105,7 @@ def one_parent(robot: Robot) -> Iterator[Finding]:
 
 
 def no_cycle(robot: Robot) -> Iterator[Finding]:
-    """Every link hangs on the root; what does not, while each has a parent, goes round in a circle."""
+    """Every link hangs on the root; what has parents and does not, goes round in a circle."""
     settled = {link.name for link in robot.roots} | {joint.child for _, joint in robot.walk()}
     for link in robot.links if robot.roots else ():
         circle = _circle_above(robot, link.name, settled)
@@ -95,15 +115,17 @@ def no_cycle(robot: Robot) -> Iterator[Finding]:
                 link.line,
                 'joints form a circle that hangs on nothing',
                 found=quote_all(circle),
-                fix='remove one of these joints, or give one of their links a parent in the tree instead',
+                fix='remove one of these joints, or let one start at a link of the tree',
             )
 
 
 def _circle_above(robot: Robot, link: str, settled: set[str]) -> list[str]:
     """
-    Return the joints of the circle met when climbing from ``link``; [] when the climb ends elsewhere.
+    Return the joints of the circle met when climbing from ``link``; [] when the climb ends
+    elsewhere.
 
-    Adds what it passed to ``settled``, where later climbs end, so that all climbs together take linear time.
+    Adds what it passed to ``settled``, where later climbs end, so that all climbs together take
+    linear time.
     """
     passed: dict[str, str] = {}
     joint = robot.parent_joint(link)
@@ -117,6 +139,7 @@ def _circle_above(robot: Robot, link: str, settled: set[str]) -> list[str]:
 
 
 TREE_RULES: tuple[Callable[[Robot], Iterator[Finding]], ...] = (
+    ends_are_given,
     ends_are_known,
     one_root,
     one_parent,

@@ -3,21 +3,22 @@
 """
 URDF text -> :class:`~amr_description.model.robot.Robot`.
 
-Two ways in: :func:`parse` stops at the first fault with a DescriptionError, :func:`read_robot` reports every fault
-and goes on, for the checker. Links are read in ``urdf_links.py``, joints in ``urdf_joints.py``, and ``tree.py``
-sees that they make one tree.
+Two ways in: :func:`parse` stops at the first fault with a DescriptionError, :func:`read_robot`
+reports every fault and goes on, for the checker. Links are read in ``urdf_links.py``, joints in
+``urdf_joints.py``, and ``tree.py`` sees that they make one tree.
 """
 
 from pathlib import Path
 
 from lxml import etree
 
+from amr_description.model.element_reader import ElementReader
 from amr_description.model.findings import quote, raise_error, Report
 from amr_description.model.robot import Material, Robot
 from amr_description.model.tree import TREE_RULES
 from amr_description.model.urdf_joints import read_joints
 from amr_description.model.urdf_links import read_links, read_material
-from amr_description.model.xml_reader import decode, ElementReader, parse_xml, read_file
+from amr_description.model.xml_source import decode, parse_xml, read_file
 
 
 def load(path: str | Path) -> Robot:
@@ -29,8 +30,9 @@ def parse(text: str | bytes, source: str = '<string>') -> Robot:
     """
     Return the robot that URDF describes; ``source`` names the file in messages.
 
-    DescriptionError (``source:line: …``) at the first fault that makes it unusable as a tree of links: XML, names,
-    numbers, joints, roots. Masses and the like are judged by :mod:`amr_description.model.checks`.
+    DescriptionError (``source:line: …``) at the first fault that makes it unusable as a tree of
+    links: XML, names, numbers, joints, roots. Masses and the like are judged by
+    :mod:`amr_description.model.checks`.
     """
     if isinstance(text, bytes):
         text = decode(text, source)
@@ -40,7 +42,7 @@ def parse(text: str | bytes, source: str = '<string>') -> Robot:
 
 
 def read_robot(xml: etree._Element, text: str, source: str, report: Report) -> Robot:
-    """Return what can be read below ``xml``, reporting every fault; see :class:`Robot` on unsound trees."""
+    """Return what can be read below ``xml``, sound or not, and report every fault."""
     reader = ElementReader(source, report)
     name = _read_head(xml, reader)
     materials: dict[str, Material] = {}

@@ -4,6 +4,7 @@
 
 from lxml import etree
 
+from amr_description.model.element_reader import ElementReader, line_of
 from amr_description.model.findings import quote
 from amr_description.model.frames import Transform
 from amr_description.model.robot import (
@@ -19,7 +20,6 @@ from amr_description.model.robot import (
     Sphere,
     Visual,
 )
-from amr_description.model.xml_reader import ElementReader, line_of
 
 _ZERO = (0.0, 0.0, 0.0)
 _GEOMETRIES = ('box', 'cylinder', 'sphere', 'mesh')
@@ -155,7 +155,10 @@ def read_material(element: etree._Element, reader: ElementReader) -> Material:
 def _read_visual_material(
     visual: etree._Element, reader: ElementReader, materials: dict[str, Material]
 ) -> Material | None:
-    """Return a visual's look: its own, else the global one of that name (a new one becomes global, as urdfdom)."""
+    """
+    Return a visual's look: its own, else the global one of that name (a new one becomes global, as
+    urdfdom).
+    """
     element = visual.find('material')
     if element is None:
         return None
