@@ -1,0 +1,23 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulated world, and the only package that imports MuJoCo.
+
+==================  =========================================================================
+``world``           :class:`MujocoWorld`: spawn, remove, step, reset; the one to start from
+``robot_view``      what a hardware component sees of it: one robot, by its URDF's names
+``joint_group``     some joints of one robot, cheap to read and command in the tick
+``engine``          the MuJoCo model and its state; integer time; survives a recompile
+``stepping``        control period → physics step
+``world_file``      a world's name or path → MuJoCo spec, with the measured solver options
+``robot_spec``      a URDF → MuJoCo spec of one robot
+``wheels``          which links are wheels
+``actuators``       command interface → MuJoCo actuator
+``contact``         how a wheel touches the ground
+``spawning``        the request to spawn, checked; simulation_interfaces' codes
+``resources``       ``package://`` and ``file://``, world names
+``faults``          MuJoCo's warnings, non-finite states and falls, told once, in one line
+==================  =========================================================================
+
+Not thread-safe: one owner calls everything.
+"""

@@ -1,0 +1,69 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where files are: ROS packages' share folders, ``package://`` and ``file://``, shipped worlds."""
+
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
+
+from amr_description.errors import SimulationError
+
+OWN_PACKAGE = 'amr_description'
+_SOURCE_TREE = Path(__file__).resolve().parents[2]
+
+
+def package_share(package: str) -> Path:
+    """
+    The share folder of a ROS package; our own is also found in a source tree that is not built.
+
+    Raises SimulationError.
+    """
+    try:
+        return Path(get_package_share_directory(package))
+    except (PackageNotFoundError, ValueError) as cause:
+        if package == OWN_PACKAGE and (_SOURCE_TREE / 'config').is_dir():
+            return _SOURCE_TREE
+        raise SimulationError(
+            f"package '{package}' is not found in AMENT_PREFIX_PATH; build it and source its "
+            'workspace first'
+        ) from cause
+
+
+def resolve_uri(uri: str, folder: Path | None = None) -> Path:
+    """
+    The file that ``package://<package>/<path>``, ``file://<path>`` or a plain path means.
+
+    A relative plain path is looked up in ``folder`` (that of the description, when it is known).
+    The file need not exist. Raises SimulationError for an unknown package or scheme.
+    """
+    parts = urlsplit(uri)
+    path = unquote(parts.path)
+    match parts.scheme:
+        case 'package':
+            return package_share(parts.netloc) / path.lstrip('/')
+        case 'file':
+            return Path(path)
+        case '':
+            return (folder or Path()) / uri
+        case scheme:
+            raise SimulationError(
+                f"'{uri}': scheme '{scheme}' is not known; package://, file:// or a path will do"
+            )
+
+
+def shipped_worlds() -> dict[str, Path]:
+    """The worlds of this package: name → file."""
+    folder = package_share(OWN_PACKAGE) / 'config' / 'worlds'
+    return {path.stem: path for path in sorted(folder.glob('*.xml'))}
+
+
+def world_path(world: str) -> Path:
+    """The file of a world given as a shipped name or as a path. Raises SimulationError."""
+    shipped = shipped_worlds()
+    path = shipped.get(world) or Path(world).expanduser()
+    if path.is_file():
+        return path
+    raise SimulationError(
+        f"world '{world}': neither a file nor a shipped world; shipped are: {', '.join(shipped)}"
+    )

@@ -1,0 +1,135 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A URDF as a MuJoCo spec of one robot, with its actuators and its wheels.
+
+MuJoCo's own URDF reader does the most. Left alone it welds the robot to the world, fuses links
+without a joint into it (most of the mass is gone then) and looks for meshes by their bare names;
+what it must be told is written into the XML before it reads, the rest is edited in the spec.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+
+from lxml import etree
+import mujoco
+
+from amr_description.control.interfaces import VELOCITY
+from amr_description.errors import SimulationError, SpawnError
+from amr_description.model.robot import Robot
+from amr_description.sim.actuators import ACTUATORS
+from amr_description.sim.faults import one_line
+from amr_description.sim.resources import resolve_uri
+from amr_description.sim.spawning import SpawnCode
+from amr_description.sim.wheels import find_wheels, Wheel
+
+WORLD_LINK = 'world'
+"""A robot whose root has this name stands fixed."""
+
+ROOT_JOINT = 'root'
+"""The free joint of a robot that is not fixed."""
+
+_COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'false'}
+
+type CommandInterfaces = Mapping[str, Sequence[str]]
+"""Joint → names of its command interfaces."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotSpec:
+    """One robot, ready to be attached to a world."""
+
+    robot: Robot
+    spec: mujoco.MjSpec
+    treads: tuple[str, ...]
+    """The geoms that touch the ground as wheels."""
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the robot's root is the world."""
+        return self.robot.root.name == WORLD_LINK
+
+
+def build_robot(robot: Robot, commands: CommandInterfaces) -> RobotSpec:
+    """Build the spec of a sound robot. Raises SpawnError."""
+    try:
+        spec = mujoco.MjSpec.from_string(_prepared_xml(robot))
+        if robot.root.name != WORLD_LINK:
+            spec.worldbody.first_body().add_freejoint(name=ROOT_JOINT)
+        _add_actuators(spec, robot, commands)
+        wheels = find_wheels(robot, [j for j, names in commands.items() if VELOCITY in names])
+        treads = tuple(_make_tread(spec, wheel) for wheel in wheels)
+        _exclude_self_collision(spec, robot)
+        # Tried alone first, so that a robot that MuJoCo refuses never touches the world.
+        spec.copy().compile()
+    except ValueError as cause:
+        raise SpawnError(
+            f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
+            SpawnCode.RESOURCE_PARSE_ERROR,
+        ) from cause
+    return RobotSpec(robot, spec, treads)
+
+
+def _prepared_xml(robot: Robot) -> str:
+    """The URDF with MuJoCo's compiler settings and the true paths of its meshes."""
+    root = etree.fromstring(robot.text.encode())
+    extension = root.find('mujoco')
+    if extension is None:
+        extension = etree.SubElement(root, 'mujoco')
+    compiler = extension.find('compiler')
+    if compiler is None:
+        compiler = etree.SubElement(extension, 'compiler')
+    for key, value in _COMPILER.items():
+        compiler.set(key, value)
+    for mesh in root.iter('mesh'):
+        mesh.set('filename', str(_mesh_file(mesh.get('filename', ''), robot)))
+    return etree.tostring(root, encoding='unicode')
+
+
+def _mesh_file(uri: str, robot: Robot) -> Path:
+    source = Path(robot.source)
+    try:
+        path = resolve_uri(uri, source.parent if source.is_file() else None)
+    except SimulationError as cause:
+        raise SpawnError(f'mesh {cause}', SpawnCode.MISSING_ASSETS) from cause
+    if not path.is_file():
+        raise SpawnError(f"mesh '{uri}': there is no file {path}", SpawnCode.MISSING_ASSETS)
+    return path
+
+
+def _add_actuators(spec: mujoco.MjSpec, robot: Robot, commands: CommandInterfaces) -> None:
+    for joint, interfaces in commands.items():
+        for interface in interfaces:
+            add = ACTUATORS.get(interface)
+            if add is None:
+                raise SpawnError(
+                    f"joint '{joint}': command interface '{interface}' is asked; the simulator "
+                    f'has: {", ".join(ACTUATORS)}',
+                    SpawnCode.FEATURE_UNSUPPORTED,
+                )
+            add(spec, robot.joint(joint))
+
+
+def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> str:
+    """
+    Make the wheel's round collision shape an ellipsoid of its size and return its name.
+
+    An ellipsoid touches a flat ground in one point; a cylinder's edge gives contacts that come and
+    go as the wheel turns.
+    """
+    shapes = [g for g in spec.body(wheel.link).geoms if g.contype or g.conaffinity]
+    tread = shapes[wheel.collision]
+    tread.name = f'{wheel.link}/tread'
+    tread.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
+    tread.size = [wheel.radius, wheel.radius, wheel.half_width]
+    return tread.name
+
+
+def _exclude_self_collision(spec: mujoco.MjSpec, robot: Robot) -> None:
+    """Links of one robot do not touch each other: Gazebo's default (``self_collide`` off)."""
+    touching = [link.name for link in robot.links if link.collisions]
+    for one, other in combinations(touching, 2):
+        if WORLD_LINK not in (one, other):
+            spec.add_exclude(bodyname1=one, bodyname2=other)

@@ -1,0 +1,99 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""One simulated robot, by the names of its URDF: what a hardware component sees of the world."""
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+
+from amr_description.errors import SimulationError
+from amr_description.model.frames import Transform, Vector, xyzw_from_wxyz
+from amr_description.model.robot import Robot
+from amr_description.sim.engine import Engine
+from amr_description.sim.joint_group import MujocoJointGroup
+from amr_description.sim.robot_spec import ROOT_JOINT, WORLD_LINK
+
+
+class RobotView:
+    """
+    The :class:`~amr_description.control.contracts.World` of one robot.
+
+    It stays valid while other robots come and go; after its own removal every call raises
+    SimulationError.
+    """
+
+    def __init__(self, engine: Engine, name: str, description: Robot) -> None:
+        self.name = name
+        self.description = description
+        self._engine = engine
+        self._bodies: dict[str, int] = {}
+        self._generation = -1
+
+    @property
+    def time(self) -> int:
+        """Simulated time, ns."""
+        return self._engine.time
+
+    def joints(self, names: Sequence[str]) -> MujocoJointGroup:
+        """These joints, in this order. Raises SimulationError."""
+        known = [joint.name for joint in self.description.joints if joint.has_position]
+        for name in names:
+            if name not in known:
+                raise SimulationError(
+                    f"robot '{self.name}': there is no joint '{name}' that moves; there are: "
+                    f'{", ".join(known)}'
+                )
+        return MujocoJointGroup(self._engine, f'{self.name}/', names)
+
+    def pose(self, link: str) -> Transform:
+        """``transform_link_to_world`` at the present time. Raises SimulationError."""
+        body = self._body(link)
+        self._engine.refresh_truth()
+        data = self._engine.data
+        x, y, z = data.xpos[body].tolist()
+        return Transform((x, y, z), xyzw_from_wxyz(data.xquat[body].tolist()))
+
+    def velocity(self, link: str) -> tuple[Vector, Vector]:
+        """
+        Linear (m/s) and angular (rad/s) velocity of the link's origin, both in the link's own
+        axes. Raises SimulationError.
+        """
+        body = self._body(link)
+        self._engine.refresh_truth()
+        result = np.empty(6)
+        mujoco.mj_objectVelocity(
+            self._engine.model, self._engine.data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 1
+        )
+        wx, wy, wz, vx, vy, vz = result.tolist()
+        return (vx, vy, vz), (wx, wy, wz)
+
+    def height_index(self) -> int | None:
+        """The index of the root's height in ``qpos``; None for a robot that stands fixed."""
+        model = self._engine.model
+        joint = mujoco.mj_name2id(
+            model, mujoco.mjtObj.mjOBJ_JOINT, f'{self.name}/{ROOT_JOINT}'
+        )
+        return None if joint < 0 else int(model.jnt_qposadr[joint]) + 2
+
+    def _body(self, link: str) -> int:
+        if self._generation != self._engine.generation:
+            self._bodies.clear()
+            self._generation = self._engine.generation
+        body = self._bodies.get(link)
+        if body is None:
+            body = self._bodies[link] = self._find_body(link)
+        return body
+
+    def _find_body(self, link: str) -> int:
+        body = mujoco.mj_name2id(
+            self._engine.model, mujoco.mjtObj.mjOBJ_BODY, f'{self.name}/{link}'
+        )
+        if body >= 0:
+            return body
+        if link == self.description.root.name == WORLD_LINK:
+            return 0
+        links = ', '.join(each.name for each in self.description.links)
+        raise SimulationError(
+            f"robot '{self.name}': there is no link '{link}' in the world; there are: {links}"
+        )

@@ -1,0 +1,65 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which links are wheels, told from the model and not from their names.
+
+A wheel hangs on a continuous joint that takes a velocity command, and collides as a cylinder or a
+sphere that is round about the joint's axis.
+"""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+import math
+
+from amr_description.model.frames import rotate, Vector
+from amr_description.model.robot import Collision, Cylinder, Joint, JointType, Robot, Sphere
+
+# A shape counts as round about the axis when it is off by less than this: 1 mm, and 2.5 degrees.
+_LARGEST_OFFSET = 0.001
+_SMALLEST_COSINE = 0.999
+
+_Z: Vector = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """A wheel: ``collision`` is the index of its round shape in the link's collisions."""
+
+    link: str
+    joint: str
+    collision: int
+    radius: float
+    """m."""
+    half_width: float
+    """m; half the length of the cylinder, the radius of a sphere."""
+
+
+def find_wheels(robot: Robot, velocity_joints: Collection[str]) -> tuple[Wheel, ...]:
+    """The wheels of a robot; ``velocity_joints`` are the joints with a velocity command."""
+    driven = (j for j in robot.joints if j.name in velocity_joints)
+    found = (_wheel_of(robot, joint) for joint in driven if joint.type is JointType.CONTINUOUS)
+    return tuple(wheel for wheel in found if wheel is not None)
+
+
+def _wheel_of(robot: Robot, joint: Joint) -> Wheel | None:
+    for index, collision in enumerate(robot.link(joint.child).collisions):
+        shape = collision.geometry
+        if not _is_round_about(collision, joint.axis):
+            continue
+        if isinstance(shape, Cylinder):
+            return Wheel(joint.child, joint.name, index, shape.radius, shape.length / 2.0)
+        if isinstance(shape, Sphere):
+            return Wheel(joint.child, joint.name, index, shape.radius, shape.radius)
+    return None
+
+
+def _is_round_about(collision: Collision, axis: Vector) -> bool:
+    """Whether the shape's own axis lies on the joint's axis (through the link's origin)."""
+    offset = collision.origin.translation
+    along = math.sumprod(offset, axis)
+    radial = math.sqrt(max(0.0, math.sumprod(offset, offset) - along * along))
+    if radial > _LARGEST_OFFSET:
+        return False
+    if isinstance(collision.geometry, Sphere):
+        return True
+    return abs(math.sumprod(rotate(collision.origin.rotation, _Z), axis)) > _SMALLEST_COSINE

@@ -1,0 +1,168 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulated world: a ground, robots that come and go, and time.
+
+::
+
+    world = MujocoWorld('empty', log=log)
+    world.timestep = physics_stepping(10_000_000).step     # 2 ms for a 100 Hz controller
+    robot = world.spawn('amr', urdf_text, Transform((0.0, 0.0, 0.2)))
+    wheels = robot.joints(['joint_wheel_front_left', …])
+    wheels.command_velocities([5.0, …])
+    world.step(5)                                           # 10 ms of simulated time
+    robot.pose('base_footprint')
+"""
+
+
+from amr_description.control.contracts import Log, Severity
+from amr_description.errors import SimulationError, SpawnError
+from amr_description.model.frames import Transform, wxyz_from_xyzw
+from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.sim.contact import add_wheel_contact, ContactSettings, TUNED_2_MS
+from amr_description.sim.engine import Engine
+from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
+from amr_description.sim.robot_spec import build_robot, CommandInterfaces, RobotSpec
+from amr_description.sim.robot_view import RobotView
+from amr_description.sim.spawning import check_name, checked_pose, read_description, SpawnCode
+from amr_description.sim.stepping import LONGEST_STEP
+from amr_description.sim.world_file import load_world, static_surfaces
+
+AT_ORIGIN = Transform()
+
+
+def _say_nothing(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+    """The log of a world that nobody listens to."""
+
+
+class MujocoWorld:
+    """
+    One MuJoCo world with any number of robots; every call on the owner's thread.
+
+    Same world, same robots, same commands at the same steps: the same bits.
+    """
+
+    def __init__(
+        self,
+        world: str = 'empty',
+        *,
+        timestep: int = LONGEST_STEP,
+        contact: ContactSettings = TUNED_2_MS,
+        log: Log = _say_nothing,
+    ) -> None:
+        """
+        Load a shipped world by name or an MJCF file by path; ``timestep``: physics step, ns.
+
+        Raises SimulationError.
+        """
+        listen_to_mujoco()
+        spec = load_world(world)
+        self._surfaces = static_surfaces(spec)
+        self._contact = contact
+        try:
+            self._engine = Engine(spec, timestep)
+        except ValueError as cause:
+            raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
+        self._faults = FaultMonitor(self._engine, log)
+        self._robots: dict[str, RobotView] = {}
+        self._roots: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def time(self) -> int:
+        """Simulated time, ns."""
+        return self._engine.time
+
+    @property
+    def timestep(self) -> int:
+        """The physics step, ns; it may be set at any time, and time goes on from where it is."""
+        return self._engine.timestep
+
+    @timestep.setter
+    def timestep(self, timestep: int) -> None:
+        self._engine.timestep = timestep
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots, in the order of their coming."""
+        return tuple(self._robots)
+
+    def robot(self, name: str) -> RobotView:
+        """A robot by name. Raises SimulationError naming those there are."""
+        try:
+            return self._robots[name]
+        except KeyError:
+            raise SimulationError(
+                f"there is no robot '{name}'; there are: {', '.join(self.names) or 'none'}"
+            ) from None
+
+    def spawn(
+        self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN
+    ) -> RobotView:
+        """
+        Put a robot into the world, at rest.
+
+        ``description``: a URDF, as text or read (it is trusted to be sound then). ``pose``:
+        transform from the robot's root link to the world. Time and all other robots stay as they
+        are. Raises SpawnError; the world is then as before.
+        """
+        check_name(name, self.names)
+        pose = checked_pose(pose)
+        if isinstance(description, str):
+            description = read_description(description, name)
+        model = build_robot(description, _command_interfaces(description))
+        self._attach(name, model, pose)
+        view = RobotView(self._engine, name, description)
+        self._robots[name] = view
+        self._find_roots()
+        return view
+
+    def remove(self, name: str) -> None:
+        """Take a robot out; its view is dead. Raises SimulationError for an unknown name."""
+        self.robot(name)
+        spec = self._engine.spec
+        spec.delete(spec.frame(name))
+        self._engine.recompile()
+        del self._robots[name]
+        self._find_roots()
+
+    def step(self, count: int = 1) -> None:
+        """Advance by ``count`` physics steps; faults are told to the log."""
+        self._engine.step(count)
+        self._faults.check(self._roots)
+
+    def reset(self) -> None:
+        """Time 0, every robot at rest where it was spawned, all commands zero."""
+        self._engine.reset()
+        self._faults.reset()
+
+    def _attach(self, name: str, model: RobotSpec, pose: Transform) -> None:
+        spec = self._engine.spec
+        place = spec.worldbody.add_frame(
+            name=name, pos=pose.translation, quat=wxyz_from_xyzw(pose.rotation)
+        )
+        spec.attach(model.spec, frame=place, prefix=f'{name}/')
+        for tread in model.treads:
+            for surface in self._surfaces:
+                add_wheel_contact(spec, f'{name}/{tread}', surface, self._contact)
+        try:
+            self._engine.recompile()
+        except ValueError as cause:
+            spec.delete(place)
+            raise SpawnError(
+                f"'{name}' cannot be put into the world: {one_line(str(cause))}",
+                SpawnCode.OPERATION_FAILED,
+            ) from cause
+
+    def _find_roots(self) -> None:
+        heights = ((name, view.height_index()) for name, view in self._robots.items())
+        self._roots = tuple((name, index) for name, index in heights if index is not None)
+
+
+def _command_interfaces(robot: Robot) -> CommandInterfaces:
+    """Joint → command interfaces, of all the robot's ``<ros2_control>`` blocks."""
+    return {
+        joint.name: [interface.name for interface in joint.command_interfaces]
+        for hardware in hardware_of(robot)
+        for joint in hardware.joints
+    }
