@@ -3,10 +3,10 @@
 """
 Every way in which a program is told to stop, as one request.
 
-These are SIGINT, SIGTERM, SIGHUP and the lifeline: a pipe whose write end only the parent holds.
-The parent puts the number of the read end into the environment variable ``AMR_LIFELINE_FD``; when
-that end reports end of file the parent is gone, even by SIGKILL, and the program stops as on
-SIGTERM.
+These are SIGINT, SIGTERM, SIGHUP and the lifeline: a pipe whose writing end only the bring-up
+holds (:mod:`amr_description.bringup.lifeline`). Its reading end is inherited, its number stands
+in the environment variable ``AMR_LIFELINE_FD``. When it reports POLLHUP the bring-up is gone, even
+by SIGKILL, and the program stops as on SIGTERM.
 
 rclpy's own signal handlers do not serve: they shut the context down at once, so that a node
 cannot send its last message (the zero velocity of a teleop); they leave out SIGHUP (the terminal
@@ -27,7 +27,7 @@ This module imports no rclpy.
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import os
-from select import select
+import select
 import signal
 import stat
 import threading
@@ -132,25 +132,26 @@ class StopRequests:
 
     def _watch(self) -> None:
         """Thread: the pipe gets a byte per signal at once, also while the main one waits in C."""
-        sources = [self._pipe_out]
+        poll = select.poll()
+        poll.register(self._pipe_out, select.POLLIN)
         if self._lifeline is not None:
-            sources.append(self._lifeline)
+            poll.register(self._lifeline, 0)  # POLLHUP only, which needs no asking for
         while True:
-            ready, _, _ = select(sources, [], [])
-            if self._pipe_out in ready:
+            for descriptor, _event in poll.poll():
+                if descriptor == self._lifeline:
+                    poll.unregister(descriptor)
+                    os.kill(os.getpid(), signal.SIGTERM)
+                    continue
                 numbers = os.read(self._pipe_out, 64)
                 if _END_OF_WATCH in numbers:
                     return
                 if not self._leaving and any(number in STOP_SIGNALS for number in numbers):
                     (self._callback or self._wake)()
-            if self._lifeline in ready and not os.read(self._lifeline, 4096):
-                sources.remove(self._lifeline)
-                os.kill(os.getpid(), signal.SIGTERM)
 
 
 def _inherited_lifeline() -> int | None:
     """
-    Return the read end of the lifeline, or None.
+    Return the reading end of the lifeline, or None.
 
     A grandchild may inherit the variable without the descriptor. The number then is nobody's, or
     that of something else than a pipe.

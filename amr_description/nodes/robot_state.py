@@ -1,0 +1,128 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Joint positions to transforms, and how often: what ``robot_state_publisher`` knows without ROS.
+
+This module imports no rclpy. Times are integer nanoseconds.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+import math
+
+from amr_description.model.frames import joint_transform, Transform
+from amr_description.model.robot import Joint, JointType, Mimic, Robot
+
+
+@dataclass(frozen=True, slots=True)
+class LinkTransform:
+    """The pose of link ``child`` in link ``parent`` (``transform_child_to_parent``), for /tf."""
+
+    parent: str
+    child: str
+    transform: Transform
+
+
+class RobotState:
+    """
+    The transforms of a robot, a joint each.
+
+    Fixed joints make ``static`` transforms, sorted by joint name. Revolute, continuous and
+    prismatic ones move. A floating joint makes none (its position is not one number: who knows
+    it, publishes it). A planar joint counts as fixed, at its origin, as in KDL.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        joints = sorted(robot.joints, key=lambda joint: joint.name)
+        self.warnings = tuple(_warnings(robot, joints))
+        """What the user should know about this description, a line each."""
+        self.static = tuple(
+            _link_transform(joint, 0.0)
+            for joint in joints
+            if joint.type in (JointType.FIXED, JointType.PLANAR)
+        )
+        self._moving = {joint.name: joint for joint in joints if joint.has_position}
+        self._mimics = tuple(_mimics_in_order(self._moving))
+
+    def moving(self, positions: Mapping[str, float]) -> list[LinkTransform]:
+        """
+        Return the transforms of the moving joints in ``positions`` (rad; m), sorted by joint.
+
+        A mimic joint that is not in ``positions`` follows its source joint if that one is:
+        multiplier · source + offset, also along a chain of mimics. Names that are no moving joint
+        of this robot, and positions that are not finite, are left out.
+        """
+        known = dict(positions) if self._mimics else positions
+        for joint, mimic in self._mimics:
+            if joint not in known and mimic.joint in known:
+                known[joint] = mimic.multiplier * known[mimic.joint] + mimic.offset
+        return [
+            _link_transform(self._moving[name], known[name])
+            for name in sorted(known)
+            if name in self._moving and math.isfinite(known[name])
+        ]
+
+
+class Throttle:
+    """
+    How often the transforms of a joint are published: at most once a period, by message stamps.
+
+    Each joint counts for itself, so that two sources of joint states (wheels, an arm) do not
+    starve one another. A message is published whole when one of its joints is due.
+    """
+
+    def __init__(self) -> None:
+        self._published: dict[str, int] = {}
+
+    def admit(self, names: Iterable[str], stamp: int, period: int) -> bool:
+        """
+        Tell whether a message stamped ``stamp`` about the joints ``names`` is to be published.
+
+        That is so if ``period`` ns have passed since the stamp last published for one of them,
+        or nothing has been published for one. Call :meth:`note` for what was published.
+        """
+        published = self._published
+        for name in names:
+            last = published.get(name)
+            if last is None or stamp >= last + period:
+                return True
+        return False
+
+    def note(self, names: Iterable[str], stamp: int) -> None:
+        """Remember that a message with ``stamp`` was published for these joints."""
+        self._published.update(dict.fromkeys(names, stamp))
+
+    def forget(self) -> None:
+        """Start anew, because time went back."""
+        self._published.clear()
+
+
+def period_of(frequency: float) -> int:
+    """Return whole milliseconds, 1000 / ``frequency`` (Hz) rounded down, in ns; 0 for 0 Hz."""
+    return int(1000.0 / frequency) * 1_000_000 if frequency else 0
+
+
+def _link_transform(joint: Joint, position: float) -> LinkTransform:
+    return LinkTransform(joint.parent, joint.child, joint_transform(joint, position))
+
+
+def _mimics_in_order(moving: Mapping[str, Joint]) -> Iterator[tuple[str, Mimic]]:
+    """Yield the mimic joints, each after the joint it follows; a ring of mimics in any order."""
+    waiting = {joint.name: joint.mimic for joint in moving.values() if joint.mimic is not None}
+    while waiting:
+        ready = [name for name, mimic in waiting.items() if mimic.joint not in waiting]
+        for name in ready or list(waiting):
+            yield name, waiting.pop(name)
+
+
+def _warnings(robot: Robot, joints: Iterable[Joint]) -> Iterator[str]:
+    """Yield the original's words: people search for them."""
+    if robot.root.inertial is not None:
+        yield (
+            f'The root link {robot.root.name} has an inertia specified in the URDF, but KDL does '
+            'not support a root link with an inertia.  As a workaround, you can add an extra '
+            'dummy link to your URDF.'
+        )
+    for joint in joints:
+        if joint.type is JointType.PLANAR:
+            yield f"Converting unknown joint type of joint '{joint.name}' into a fixed joint"

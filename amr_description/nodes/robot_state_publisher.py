@@ -1,0 +1,209 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``robot_state_publisher``: tell everybody what the robot is, and where its links are.
+
+========= ======================= ========================== ====================================
+direction topic                   type                       QoS
+========= ======================= ========================== ====================================
+publishes ``robot_description``   ``std_msgs/String``        reliable, transient local, depth 1
+publishes ``/tf``                 ``tf2_msgs/TFMessage``     reliable, volatile, depth 100
+publishes ``/tf_static``          ``tf2_msgs/TFMessage``     reliable, transient local, depth 1
+hears     ``joint_states``        ``sensor_msgs/JointState`` best effort, volatile, depth 5
+========= ======================= ========================== ====================================
+
+The parameters are in :class:`Settings`; all may be set at run time. A new ``robot_description``
+that cannot be used is refused and the old one kept.
+
+Transforms carry the stamp of the joint states they come from. As in the original, messages are
+thinned out by comparing these stamps (:class:`~amr_description.nodes.robot_state.Throttle`). Where
+the original hurts:
+
+* a joint state with a zero stamp, which it never publishes, counts as stamped on arrival;
+* the first message about a joint is always published, also in the first 50 ms of simulated time;
+* ``publish_frequency`` 0 publishes every message;
+* an unusable description ends it with one line and exit code 1, not with an abort;
+* ``/tf_static`` carries the fixed joints of the present description only.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.utilities import remove_ros_args
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+from amr_description.errors import AmrError, DescriptionError, ParameterError
+from amr_description.model.urdf import load, parse
+from amr_description.nodes.node_parameters import declare, values
+from amr_description.nodes.robot_state import LinkTransform, period_of, RobotState, Throttle
+from amr_description.nodes.runtime import run
+from amr_description.parameters import parameter
+
+_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_NANOSECONDS = 1_000_000_000
+_QUIET = 5.0  # s between two complaints
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The parameters of robot_state_publisher."""
+
+    robot_description: str = parameter('', 'The URDF of the robot: its text, not a file name')
+    publish_frequency: float = parameter(
+        20.0, 'Maximum rate of the transforms of a joint, 0 to 1000; 0: no maximum', unit='Hz'
+    )
+    frame_prefix: str = parameter('', "Put before every frame name; include your own '/'")
+    ignore_timestamp: bool = parameter(False, 'Publish every joint state, whatever its stamp')
+
+
+class RobotStatePublisher(Node):
+    """
+    The node; see the module.
+
+    :param arguments: The command line without ROS arguments; the first may name a URDF file.
+    :raises AmrError: The description or a parameter cannot be used.
+    """
+
+    def __init__(self, arguments: Sequence[str] = ()) -> None:
+        super().__init__('robot_state_publisher')
+        self._settings = declare(self, Settings)
+        if not self._settings.robot_description and arguments:
+            self._take_file(arguments[0])
+        if not self._settings.robot_description:
+            raise ParameterError('robot_description parameter must not be empty')
+        self._state: RobotState | None = None
+        self._throttle = Throttle()
+        self._last_now = 0  # ns
+        self._description = self.create_publisher(String, 'robot_description', _LATCHED)
+        self._static = self.create_publisher(TFMessage, '/tf_static', _LATCHED)
+        self._moving = self.create_publisher(TFMessage, '/tf', 100)
+        self._adopt(self._settings, self._state_for(self._settings))
+        self.create_subscription(
+            JointState,
+            'joint_states',
+            self._on_joint_state,
+            qos_profile_sensor_data,
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )
+        self.add_on_set_parameters_callback(self._judge)
+        self.add_post_set_parameters_callback(lambda _changed: self._adopt(*self._candidate))
+
+    def _take_file(self, path: str) -> None:
+        """Read the description from a file, as its ancestor in ROS 1 was started."""
+        self.get_logger().warning(
+            'No robot_description parameter, but command-line argument available.  Assuming '
+            'argument is name of URDF file.  This backwards compatibility fallback will be '
+            'removed in the future.'
+        )
+        self.set_parameters([Parameter('robot_description', value=load(path).text)])
+        self._settings = values(self, Settings)
+
+    def _judge(self, changed: list[Parameter]) -> SetParametersResult:
+        """Refuse parameters that cannot be used, before any of them is changed."""
+        try:
+            settings = values(self, Settings, changed)
+            self._candidate = (settings, self._state_for(settings))
+        except AmrError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _state_for(self, settings: Settings) -> RobotState:
+        """Check ``settings`` and read the robot, unless it is the present one. AmrError."""
+        if not 0.0 <= settings.publish_frequency <= 1000.0:
+            raise ParameterError('publish_frequency must be between 0.0 and 1000.0')
+        if not settings.robot_description:
+            raise ParameterError('Empty URDF is not allowed')
+        if self._state and settings.robot_description == self._settings.robot_description:
+            return self._state
+        try:
+            return RobotState(parse(settings.robot_description, 'robot_description'))
+        except DescriptionError as error:
+            raise DescriptionError(
+                f'Unable to initialize urdf::model from robot description: {error}'
+            ) from error
+
+    def _adopt(self, settings: Settings, state: RobotState) -> None:
+        """Take checked settings; publish what they change."""
+        new_robot = state is not self._state
+        new_frames = new_robot or settings.frame_prefix != self._settings.frame_prefix
+        self._settings, self._state = settings, state
+        self._period = period_of(settings.publish_frequency)
+        if new_robot:
+            self._throttle.forget()
+            for warning in state.warnings:
+                self.get_logger().warning(warning)
+            self._description.publish(String(data=settings.robot_description))
+            self.get_logger().info('Robot initialized')
+        if new_frames:
+            self._static.publish(self._message(state.static, self.get_clock().now().to_msg()))
+
+    def _on_joint_state(self, message: JointState) -> None:
+        names, positions = message.name, message.position
+        if len(names) != len(positions):
+            self._complain(names, empty=not positions)
+            return
+        now = self.get_clock().now()
+        if now.nanoseconds < self._last_now:
+            self.get_logger().warning('Moved backwards in time, re-publishing joint transforms!')
+            self._throttle.forget()
+        self._last_now = now.nanoseconds
+        stamp = message.header.stamp
+        if not (stamp.sec or stamp.nanosec):
+            stamp = now.to_msg()
+        nanoseconds = stamp.sec * _NANOSECONDS + stamp.nanosec
+        due = self._throttle.admit(names, nanoseconds, self._period)
+        if not (due or self._settings.ignore_timestamp):
+            return
+        self._throttle.note(names, nanoseconds)
+        transforms = self._state.moving(dict(zip(names, positions, strict=True)))
+        if transforms:
+            self._moving.publish(self._message(transforms, stamp))
+
+    def _message(self, transforms: Iterable[LinkTransform], stamp: Time) -> TFMessage:
+        prefix = self._settings.frame_prefix
+        return TFMessage(transforms=[_stamped(link, prefix, stamp) for link in transforms])
+
+    def _complain(self, names: Sequence[str], *, empty: bool) -> None:
+        """Say, every few seconds, that joint states are unusable."""
+        if empty:
+            joints = ','.join(f'"{name}"' for name in names)
+            self.get_logger().warning(
+                'Robot state publisher ignored a JointState message about joint(s) '
+                f'{joints} whose position member was empty.',
+                throttle_duration_sec=_QUIET,
+            )
+        else:
+            self.get_logger().error(
+                'Robot state publisher ignored an invalid JointState message',
+                throttle_duration_sec=_QUIET,
+            )
+
+
+def _stamped(link: LinkTransform, prefix: str, stamp: Time) -> TransformStamped:
+    message = TransformStamped()
+    message.header.stamp = stamp
+    message.header.frame_id = prefix + link.parent
+    message.child_frame_id = prefix + link.child
+    place, turn = message.transform.translation, message.transform.rotation
+    place.x, place.y, place.z = link.transform.translation
+    turn.x, turn.y, turn.z, turn.w = link.transform.rotation
+    return message
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until Ctrl-C; ``args`` as for every executable of this package."""
+    arguments = remove_ros_args(args)[0 if args is not None else 1 :]
+    return run(lambda: RobotStatePublisher(arguments), args)
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())
