@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The attributes of XML elements, read with a clear word on every fault."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 import math
 import re
@@ -31,9 +30,9 @@ class ElementReader:
     label: str = ''
     urdfdom: str = ''
 
-    def of(self, label: str, urdfdom: str = '') -> 'ElementReader':
+    def of(self, label: str) -> 'ElementReader':
         """Return the reader of a part."""
-        return replace(self, label=label, urdfdom=urdfdom)
+        return replace(self, label=label)
 
     def refused_as(self, urdfdom: str) -> 'ElementReader':
         """Return the same reader for an element whose faults urdfdom calls ``urdfdom``."""
@@ -41,23 +40,16 @@ class ElementReader:
 
     def error(self, element: etree._Element, what: str, **details: str) -> None:
         """Report an error at ``element``; ``details`` as in :meth:`Finding.error`."""
-        self._report(Finding.error, element, what, details)
+        details.setdefault('urdfdom', self.urdfdom)
+        self.report(Finding.error(self.source, line_of(element), self._labelled(what), **details))
 
     def warning(self, element: etree._Element, what: str, **details: str) -> None:
-        """Report a warning at ``element``."""
-        self._report(Finding.warning, element, what, details)
+        """Report a warning at ``element``; ``details`` as in :meth:`Finding.warning`."""
+        line = line_of(element)
+        self.report(Finding.warning(self.source, line, self._labelled(what), **details))
 
-    def _report(
-        self,
-        kind: Callable[..., Finding],
-        element: etree._Element,
-        what: str,
-        details: dict[str, str],
-    ) -> None:
-        label = f'{self.label}: ' if self.label else ''
-        if kind == Finding.error:
-            details.setdefault('urdfdom', self.urdfdom)
-        self.report(kind(self.source, line_of(element), f'{label}{what}', **details))
+    def _labelled(self, what: str) -> str:
+        return f'{self.label}: {what}' if self.label else what
 
     def required(self, element: etree._Element, attribute: str, **details: str) -> str:
         """Return the text of an attribute that must not be missing or empty; '' if it is."""
@@ -91,7 +83,7 @@ class ElementReader:
             )
             return (math.nan,) * count
         words = text.split()
-        values = [_number(word) for word in words]
+        values = [parse_number(word) for word in words]
         if len(words) != count or not all(map(math.isfinite, values)):
             finite = f'{expected}, finite' if any(map(_not_finite, words)) else expected
             self.error(
@@ -119,9 +111,10 @@ def line_of(element: etree._Element) -> int:
     return element.sourceline or 1
 
 
-def _not_finite(word: str) -> bool:
-    return bool(_NOT_FINITE.fullmatch(word)) or math.isinf(_number(word))
+def parse_number(text: str) -> float:
+    """Return the number that a text writes, NaN when it writes none."""
+    return float(text) if _NUMBER.fullmatch(text) else math.nan
 
 
-def _number(word: str) -> float:
-    return float(word) if _NUMBER.fullmatch(word) else math.nan
+def _not_finite(text: str) -> bool:
+    return bool(_NOT_FINITE.fullmatch(text)) or math.isinf(parse_number(text))

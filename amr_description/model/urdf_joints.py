@@ -111,14 +111,14 @@ def _read_axis(
     refused = reader.refused_as(_refusal(f'Malformed axis element for joint [{name}]'))
     values = refused.numbers(axis, 'xyz', 3, _X_AXIS)
     length = math.hypot(*values)
-    if length == 0.0:
+    if length == 0.0 or math.isinf(length):
         reader.error(
             axis,
             'the axis has no direction',
             found=quote(axis.get('xyz', '')),
-            expected='a vector not of length 0',
+            expected='a vector of finite length above 0',
         )
-    if not length > 0.0:
+    if not 0.0 < length < math.inf:
         return _X_AXIS
     x, y, z = values
     return (x / length, y / length, z / length)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """``<link>`` and ``<material>`` elements of URDF -> :class:`~amr_description.model.robot.Link`."""
 
+import math
+
 from lxml import etree
 
 from amr_description.model.element_reader import ElementReader, line_of
@@ -97,7 +99,7 @@ def read_origin(element: etree._Element, reader: ElementReader) -> Transform:
     return Transform.from_xyz_rpy(xyz, rpy)
 
 
-def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial | None:
+def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial:
     mass, inertia = element.find('mass'), element.find('inertia')
     if mass is None:
         reader.error(element, '<inertial> has no <mass>', fix='add <mass value="…"/> in kg')
@@ -107,11 +109,12 @@ def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial |
             '<inertial> has no <inertia>',
             fix='add <inertia ixx="…" ixy="0" ixz="0" iyy="…" iyz="0" izz="…"/> in kg·m²',
         )
-    if mass is None or inertia is None:
-        return None
-    moments = (reader.number(inertia, key) for key in ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz'))
+    moments = (
+        math.nan if inertia is None else reader.number(inertia, key)
+        for key in ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
+    )
     return Inertial(
-        mass=reader.number(mass, 'value'),
+        mass=math.nan if mass is None else reader.number(mass, 'value'),
         inertia=Inertia(*moments),
         origin=read_origin(element, reader),
         line=line_of(element),

@@ -1,0 +1,94 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The checker of robot descriptions.
+
+A fault of the text (XML, names, numbers, the tree, the ``<ros2_control>`` block) is found where it
+is read. What can be read and is still broken is found by the rules: one function each, one line in
+:data:`RULES`. A rule is pure, takes a :class:`~amr_description.model.subject.Subject`, which need
+not be sound, and yields findings; it keeps silent on what a reader has reported already, such as a
+number that is none (NaN).
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from amr_description.errors import DescriptionError
+from amr_description.model import rules_drive, rules_joints, rules_mass
+from amr_description.model.findings import Finding, Severity
+from amr_description.model.gazebo_tag import read_gazebo_plugins
+from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import read_hardware
+from amr_description.model.subject import Rule, Subject
+from amr_description.model.urdf import read_robot
+from amr_description.model.xml_source import parse_xml
+
+RULES: tuple[Rule, ...] = (
+    rules_mass.inertial_is_present,
+    rules_mass.base_has_mass,
+    rules_mass.mass_is_positive,
+    rules_mass.inertia_is_possible,
+    rules_joints.limits_are_ordered,
+    rules_joints.mimicked_joint_exists,
+    rules_drive.wheels_roll_forward,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Examination:
+    """
+    The outcome of a check: all findings, and the robot as far as it could be read.
+
+    ``robot`` is None when the text is no XML at all; it is sound when there are no errors.
+    """
+
+    findings: tuple[Finding, ...]
+    robot: Robot | None
+
+    @property
+    def errors(self) -> tuple[Finding, ...]:
+        """The findings that forbid use."""
+        return tuple(f for f in self.findings if f.severity is Severity.ERROR)
+
+    @property
+    def warnings(self) -> tuple[Finding, ...]:
+        """The findings that do not."""
+        return tuple(f for f in self.findings if f.severity is Severity.WARNING)
+
+
+def examine(text: str, source: str = '<string>') -> Examination:
+    """Return everything that is wrong with a URDF; ``source`` names the file in messages."""
+    findings: list[Finding] = []
+    xml = parse_xml(text, source, findings.append)
+    if xml is None:
+        return Examination(tuple(findings), None)
+    robot = read_robot(xml, text, source, findings.append)
+    hardware = read_hardware(xml, robot, findings.append)
+    plugins = read_gazebo_plugins(xml, source, findings.append)
+    subject = Subject(robot, hardware, plugins, xml)
+    findings.extend(_judge(subject))
+    return Examination(tuple(findings), robot)
+
+
+def _judge(subject: Subject) -> Iterator[Finding]:
+    for rule in RULES:
+        yield from rule(subject)
+
+
+def check(text: str, source: str = '<string>') -> list[Finding]:
+    """Return the findings of :func:`examine`."""
+    return list(examine(text, source).findings)
+
+
+def require_sound(text: str, source: str = '<string>') -> tuple[Robot, tuple[Finding, ...]]:
+    """
+    Return the robot of a URDF without errors and the warnings about it, for the simulator.
+
+    DescriptionError with the first error, and how many more there are, if there is any.
+    """
+    examination = examine(text, source)
+    if examination.robot is None or examination.errors:
+        first, *rest = examination.errors
+        more = f' (and {len(rest)} more; check_urdf lists them)' if rest else ''
+        raise DescriptionError(first.text + more)
+    return examination.robot, examination.warnings

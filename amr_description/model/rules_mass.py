@@ -1,0 +1,134 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Rules of the checker on mass and inertia: without them a model passes urdfdom and then explodes.
+
+Links joined by fixed joints are one rigid body. What is rigidly joined to a root link called
+``world`` never moves and needs no mass.
+"""
+
+from collections.abc import Iterator
+import math
+
+from amr_description.model.findings import Finding, quote
+from amr_description.model.robot import Inertia, Robot
+from amr_description.model.subject import Subject
+
+# How far rounding of the digits in the file may carry the moments over the triangle inequality.
+_ROUNDING = 0.01
+_FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
+
+
+def inertial_is_present(subject: Subject) -> Iterator[Finding]:
+    """Whatever touches something, and whatever a moving joint carries, has an ``<inertial>``."""
+    robot = subject.robot
+    static = _static_links(robot)
+    massive = _bodies_with_inertial(robot)
+    for link in robot.links:
+        if link.inertial is not None or link.name in static:
+            continue
+        joint = robot.parent_joint(link.name)
+        if link.collisions:
+            yield subject.error(
+                link.line,
+                f'link {quote(link.name)} has a collision shape and no <inertial>',
+                fix=_FIX,
+            )
+        elif joint is not None and joint.is_moving and link.name not in massive:
+            yield subject.error(
+                link.line,
+                f'link {quote(link.name)} moves with {quote(joint.name)} and has no <inertial>',
+                fix=_FIX,
+            )
+
+
+def base_has_mass(subject: Subject) -> Iterator[Finding]:
+    """The body of the root has mass when something moves on it: it falls and is pushed around."""
+    robot = subject.robot
+    massive, static = _bodies_with_inertial(robot), _static_links(robot)
+    if not any(joint.is_moving for joint in robot.joints):
+        return
+    for root in robot.roots[:1]:
+        if root.name not in massive and root.name not in static:
+            yield subject.error(
+                root.line,
+                f'nothing that is rigidly joined to the root {quote(root.name)} has mass',
+                fix=f'{_FIX} to a link fixed to it; for a robot bolted down, a root link "world"',
+            )
+
+
+def mass_is_positive(subject: Subject) -> Iterator[Finding]:
+    """Mass is above 0."""
+    for link in subject.robot.links:
+        if link.inertial is not None and link.inertial.mass <= 0.0:
+            yield subject.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: mass',
+                found=f'{link.inertial.mass:g} kg',
+                expected='more than 0',
+            )
+
+
+def inertia_is_possible(subject: Subject) -> Iterator[Finding]:
+    """
+    Some distribution of mass has this inertia.
+
+    Its principal moments are positive, and none exceeds the sum of the two others (their sum
+    minus the third is twice the second moment of the mass along the third axis).
+    """
+    for link in subject.robot.links:
+        if link.inertial is None or not _is_finite(link.inertial.inertia):
+            continue
+        low, middle, high = principal_moments(link.inertial.inertia)
+        found = f'principal moments {low:.4g}, {middle:.4g}, {high:.4g} kg·m²'
+        if low <= 0.0:
+            yield subject.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: the inertia is not positive definite',
+                found=found,
+                expected='each above 0',
+            )
+        elif high > (low + middle) * (1.0 + _ROUNDING):
+            yield subject.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: no body has this inertia',
+                found=found,
+                expected='none above the sum of the two others (triangle inequality)',
+            )
+
+
+def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
+    """Return the eigenvalues of the inertia matrix, ascending (kg·m²)."""
+    import numpy as np  # not at import: a description without <inertial> needs no numpy
+
+    matrix = [
+        [inertia.ixx, inertia.ixy, inertia.ixz],
+        [inertia.ixy, inertia.iyy, inertia.iyz],
+        [inertia.ixz, inertia.iyz, inertia.izz],
+    ]
+    low, middle, high = np.linalg.eigvalsh(matrix).tolist()
+    return low, middle, high
+
+
+def _is_finite(inertia: Inertia) -> bool:
+    moments = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
+    return all(map(math.isfinite, moments))
+
+
+def _rigid_bodies(robot: Robot) -> dict[str, str]:
+    """Return for each link the topmost link of its rigid body."""
+    top = {root.name: root.name for root in robot.roots}
+    for _, joint in robot.walk():
+        top[joint.child] = joint.child if joint.is_moving else top[joint.parent]
+    return top
+
+
+def _bodies_with_inertial(robot: Robot) -> set[str]:
+    """Return the topmost links of the rigid bodies in which some link has an ``<inertial>``."""
+    top = _rigid_bodies(robot)
+    return {top.get(link.name, '') for link in robot.links if link.inertial is not None}
+
+
+def _static_links(robot: Robot) -> set[str]:
+    """Return the links that are rigidly joined to a root called ``world``."""
+    return {link for link, top in _rigid_bodies(robot).items() if top == 'world'}
