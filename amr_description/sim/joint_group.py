@@ -3,7 +3,7 @@
 """
 Some joints of one robot, read and commanded in the control tick.
 
-A read is one slice and one ``tolist()`` (about 0.3 µs); access by name would cost 10 µs.
+A read is one slice and one ``tolist()``, well below 1 µs; access by name would cost 10 µs.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,9 +14,14 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.interfaces import VELOCITY
 from amr_description.errors import SimulationError
-from amr_description.sim.actuators import actuator_name
+from amr_description.sim.actuators import actuator_name, rotor_name
 from amr_description.sim.engine import Engine
+
+_JOINT = mujoco.mjtObj.mjOBJ_JOINT
+_ACTUATOR = mujoco.mjtObj.mjOBJ_ACTUATOR
 
 type Reader = Callable[[], list[float]]
 type Writer = Callable[[Sequence[float]], None]
@@ -25,12 +30,12 @@ type Writer = Callable[[Sequence[float]], None]
 class MujocoJointGroup:
     """The :class:`~amr_description.control.contracts.JointGroup` of a simulated robot."""
 
-    def __init__(self, engine: Engine, prefix: str, names: Sequence[str]) -> None:
-        """Bind the joints ``names`` of the robot whose elements begin with ``prefix``."""
+    def __init__(self, engine: Engine, robot: str, names: Sequence[str], log: Log) -> None:
+        """Bind these joints of ``robot``. Raises SimulationError if one is not there."""
         self._engine = engine
-        self._prefix = prefix
+        self._robot = robot
         self._names = tuple(names)
-        self._generation = -1
+        self._log = log
         self._bind()
 
     def positions(self) -> list[float]:
@@ -53,62 +58,77 @@ class MujocoJointGroup:
 
     def command_velocities(self, values: Sequence[float]) -> None:
         """
-        Target velocities, rad/s or m/s, kept until the next call; the joint's limit bounds them.
-        Raises SimulationError if one is not finite or a joint takes no velocity command.
+        Target velocities, rad/s or m/s, kept until the next call.
+
+        A value beyond the joint's velocity limit is clamped, which is told once. Raises
+        SimulationError if one is not finite, or if a joint takes no velocity command.
         """
         if self._generation != self._engine.generation:
             self._bind()
-        if not math.isfinite(sum(values)):
-            self._refuse(values)
+        for value in values:
+            # False for NaN too.
+            if not -self._lowest_limit <= value <= self._lowest_limit:
+                self._judge(values)
+                break
         self._write_velocities(values)
 
-    def _refuse(self, values: Sequence[float]) -> None:
-        commands = zip(self._names, values, strict=True)
-        joint, value = next(
-            ((n, v) for n, v in commands if not math.isfinite(v)), (self._names[0], values[0])
-        )
-        raise SimulationError(
-            f"joint '{joint}': the velocity command is {value}; a finite number is needed"
-        )
+    def _judge(self, values: Sequence[float]) -> None:
+        """Refuse what is not finite, and tell of what will be clamped."""
+        for name, value, limit in zip(self._names, values, self._limits, strict=True):
+            joint = f"robot '{self._robot}': joint '{name}'"
+            if not math.isfinite(value):
+                raise SimulationError(
+                    f'{joint}: the velocity command is {value}; a finite number is needed'
+                )
+            if abs(value) > limit:
+                self._log(
+                    Severity.WARN,
+                    f'{joint}: the velocity command {value:.6g} is beyond its limit of '
+                    f'{limit:.6g} and is clamped; <limit velocity="…"> in the URDF sets the limit',
+                    throttle=math.inf,
+                )
 
     def _bind(self) -> None:
         """Make the views into the present model and data; again after every recompile."""
         model, data = self._engine.model, self._engine.data
-        joints = [_find(model, mujoco.mjtObj.mjOBJ_JOINT, self._prefix + n) for n in self._names]
-        self._require(joints, 'is not in the simulated robot')
+        joints = self._find(_JOINT, self._names)
+        self._require(joints, 'is not in the simulated world')
         dofs = [int(model.jnt_dofadr[joint]) for joint in joints]
+        # Behind a slip clutch the actuator works on the rotor.
+        rotors = self._find(_JOINT, [rotor_name(name) for name in self._names])
+        driven = [
+            dof if rotor < 0 else int(model.jnt_dofadr[rotor])
+            for dof, rotor in zip(dofs, rotors, strict=True)
+        ]
         self._read_positions = _reader(data.qpos, [int(model.jnt_qposadr[j]) for j in joints])
         self._read_velocities = _reader(data.qvel, dofs)
-        self._read_efforts = _reader(data.qfrc_actuator, dofs)
-        self._write_velocities = self._bind_command('velocity')
+        self._read_efforts = _reader(data.qfrc_actuator, driven)
+        self._bind_velocity_commands()
         self._generation = self._engine.generation
 
-    def _bind_command(self, interface: str) -> Writer:
-        names = [self._prefix + actuator_name(joint, interface) for joint in self._names]
-        model = self._engine.model
-        actuators = [_find(model, mujoco.mjtObj.mjOBJ_ACTUATOR, name) for name in names]
+    def _bind_velocity_commands(self) -> None:
+        names = [actuator_name(joint, VELOCITY) for joint in self._names]
+        actuators = self._find(_ACTUATOR, names)
         if -1 not in actuators:
-            return _writer(self._engine.data.ctrl, actuators)
+            limits = self._engine.model.actuator_ctrlrange[actuators, 1]
+            self._limits: list[float] = limits.tolist()
+            self._write_velocities = _writer(self._engine.data.ctrl, actuators)
+        else:
+            self._limits = [math.inf] * len(actuators)
+            self._write_velocities = lambda _: self._require(
+                actuators, 'takes no velocity command: its <ros2_control> block declares none'
+            )
+        self._lowest_limit = min(self._limits, default=math.inf)
 
-        def refuse(_: Sequence[float]) -> None:
-            self._require(actuators, f'takes no {interface} command')
+    def _find(self, kind: mujoco.mjtObj, names: Sequence[str]) -> list[int]:
+        """The indices of the robot's elements, -1 where there is none of that name."""
+        model = self._engine.model
+        return [mujoco.mj_name2id(model, kind, f'{self._robot}/{name}') for name in names]
 
-        return refuse
-
-    def _require(self, found: Sequence[int], fault: str) -> None:
-        missing = [n for n, index in zip(self._names, found, strict=True) if index < 0]
-        if missing:
-            raise SimulationError(f"robot '{self._prefix[:-1]}': joint '{missing[0]}' {fault}")
-
-
-def _find(model: mujoco.MjModel, kind: mujoco.mjtObj, name: str) -> int:
-    """The index of an element, -1 when there is none of that name."""
-    return mujoco.mj_name2id(model, kind, name)
-
-
-def _is_run(indices: Sequence[int]) -> bool:
-    """Whether the indices are consecutive, so that a slice holds exactly them, in order."""
-    return list(indices) == list(range(indices[0], indices[0] + len(indices)))
+    def _require(self, indices: Sequence[int], fault: str) -> None:
+        for name, index in zip(self._names, indices, strict=True):
+            if index < 0:
+                raise SimulationError(f"robot '{self._robot}': joint '{name}' {fault}")
 
 
 def _reader(array: np.ndarray, indices: Sequence[int]) -> Reader:
@@ -117,7 +137,7 @@ def _reader(array: np.ndarray, indices: Sequence[int]) -> Reader:
         return list
     first, end = min(indices), max(indices) + 1
     view = array[first:end]
-    if _is_run(indices):
+    if list(indices) == list(range(first, end)):
         return view.tolist
     pick = itemgetter(*(index - first for index in indices))
     return lambda: list(pick(view.tolist()))
@@ -125,11 +145,19 @@ def _reader(array: np.ndarray, indices: Sequence[int]) -> Reader:
 
 def _writer(array: np.ndarray, indices: Sequence[int]) -> Writer:
     """A function that writes these elements."""
-    where: Any = list(indices)
-    if indices and _is_run(indices):
-        where = slice(indices[0], indices[-1] + 1)
+    first, end = min(indices, default=0), max(indices, default=-1) + 1
+    if sorted(indices) != list(range(first, end)) or len(indices) < 2:
+        where: Any = list(indices)
+
+        def scatter(values: Sequence[float]) -> None:
+            array[where] = values
+
+        return scatter
+    # A permuted run is written as a slice, which is three times faster than by index.
+    view = array[first:end]
+    pick = itemgetter(*(indices.index(index) for index in range(first, end)))
 
     def write(values: Sequence[float]) -> None:
-        array[where] = values
+        view[:] = pick(values)
 
     return write

@@ -21,7 +21,7 @@ def package_share(package: str) -> Path:
     """
     try:
         return Path(get_package_share_directory(package))
-    except (PackageNotFoundError, ValueError) as cause:
+    except (PackageNotFoundError, OSError, ValueError) as cause:
         if package == OWN_PACKAGE and (_SOURCE_TREE / 'config').is_dir():
             return _SOURCE_TREE
         raise SimulationError(

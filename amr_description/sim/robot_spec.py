@@ -19,6 +19,7 @@ import mujoco
 from amr_description.control.interfaces import VELOCITY
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.sim.actuators import ACTUATORS
 from amr_description.sim.faults import one_line
 from amr_description.sim.resources import resolve_uri
@@ -32,9 +33,6 @@ ROOT_JOINT = 'root'
 """The free joint of a robot that is not fixed."""
 
 _COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'false'}
-
-type CommandInterfaces = Mapping[str, Sequence[str]]
-"""Joint → names of its command interfaces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +50,13 @@ class RobotSpec:
         return self.robot.root.name == WORLD_LINK
 
 
-def build_robot(robot: Robot, commands: CommandInterfaces) -> RobotSpec:
+def build_robot(robot: Robot) -> RobotSpec:
     """Build the spec of a sound robot. Raises SpawnError."""
+    commands = {
+        joint.name: [interface.name for interface in joint.command_interfaces]
+        for hardware in hardware_of(robot)
+        for joint in hardware.joints
+    }
     try:
         spec = mujoco.MjSpec.from_string(_prepared_xml(robot))
         if robot.root.name != WORLD_LINK:
@@ -99,17 +102,14 @@ def _mesh_file(uri: str, robot: Robot) -> Path:
     return path
 
 
-def _add_actuators(spec: mujoco.MjSpec, robot: Robot, commands: CommandInterfaces) -> None:
+def _add_actuators(
+    spec: mujoco.MjSpec, robot: Robot, commands: Mapping[str, Sequence[str]]
+) -> None:
     for joint, interfaces in commands.items():
         for interface in interfaces:
-            add = ACTUATORS.get(interface)
-            if add is None:
-                raise SpawnError(
-                    f"joint '{joint}': command interface '{interface}' is asked; the simulator "
-                    f'has: {", ".join(ACTUATORS)}',
-                    SpawnCode.FEATURE_UNSUPPORTED,
-                )
-            add(spec, robot.joint(joint))
+            # An interface without an actuator is refused by the hardware component that has it.
+            if interface in ACTUATORS:
+                ACTUATORS[interface](spec, robot.joint(joint))
 
 
 def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> str:

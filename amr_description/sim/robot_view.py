@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from amr_description.control.contracts import Log
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform, Vector, xyzw_from_wxyz
 from amr_description.model.robot import Robot
@@ -23,9 +24,10 @@ class RobotView:
     SimulationError.
     """
 
-    def __init__(self, engine: Engine, name: str, description: Robot) -> None:
+    def __init__(self, engine: Engine, name: str, description: Robot, log: Log) -> None:
         self.name = name
         self.description = description
+        self._log = log
         self._engine = engine
         self._bodies: dict[str, int] = {}
         self._generation = -1
@@ -44,7 +46,7 @@ class RobotView:
                     f"robot '{self.name}': there is no joint '{name}' that moves; there are: "
                     f'{", ".join(known)}'
                 )
-        return MujocoJointGroup(self._engine, f'{self.name}/', names)
+        return MujocoJointGroup(self._engine, self.name, names, self._log)
 
     def pose(self, link: str) -> Transform:
         """``transform_link_to_world`` at the present time. Raises SimulationError."""

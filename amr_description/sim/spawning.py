@@ -12,7 +12,8 @@ import math
 import re
 
 from amr_description.errors import DescriptionError, SpawnError
-from amr_description.model import checks
+from amr_description.model.checks import require_sound
+from amr_description.model.findings import Finding
 from amr_description.model.frames import Quaternion, Transform
 from amr_description.model.robot import Robot
 
@@ -77,9 +78,9 @@ def checked_pose(pose: Transform) -> Transform:
     return Transform(pose.translation, rotation)
 
 
-def read_description(text: str, source: str) -> Robot:
+def read_description(text: str, source: str) -> tuple[Robot, tuple[Finding, ...]]:
     """
-    The robot that a URDF describes; ``source`` names the text in messages.
+    The robot of a URDF, and what the checker warns of; ``source`` names the text in messages.
 
     Refused: no text, another format than URDF, and what the checker calls an error.
     """
@@ -95,6 +96,6 @@ def read_description(text: str, source: str) -> Robot:
                 SpawnCode.UNSUPPORTED_FORMAT,
             )
     try:
-        return checks.require_sound(text, source)
+        return require_sound(text, source)
     except DescriptionError as cause:
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause

@@ -18,12 +18,10 @@ The simulated world: a ground, robots that come and go, and time.
 from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
-from amr_description.model.robot import Robot
-from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.sim.contact import add_wheel_contact, ContactSettings, TUNED_2_MS
 from amr_description.sim.engine import Engine
 from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
-from amr_description.sim.robot_spec import build_robot, CommandInterfaces, RobotSpec
+from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import check_name, checked_pose, read_description, SpawnCode
 from amr_description.sim.stepping import LONGEST_STEP
@@ -64,6 +62,7 @@ class MujocoWorld:
             self._engine = Engine(spec, timestep)
         except ValueError as cause:
             raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
+        self._log = log
         self._faults = FaultMonitor(self._engine, log)
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
@@ -97,22 +96,23 @@ class MujocoWorld:
             ) from None
 
     def spawn(
-        self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN
+        self, name: str, urdf: str, pose: Transform = AT_ORIGIN, source: str = ''
     ) -> RobotView:
         """
         Put a robot into the world, at rest.
 
-        ``description``: a URDF, as text or read (it is trusted to be sound then). ``pose``:
-        transform from the robot's root link to the world. Time and all other robots stay as they
-        are. Raises SpawnError; the world is then as before.
+        ``urdf``: the text. ``pose``: transform from the robot's root link to the world.
+        ``source``: where the text is from, for messages and for meshes given by a relative path;
+        else the name. What the checker warns of goes to the log. Time and all other robots stay
+        as they are. Raises SpawnError; the world is then as before.
         """
         check_name(name, self.names)
         pose = checked_pose(pose)
-        if isinstance(description, str):
-            description = read_description(description, name)
-        model = build_robot(description, _command_interfaces(description))
-        self._attach(name, model, pose)
-        view = RobotView(self._engine, name, description)
+        description, warnings = read_description(urdf, source or name)
+        for warning in warnings:
+            self._log(Severity.WARN, warning.text)
+        self._attach(name, build_robot(description), pose)
+        view = RobotView(self._engine, name, description, self._log)
         self._robots[name] = view
         self._find_roots()
         return view
@@ -157,12 +157,3 @@ class MujocoWorld:
     def _find_roots(self) -> None:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
         self._roots = tuple((name, index) for name, index in heights if index is not None)
-
-
-def _command_interfaces(robot: Robot) -> CommandInterfaces:
-    """Joint → command interfaces, of all the robot's ``<ros2_control>`` blocks."""
-    return {
-        joint.name: [interface.name for interface in joint.command_interfaces]
-        for hardware in hardware_of(robot)
-        for joint in hardware.joints
-    }
