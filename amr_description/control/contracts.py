@@ -180,6 +180,9 @@ class Controller(ABC):
     parameters_type: ClassVar[type]
     """The frozen dataclass of its parameters, see :mod:`amr_description.parameters`."""
 
+    is_chainable: ClassVar[bool] = False
+    """True when it has :meth:`references`."""
+
     def __init__(self, context: ControllerContext) -> None:
         self.context = context
         self.log = context.log

@@ -28,11 +28,19 @@ from amr_description.errors import AmrError, ControllerError
 class ControllerManager:
     """Runs the controllers of one robot at ``update_rate`` Hz."""
 
-    def __init__(self, resources: ResourceManager, update_rate: int, log: Log) -> None:
+    def __init__(
+        self, resources: ResourceManager, update_rate: int, log: Log, period: int | None = None
+    ) -> None:
+        """
+        ``update_rate``: Hz, as parameters and services give it. ``period``: ns, where the world's
+        steps do not divide that of the rate exactly.
+        """
         self.resources = resources
         self.update_rate = update_rate
-        self.period = round(NANOSECONDS / update_rate)
+        self.period = period or round(NANOSECONDS / update_rate)
         """Nominal time between two ticks, ns."""
+        self.next_tick = 0
+        """The instant of the next tick, ns: a multiple of the period, if nothing came late."""
         self._log = log
         self._controllers: dict[str, LoadedController] = {}
         self._last_tick: int | None = None
@@ -41,17 +49,22 @@ class ControllerManager:
 
     # --- the tick -----------------------------------------------------------------------------
 
+    def is_due(self, time: int) -> bool:
+        """Tell whether it must tick at ``time``, ns."""
+        return time >= self.next_tick
+
     def tick(self, time: int) -> None:
         """Read the hardware, update every active controller that is due, write; ``time`` in ns."""
+        self.next_tick = time - time % self.period + self.period
         last, self._last_tick = self._last_tick, time
         period = self.period if last is None else time - last
         self._abandon(self.resources.read(time, period), time)
         failed = [c for c in self._controllers.values() if not self._update(c, time)]
         if failed:
-            names = ' '.join(controller.name for controller in failed)
             self._log(
                 Severity.ERROR,
-                f'Deactivating controllers : [ {names} ] as their update resulted in an error!',
+                f'Deactivating controllers : [ {_names(failed)} ] as their update resulted in an '
+                'error!',
             )
             self._deactivate(failed, time)
         self._abandon(self.resources.write(time, period), time)
@@ -59,6 +72,7 @@ class ControllerManager:
     def reset(self, time: int) -> None:
         """Time went back to ``time`` (ns): controllers stay as they are and begin anew."""
         self._last_tick = None
+        self.next_tick = time
         for controller in self._controllers.values():
             controller.reset(time)
 
@@ -81,7 +95,7 @@ class ControllerManager:
         return False
 
     def _abandon(self, components: Sequence[str], time: int) -> None:
-        """Deactivate every controller that used a component which has just failed."""
+        """Deactivate every controller that used a component which has just gone."""
         if not components:
             return
         there = self.resources.available_commands().keys() | self.resources.available_states()
@@ -91,12 +105,12 @@ class ControllerManager:
             if controller.is_active
             and not there >= {*controller.required_commands, *controller.required_states}
         ]
-        names = ' '.join(controller.name for controller in orphans)
-        self._log(
-            Severity.ERROR,
-            f'Deactivating controllers : [ {names} ] as the hardware components '
-            f'[ {" ".join(components)} ] failed',
-        )
+        if orphans:
+            self._log(
+                Severity.ERROR,
+                f'Deactivating controllers : [ {_names(orphans)} ] as the hardware components '
+                f'[ {" ".join(components)} ] are no longer active',
+            )
         self._deactivate(orphans, time)
 
     # --- load, configure, unload --------------------------------------------------------------
@@ -229,6 +243,18 @@ class ControllerManager:
                     Severity.ERROR, f"Deactivation of controller '{controller.name}': {error}"
                 )
         self.refresh()
+
+    def set_component_state(self, name: str, state: LifecycleState, time: int) -> None:
+        """
+        Bring a hardware component to a state; controllers that lose interfaces are deactivated.
+
+        Raises HardwareError.
+        """
+        try:
+            self.resources.set_state(name, state)
+        finally:
+            self._abandon([name], time)
+            self.refresh()
 
     # --- helpers ------------------------------------------------------------------------------
 

@@ -122,7 +122,7 @@ class Loop:
         time = self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
-            if time % manager.period == 0:
+            if manager.is_due(time):
                 manager.tick(time)
         self._publisher.publish(time)
 
@@ -148,6 +148,6 @@ class Loop:
         self._pacer.resume(time)
 
     def _until_next(self, time: int) -> int:
-        """Time to the next instant at which a manager or ``/clock`` is due, ns."""
-        periods = [manager.period for manager in self.managers]
-        return min(period - time % period for period in (*periods, self._clock_period))
+        """Time to the next instant at which a manager or ``/clock`` is due, ns; above 0."""
+        next_clock = time - time % self._clock_period + self._clock_period
+        return min(next_clock, *(manager.next_tick for manager in self.managers)) - time

@@ -38,7 +38,7 @@ def _controller(loaded: LoadedController, rate: int) -> ControllerSnapshot:
         claimed=loaded.required_commands if loaded.is_active else (),
         required_commands=loaded.required_commands,
         required_states=loaded.required_states,
-        is_chainable=bool(references),
+        is_chainable=loaded.controller.is_chainable,
         references=tuple(r.interface for r in references) if is_configured else (),
     )
 

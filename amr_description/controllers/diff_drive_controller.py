@@ -61,6 +61,7 @@ class DiffDriveController(Controller):
     """Drives any number of wheels a side; see the module for the formulas and departures."""
 
     parameters_type = DiffDriveParameters
+    is_chainable = True
 
     def __init__(self, context: ControllerContext) -> None:
         super().__init__(context)

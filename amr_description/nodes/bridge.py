@@ -1,0 +1,205 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A ROS node for a controller that knows no ROS: its parameters and its topics, from outside just
+as ros2_control has them.
+
+The ROS thread makes node, parameters and endpoints; the owner only sees finished objects.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+
+from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Qos
+from amr_description.errors import ParameterError
+from amr_description.model.robot import Robot
+from amr_description.nodes.message_types import message_type
+from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.outgoing import Outgoing, SIM_TIME
+from amr_description.parameters import build, Spec, specs
+from amr_description.registry import resolve
+
+_ARRAYS = {
+    'string_array': Parameter.Type.STRING_ARRAY,
+    'double_array': Parameter.Type.DOUBLE_ARRAY,
+}
+
+
+class ControllerNode:
+    """
+    One controller and its node.
+
+    ``controller`` is unconfigured at first. Everything here runs on the ROS thread, but for what
+    the ports call: ``Outgoing.send`` on the owner's.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        controller_class: type[Controller],
+        arguments: Sequence[str],
+        *,
+        namespace: str,
+        update_rate: int,
+        robot: Robot | None,
+        outgoing: Outgoing,
+        logs: LogThread,
+    ) -> None:
+        """
+        Make node and controller; ``arguments``: ROS arguments of the node.
+
+        Raises ParameterError, and whatever the constructor of a foreign controller raises.
+        """
+        self._outgoing = outgoing
+        self._endpoints: list[Publisher | Subscription] = []
+        self.node = Node(
+            name,
+            namespace=namespace,
+            use_global_arguments=False,
+            cli_args=['--ros-args', *arguments],
+            parameter_overrides=[SIM_TIME],
+        )
+        outgoing.own_clock_of(self.node)
+        try:
+            self._table = controller_class.parameters_type
+            self._declare(update_rate)
+            self.log = logs.log_of(self.node.get_logger())
+            self.parameters()
+            self.controller = controller_class(
+                ControllerContext(
+                    name=name,
+                    log=self.log,
+                    namespace=namespace,
+                    update_rate=self._update_rate(update_rate),
+                    robot=robot,
+                )
+            )
+        except Exception:
+            self.destroy()
+            raise
+
+    def parameters(self) -> Any:
+        """Read the node's parameters into the controller's table. Raises ParameterError."""
+        values = {name: self.node.get_parameter(name).value for name in self._specs}
+        return build(self._table, values)
+
+    def connect(self) -> None:
+        """Make the topics that the configured controller declares, in place of earlier ones."""
+        self.disconnect()
+        for port in self.controller.inputs():
+            self._endpoints.append(self._subscribe(port))
+        for port in self.controller.outputs():
+            self._endpoints.append(self._advertise(port))
+
+    def disconnect(self) -> None:
+        """Remove the topics; the owner must have cleaned the controller up before."""
+        for endpoint in self._endpoints:
+            if isinstance(endpoint, Publisher):
+                self.node.destroy_publisher(endpoint)
+            else:
+                self.node.destroy_subscription(endpoint)
+        self._endpoints.clear()
+
+    def destroy(self) -> None:
+        """Remove the node."""
+        self.disconnect()
+        self._outgoing.release_clock_of(self.node)
+        self.node.destroy_node()
+
+    # --- parameters ---------------------------------------------------------------------------
+
+    def _declare(self, manager_rate: int) -> None:
+        self._specs = {spec.name: spec for spec in specs(self._table)}
+        for spec in self._specs.values():
+            declare(self.node, spec)
+        self.node.declare_parameter(
+            'update_rate',
+            manager_rate,
+            ParameterDescriptor(description='Updates per s; default: those of the manager'),
+        )
+        self.node.add_on_set_parameters_callback(self._check)
+
+    def _check(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Refuse what the table refuses; what is accepted counts at the next configure."""
+        for parameter in parameters:
+            spec = self._specs.get(parameter.name)
+            try:
+                if spec is not None:
+                    spec.check(parameter.value)
+            except ParameterError as error:
+                return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _update_rate(self, manager_rate: int) -> int:
+        rate = self.node.get_parameter('update_rate').value
+        if rate < 0:
+            raise ParameterError(
+                f"parameter 'update_rate' must be at least 0 (0: that of the manager), found {rate}"
+            )
+        return rate or manager_rate
+
+    # --- ports --------------------------------------------------------------------------------
+
+    def _subscribe(self, port: Input[Any]) -> Subscription:
+        convert = resolve(port.port.convert)
+
+        def receive(message: Any) -> None:
+            if not port.put(convert(message)):
+                self.node.get_logger().warning(
+                    "Can't accept new commands. subscriber is inactive", throttle_duration_sec=1.0
+                )
+
+        message = message_type(port.port.message)
+        return self.node.create_subscription(message, port.port.name, receive, qos(port.port.qos))
+
+    def _advertise(self, port: Output[Any]) -> Publisher:
+        fill = resolve(port.port.convert)
+        message_class = message_type(port.port.message)
+        message = message_class()
+        publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
+        send = self._outgoing.send
+        port.sink = lambda sample: send(fill, sample, message, publisher)
+        return publisher
+
+
+def declare(node: Node, spec: Spec) -> None:
+    """Declare one row of a table, with its meaning, unit and bounds in the descriptor."""
+    unit = f' [{spec.unit}]' if spec.unit else ''
+    descriptor = ParameterDescriptor(description=spec.doc + unit, read_only=spec.read_only)
+    low, high = spec.bounds.minimum, spec.bounds.maximum
+    if low is not None and high is not None:
+        if spec.type == 'integer':
+            descriptor.integer_range = [IntegerRange(from_value=int(low), to_value=int(high))]
+        else:
+            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    array_type = _ARRAYS.get(spec.type)
+    if array_type is None:
+        node.declare_parameter(spec.name, spec.default, descriptor)
+        return
+    # An empty list has no type of its own in rclpy: the type is declared, then the value is set.
+    declared = node.declare_parameter(spec.name, array_type)
+    if declared.type_ == Parameter.Type.NOT_SET:
+        node.set_parameters([Parameter(spec.name, array_type, list(spec.default))])
+    node.set_descriptor(spec.name, descriptor)
+
+
+def qos(wanted: Qos) -> QoSProfile:
+    """Return rclpy's profile; system defaults are left to the middleware."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST if wanted.depth else HistoryPolicy.SYSTEM_DEFAULT,
+        depth=wanted.depth,
+        reliability=ReliabilityPolicy[wanted.reliability.upper()],
+        durability=DurabilityPolicy[wanted.durability.upper()],
+    )

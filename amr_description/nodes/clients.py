@@ -1,0 +1,69 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a program needs that asks others and then ends: waiting in words, and calling services."""
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+import rclpy
+from rclpy.node import Node
+
+from amr_description.errors import AmrError
+
+_POLL = 0.05
+"""s: how soon a change of the graph is seen; messages and responses are seen at once."""
+
+
+class NoAnswerError(AmrError):
+    """A service did not answer in time."""
+
+
+def wait_until[Result](
+    node: Node,
+    condition: Callable[[], Result | None],
+    say: Callable[[], None],
+    *,
+    every: float,
+    timeout: float = 0.0,
+) -> Result | None:
+    """
+    Serve the node until ``condition()`` is something, and return it.
+
+    ``say`` is called every ``every`` s of waiting. ``timeout``: s, 0 for ever; then ``None``.
+    """
+    start = time.monotonic()
+    said = start
+    while (result := condition()) is None:
+        now = time.monotonic()
+        if timeout and now - start >= timeout:
+            return None
+        if now - said >= every:
+            said = now
+            say()
+        rclpy.spin_once(node, timeout_sec=_POLL)
+    return result
+
+
+def call(
+    node: Node, service_type: Any, name: str, request: Any, *, timeout: float = 10.0
+) -> Any:
+    """Call a service that is there, once; return the response. Raises NoAnswerError."""
+    client = node.create_client(service_type, name)
+    try:
+        deadline = time.monotonic() + timeout
+        while not client.service_is_ready():
+            if time.monotonic() >= deadline:
+                raise NoAnswerError(
+                    f'service {name} is not there after {timeout:g} s; is its node running?'
+                )
+            rclpy.spin_once(node, timeout_sec=_POLL)
+        future = client.call_async(request)
+        rclpy.spin_until_future_complete(
+            node, future, timeout_sec=max(0.0, deadline - time.monotonic())
+        )
+        if not future.done():
+            raise NoAnswerError(f'service {name} has not answered within {timeout:g} s')
+        return future.result()
+    finally:
+        node.destroy_client(client)

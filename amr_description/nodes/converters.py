@@ -1,0 +1,124 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Samples of the controllers ↔ ROS messages; the functions that a ``Port`` names.
+
+``fill_…`` writes into a message that is made once and sent many times.
+"""
+
+from array import array
+import math
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Pose, TransformStamped, Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+
+from amr_description.control.interfaces import NANOSECONDS
+from amr_description.control.samples import Frames, JointStateSample, OdometrySample, TwistSample
+from amr_description.model.frames import Transform
+
+
+def nanoseconds(stamp: Time) -> int:
+    """Return a stamp as integer nanoseconds."""
+    return stamp.sec * NANOSECONDS + stamp.nanosec
+
+
+def fill_stamp(time: int, stamp: Time) -> None:
+    """Write integer nanoseconds into a stamp."""
+    stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
+
+
+def twist_sample(message: TwistStamped) -> TwistSample:
+    """Keep the raw stamp (zero stays zero) and the planar part."""
+    return TwistSample(
+        stamp=nanoseconds(message.header.stamp),
+        linear=message.twist.linear.x,
+        angular=message.twist.angular.z,
+        frame_id=message.header.frame_id,
+    )
+
+
+def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
+    """Write a planar twist."""
+    fill_stamp(sample.stamp, message.header.stamp)
+    message.header.frame_id = sample.frame_id
+    message.twist.linear.x = sample.linear
+    message.twist.angular.z = sample.angular
+
+
+def fill_odometry(sample: OdometrySample, message: Odometry) -> None:
+    """Write pose, twist and, the first time, frames and covariances."""
+    if message.child_frame_id != sample.frames.child_frame_id:
+        _fill_constants(sample.frames, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    pose = message.pose.pose
+    pose.position.x = sample.x
+    pose.position.y = sample.y
+    pose.orientation.z = math.sin(sample.heading * 0.5)
+    pose.orientation.w = math.cos(sample.heading * 0.5)
+    twist = message.twist.twist
+    twist.linear.x = sample.linear
+    twist.angular.z = sample.angular
+
+
+def fill_odometry_transform(sample: OdometrySample, message: TFMessage) -> None:
+    """Write the transform from the base frame to the odometry frame."""
+    if not message.transforms:
+        message.transforms = [TransformStamped()]
+    stamped = message.transforms[0]
+    fill_stamp(sample.stamp, stamped.header.stamp)
+    stamped.header.frame_id = sample.frames.frame_id
+    stamped.child_frame_id = sample.frames.child_frame_id
+    transform = stamped.transform
+    transform.translation.x = sample.x
+    transform.translation.y = sample.y
+    transform.rotation.z = math.sin(sample.heading * 0.5)
+    transform.rotation.w = math.cos(sample.heading * 0.5)
+
+
+def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
+    """Write the four arrays."""
+    fill_stamp(sample.stamp, message.header.stamp)
+    message.header.frame_id = sample.frame_id
+    message.name = list(sample.name)
+    message.position = array('d', sample.position)
+    message.velocity = array('d', sample.velocity)
+    message.effort = array('d', sample.effort)
+
+
+def fill_pose(transform: Transform, pose: Pose) -> None:
+    """Write a pose: the transform from the thing to its frame of reference."""
+    position, orientation = pose.position, pose.orientation
+    position.x, position.y, position.z = transform.translation
+    orientation.x, orientation.y, orientation.z, orientation.w = transform.rotation
+
+
+def fill_velocity(
+    linear: tuple[float, float, float], angular: tuple[float, float, float], twist: Twist
+) -> None:
+    """Write a velocity, m/s and rad/s."""
+    twist.linear.x, twist.linear.y, twist.linear.z = linear
+    twist.angular.x, twist.angular.y, twist.angular.z = angular
+
+
+def transform_of(pose: Pose) -> Transform:
+    """Read a pose as a transform; a quaternion of zeros, the default in YAML, is no rotation."""
+    position, orientation = pose.position, pose.orientation
+    rotation = (orientation.x, orientation.y, orientation.z, orientation.w)
+    return Transform(
+        (position.x, position.y, position.z),
+        rotation if any(rotation) else (0.0, 0.0, 0.0, 1.0),
+    )
+
+
+def _fill_constants(frames: Frames, message: Odometry) -> None:
+    message.header.frame_id = frames.frame_id
+    message.child_frame_id = frames.child_frame_id
+    for covariance, variances in (
+        (message.pose.covariance, frames.pose_variances),
+        (message.twist.covariance, frames.twist_variances),
+    ):
+        for axis, variance in enumerate(variances):
+            covariance[7 * axis] = variance

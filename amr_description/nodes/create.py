@@ -1,0 +1,168 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``create``: put a robot into the simulation, as ros_gz_sim's executable of that name does.
+
+It ends with 0 when the robot is there, with 1 and the reason when the simulator refuses, with
+255 when no description is given.
+"""
+
+import argparse
+import sys
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.utilities import remove_ros_args
+from simulation_interfaces.msg import Result
+from simulation_interfaces.srv import SpawnEntity
+from std_msgs.msg import String
+
+from amr_description.errors import AmrError, UsageError
+from amr_description.model.frames import Transform
+from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.converters import fill_pose
+from amr_description.nodes.runtime import argument_errors, program, ros
+from amr_description.sim.resources import resolve_uri
+
+_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'
+
+
+class NoSourceError(UsageError):
+    """No description was given; the original's exit code."""
+
+    exit_code = 255
+
+
+def parser() -> argparse.ArgumentParser:
+    """Make the parser; every option takes one dash or two, as the original's."""
+    options = argparse.ArgumentParser(prog='create', description=__doc__, allow_abbrev=False)
+    options.add_argument('-world', '--world', default='', help='simulator, if there are several')
+    source = options.add_argument_group('description, the first that is given')
+    source.add_argument('-file', '--file', help='path or URI of a URDF')
+    source.add_argument('-param', '--param', help='ROS parameter that holds the URDF')
+    source.add_argument('-string', '--string', help='the URDF itself')
+    source.add_argument('-topic', '--topic', help='topic on which the URDF is latched')
+    options.add_argument('-name', '--name', default='', help='default: the name in the URDF')
+    options.add_argument(
+        '-allow_renaming', '--allow_renaming', nargs='?', const=True, default=False, type=_bool
+    )
+    for axis in 'xyz':
+        options.add_argument(f'-{axis}', type=float, default=0.0, metavar='M')
+    for axis, name in zip('RPY', ('roll', 'pitch', 'yaw'), strict=True):
+        options.add_argument(f'-{axis}', type=float, default=0.0, metavar='RAD', help=name)
+    return options
+
+
+def create(args: list[str] | None) -> int:
+    """Ask the simulator for the entity; return the exit code."""
+    with ros(args):
+        words = remove_ros_args(sys.argv if args is None else ['create', *args])[1:]
+        options = parser().parse_args(words)
+        with argument_errors():
+            node = Node(
+                'ros_gz_sim',
+                allow_undeclared_parameters=True,
+                automatically_declare_parameters_from_overrides=True,
+            )
+        try:
+            request = SpawnEntity.Request(
+                name=options.name,
+                allow_renaming=options.allow_renaming,
+                entity_namespace=node.get_namespace(),
+                resource_string=_description(node, options),
+            )
+            pose = Transform.from_xyz_rpy(
+                (options.x, options.y, options.z), (options.R, options.P, options.Y)
+            )
+            fill_pose(pose, request.initial_pose.pose)
+            service = _find_simulator(node, options.world)
+            result = call(node, SpawnEntity, service, request, timeout=60.0).result
+            if result.result != Result.RESULT_OK:
+                node.get_logger().error(f'Entity creation failed. {result.error_message}')
+                return 1
+            node.get_logger().info('Entity creation successfull.')
+            return 0
+        finally:
+            node.destroy_node()
+
+
+def _description(node: Node, options: argparse.Namespace) -> str:
+    """Get the URDF from where the options say. Raises NoSourceError, UsageError."""
+    if options.file:
+        try:
+            return resolve_uri(options.file).read_text(encoding='utf-8')
+        except (OSError, UnicodeDecodeError, AmrError) as error:
+            raise UsageError(f'-file {options.file}: {error}') from error
+    if options.param:
+        value = node.get_parameter_or(options.param).value
+        if not isinstance(value, str):
+            raise UsageError(
+                f"-param {options.param}: the node has no string parameter '{options.param}'; "
+                f'give it with --ros-args -p {options.param}:=…'
+            )
+        return value
+    if options.string:
+        return options.string
+    if options.topic:
+        return _latched(node, options.topic)
+    raise NoSourceError('Must specify either -file, -param, -string or -topic')
+
+
+def _latched(node: Node, topic: str) -> str:
+    """Wait for the description on a latched topic."""
+    texts: list[str] = []
+    subscription = node.create_subscription(
+        String, topic, lambda message: texts.append(message.data), _LATCHED
+    )
+    say = node.get_logger().warning
+    wait_until(
+        node,
+        lambda: texts or None,
+        lambda: say(f'Waiting messages on topic [{subscription.topic_name}].'),
+        every=1.0,
+    )
+    return texts[-1]
+
+
+def _find_simulator(node: Node, world: str) -> str:
+    """
+    Find the one spawn service there is, or that of the simulator ``world``.
+
+    Raises UsageError when there are several and none is chosen.
+    """
+
+    def services() -> list[str] | None:
+        found = sorted(
+            name for name, types in node.get_service_names_and_types() if _SERVICE_TYPE in types
+        )
+        chosen = [name for name in found if not world or world in name.split('/')]
+        return chosen or (found if world and found else None)
+
+    def say() -> None:
+        node.get_logger().warning(
+            f'Waiting for service [{_SERVICE_TYPE}] to become available ...'
+        )
+
+    found = wait_until(node, services, say, every=5.0) or []
+    if len(found) > 1:
+        raise UsageError(
+            f'several simulators can create an entity: {", ".join(found)}; choose one by '
+            'its node with -world'
+        )
+    return found[0]
+
+
+def _bool(text: str) -> bool:
+    if text.lower() in ('true', '1'):
+        return True
+    if text.lower() in ('false', '0'):
+        return False
+    raise argparse.ArgumentTypeError(f'{text!r} is neither true nor false')
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the executable; return its exit code."""
+    return program(lambda: create(args))
+
+

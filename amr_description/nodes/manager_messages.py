@@ -1,0 +1,52 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Snapshots of a controller manager → ``controller_manager_msgs``."""
+
+from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
+
+from amr_description.control.snapshots import (
+    ComponentSnapshot,
+    ControllerSnapshot,
+    InterfaceSnapshot,
+)
+
+
+def controller_message(controller: ControllerSnapshot) -> ControllerState:
+    """Make one entry of ``list_controllers``."""
+    return ControllerState(
+        name=controller.name,
+        type=controller.type,
+        state=controller.state.label,
+        update_rate=controller.update_rate,
+        claimed_interfaces=controller.claimed,
+        required_command_interfaces=controller.required_commands,
+        required_state_interfaces=controller.required_states,
+        is_chainable=controller.is_chainable,
+        reference_interfaces=controller.references,
+    )
+
+
+def component_message(component: ComponentSnapshot) -> HardwareComponentState:
+    """Make one entry of ``list_hardware_components``."""
+    message = HardwareComponentState(
+        name=component.name,
+        type=component.type,
+        rw_rate=component.rate,
+        class_type=component.plugin,
+        plugin_name=component.plugin,
+        command_interfaces=[interface_message(each) for each in component.commands],
+        state_interfaces=[interface_message(each) for each in component.states],
+    )
+    message.state.id = component.state
+    message.state.label = component.state.label
+    return message
+
+
+def interface_message(interface: InterfaceSnapshot) -> HardwareInterface:
+    """Make one interface of either list."""
+    return HardwareInterface(
+        name=interface.name,
+        data_type=interface.data_type,
+        is_available=interface.is_available,
+        is_claimed=interface.is_claimed,
+    )

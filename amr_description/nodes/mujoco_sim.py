@@ -1,0 +1,188 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``mujoco_sim``: the simulator, in Gazebo's place.
+
+It owns ``/clock``, takes robots in through ``~/spawn_entity`` (simulation_interfaces) and runs
+their controller managers. ``~/get_entity_state`` tells where a robot truly is.
+"""
+
+from collections.abc import Sequence
+import sys
+
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from simulation_interfaces.msg import Result
+from simulation_interfaces.srv import GetEntityState, SpawnEntity
+
+from amr_description.errors import AmrError, SimulationError, SpawnError
+from amr_description.model.frames import rotate
+from amr_description.nodes.bridge import declare
+from amr_description.nodes.converters import (
+    fill_pose,
+    fill_stamp,
+    fill_velocity,
+    transform_of,
+)
+from amr_description.nodes.runtime import argument_errors, program, ros, spin
+from amr_description.nodes.simulation import Simulation, SimulationParameters
+from amr_description.parameters import build, specs
+from amr_description.sim.resources import resolve_uri
+from amr_description.sim.spawning import free_name, read_description, SpawnCode
+
+WORLD_FRAME = 'world'
+"""The frame of every pose that the simulator takes or gives."""
+
+
+class MujocoSim:
+    """The node and its services."""
+
+    def __init__(self, executor: SingleThreadedExecutor, args: Sequence[str]) -> None:
+        """Make the node and the world. Raises SimulationError, ParameterError."""
+        self.node = Node('mujoco_sim')
+        try:
+            rows = list(specs(SimulationParameters))
+            for spec in rows:
+                declare(self.node, spec)
+            values = {spec.name: self.node.get_parameter(spec.name).value for spec in rows}
+            parameters = build(SimulationParameters, values)
+            self.simulation = Simulation(self.node, executor, parameters, inherited(args))
+        except Exception:
+            self.node.destroy_node()
+            raise
+        group = ReentrantCallbackGroup()
+        for service_type, name, callback in (
+            (SpawnEntity, '~/spawn_entity', self._spawn_entity),
+            (GetEntityState, '~/get_entity_state', self._get_entity_state),
+        ):
+            self.node.create_service(service_type, name, callback, callback_group=group)
+        factor = parameters.real_time_factor
+        self.node.get_logger().info(
+            f"World '{parameters.world}', "
+            + (f'real-time factor {factor:g}' if factor else 'as fast as possible')
+            + f'; waiting for robots on {self.node.get_name()}/spawn_entity'
+        )
+
+    def close(self) -> None:
+        """End the simulation and remove all nodes."""
+        self.simulation.close()
+        self.node.destroy_node()
+
+    async def _spawn_entity(
+        self, request: SpawnEntity.Request, response: SpawnEntity.Response
+    ) -> SpawnEntity.Response:
+        try:
+            response.entity_name = await self._spawn(request)
+            response.result.result = Result.RESULT_OK
+            self.node.get_logger().info(f"Spawned '{response.entity_name}'")
+        except AmrError as error:
+            code = error.code if isinstance(error, SpawnError) else SpawnCode.OPERATION_FAILED
+            _refuse(response.result, code, error)
+            self.node.get_logger().error(f'{error}')
+        return response
+
+    async def _spawn(self, request: SpawnEntity.Request) -> str:
+        text = request.resource_string or _read(request.uri)
+        source = request.uri or request.name or 'robot_description'
+        robot = read_description(text, source)
+        name = request.name or robot.name
+        if request.allow_renaming:
+            name = free_name(name, self.simulation.world.names)
+        frame = request.initial_pose.header.frame_id
+        if frame not in ('', WORLD_FRAME):
+            raise SpawnError(
+                f"the initial pose is given in the frame '{frame}'; '{WORLD_FRAME}' is known here",
+                SpawnCode.INVALID_POSE,
+            )
+        pose = transform_of(request.initial_pose.pose)
+        await self.simulation.spawn(name, robot, pose, request.entity_namespace)
+        return name
+
+    async def _get_entity_state(
+        self, request: GetEntityState.Request, response: GetEntityState.Response
+    ) -> GetEntityState.Response:
+        world = self.simulation.world
+
+        def look() -> tuple:
+            view = world.robot(request.entity)
+            root = view.description.root.name
+            return world.time, view.pose(root), view.velocity(root)
+
+        try:
+            time, pose, (linear, angular) = await self.simulation.owner.submit(look)
+        except SimulationError as error:
+            _refuse(response.result, SpawnCode.NOT_FOUND, error)
+            return response
+        state = response.state
+        state.header.frame_id = WORLD_FRAME
+        fill_stamp(time, state.header.stamp)
+        fill_pose(pose, state.pose)
+        fill_velocity(
+            rotate(pose.rotation, linear), rotate(pose.rotation, angular), state.twist
+        )
+        response.result.result = Result.RESULT_OK
+        return response
+
+
+def inherited(args: Sequence[str]) -> list[str]:
+    """
+    Return the ROS arguments that go on to managers and controllers: remaps and log levels.
+
+    Not the name and namespace of this node, and not its parameters.
+    """
+    kept: list[str] = []
+    for flag, value in zip(args, args[1:], strict=False):
+        if flag in ('-r', '--remap') and not value.startswith(('__node:=', '__name:=', '__ns:=')):
+            kept += [flag, value]
+        elif flag == '--log-level':
+            kept += [flag, value]
+    return kept
+
+
+def _read(uri: str) -> str:
+    """Read the resource of a request. Raises SpawnError."""
+    if not uri:
+        raise SpawnError(
+            'neither resource_string nor uri is given; one of them holds the URDF',
+            SpawnCode.NO_RESOURCE,
+        )
+    try:
+        return resolve_uri(uri).read_text(encoding='utf-8')
+    except (OSError, UnicodeDecodeError, SimulationError) as error:
+        raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
+
+
+def _refuse(result: Result, code: int, error: AmrError) -> None:
+    result.result = code
+    result.error_message = str(error)
+
+
+def simulate(args: list[str] | None) -> int:
+    """Run until asked to stop; 1 when the owner's thread failed."""
+    with ros(args) as stop:
+        executor = SingleThreadedExecutor()
+        with argument_errors():
+            sim = MujocoSim(executor, sys.argv[1:] if args is None else args)
+        owner = sim.simulation.owner
+        executor.add_node(sim.node)
+        is_stopping = False
+
+        def wake() -> None:
+            nonlocal is_stopping
+            is_stopping = True
+            executor.wake()
+
+        try:
+            with stop.on_stop(wake):
+                sim.simulation.start()
+                spin(executor, lambda: is_stopping or owner.failed)
+        finally:
+            sim.close()
+            executor.shutdown()
+    return 1 if owner.failed else 0
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the executable; return its exit code."""
+    return program(lambda: simulate(args), stopped=0)

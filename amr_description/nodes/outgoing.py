@@ -1,0 +1,75 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What leaves the owner's turn: ``/clock`` first, then what the controllers said at that instant.
+
+Nodes in the process that owns the time do not subscribe to ``/clock``: at 100 Hz that costs 14 %
+of a core for three nodes. Their clocks are set here, before anything is published.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.clock import ROSClock
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
+from rclpy.time import Time, ClockType
+from rosgraph_msgs.msg import Clock
+
+from amr_description.control.interfaces import NANOSECONDS
+
+CLOCK_QOS = QoSProfile(depth=10)
+"""Reliable, as ros_gz_bridge publishes it; time sources that subscribe best effort match too."""
+
+SIM_TIME = Parameter('use_sim_time', value=True)
+"""The parameter override of every node in the process that owns the time."""
+
+
+class Outgoing:
+    """The ``Publisher`` port of the loop; ``node`` publishes ``/clock``."""
+
+    def __init__(self, node: Node) -> None:
+        self._clocks: list[ROSClock] = []
+        self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
+        self._message = Clock()
+        self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
+
+    def own_clock_of(self, node: Node) -> None:
+        """
+        Set the node's clock from now on; it keeps saying ``use_sim_time: true``.
+
+        Call it on the thread that made the node, after its constructor.
+        """
+        source = node._time_source
+        source.ros_time_is_active = True
+        node.destroy_subscription(source._clock_sub)
+        source._clock_sub = None
+        self._clocks = [*self._clocks, node.get_clock()]
+
+    def release_clock_of(self, node: Node) -> None:
+        """Forget the node's clock, before the node is destroyed."""
+        self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
+
+    def send(
+        self, fill: Callable[[Any, Any], None], sample: Any, message: Any, publisher: Publisher
+    ) -> None:
+        """Publish ``sample`` at the end of this turn; ``message`` is filled and sent then."""
+        self._outbox.append((fill, sample, message, publisher))
+
+    def set_clocks(self, time: int) -> None:
+        """Set every clock of the process to ``time``, ns."""
+        now = Time(nanoseconds=time, clock_type=ClockType.ROS_TIME)
+        for clock in self._clocks:
+            clock.set_ros_time_override(now)
+
+    def publish(self, time: int) -> None:
+        """Publish ``/clock``, and then what waits."""
+        clock = self._message.clock
+        clock.sec, clock.nanosec = divmod(time, NANOSECONDS)
+        self._publisher.publish(self._message)
+        for fill, sample, message, publisher in self._outbox:
+            fill(sample, message)
+            publisher.publish(message)
+        self._outbox.clear()

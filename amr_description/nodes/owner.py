@@ -1,0 +1,134 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The owner's thread, its queue and its pace: how the loop of ``control`` lives in a process.
+
+Other threads ask with :meth:`Owner.submit` and get an rclpy future; nothing else is shared.
+"""
+
+from collections import deque
+from collections.abc import Callable, Iterable
+import gc
+import threading
+import time
+import traceback
+
+from rclpy.executors import Executor
+from rclpy.task import Future
+
+from amr_description.control.interfaces import NANOSECONDS
+from amr_description.control.loop import Loop
+
+_HOPELESSLY_LATE = 0.1
+"""s: beyond it the pacer starts anew, instead of making good what was missed in a burst."""
+
+
+class Mailbox:
+    """The queue of commands; any thread puts, the owner takes (``Commands`` of the loop)."""
+
+    def __init__(self) -> None:
+        self._calls: deque[Callable[[], None]] = deque()
+        self._arrived = threading.Event()
+
+    def put(self, call: Callable[[], None]) -> None:
+        """Queue a call, and wake the owner if it waits."""
+        self._calls.append(call)
+        self._arrived.set()
+
+    def take(self) -> Iterable[Callable[[], None]]:
+        """Return what has arrived; what a call puts while it runs waits for the next turn."""
+        if not self._calls:
+            return ()
+        self._arrived.clear()
+        return [self._calls.popleft() for _ in range(len(self._calls))]
+
+    def wait(self) -> None:
+        """Block until something arrives."""
+        self._arrived.wait()
+
+
+class WallPacer:
+    """
+    Keeps simulated time at ``factor`` times the wall clock; 0: as fast as possible.
+
+    Deadlines are absolute, so that the error of one sleep does not add up. Being late costs
+    real-time factor, never results.
+    """
+
+    def __init__(self, factor: float) -> None:
+        self._factor = factor
+        self._wall_start = self._start = 0.0
+
+    def resume(self, time_now: int) -> None:
+        """Count from now on, simulated time being ``time_now``, ns."""
+        self._wall_start = time.monotonic()
+        self._start = time_now / NANOSECONDS
+
+    def pace(self, time_due: int) -> None:
+        """Sleep until the instant ``time_due`` (ns) is due."""
+        if self._factor == 0.0:
+            time.sleep(0)  # lets the ROS thread have the interpreter's lock
+            return
+        due = self._wall_start + (time_due / NANOSECONDS - self._start) / self._factor
+        delay = due - time.monotonic()
+        if delay > 0.0:
+            time.sleep(delay)
+        elif delay < -_HOPELESSLY_LATE:
+            self.resume(time_due)
+
+
+class Owner:
+    """
+    Runs the loop in a thread of its own.
+
+    When the loop raises, that is a bug: the traceback is printed, ``failed`` is set and
+    ``on_failure`` is called, so that the process ends instead of standing still.
+    """
+
+    def __init__(self, loop: Loop, mailbox: Mailbox, executor: Executor) -> None:
+        self.loop = loop
+        self.failed = False
+        self.on_failure: Callable[[], None] = executor.wake
+        self._mailbox = mailbox
+        self._executor = executor
+        self._thread = threading.Thread(target=self._run, name='owner')
+
+    def start(self) -> None:
+        """Begin to turn."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the loop after the turn that it is in, and wait for that."""
+        self._mailbox.put(self.loop.stop)
+        self._thread.join()
+
+    def submit[Result](self, call: Callable[[], Result]) -> Future:
+        """
+        Have the owner make a call between two turns; await the result in an async callback.
+
+        What the call raises, the future raises.
+        """
+        future = Future(executor=self._executor)
+
+        def make() -> None:
+            try:
+                result = call()
+            except Exception as error:  # belongs to whoever awaits it
+                future.set_exception(error)
+            else:
+                future.set_result(result)
+            self._executor.wake()  # a task that awaits is looked at only when the executor wakes
+
+        self._mailbox.put(make)
+        return future
+
+    def _run(self) -> None:
+        # What the start has made lives as long as the process: keep the collector off it.
+        gc.collect()
+        gc.freeze()
+        try:
+            self.loop.run()
+        except Exception:
+            traceback.print_exc()
+            self.failed = True
+            self.on_failure()

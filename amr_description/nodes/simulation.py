@@ -1,0 +1,198 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulation in a process: the world, its owner, and the robots with their managers.
+
+A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of its own, in its
+namespace; removing the robot removes it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rclpy.executors import Executor
+from rclpy.node import Node
+
+from amr_description.control.contracts import Severity
+from amr_description.control.interfaces import LifecycleState, NANOSECONDS
+from amr_description.control.loop import Loop
+from amr_description.control.resource_manager import ResourceManager
+from amr_description.hardware import HARDWARE
+from amr_description.model.frames import Transform
+from amr_description.model.gazebo_tag import gazebo_plugins_of
+from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.nodes.controller_manager_node import ControllerManagerNode
+from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.owner import Mailbox, Owner, WallPacer
+from amr_description.nodes.parameter_files import require_parameter_file
+from amr_description.parameters import parameter
+from amr_description.sim.resources import package_share
+from amr_description.sim.stepping import physics_stepping, steps_in
+from amr_description.sim.world import MujocoWorld
+
+CLOCK_PERIOD = 10_000_000
+"""ns: the longest time between two messages on ``/clock``."""
+
+
+@dataclass(frozen=True)
+class SimulationParameters:
+    """The parameters of the node ``mujoco_sim``."""
+
+    world: str = parameter('empty', 'A shipped world, or the path of an MJCF file', read_only=True)
+    real_time_factor: float = parameter(
+        1.0,
+        'Simulated seconds per second of the wall clock; 0: as fast as possible',
+        minimum=0.0,
+        read_only=True,
+    )
+    controllers: str = parameter(
+        '',
+        'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
+        'names, else that of this package',
+        read_only=True,
+    )
+
+
+class WorldStepper:
+    """The ``Stepper`` port of the loop over a MuJoCo world."""
+
+    def __init__(self, world: MujocoWorld) -> None:
+        self._world = world
+
+    @property
+    def time(self) -> int:
+        """Simulated time, ns."""
+        return self._world.time
+
+    def advance(self, period: int) -> int:
+        """Step the physics by ``period`` (ns), rounded to its steps, by one at least."""
+        self._world.step(max(1, round(period / self._world.timestep)))
+        return self._world.time
+
+
+class Simulation:
+    """
+    World, loop and managers; ``node`` publishes ``/clock`` and lends its logger.
+
+    The coroutines run on the ROS thread and await the owner.
+    """
+
+    def __init__(
+        self, node: Node, executor: Executor, parameters: SimulationParameters, ros_args: list[str]
+    ) -> None:
+        """``ros_args`` go on to every manager and controller. Raises SimulationError."""
+        self.logs = LogThread()
+        try:
+            self._log = self.logs.log_of(node.get_logger())
+            self._parameters = parameters
+            self._ros_args = ros_args
+            self._executor = executor
+            self._managers: dict[str, ControllerManagerNode] = {}
+            self._outgoing = Outgoing(node)
+            self._outgoing.own_clock_of(node)
+            self.world = MujocoWorld(parameters.world, log=self._log)
+            mailbox = Mailbox()
+            loop = Loop(
+                WorldStepper(self.world),
+                WallPacer(parameters.real_time_factor),
+                mailbox,
+                self._outgoing,
+                CLOCK_PERIOD,
+            )
+            self.owner = Owner(loop, mailbox, executor)
+        except Exception:
+            self.logs.stop()
+            raise
+
+    def start(self) -> None:
+        """Let time begin."""
+        self.owner.start()
+
+    def close(self) -> None:
+        """Let time end; then remove the managers' nodes."""
+        self.owner.stop()
+        for manager in self._managers.values():
+            manager.destroy()
+        self.logs.stop()
+
+    async def spawn(self, name: str, robot: Robot, pose: Transform, namespace: str) -> None:
+        """
+        Put a robot into the world and, if it asks for control, start its controller manager.
+
+        Raises SpawnError, DescriptionError, HardwareError or ParameterError; nothing is then
+        left of the robot.
+        """
+        node = self._manager_node(robot, namespace) if hardware_of(robot) else None
+        try:
+            resources = await self.owner.submit(lambda: self._insert(name, robot, pose, node))
+        except Exception:
+            if node is not None:
+                node.destroy()
+            raise
+        if node is not None:
+            self._managers[name] = node
+            self._executor.add_node(node.node)
+            manager = node.start(resources, self._period(node.update_rate))
+            await self.owner.submit(lambda: self.owner.loop.managers.append(manager))
+
+    def _insert(
+        self, name: str, robot: Robot, pose: Transform, node: ControllerManagerNode | None
+    ) -> ResourceManager | None:
+        """On the owner's thread: robot, components, all of them active."""
+        if node is not None and not self.owner.loop.managers:
+            self.world.timestep = physics_stepping(_period_of(node.update_rate)).step
+        view = self.world.spawn(name, robot, pose)
+        if node is None:
+            return None
+        resources = ResourceManager(node.log)
+        try:
+            for info in hardware_of(robot):
+                resources.add(HARDWARE.find(info.plugin)(info, node.log, view))
+                resources.set_state(info.name, LifecycleState.ACTIVE)
+        except Exception:
+            self.world.remove(name)
+            raise
+        return resources
+
+    def _manager_node(self, robot: Robot, namespace: str) -> ControllerManagerNode:
+        return ControllerManagerNode(
+            self.owner,
+            self._outgoing,
+            self.logs,
+            namespace=namespace,
+            robot=robot,
+            arguments=[*self._ros_args, *self._parameter_files(robot)],
+        )
+
+    def _parameter_files(self, robot: Robot) -> Sequence[str]:
+        """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""
+        paths = [self._parameters.controllers] if self._parameters.controllers else []
+        if not paths:
+            hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
+            paths = [path for plugin in hosts for path in plugin.parameters]
+        if not paths:
+            paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
+        for path in paths:
+            require_parameter_file(Path(path))
+        return [argument for path in paths for argument in ('--params-file', path)]
+
+    def _period(self, rate: int) -> int:
+        """The tick of a manager at ``rate`` Hz in whole physics steps, ns; said if it differs."""
+        asked = _period_of(rate)
+        period = steps_in(asked, self.world.timestep).period
+        if period != asked:
+            self._log(
+                Severity.WARN,
+                f'an update rate of {rate} Hz is {asked} ns, which physics steps of '
+                f'{self.world.timestep} ns do not divide; the controllers run every {period} ns',
+            )
+        return period
+
+
+def _period_of(rate: int) -> int:
+    return round(NANOSECONDS / rate)
+
+
