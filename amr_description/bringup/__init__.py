@@ -1,0 +1,46 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Bring-up: start a stack of processes in the right order, and leave nothing behind.
+
+A stack is a function that returns a :class:`Stack`; its parameters are what a user may type as
+``name:=value``. A whole file, started by ``bringup my_stack.py times:=3``::
+
+    from amr_description.bringup import exited_cleanly, Node, Stack
+
+    def my_stack(times: int = 1) -> Stack:
+        \"\"\"Look for the robot, then talk.\"\"\"
+        look = Node('look', package='my_robot', arguments=['--times', times])
+        talk = Node('talker', start_when=exited_cleanly(look))
+        return Stack([look, talk])
+
+What stands where:
+
+================== ============================================================================
+description.py     pure: Node and Stack, the words of a stack
+conditions.py      pure: when a node starts (exited_cleanly, started, all_of)
+arguments.py       pure: name:=value, from the signature of the stack's function
+progress.py        pure: what may start now, what failed, when it is ready or over
+packages.py        where the ament index has packages, executables and shared files
+parameter_file.py  pure: parameters as the YAML that rcl reads
+job.py             a node made ready to run: name, command line, environment
+environment.py     pure: the environment of a child, and of the user's next shell
+line_splitter.py   pure: bytes from a pipe -> lines
+child.py           one running process: its session, its output, its end
+orchestrator.py    the engine: start, watch, stop
+lifeline.py        what a child sees of the orchestrator's life; the guardian is started here
+guardian.py        a program of its own: ends what is left, whatever became of the orchestrator
+log_folder.py      the folder of log files of one run
+console.py         what a person reads: prefixes, colours, log files
+main.py            the command ``bringup``
+stacks/            the ready-made stacks
+================== ============================================================================
+
+Only the standard library is imported here, so that no crash of rclpy can take the supervisor down.
+"""
+
+from amr_description.bringup.conditions import all_of, exited_cleanly, started
+from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.packages import path_of
+
+__all__ = ['Node', 'Stack', 'all_of', 'exited_cleanly', 'path_of', 'started']

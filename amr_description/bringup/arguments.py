@@ -1,0 +1,131 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The arguments of a stack, ``name:=value``: declared by the signature of its function.
+
+::
+
+    def stack(
+        urdf: str,                                               # required
+        rtf: Annotated[float, 'real-time factor'] = 1.0,         # with a help text
+        world: Literal['empty', 'maze'] = 'empty',               # with choices
+    ) -> Stack: ...
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+import difflib
+import inspect
+from typing import Annotated, Any, get_args, get_origin, get_type_hints, Literal
+
+from amr_description.errors import BringupError, UsageError
+
+_BOOLEANS = {'true': True, '1': True, 'false': False, '0': False}  # as launch's conditions read
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One parameter of a stack's function."""
+
+    name: str
+    type: type
+    """str, float, int or bool."""
+    default: str | None = None
+    """As a user would type it; None: the argument is required."""
+    choices: tuple[str, ...] = ()
+    help: str = ''
+
+    def convert(self, text: str) -> Any:
+        """Return the value that the text means; one line says what is wrong with it."""
+        if self.choices and text not in self.choices:
+            raise BringupError(
+                f'Argument "{self.name}" provided value "{text}" is not valid. '
+                f'Valid options are: {list(self.choices)}'
+            )
+        try:
+            return _BOOLEANS[text.lower()] if self.type is bool else self.type(text)
+        except (ValueError, KeyError):
+            wanted = {bool: 'true or false', int: 'an integer', float: 'a number'}[self.type]
+            raise UsageError(f"{self.name}:={text}: '{text}' is not {wanted}") from None
+
+
+def declared(function: Callable[..., object]) -> list[Argument]:
+    """Return the arguments that the signature of a stack's function declares."""
+    hints = get_type_hints(function, include_extras=True)
+    return [
+        _argument(parameter, hints.get(name, str))
+        for name, parameter in inspect.signature(function).parameters.items()
+    ]
+
+
+def _argument(parameter: inspect.Parameter, hint: Any) -> Argument:
+    help_text = ''
+    if get_origin(hint) is Annotated:
+        hint, *notes = get_args(hint)
+        help_text = ' '.join(note for note in notes if isinstance(note, str))
+    choices = get_args(hint) if get_origin(hint) is Literal else ()
+    kind = str if choices else hint
+    if kind not in (str, float, int, bool):
+        raise BringupError(
+            f"argument '{parameter.name}' of the stack is annotated {hint!r}; "
+            'it can be str, float, int, bool or a Literal of strings'
+        )
+    return Argument(parameter.name, kind, _typed_default(parameter), choices, help_text)
+
+
+def _typed_default(parameter: inspect.Parameter) -> str | None:
+    if parameter.default is parameter.empty:
+        return None
+    is_bool = isinstance(parameter.default, bool)
+    return str(parameter.default).lower() if is_bool else str(parameter.default)
+
+
+def parse(words: Sequence[str]) -> dict[str, str]:
+    """Split ``name:=value`` words; the last of a name wins."""
+    given = {}
+    for word in words:
+        name, separator, value = word.partition(':=')
+        if not separator or not name:
+            raise UsageError(
+                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
+            )
+        given[name] = value
+    return given
+
+
+def resolve(arguments: Sequence[Argument], given: Mapping[str, str]) -> dict[str, Any]:
+    """Return the values to call the stack's function with."""
+    known = [argument.name for argument in arguments]
+    for name in given:
+        if name not in known:
+            raise UsageError(f"unknown argument '{name}'{suggestion(name, known)}")
+    return {argument.name: _value(argument, given) for argument in arguments}
+
+
+def _value(argument: Argument, given: Mapping[str, str]) -> Any:
+    text = given.get(argument.name, argument.default)
+    if text is None:
+        raise BringupError(
+            f"missing required argument '{argument.name}' (description: "
+            f"'{argument.help or 'no description given'}'), given: {list(given)}"
+        )
+    return argument.convert(text)
+
+
+def suggestion(name: str, known: Sequence[str]) -> str:
+    """Return what to append to the message about an unknown name: the near one, and all."""
+    near = difflib.get_close_matches(name, known, n=1)
+    guess = f"; did you mean '{near[0]}'?" if near else ';'
+    return f'{guess} known: {", ".join(known) or "none"}'
+
+
+def show(arguments: Sequence[Argument]) -> str:
+    """Return what ``--show-args`` prints, as launch has it."""
+    paragraphs = ["Arguments (pass arguments as '<name>:=<value>'):\n"]
+    for argument in arguments:
+        about = argument.help or 'no description given'
+        if argument.choices:
+            about += f'. Valid choices are: {list(argument.choices)}'
+        default = '' if argument.default is None else f"\n        (default: '{argument.default}')"
+        paragraphs.append(f"    '{argument.name}':\n        {about}{default}\n")
+    return '\n'.join(paragraphs if arguments else [*paragraphs, '  No arguments.\n'])

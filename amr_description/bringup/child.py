@@ -1,0 +1,126 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""One running process: its session, its output, its end."""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+import contextlib
+import fcntl
+import os
+import signal
+import subprocess
+import termios
+
+from amr_description.bringup.line_splitter import LineSplitter
+
+LAST_LINES = 20  # kept for the post-mortem
+_READ_SIZE = 65_536  # bytes, the capacity of a pipe
+
+
+class Child:
+    """
+    A process in a session of its own, whose output is handed over line by line.
+
+    It is made, polled and signalled in the thread of the event loop. asyncio's own subprocesses
+    are not used because their exit and their last output arrive in no fixed order: here
+    :meth:`poll` hands over every line that was written before the process ended.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str],
+        inherit: int,
+        on_line: Callable[[str], None],
+    ) -> None:
+        """
+        Start the process.
+
+        :param inherit: A file descriptor that the child gets under the same number.
+        :param on_line: Called with each line of its stdout and stderr, without line end.
+        :raises OSError: The operating system cannot start it.
+
+        What a process ignores, its children ignore too, but what it handles is reset in them:
+        under the orchestrator's handlers no child starts with SIGINT ignored, even where a shell
+        started the orchestrator so.
+        """
+        reader, writer = os.pipe()
+        try:
+            self._process = subprocess.Popen(
+                command,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=writer,
+                stderr=writer,  # the same pipe: the order of the lines stays
+                pass_fds=(inherit,),
+                start_new_session=True,
+            )
+        except OSError:
+            os.close(reader)
+            raise
+        finally:
+            os.close(writer)
+        os.set_blocking(reader, False)
+        self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
+        self._reader: int | None = reader
+        self._on_line = on_line
+        self._splitter = LineSplitter()
+        asyncio.get_running_loop().add_reader(reader, self._read)
+
+    @property
+    def pid(self) -> int:
+        """Process id, also that of its session and process group."""
+        return self._process.pid
+
+    @property
+    def returncode(self) -> int | None:
+        """Exit code or minus the signal's number; None until :meth:`poll` found the end."""
+        return self._process.returncode
+
+    def poll(self) -> bool:
+        """Return whether the process has ended; if so, all its lines have been handed over."""
+        if self._process.poll() is None:
+            return False
+        self._drain()
+        return True
+
+    def send(self, number: signal.Signals) -> None:
+        """Signal its whole process group, as Ctrl-C in a terminal does."""
+        if self.returncode is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.pid, number)
+
+    def close(self) -> None:
+        """Stop listening to its output, which its own children may still hold open."""
+        if self._reader is not None:
+            asyncio.get_running_loop().remove_reader(self._reader)
+            os.close(self._reader)
+            self._reader = None
+            self._hand_over(self._splitter.flush())
+
+    def _read(self, size: int = _READ_SIZE) -> None:
+        try:
+            data = os.read(self._reader, size)
+        except BlockingIOError:
+            return
+        if data:
+            self._hand_over(self._splitter.feed(data))
+        else:
+            self.close()
+
+    def _drain(self) -> None:
+        """Read what is in the pipe at this moment, not what others still write into it."""
+        if self._reader is None:
+            return
+        waiting = fcntl.ioctl(self._reader, termios.FIONREAD, bytes(4))
+        size = int.from_bytes(waiting, 'little')
+        while size > 0 and self._reader is not None:
+            self._read(min(size, _READ_SIZE))
+            size -= _READ_SIZE
+        self._hand_over(self._splitter.flush())
+
+    def _hand_over(self, lines: list[str]) -> None:
+        for line in lines:
+            self.last_lines.append(line)
+            self._on_line(line)

@@ -1,0 +1,122 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The command ``bringup``: start a stack, by name or from a file, and keep it until Ctrl-C."""
+
+import argparse
+import asyncio
+from collections.abc import Callable
+from datetime import datetime
+import importlib.util
+import os
+from pathlib import Path
+import sys
+
+from amr_description.bringup.arguments import declared, parse, resolve, show, suggestion
+from amr_description.bringup.console import Console, LAUNCH, wants_colour
+from amr_description.bringup.description import Stack
+from amr_description.bringup.job import Job, jobs_of
+from amr_description.bringup.log_folder import log_base, LogFolder, run_name
+from amr_description.bringup.orchestrator import Orchestrator
+from amr_description.bringup.stacks import STACKS
+from amr_description.errors import AmrError, BringupError, UsageError
+from amr_description.registry import resolve as import_target
+
+type StackFunction = Callable[..., Stack]
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the command; return its exit code (see ``orchestrator.py``; 2: wrong command line)."""
+    try:
+        return _run(_parser().parse_intermixed_args(args))
+    except AmrError as error:
+        print(f'bringup: {error}', file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt:  # before or after the orchestrator handles it
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='bringup',
+        description='Start a stack of nodes in order, and stop them all on Ctrl-C.',
+        epilog=f'Stacks: {", ".join(STACKS)}. Try: bringup simulation --show-args',
+    )
+    parser.add_argument('stack', help='name of a stack, or a Python file with one')
+    parser.add_argument('arguments', nargs='*', metavar='name:=value', help='its arguments')
+    parser.add_argument('-s', '--show-args', action='store_true', help='show what it takes')
+    parser.add_argument(
+        '-p', '--print', action='store_true', help='print what would be started, and when'
+    )
+    return parser
+
+
+def _run(options: argparse.Namespace) -> int:
+    function = find_stack(options.stack)
+    arguments = declared(function)
+    if options.show_args:
+        print(show(arguments))
+        return 0
+    stack = function(**resolve(arguments, parse(options.arguments)))
+    if options.print:
+        print(describe(stack, jobs_of(stack, Path('LOG_FOLDER'))))
+        return 0
+    return start(stack)
+
+
+def find_stack(name: str) -> StackFunction:
+    """Return the function of a stack of the table, or of a file ``<function>.py``."""
+    if name in STACKS:
+        return import_target(STACKS[name])
+    path = Path(name)
+    if path.suffix != '.py':
+        raise UsageError(f"unknown stack '{name}'{suggestion(name, list(STACKS))}")
+    if not path.is_file():
+        raise UsageError(f"no stack: there is no file '{name}'")
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    if not callable(getattr(module, path.stem, None)):
+        raise BringupError(f"'{name}' has no function '{path.stem}' that returns its Stack")
+    return getattr(module, path.stem)
+
+
+def describe(stack: Stack, jobs: list[Job]) -> str:
+    """Return what ``--print`` prints: each process with its condition and its command line."""
+    names = {job.node: job.name for job in jobs}
+    lines = []
+    for job in jobs:
+        condition = job.node.start_when
+        when = f'when {condition.describe(names.__getitem__)}' if condition else 'at once'
+        lines += [f'{job.name}: {when}', f'    {job.command_text}']
+        for path, text in job.parameter_files:
+            if text is not None:
+                lines += [f'    {path}:', *(f'        {line}' for line in text.splitlines())]
+    if stack.ready_when:
+        lines.append(f'ready: when {stack.ready_when.describe(names.__getitem__)}')
+    return '\n'.join(lines)
+
+
+def start(stack: Stack) -> int:
+    """Run a stack until it ends or is stopped; return the exit code."""
+    run = run_name(datetime.now())
+    folder = LogFolder(log_base(os.environ), run)
+    try:
+        jobs = jobs_of(stack, folder.path)
+        console = Console(sys.stdout, folder, colour=wants_colour(sys.stdout, os.environ))
+        where = _with_tilde(folder.path)
+        console.say('INFO', LAUNCH, f'All log files can be found below {where}')
+        return asyncio.run(_orchestrate(stack, jobs, console, run))
+    finally:
+        folder.close()
+
+
+async def _orchestrate(stack: Stack, jobs: list[Job], console: Console, run: str) -> int:
+    return await Orchestrator(stack, jobs, console, run).run()
+
+
+def _with_tilde(path: Path) -> str:
+    return f'~/{path.relative_to(Path.home())}' if path.is_relative_to(Path.home()) else str(path)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

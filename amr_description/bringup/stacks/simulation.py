@@ -1,0 +1,74 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stack ``simulation``: the robot in MuJoCo, both controllers active, ready to drive."""
+
+import os
+from typing import Annotated
+
+from amr_description.bringup import exited_cleanly, Node, path_of, Stack
+from amr_description.bringup.environment import other_shell
+from amr_description.errors import UsageError
+
+
+def simulation(
+    urdf: Annotated[str, 'robot description'] = 'package://amr_description/urdf/amr.urdf',
+    controllers: Annotated[
+        str, 'parameters of the controllers'
+    ] = 'package://amr_description/config/controllers.yaml',
+    world: Annotated[str, 'world to simulate'] = 'empty',
+    rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
+) -> Stack:
+    """The robot in MuJoCo with both controllers, ready to drive."""
+    if not rtf >= 0:
+        raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
+
+    # 1. The simulated world, empty so far; it publishes /clock.
+    mujoco_sim = Node(
+        'mujoco_sim',
+        parameters=[
+            {'world': world, 'real_time_factor': rtf, 'controllers': str(path_of(controllers))}
+        ],
+        on_exit='shutdown',
+    )
+
+    # 2. The URDF, published as /robot_description and as transforms.
+    robot_state_publisher = Node(
+        'robot_state_publisher',
+        parameters=[
+            {'robot_description': path_of(urdf).read_text('utf-8'), 'use_sim_time': True}
+        ],
+    )
+
+    # 3. The robot put into the world; its <ros2_control> block brings up /controller_manager.
+    create = Node(
+        'create', arguments=['-topic', 'robot_description', '-name', 'amr', '-z', '0.2']
+    )
+
+    # 4. The controllers, one after the other, once there is a controller manager.
+    joint_state_broadcaster = Node(
+        'spawner', arguments=['joint_state_broadcaster'], start_when=exited_cleanly(create)
+    )
+    diff_drive_controller = Node(
+        'spawner',
+        arguments=['diff_drive_controller'],
+        start_when=exited_cleanly(joint_state_broadcaster),
+    )
+
+    return Stack(
+        [
+            mujoco_sim,
+            robot_state_publisher,
+            create,
+            joint_state_broadcaster,
+            diff_drive_controller,
+        ],
+        ready_when=exited_cleanly(diff_drive_controller),
+        next_steps=f"""drive with, in another shell,
+    {other_shell('amr_description', os.environ)}
+    ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
+        -r /cmd_vel:=/diff_drive_controller/cmd_vel
+or for one command
+    ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \\
+        "{{header: {{frame_id: base_link}}, twist: {{linear: {{x: 0.5}}, angular: {{z: 0.0}}}}}}"
+Ctrl-C stops all.""",
+    )

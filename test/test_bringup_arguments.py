@@ -1,0 +1,106 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Arguments of a stack: what a signature declares, and what a user types."""
+
+from typing import Annotated, Literal
+
+import pytest
+
+from amr_description.bringup.arguments import Argument, declared, parse, resolve, show
+from amr_description.errors import BringupError, UsageError
+
+
+def stack(
+    needed: Annotated[str, 'no way without'],
+    rtf: float = 1.0,
+    count: int = 3,
+    gui: bool = True,
+    world: Annotated[Literal['empty', 'maze'], 'where'] = 'empty',
+    plain='x',  # noqa: ANN001
+):
+    """A function with every kind of parameter."""
+
+
+def values(*words):
+    return resolve(declared(stack), parse(words))
+
+
+def test_a_signature_declares():
+    assert declared(stack) == [
+        Argument('needed', str, None, (), 'no way without'),
+        Argument('rtf', float, '1.0'),
+        Argument('count', int, '3'),
+        Argument('gui', bool, 'true'),
+        Argument('world', str, 'empty', ('empty', 'maze'), 'where'),
+        Argument('plain', str, 'x'),
+    ]
+
+
+def test_defaults_are_those_of_the_signature():
+    assert values('needed:=a') == {
+        'needed': 'a', 'rtf': 1.0, 'count': 3, 'gui': True, 'world': 'empty', 'plain': 'x',
+    }  # fmt: skip
+
+
+def test_values_get_the_type_of_their_annotation():
+    typed = ['needed:=a:=b', 'rtf:=0', 'count:=-2', 'gui:=FALSE', 'world:=maze', 'plain:=']
+    assert values(*typed) == {
+        'needed': 'a:=b', 'rtf': 0.0, 'count': -2, 'gui': False, 'world': 'maze', 'plain': '',
+    }  # fmt: skip
+
+
+def test_the_last_of_a_name_wins():
+    assert parse(['a:=1', 'b:=2', 'a:=3']) == {'a': '3', 'b': '2'}
+
+
+@pytest.mark.parametrize('word', ['gui', ':=x', 'gui=1', ''])
+def test_a_malformed_word_is_told_as_launch_tells_it(word):
+    with pytest.raises(UsageError, match=f"malformed launch argument '{word}', expected format"):
+        parse([word])
+
+
+@pytest.mark.parametrize(
+    ('word', 'text'),
+    [
+        ('rtf:=fast', "rtf:=fast: 'fast' is not a number"),
+        ('count:=1.5', "'1.5' is not an integer"),
+        ('gui:=maybe', "'maybe' is not true or false"),
+        ('wrld:=maze', "unknown argument 'wrld'; did you mean 'world'\\? known: needed, rtf"),
+    ],
+)
+def test_a_wrong_value_or_name_is_a_usage_error(word, text):
+    with pytest.raises(UsageError, match=text):
+        values('needed:=a', word)
+
+
+def test_a_bad_choice_is_told_as_launch_tells_it():
+    text = 'Argument "world" provided value "sea" is not valid. Valid options are: \\[\'empty\', '
+    with pytest.raises(BringupError, match=text):
+        values('needed:=a', 'world:=sea')
+
+
+def test_a_missing_argument_is_named_with_its_meaning():
+    with pytest.raises(BringupError, match="'needed' \\(description: 'no way without'\\)"):
+        values('rtf:=2')
+
+
+def test_a_type_that_nobody_can_type_is_refused():
+    def strange(when: list[int] = ()):  # noqa: ANN202
+        pass
+
+    with pytest.raises(BringupError, match="argument 'when' of the stack is annotated list"):
+        declared(strange)
+
+
+def test_show_args_reads_as_launch_prints_it():
+    assert show(declared(stack)[:1] + declared(stack)[4:5]) == (
+        "Arguments (pass arguments as '<name>:=<value>'):\n"
+        '\n'
+        "    'needed':\n"
+        '        no way without\n'
+        '\n'
+        "    'world':\n"
+        "        where. Valid choices are: ['empty', 'maze']\n"
+        "        (default: 'empty')\n"
+    )
+    assert show([]) == "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"

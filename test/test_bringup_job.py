@@ -1,0 +1,75 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes made ready to run: the ament index and the command line that launch builds."""
+
+from fixtures.bringup.running import install_toys
+import pytest
+
+from amr_description.bringup import Node, path_of, Stack
+from amr_description.bringup.job import jobs_of
+from amr_description.errors import BringupError
+
+
+@pytest.fixture
+def prefix(tmp_path, monkeypatch):
+    install_toys(tmp_path / 'toys')
+    (tmp_path / 'other').mkdir()
+    monkeypatch.setenv('AMENT_PREFIX_PATH', f'{tmp_path}/other:{tmp_path}/toys')
+    return tmp_path / 'toys'
+
+
+def test_command_line(prefix, tmp_path):
+    yaml = tmp_path / 'my.yaml'
+    yaml.touch()
+    node = Node(
+        'worker',
+        package='toys',
+        name='w',
+        namespace='left',
+        parameters=[yaml, {'a': 1}],
+        remappings=[('/cmd_vel', 'x/cmd_vel'), ('~/odom', '/odom')],
+        arguments=['-z', 0.2],
+    )
+    plain = Node('step', package='toys')
+    first, second = jobs_of(Stack([node, plain]), tmp_path)
+    assert (first.name, second.name) == ('worker-1', 'step-2')
+    assert first.command == [
+        f'{prefix}/lib/toys/worker', '-z', '0.2', '--ros-args',
+        '-r', '__node:=w', '-r', '__ns:=/left',
+        '--params-file', f'{yaml}', '--params-file', f'{tmp_path}/worker-1-parameters-2.yaml',
+        '-r', '/cmd_vel:=x/cmd_vel', '-r', '~/odom:=/odom',
+    ]  # fmt: skip
+    assert second.command == [f'{prefix}/lib/toys/step', '--ros-args']
+    assert not (tmp_path / 'worker-1-parameters-2.yaml').exists()
+    first.write_parameter_files()
+    assert '"/left/w":' in (tmp_path / 'worker-1-parameters-2.yaml').read_text()
+    assert yaml.read_text() == ''
+
+
+def refuses(text, **changes):
+    with pytest.raises(BringupError, match=text):
+        jobs_of(Stack([Node(**{'executable': 'step', 'package': 'toys', **changes})]), None)
+
+
+def test_what_is_missing_is_told_before_anything_starts(prefix, monkeypatch):
+    libexec = "executable 'wrker' not found on the libexec directory '.*/lib/toys'"
+    refuses(f"{libexec}; did you mean 'worker'\\? known: step", executable='wrker')
+    refuses("Package 'toyz' not found, searching: .*/other, .*/toys", package='toyz')
+    refuses("'no.yaml' asked for, there is no such file at /", parameters=['no.yaml'])
+    (prefix / 'lib/toys/step').chmod(0o644)
+    refuses("executable 'step' not found")
+    monkeypatch.setenv('AMENT_PREFIX_PATH', '')
+    refuses("Package 'toys' not found: AMENT_PREFIX_PATH is empty; source scripts/activate")
+
+
+def test_files_of_packages_and_others(prefix, tmp_path, monkeypatch):
+    share = prefix / 'share/toys'
+    share.mkdir()
+    (share / 'a.urdf').touch()
+    assert path_of('package://toys/a.urdf') == share / 'a.urdf'
+    monkeypatch.chdir(share)
+    assert path_of('a.urdf') == share / 'a.urdf'
+    with pytest.raises(BringupError, match="'package://toys/b.urdf' asked for, there is no such"):
+        path_of('package://toys/b.urdf')
+    with pytest.raises(BringupError, match='that is a folder at'):
+        path_of(str(tmp_path))

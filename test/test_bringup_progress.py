@@ -1,0 +1,135 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What may start when, and what a failure means; no process is involved."""
+
+import itertools
+
+import pytest
+
+from amr_description.bringup import all_of, exited_cleanly, Node, Stack, started
+from amr_description.bringup.post_mortem import post_mortem
+from amr_description.bringup.progress import Failure, Progress
+from amr_description.errors import BringupError
+
+
+def chain(length, **options):
+    """Return nodes, each of which waits for the clean exit of the one before."""
+    nodes = [Node('n0', **options)]
+    for index in range(1, length):
+        nodes.append(Node(f'n{index}', start_when=exited_cleanly(nodes[-1]), **options))
+    return nodes
+
+
+@pytest.mark.parametrize('order', list(itertools.permutations(range(3))))
+def test_the_order_of_the_list_does_not_matter(order):
+    nodes = chain(3)
+    progress = Progress(Stack([nodes[i] for i in order]))
+    for node in nodes:
+        assert progress.startable() == [node]
+        progress.start(node)
+        assert progress.startable() == []
+        assert not progress.over
+        progress.end(node, 0)
+    assert progress.over
+    assert progress.failure is None
+    assert progress.ready
+
+
+@pytest.mark.parametrize(('returncode', 'exit_code'), [(1, 1), (255, 255), (-9, 137), (-2, 130)])
+def test_a_failure_ends_the_stack_with_the_code_of_the_failed(returncode, exit_code):
+    first, second, third = chain(3)
+    progress = Progress(Stack([first, second, third]))
+    progress.start(first)
+    progress.end(first, returncode)
+    assert progress.over
+    assert progress.failure == Failure(first, returncode)
+    assert progress.failure.exit_code == exit_code
+    assert progress.unreachable() == [second, third]
+    assert progress.startable() == []
+    assert not progress.ready
+
+
+def test_only_the_first_failure_counts():
+    one, other = Node('a'), Node('b')
+    progress = Progress(Stack([one, other]))
+    progress.start(one)
+    progress.start(other)
+    progress.end(other, 7)
+    progress.end(one, -15)
+    assert progress.failure == Failure(other, 7)
+
+
+def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
+    optional = chain(3, required=False)
+    progress = Progress(Stack([*optional, Node('worker')]))
+    for node in progress.startable():
+        progress.start(node)
+    progress.end(optional[0], 1)
+    assert progress.unreachable() == optional[1:]
+    assert not progress.over
+
+    required = Node('required', start_when=exited_cleanly(optional[2]))
+    progress = Progress(Stack([*optional, required]))
+    progress.start(optional[0])
+    progress.end(optional[0], 1)
+    assert progress.failure == Failure(optional[0], 1)
+    assert progress.unreachable() == [*optional[1:], required]
+
+
+def test_a_clean_end_may_end_all():
+    boss, worker = Node('boss', on_exit='shutdown'), Node('worker')
+    progress = Progress(Stack([boss, worker]))
+    progress.start(boss)
+    progress.start(worker)
+    progress.end(boss, 0)
+    assert progress.over
+    assert progress.failure is None
+
+
+def test_started_and_all_of():
+    one, other = Node('one'), Node('other')
+    both = Node('both', start_when=all_of(started(one), exited_cleanly(other)))
+    progress = Progress(Stack([one, other, both]))
+    progress.start(one)
+    progress.start(other)
+    assert progress.startable() == []
+    progress.end(other, 0)
+    assert progress.startable() == [both]
+    words = both.start_when.describe(lambda node: node.executable)
+    assert words == 'one was started and other exited with code 0'
+
+
+def test_ready_without_a_condition_is_when_all_were_started():
+    first, second = chain(2)
+    progress = Progress(Stack([first, second]))
+    progress.start(first)
+    progress.end(first, 0)
+    assert not progress.ready
+    progress.start(second)
+    assert progress.ready
+
+
+def test_a_stack_that_cannot_run_is_refused():
+    node, stranger = Node('a'), Node('stranger')
+    with pytest.raises(BringupError, match='at least one node'):
+        Stack([])
+    with pytest.raises(BringupError, match=r"the same Node\('a'\) stands twice"):
+        Stack([node, node])
+    with pytest.raises(BringupError, match=r"waits for Node\('stranger'\), which is not in"):
+        Stack([Node('b', start_when=started(stranger))])
+    with pytest.raises(BringupError, match=r"waits for Node\('stranger'\), which is not in"):
+        Stack([node], ready_when=started(stranger))
+
+
+def test_the_post_mortem_ends_with_one_line_that_says_it_all():
+    failure = Failure(Node('create'), 2)
+    assert post_mortem('create-3', failure, ['begin', 'no clock', '  '], ['spawner-4']) == [
+        'the last lines of create-3:\n    begin\n    no clock\n      ',
+        'stopped because create-3 ended with exit code 2 (never started: spawner-4): no clock',
+    ]
+    assert post_mortem('sim-1', Failure(Node('sim'), -11), [], []) == [
+        'stopped because sim-1 died of SIGSEGV, without a word'
+    ]
+    assert post_mortem('sim-1', Failure(Node('sim'), -40), ['x'], []) == [
+        'stopped because sim-1 died of signal 40: x'
+    ]

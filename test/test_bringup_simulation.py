@@ -1,0 +1,98 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stack ``simulation``: who starts when, with what."""
+
+from pathlib import Path
+
+import pytest
+
+from amr_description.bringup.arguments import declared, resolve
+from amr_description.bringup.progress import Progress
+from amr_description.bringup.stacks.simulation import simulation
+from amr_description.errors import AmrError
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(autouse=True)
+def installed(tmp_path, monkeypatch):
+    """Install the files of the source tree, as ``colcon build --symlink-install`` does."""
+    share = tmp_path / 'install/share/amr_description'
+    marker = tmp_path / 'install/share/ament_index/resource_index/packages/amr_description'
+    marker.parent.mkdir(parents=True)
+    marker.touch()
+    share.mkdir(parents=True)
+    for folder in ('urdf', 'config'):
+        (share / folder).symlink_to(ROOT / folder)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path / 'install'))
+    return share
+
+
+def stack(**given):
+    return simulation(**resolve(declared(simulation), given))
+
+
+def test_the_order_of_the_tutorial():
+    progress = Progress(stack())
+    waves = []
+    while wave := progress.startable():
+        for node in wave:
+            progress.start(node)
+        waves.append([[node.executable, *node.arguments[:1]] for node in wave])
+        progress.end(wave[-1], 0)
+    assert waves == [
+        [['mujoco_sim'], ['robot_state_publisher'], ['create', '-topic']],
+        [['spawner', 'joint_state_broadcaster']],
+        [['spawner', 'diff_drive_controller']],
+    ]
+    assert progress.ready
+
+
+def test_it_is_ready_only_with_the_last_controller():
+    progress = Progress(stack())
+    for _ in range(3):
+        assert not progress.ready
+        *_, last = progress.startable()
+        for node in progress.startable():
+            progress.start(node)
+        progress.end(last, 0)
+    assert progress.ready
+
+
+def test_parameters(installed):
+    sim, publisher, create, *_ = stack(rtf='0').nodes
+    assert sim.parameters == [
+        {
+            'world': 'empty',
+            'real_time_factor': 0.0,
+            'controllers': str(installed / 'config/controllers.yaml'),
+        }
+    ]
+    assert publisher.parameters == [
+        {
+            'robot_description': (ROOT / 'urdf/amr.urdf').read_text(),
+            'use_sim_time': True,
+        }
+    ]
+    assert create.arguments == ['-topic', 'robot_description', '-name', 'amr', '-z', '0.2']
+
+
+@pytest.mark.parametrize(
+    ('given', 'text'),
+    [
+        ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
+        ({'rtf': 'nan'}, 'rtf:=nan: a real-time factor is 0'),
+        ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),
+        ({'controllers': '/'}, "'/' asked for, that is a folder"),
+    ],
+)
+def test_bad_arguments_are_told_before_anything_starts(given, text):
+    with pytest.raises(AmrError, match=text):
+        stack(**given)
+
+
+def test_the_next_steps_can_be_typed():
+    text = stack().next_steps
+    assert 'ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true' in text
+    command = '{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}'
+    assert f'"{command}"' in text

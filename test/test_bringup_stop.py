@@ -1,0 +1,141 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The end of a bring-up: nothing is left, whoever ends it and in whatever way."""
+
+import os
+from pathlib import Path
+import signal
+import sys
+import time
+
+from fixtures.bringup.running import Bringup, ends, PATIENCE, STACKS
+import pytest
+
+from amr_description.bringup.guardian import processes
+
+IN_ORDER = str(STACKS / 'in_order.py')
+STUBBORN = str(STACKS / 'stubborn.py')
+
+
+def up(bringup):
+    """Wait until both workers of the stack can be interrupted."""
+    bringup.wait_for(r'ready in')
+    bringup.wait_for(r'\[worker-2\] working')
+    bringup.wait_for(r'\[worker-3\] working')
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_one_way_out_for_every_signal(tmp_path, number):
+    with Bringup(tmp_path, IN_ORDER) as bringup:
+        up(bringup)
+        assert bringup.stop(number) == 0
+        told = bringup.text[bringup.text.index('[WARNING] [launch]') :].splitlines()
+        assert told[1:3] == [
+            f"[INFO] [worker-{n}]: sending signal 'SIGINT' to process[worker-{n}]" for n in (3, 2)
+        ]
+        assert bringup.text.count('ended on <Signals.SIGINT: 2>') == 2
+        assert bringup.text.count('[pid ') == len(bringup.pids())
+        assert bringup.left() == []
+
+
+def test_children_hear_sigint_even_if_the_orchestrator_was_started_without(tmp_path):
+    ignoring = [sys.executable, '-c', IGNORE_SIGINT]
+    with Bringup(tmp_path, IN_ORDER, launcher=ignoring) as bringup:
+        up(bringup)
+        assert 'ignored [],' in bringup.text
+        assert bringup.stop(signal.SIGINT) == 0
+
+
+IGNORE_SIGINT = (
+    'import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); '
+    'os.execv(sys.argv[1], sys.argv[1:])'
+)
+
+
+def test_nohup_is_respected(tmp_path):
+    with Bringup(tmp_path, IN_ORDER, launcher=['nohup']) as bringup:
+        up(bringup)
+        bringup.process.send_signal(signal.SIGHUP)
+        assert bringup.stop(signal.SIGTERM) == 0
+        assert '[launch]: SIGHUP' not in bringup.text
+        assert '[launch]: SIGTERM' in bringup.text
+
+
+def test_a_second_and_a_third_request_hurry(tmp_path):
+    with Bringup(tmp_path, STUBBORN, 'role:=alone') as bringup:
+        bringup.wait_for(r'\] stubborn pid')
+        bringup.process.send_signal(signal.SIGINT)
+        bringup.wait_for("sending signal 'SIGINT' to process.stubborn-2")
+        bringup.process.send_signal(signal.SIGINT)
+        bringup.wait_for("after receiving 'SIGINT', escalating to 'SIGTERM'")
+        assert bringup.stop(signal.SIGINT) == 0
+        assert "after receiving 'SIGTERM', escalating to 'SIGKILL'" in bringup.text
+        assert 'exit code -9' in bringup.text
+
+
+def test_a_process_that_left_the_session_is_ended_too(tmp_path):
+    with Bringup(tmp_path, STUBBORN) as bringup:
+        grandchild = int(bringup.wait_for(r'grandchild pid (\d+)')[1])
+        bringup.wait_for(f'stubborn pid {grandchild}')
+        for _ in range(2):
+            bringup.process.send_signal(signal.SIGINT)
+            bringup.wait_for(r"SIGTERM'|sending signal 'SIGINT' to process.stubborn-2")
+        assert bringup.stop(signal.SIGINT) == 0
+        assert bringup.left() == []
+        assert f'ended what was left: pid {grandchild}' in bringup.text
+
+
+@pytest.mark.parametrize('stack', [IN_ORDER, STUBBORN])
+def test_nothing_outlives_a_killed_orchestrator(tmp_path, stack):
+    with Bringup(tmp_path, stack) as bringup:
+        bringup.wait_for('ready in')
+        bringup.wait_for(r'working' if stack == IN_ORDER else r'grandchild pid (\d+)')
+        pids = bringup.left()
+        assert len(pids) >= 2
+        bringup.process.kill()
+        bringup.finish()
+        assert all(ends(pid) for pid in pids)
+        assert bringup.left() == []
+
+
+def test_a_killed_guardian_is_replaced(tmp_path):
+    with Bringup(tmp_path, IN_ORDER) as bringup:
+        up(bringup)
+        (guardian,) = guardians_of(bringup.process.pid)
+        os.kill(guardian, signal.SIGKILL)
+        bringup.wait_for('somebody ended the guardian; started it anew')
+        assert len(guardians_of(bringup.process.pid)) == 1
+        pids = bringup.left()
+        bringup.process.kill()
+        assert all(ends(pid) for pid in pids)
+
+
+def guardians_of(orchestrator):
+    children = [process.pid for process in processes('') if process.parent == orchestrator]
+    return [pid for pid in children if 'guardian.py' in Path(f'/proc/{pid}/cmdline').read_text()]
+
+
+def test_a_reader_that_goes_away_ends_the_stack(tmp_path):
+    with Bringup(tmp_path, IN_ORDER) as bringup:
+        bringup.wait_for(r'process started')
+        run = bringup.run_name
+        bringup.process.stdout.close()
+        assert bringup.process.wait(30.0) == 128 + signal.SIGPIPE
+        assert bringup.left() == []
+        log = (bringup.logs / run / 'launch.log').read_text()
+        assert "sending signal 'SIGINT' to process[worker-2]" in log
+
+
+def test_orphans_are_adopted_and_reaped(tmp_path):
+    with Bringup(tmp_path, STUBBORN, 'required:=false') as bringup:
+        grandchild = int(bringup.wait_for(r'grandchild pid (\d+)')[1])
+        os.kill(bringup.pids()['stubborn-2'], signal.SIGKILL)
+        bringup.wait_for(r'\[stubborn-2\]: process has died')
+        adopted = [p.pid for p in processes('') if p.parent == bringup.process.pid]
+        assert grandchild in adopted
+        os.kill(grandchild, signal.SIGKILL)
+        deadline = time.monotonic() + PATIENCE
+        while Path(f'/proc/{grandchild}').exists():
+            assert time.monotonic() < deadline, 'the zombie stays'
+            os.sched_yield()
+        assert bringup.stop(signal.SIGTERM) == 0
