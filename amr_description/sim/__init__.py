@@ -11,6 +11,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``stepping``        control period → physics step
 ``world_file``      a world's name or path → MuJoCo spec, with the measured solver options
 ``robot_spec``      a URDF → MuJoCo spec of one robot
+``meshes``          the mesh files of a URDF, found and judged
 ``wheels``          which links are wheels
 ``actuators``       command interface → MuJoCo actuator
 ``contact``         how a wheel touches the ground

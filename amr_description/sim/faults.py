@@ -104,5 +104,5 @@ def _place(model: mujoco.MjModel, quantity: str, index: int) -> str:
         element = model.joint(int((model.jnt_qposadr <= index).sum()) - 1).name
     else:
         element = model.joint(int(model.dof_jntid[index])).name
-    robot, _, part = element.rpartition('/') if quantity != 'CTRL' else element.partition('/')
-    return f"robot '{robot}': joint '{part}'" if robot else f"joint '{part}'"
+    robot, _, part = element.partition('/')
+    return f"robot '{robot}': joint '{part}'" if part else f"joint '{element}'"

@@ -11,26 +11,23 @@ what it must be told is written into the XML before it reads, the rest is edited
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from pathlib import Path
 
 from lxml import etree
 import mujoco
 
+from amr_description.control.contracts import Log
 from amr_description.control.interfaces import VELOCITY
-from amr_description.errors import SimulationError, SpawnError
+from amr_description.errors import SpawnError
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.sim.actuators import ACTUATORS
 from amr_description.sim.faults import one_line
-from amr_description.sim.resources import resolve_uri
+from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.wheels import find_wheels, Wheel
 
 WORLD_LINK = 'world'
 """A robot whose root has this name stands fixed."""
-
-ROOT_JOINT = 'root'
-"""The free joint of a robot that is not fixed."""
 
 _COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'false'}
 
@@ -50,17 +47,22 @@ class RobotSpec:
         return self.robot.root.name == WORLD_LINK
 
 
-def build_robot(robot: Robot) -> RobotSpec:
-    """Build the spec of a sound robot. Raises SpawnError."""
+def root_joint(robot: Robot) -> str:
+    """The name of the free joint of a robot that does not stand fixed."""
+    return f'{robot.root.name}/free'
+
+
+def build_robot(robot: Robot, log: Log) -> RobotSpec:
+    """Build the spec of a sound robot; ``log`` is told what is left out. Raises SpawnError."""
     commands = {
         joint.name: [interface.name for interface in joint.command_interfaces]
         for hardware in hardware_of(robot)
         for joint in hardware.joints
     }
     try:
-        spec = mujoco.MjSpec.from_string(_prepared_xml(robot))
+        spec = mujoco.MjSpec.from_string(_prepared_xml(robot, log))
         if robot.root.name != WORLD_LINK:
-            spec.worldbody.first_body().add_freejoint(name=ROOT_JOINT)
+            spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
         _add_actuators(spec, robot, commands)
         wheels = find_wheels(robot, [j for j, names in commands.items() if VELOCITY in names])
         treads = tuple(_make_tread(spec, wheel) for wheel in wheels)
@@ -75,7 +77,7 @@ def build_robot(robot: Robot) -> RobotSpec:
     return RobotSpec(robot, spec, treads)
 
 
-def _prepared_xml(robot: Robot) -> str:
+def _prepared_xml(robot: Robot, log: Log) -> str:
     """The URDF with MuJoCo's compiler settings and the true paths of its meshes."""
     root = etree.fromstring(robot.text.encode())
     extension = root.find('mujoco')
@@ -86,20 +88,11 @@ def _prepared_xml(robot: Robot) -> str:
         compiler = etree.SubElement(extension, 'compiler')
     for key, value in _COMPILER.items():
         compiler.set(key, value)
-    for mesh in root.iter('mesh'):
-        mesh.set('filename', str(_mesh_file(mesh.get('filename', ''), robot)))
+    for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
+        # MuJoCo would name its geoms so, and refuse a name that a visual and a collision share.
+        shape.attrib.pop('name', None)
+    resolve_meshes(root, robot.source, log)
     return etree.tostring(root, encoding='unicode')
-
-
-def _mesh_file(uri: str, robot: Robot) -> Path:
-    source = Path(robot.source)
-    try:
-        path = resolve_uri(uri, source.parent if source.is_file() else None)
-    except SimulationError as cause:
-        raise SpawnError(f'mesh {cause}', SpawnCode.MISSING_ASSETS) from cause
-    if not path.is_file():
-        raise SpawnError(f"mesh '{uri}': there is no file {path}", SpawnCode.MISSING_ASSETS)
-    return path
 
 
 def _add_actuators(

@@ -13,7 +13,7 @@ from amr_description.model.frames import Transform, Vector, xyzw_from_wxyz
 from amr_description.model.robot import Robot
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
-from amr_description.sim.robot_spec import ROOT_JOINT, WORLD_LINK
+from amr_description.sim.robot_spec import root_joint, WORLD_LINK
 
 
 class RobotView:
@@ -24,9 +24,13 @@ class RobotView:
     SimulationError.
     """
 
-    def __init__(self, engine: Engine, name: str, description: Robot, log: Log) -> None:
+    def __init__(
+        self, engine: Engine, name: str, description: Robot, place: Transform, log: Log
+    ) -> None:
+        """``place``: the pose at which the robot was spawned."""
         self.name = name
         self.description = description
+        self._place = place
         self._log = log
         self._engine = engine
         self._bodies: dict[str, int] = {}
@@ -51,6 +55,8 @@ class RobotView:
     def pose(self, link: str) -> Transform:
         """``transform_link_to_world`` at the present time. Raises SimulationError."""
         body = self._body(link)
+        if body == 0:
+            return self._place
         self._engine.refresh_truth()
         data = self._engine.data
         x, y, z = data.xpos[body].tolist()
@@ -74,7 +80,7 @@ class RobotView:
         """The index of the root's height in ``qpos``; None for a robot that stands fixed."""
         model = self._engine.model
         joint = mujoco.mj_name2id(
-            model, mujoco.mjtObj.mjOBJ_JOINT, f'{self.name}/{ROOT_JOINT}'
+            model, mujoco.mjtObj.mjOBJ_JOINT, f'{self.name}/{root_joint(self.description)}'
         )
         return None if joint < 0 else int(model.jnt_qposadr[joint]) + 2
 

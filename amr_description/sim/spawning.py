@@ -88,11 +88,11 @@ def read_description(text: str, source: str) -> tuple[Robot, tuple[Finding, ...]
         raise SpawnError(
             'no robot description: resource_string is empty', SpawnCode.NO_RESOURCE
         )
-    for tag in ('<sdf', '<mujoco'):
+    for tag, language in (('<sdf', 'SDF'), ('<mujoco', 'MJCF')):
         head, found, _ = text.partition(tag)
         if found and '<robot' not in head:
             raise SpawnError(
-                f'{source}: the description is {tag[1:].upper()}; this simulator spawns URDF',
+                f'{source}: the description is {language}; this simulator spawns URDF',
                 SpawnCode.UNSUPPORTED_FORMAT,
             )
     try:

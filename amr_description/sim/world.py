@@ -18,7 +18,7 @@ The simulated world: a ground, robots that come and go, and time.
 from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
-from amr_description.sim.contact import add_wheel_contact, ContactSettings, TUNED_2_MS
+from amr_description.sim.contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
 from amr_description.sim.engine import Engine
 from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
 from amr_description.sim.robot_spec import build_robot, RobotSpec
@@ -46,7 +46,7 @@ class MujocoWorld:
         world: str = 'empty',
         *,
         timestep: int = LONGEST_STEP,
-        contact: ContactSettings = TUNED_2_MS,
+        contact: ContactSettings = WHEEL_CONTACT,
         log: Log = _say_nothing,
     ) -> None:
         """
@@ -111,8 +111,8 @@ class MujocoWorld:
         description, warnings = read_description(urdf, source or name)
         for warning in warnings:
             self._log(Severity.WARN, warning.text)
-        self._attach(name, build_robot(description), pose)
-        view = RobotView(self._engine, name, description, self._log)
+        self._attach(name, build_robot(description, self._log), pose)
+        view = RobotView(self._engine, name, description, pose, self._log)
         self._robots[name] = view
         self._find_roots()
         return view
