@@ -13,9 +13,7 @@ TEXT = 'one\n\ntwo ä€🤖\r\nunfinished'
 def test_lines_do_not_depend_on_how_the_bytes_come(size):
     data = TEXT.encode()
     splitter = LineSplitter()
-    lines = [
-        line for i in range(0, len(data), size) for line in splitter.feed(data[i : i + size])
-    ]
+    lines = [line for i in range(0, len(data), size) for line in splitter.feed(data[i : i + size])]
     assert lines == ['one', '', 'two ä€🤖']
     assert splitter.flush() == ['unfinished']
     assert splitter.flush() == []

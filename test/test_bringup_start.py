@@ -120,7 +120,8 @@ def test_a_file_that_cannot_be_executed_is_told_in_one_line(tmp_path):
         assert re.search(
             r'\[step-1\]: process could not be started: .*Exec format error', bringup.text
         )
-        assert 'Traceback' not in bringup.text
+        last_line = bringup.text.splitlines()[-1]
+        assert 'step-1 ended with exit code 126: could not be started: ' in last_line
 
 
 def test_long_lines_are_cut_and_prefixed(tmp_path):
@@ -156,8 +157,24 @@ def test_where_no_log_folder_can_be_the_stack_runs_without(tmp_path):
         assert not list(tmp_path.glob('bringup-*'))
 
 
-def test_names_are_coloured_on_demand_and_log_files_are_not(tmp_path):
-    with Bringup(tmp_path, CHATTY, 'text:=hello', RCUTILS_COLORIZED_OUTPUT='1') as bringup:
+COLOUR = {'TERM': 'xterm', 'NO_COLOR': '', 'RCUTILS_COLORIZED_OUTPUT': ''}
+
+
+@pytest.mark.parametrize(
+    ('terminal', 'env', 'coloured'),
+    [
+        (True, {}, True),
+        (False, {}, False),
+        (True, {'NO_COLOR': '1'}, False),
+        (True, {'TERM': 'dumb'}, False),
+        (True, {'RCUTILS_COLORIZED_OUTPUT': '0'}, False),
+        (False, {'RCUTILS_COLORIZED_OUTPUT': '1', 'NO_COLOR': '1'}, True),
+    ],
+)
+def test_names_are_coloured_where_a_person_reads(tmp_path, terminal, env, coloured):
+    with Bringup(tmp_path, CHATTY, 'text:=hello', terminal=terminal, **COLOUR | env) as bringup:
         assert bringup.finish() == 0
-        assert re.search('\x1b\\[\\d+m\\[step-1\\]\x1b\\[0m hello\n', bringup.text)
+        found = re.search('\x1b\\[\\d+m\\[step-1\\]\x1b\\[0m hello', bringup.text)
+        assert bool(found) == coloured
+        assert ('\x1b' in bringup.text) == coloured
         assert '\x1b' not in (bringup.logs / 'latest/launch.log').read_text()

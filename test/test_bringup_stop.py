@@ -61,14 +61,37 @@ def test_nohup_is_respected(tmp_path):
         assert '[launch]: SIGTERM' in bringup.text
 
 
+def test_ctrl_c_in_a_terminal_reaches_the_orchestrator_alone(tmp_path):
+    with Bringup(tmp_path, IN_ORDER, terminal=True, NO_COLOR='1') as bringup:
+        up(bringup)
+        assert all(os.getsid(pid) == pid for pid in bringup.left())
+        os.write(bringup.screen, b'\x03')
+        assert bringup.finish() == 0
+        assert bringup.text.count('user interrupted with ctrl-c (SIGINT)') == 1
+        assert bringup.text.count("sending signal 'SIGINT'") == 2
+
+
+def test_a_closed_terminal_ends_the_stack(tmp_path):
+    with Bringup(tmp_path, IN_ORDER, terminal=True, NO_COLOR='1') as bringup:
+        up(bringup)
+        bringup.close_screen()
+        assert bringup.process.wait(PATIENCE) in (0, 128 + signal.SIGPIPE)
+        assert bringup.left() == []
+
+
+def hurry(bringup):
+    """Ask three times, each time once the one before was heard; return the exit code."""
+    bringup.process.send_signal(signal.SIGINT)
+    bringup.wait_for("sending signal 'SIGINT' to process.stubborn-2")
+    bringup.process.send_signal(signal.SIGINT)
+    bringup.wait_for("after receiving 'SIGINT', escalating to 'SIGTERM'")
+    return bringup.stop(signal.SIGINT)
+
+
 def test_a_second_and_a_third_request_hurry(tmp_path):
     with Bringup(tmp_path, STUBBORN, 'role:=alone') as bringup:
         bringup.wait_for(r'\] stubborn pid')
-        bringup.process.send_signal(signal.SIGINT)
-        bringup.wait_for("sending signal 'SIGINT' to process.stubborn-2")
-        bringup.process.send_signal(signal.SIGINT)
-        bringup.wait_for("after receiving 'SIGINT', escalating to 'SIGTERM'")
-        assert bringup.stop(signal.SIGINT) == 0
+        assert hurry(bringup) == 0
         assert "after receiving 'SIGTERM', escalating to 'SIGKILL'" in bringup.text
         assert 'exit code -9' in bringup.text
 
@@ -77,10 +100,7 @@ def test_a_process_that_left_the_session_is_ended_too(tmp_path):
     with Bringup(tmp_path, STUBBORN) as bringup:
         grandchild = int(bringup.wait_for(r'grandchild pid (\d+)')[1])
         bringup.wait_for(f'stubborn pid {grandchild}')
-        for _ in range(2):
-            bringup.process.send_signal(signal.SIGINT)
-            bringup.wait_for(r"SIGTERM'|sending signal 'SIGINT' to process.stubborn-2")
-        assert bringup.stop(signal.SIGINT) == 0
+        assert hurry(bringup) == 0
         assert bringup.left() == []
         assert f'ended what was left: pid {grandchild}' in bringup.text
 
@@ -119,7 +139,7 @@ def test_a_reader_that_goes_away_ends_the_stack(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         bringup.wait_for(r'process started')
         run = bringup.run_name
-        bringup.process.stdout.close()
+        bringup.close_screen()
         assert bringup.process.wait(30.0) == 128 + signal.SIGPIPE
         assert bringup.left() == []
         log = (bringup.logs / run / 'launch.log').read_text()

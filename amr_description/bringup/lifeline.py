@@ -8,7 +8,7 @@ Every child of a bring-up inherits
 ``AMR_LIFELINE_FD``
     The number of a file descriptor: the reading end of a pipe into which nobody ever writes and
     whose writing end only the orchestrator holds. It reports POLLHUP (or end of file) as soon as
-    the orchestrator is gone, in whatever way. A node that watches it ends as on SIGINT. It must
+    the orchestrator is gone, in whatever way. A node that watches it ends as on SIGTERM. It must
     only be polled; and only if it is a FIFO, as the variable outlives the descriptor where a child
     starts a program with closed descriptors.
 ``AMR_BRINGUP_RUN``

@@ -44,6 +44,7 @@ class Orchestrator:
         self._run_name = run_name
         self._progress = Progress(stack)
         self._children: dict[Node, Child] = {}  # in the order of their start
+        self._unstarted: dict[Node, str] = {}  # why, of those that could not be
         self._wake = asyncio.Event()
         self._stop_requests = 0
         self._told_ready = False
@@ -127,7 +128,8 @@ class Orchestrator:
                 lambda line: self._console.output(job.name, line),
             )
         except OSError as error:
-            self._console.say('ERROR', job.name, f'process could not be started: {error}')
+            self._unstarted[node] = f'could not be started: {error}'
+            self._console.say('ERROR', job.name, f'process {self._unstarted[node]}')
             self._progress.end(node, CANNOT_START)
             self._wake.set()
             return
@@ -224,7 +226,7 @@ class Orchestrator:
         if failure is None:
             return
         child = self._children.get(failure.node)
-        lines = list(child.last_lines) if child else []
+        lines = list(child.last_lines) if child else [self._unstarted[failure.node]]
         waiting = [self._name_of(node) for node in self._progress.waiting()]
         for text in post_mortem(self._name_of(failure.node), failure, lines, waiting):
             self._console.say('ERROR', LAUNCH, text)

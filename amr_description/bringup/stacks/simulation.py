@@ -34,15 +34,11 @@ def simulation(
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
         'robot_state_publisher',
-        parameters=[
-            {'robot_description': path_of(urdf).read_text('utf-8'), 'use_sim_time': True}
-        ],
+        parameters=[{'robot_description': path_of(urdf).read_text('utf-8'), 'use_sim_time': True}],
     )
 
     # 3. The robot put into the world; its <ros2_control> block brings up /controller_manager.
-    create = Node(
-        'create', arguments=['-topic', 'robot_description', '-name', 'amr', '-z', '0.2']
-    )
+    create = Node('create', arguments=['-topic', 'robot_description', '-name', 'amr', '-z', '0.2'])
 
     # 4. The controllers, one after the other, once there is a controller manager.
     joint_state_broadcaster = Node(
