@@ -17,7 +17,8 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 ``gazebo_tag.py``                   ``<gazebo>`` plugins: ``gazebo_plugins_of(robot)``
 
 ``checks.py``                       the checker: ``RULES``, ``examine``, ``require_sound``
-``rules_mass.py`` …                 … its rules, by what they judge; ``subject.py`` is what they see
+``rules_mass.py`` …                 … its rules, by what they judge
+``subject.py``                      … what a rule may look at
 
 ``findings.py``                     Finding: severity, place, what, found, expected, fix
 ``xml_source.py``                   files and XML from strangers, safely, with true line numbers

@@ -3,9 +3,9 @@
 """
 XML from strangers, loaded safely and with true line numbers.
 
-Refused, in bounded time and memory: files over :data:`MAX_BYTES`, nesting beyond libxml2's 256
-levels, and every document type declaration, so that there are no entities to expand and nothing to
-fetch.
+Refused, in bounded time and memory: files over :data:`MAX_BYTES` or :data:`MAX_LINES`, nesting
+beyond libxml2's 256 levels, and every document type declaration, so that there are no entities to
+expand and nothing to fetch.
 """
 
 from pathlib import Path
@@ -19,6 +19,8 @@ from amr_description.model.findings import Finding, quote, Report
 
 # The largest published robots stay below 1 MiB: meshes are files of their own.
 MAX_BYTES = 8 * 2**20
+# libxml2 keeps the line of an element in 16 bits; a wrong line is worse than none.
+MAX_LINES = 2**16 - 2
 _TOO_LARGE = f'larger than {MAX_BYTES // 2**20} MiB, which no robot description is'
 
 _ENCODINGS = (
@@ -100,6 +102,8 @@ def _refusal(text: str) -> str:
     """Return why a text does not even get to the XML parser, or ''."""
     if len(text) > MAX_BYTES:
         return _TOO_LARGE
+    if text.count('\n') >= MAX_LINES:
+        return f'more than {MAX_LINES} lines, which no robot description has'
     if _SURROGATE.search(text):
         return 'the text is not valid Unicode: it holds half a surrogate pair'
     if _DOCUMENT_TYPE.match(text):
