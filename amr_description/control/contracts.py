@@ -16,7 +16,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import enum
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, TYPE_CHECKING
 
 from amr_description.control.interfaces import (
     CommandInterface,
@@ -243,8 +243,8 @@ class Controller(ABC):
 
     def reset(self, time: int) -> None:
         """
-        Time went back (or jumped) to ``time``, ns: forget every stamp, and start from the present
-        states.
+        Time went back (or jumped) to ``time``, ns, while inactive or active: forget every stamp,
+        and start from the present states.
         """
 
 
@@ -307,7 +307,8 @@ class HardwareComponent(ABC):
 
     Life as a controller's. ``read`` is called while inactive or active, ``write`` only while
     active. Neither may block: a component that owns a device lets a thread of its own do the I/O
-    and exchanges snapshots with it.
+    and exchanges snapshots with it. When one of them raises, the component is brought down
+    (``deactivate``, ``cleanup``), so that nothing goes on moving by itself.
     """
 
     def __init__(self, info: 'HardwareInfo', log: Log, world: World | None) -> None:
@@ -342,7 +343,7 @@ class HardwareComponent(ABC):
     def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """
         These of its command interfaces are about to be claimed and released. Raises HardwareError
-        to refuse.
+        to refuse; in vain where ``start`` is empty because their controller has failed.
         """
 
     @abstractmethod

@@ -7,20 +7,17 @@ Every method runs on the owner's thread. Other threads read :attr:`ControllerMan
 immutable object that is replaced as a whole.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from amr_description.control.contracts import Controller, Log, Severity
+from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
-from amr_description.control.loaded_controller import LoadedController
+from amr_description.control.loaded_controller import LoadedController, stride_of
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshots import ManagerSnapshot
-from amr_description.control.switching import (
-    NOTHING_TO_SWITCH,
-    Strictness,
-    SwitchPlan,
-    Switching,
-)
+from amr_description.control.switch_execution import names_of, SwitchExecution
+from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness, Switching
 from amr_description.control.taking_snapshots import take_snapshot
 from amr_description.errors import AmrError, ControllerError
 
@@ -42,6 +39,7 @@ class ControllerManager:
         self.next_tick = 0
         """The instant of the next tick, ns: a multiple of the period, if nothing came late."""
         self._log = log
+        self._execution = SwitchExecution(resources, log)
         self._controllers: dict[str, LoadedController] = {}
         self._last_tick: int | None = None
         self.snapshot = ManagerSnapshot()
@@ -59,40 +57,62 @@ class ControllerManager:
         last, self._last_tick = self._last_tick, time
         period = self.period if last is None else time - last
         self._abandon(self.resources.read(time, period), time)
-        failed = [c for c in self._controllers.values() if not self._update(c, time)]
+        failed = [
+            controller
+            for controller in self._active()
+            if not self._survives('updating', controller, controller.update, time, self.period)
+        ]
         if failed:
             self._log(
                 Severity.ERROR,
-                f'Deactivating controllers : [ {_names(failed)} ] as their update resulted in an '
-                'error!',
+                f'Deactivating controllers : [ {names_of(failed)} ] as their update resulted in '
+                'an error!',
             )
-            self._deactivate(failed, time)
+            self._drop(failed, time)
         self._abandon(self.resources.write(time, period), time)
 
     def reset(self, time: int) -> None:
         """Time went back to ``time`` (ns): controllers stay as they are and begin anew."""
         self._last_tick = None
         self.next_tick = time
-        for controller in self._controllers.values():
-            controller.reset(time)
+        failed = [
+            controller
+            for controller in self._controllers.values()
+            if not self._survives('resetting', controller, controller.reset, time)
+        ]
+        self._drop([controller for controller in failed if controller.is_active], time)
 
-    def _update(self, controller: LoadedController, time: int) -> bool:
-        """Update one; ``False`` when it failed. The others must go on whatever it raises."""
-        if not controller.is_active:
-            return True
+    def shut_down(self, time: int) -> None:
+        """End: deactivate the controllers, write once more, then stop and close the hardware."""
+        self._execution.drop(self._active(), time)
+        self.resources.write(time, self.period)
+        self.resources.shut_down()
+        self.refresh()
+
+    def _active(self) -> list[LoadedController]:
+        return [controller for controller in self._controllers.values() if controller.is_active]
+
+    def _survives(
+        self, doing: str, controller: LoadedController, method: Callable[..., None], *args: int
+    ) -> bool:
+        """Call a controller; the others must go on whatever it raises, which is logged."""
         try:
-            controller.update(time, self.period)
+            method(*args)
         except AmrError as error:
             self._log(Severity.ERROR, f"Controller '{controller.name}': {error}")
         except Exception as error:
             self._log(
                 Severity.ERROR,
-                f"Caught exception of type : {type(error).__name__} while updating controller "
+                f'Caught exception of type : {type(error).__name__} while {doing} controller '
                 f"'{controller.name}': {error}",
             )
         else:
             return True
         return False
+
+    def _drop(self, controllers: Sequence[LoadedController], time: int) -> None:
+        self._execution.drop(controllers, time)
+        self.refresh()
 
     def _abandon(self, components: Sequence[str], time: int) -> None:
         """Deactivate every controller that used a component which has just gone."""
@@ -101,28 +121,27 @@ class ControllerManager:
         there = self.resources.available_commands().keys() | self.resources.available_states()
         orphans = [
             controller
-            for controller in self._controllers.values()
-            if controller.is_active
-            and not there >= {*controller.required_commands, *controller.required_states}
+            for controller in self._active()
+            if not there >= {*controller.required_commands, *controller.required_states}
         ]
         if orphans:
             self._log(
                 Severity.ERROR,
-                f'Deactivating controllers : [ {_names(orphans)} ] as the hardware components '
+                f'Deactivating controllers : [ {names_of(orphans)} ] as the hardware components '
                 f'[ {" ".join(components)} ] are no longer active',
             )
-        self._deactivate(orphans, time)
+        self._drop(orphans, time)
 
     # --- load, configure, unload --------------------------------------------------------------
 
     def load(self, controller: Controller, type_name: str) -> None:
-        """Take a controller that was made elsewhere. Raises ControllerError: name taken."""
+        """Take a controller that was made elsewhere. Raises ControllerError: name or rate."""
         name = controller.context.name
         if name in self._controllers:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
             )
-        stride = self._stride(name, controller.context.update_rate)
+        stride = stride_of(controller, self.update_rate, self._log)
         self._controllers[name] = LoadedController(controller, type_name, stride)
         self.refresh()
 
@@ -134,10 +153,12 @@ class ControllerManager:
                 f"Controller '{name}' can not be configured from '{loaded.state.label}' state."
             )
         try:
-            if loaded.state is LifecycleState.INACTIVE:
-                loaded.cleanup()
-            loaded.configure(parameters)
-            loaded.resolve(self.resources)
+            self._clean_up(loaded)
+            loaded.configure(parameters, self.resources)
+        except Exception as error:  # a foreign controller may raise anything
+            raise ControllerError(
+                f"Failed to configure controller '{name}': {describe(error)}"
+            ) from error
         finally:
             self.refresh()
         return loaded.controller
@@ -149,8 +170,7 @@ class ControllerManager:
             raise ControllerError(
                 f"Controller '{name}' can not be cleaned-up from '{loaded.state.label}' state."
             )
-        if loaded.state is LifecycleState.INACTIVE:
-            loaded.cleanup()
+        self._clean_up(loaded)
         self.refresh()
 
     def unload(self, name: str) -> None:
@@ -160,11 +180,15 @@ class ControllerManager:
             raise ControllerError(
                 f"Could not unload controller with name '{name}' because it is still active"
             )
-        if loaded.state is LifecycleState.INACTIVE:
-            loaded.cleanup()
+        self._clean_up(loaded)
         loaded.state = LifecycleState.FINALIZED
         del self._controllers[name]
         self.refresh()
+
+    def _clean_up(self, controller: LoadedController) -> None:
+        """Inactive → unconfigured, which it is whatever its ``cleanup`` raises."""
+        if controller.state is LifecycleState.INACTIVE:
+            self._survives('cleaning up', controller, controller.cleanup)
 
     # --- switch -------------------------------------------------------------------------------
 
@@ -188,61 +212,16 @@ class ControllerManager:
         if not plan.activate and not plan.deactivate:
             return NOTHING_TO_SWITCH
         try:
-            self._switch_command_mode(plan)
-            self._deactivate(plan.deactivate, time)
-            self._activate(plan, strictness, time)
+            self._execution.carry_out(plan, strictness, time)
         finally:
             self.refresh()
         if strictness is Strictness.STRICT:
             return 'Successfully switched controllers!'
         return (
             'Successfully switched controllers! '
-            f'Deactivated controllers: [ {_names(plan.deactivate)} ] '
-            f'Activated controllers: [ {_names(plan.activate)} ]'
+            f'Deactivated controllers: [ {names_of(plan.deactivate)} ] '
+            f'Activated controllers: [ {names_of(plan.activate)} ]'
         )
-
-    def _switch_command_mode(self, plan: SwitchPlan) -> None:
-        start = [name for c in plan.activate for name in c.required_commands]
-        stop = [name for c in plan.deactivate for name in c.required_commands]
-        try:
-            self.resources.switch_command_mode(start, stop)
-        except AmrError as error:
-            raise ControllerError(
-                'Could not switch controllers since prepare command mode switch was rejected. '
-                f'{error}'
-            ) from error
-
-    def _activate(self, plan: SwitchPlan, strictness: Strictness, time: int) -> None:
-        done: list[LoadedController] = []
-        failed: list[str] = []
-        for controller in plan.activate:
-            try:
-                controller.activate(self.resources, time)
-            except Exception as error:  # a foreign controller may raise anything
-                kind = '' if isinstance(error, AmrError) else f'{type(error).__name__}: '
-                self._log(
-                    Severity.ERROR, f"Failed to activate '{controller.name}': {kind}{error}"
-                )
-                failed.append(controller.name)
-            else:
-                done.append(controller)
-        if failed:
-            if strictness is Strictness.STRICT:
-                self._deactivate(done, time)
-            raise ControllerError(
-                'Failed switching controllers.... '
-                f'Unable to activate controllers: [ {" ".join(failed)} ]'
-            )
-
-    def _deactivate(self, controllers: Iterable[LoadedController], time: int) -> None:
-        for controller in controllers:
-            try:
-                controller.deactivate(self.resources, time)
-            except Exception as error:  # it is inactive all the same, and its claims are free
-                self._log(
-                    Severity.ERROR, f"Deactivation of controller '{controller.name}': {error}"
-                )
-        self.refresh()
 
     def set_component_state(self, name: str, state: LifecycleState, time: int) -> None:
         """
@@ -274,26 +253,3 @@ class ControllerManager:
                 'name exists'
             )
         return loaded
-
-    def _stride(self, name: str, rate: int) -> int:
-        """Ticks of the manager per update of a controller that asks for ``rate`` Hz."""
-        if rate > self.update_rate:
-            self._log(
-                Severity.WARN,
-                f"The update rate of controller '{name}', {rate} Hz, is above that of the "
-                f'controller manager, {self.update_rate} Hz, and is set to it',
-            )
-            return 1
-        stride = round(self.update_rate / rate)
-        if self.update_rate % rate:
-            self._log(
-                Severity.WARN,
-                f"The update rate of controller '{name}', {rate} Hz, is not achievable with a "
-                f'controller manager at {self.update_rate} Hz; it runs at '
-                f'{self.update_rate / stride:g} Hz',
-            )
-        return stride
-
-
-def _names(controllers: Iterable[LoadedController]) -> str:
-    return ' '.join(controller.name for controller in controllers)

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """One controller inside the manager: its state, its interfaces and when it is due."""
 
+from collections.abc import Sequence
 from typing import Any
 
-from amr_description.control.contracts import Controller
+from amr_description.control.contracts import Controller, Log, Severity
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.errors import ControllerError
 
 
 class LoadedController:
@@ -36,21 +38,34 @@ class LoadedController:
         """True while it is updated."""
         return self.state is LifecycleState.ACTIVE
 
-    def configure(self, parameters: Any) -> None:
+    def configure(self, parameters: Any, resources: ResourceManager) -> None:
         """Unconfigured → inactive. Raises what the controller raises; it stays unconfigured."""
         self.controller.configure(parameters)
+        try:
+            self.required_commands, self.required_states = self.wanted(resources)
+            self._check_unique('command', self.required_commands)
+            self._check_unique('state', self.required_states)
+        except Exception:
+            self.cleanup()
+            raise
         self.state = LifecycleState.INACTIVE
 
-    def resolve(self, resources: ResourceManager) -> None:
-        """Ask which interfaces it wants now: 'all' depends on the hardware that is there."""
+    def wanted(self, resources: ResourceManager) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """
+        Ask which command and which state interfaces it wants: 'all' depends on the hardware that
+        is there.
+        """
         commands = self.controller.command_interfaces()
         states = self.controller.state_interfaces()
-        self.required_commands = resources.names(commands, resources.available_commands())
-        self.required_states = resources.names(states, resources.available_states())
+        return (
+            resources.names(commands, resources.available_commands()),
+            resources.names(states, resources.available_states()),
+        )
 
     def activate(self, resources: ResourceManager, time: int) -> None:
         """Inactive → active. Raises; all claims are then given back, and it stays inactive."""
         try:
+            self.required_commands, self.required_states = self.wanted(resources)
             commands = resources.claim(self.name, self.required_commands)
             states = resources.lend_states(self.required_states)
             self.controller.activate(commands, states, time)
@@ -90,7 +105,43 @@ class LoadedController:
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:
-        """Time went back to ``time``, ns."""
+        """Time went back to ``time``, ns: what an inactive one remembers is wrong as well."""
         self._last_update = None
-        if self.is_active:
+        if self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE):
             self.controller.reset(time)
+
+    def _check_unique(self, kind: str, names: Sequence[str]) -> None:
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise ControllerError(
+                f"The {kind} interfaces of the controller '{self.name}' are not unique. Please "
+                f'make sure that the {kind} interfaces are unique : \'{" ".join(twice)}\'.'
+            )
+
+
+def stride_of(controller: Controller, manager_rate: int, log: Log) -> int:
+    """
+    Return the ticks of the manager (``manager_rate``, Hz) for each update of the controller.
+
+    What cannot be had exactly is warned of. Raises ControllerError: its rate is not positive.
+    """
+    name, rate = controller.context.name, controller.context.update_rate
+    if rate <= 0:
+        raise ControllerError(
+            f"The update rate of controller '{name}' must be above 0 Hz, found {rate}"
+        )
+    if rate > manager_rate:
+        log(
+            Severity.WARN,
+            f"The update rate of controller '{name}', {rate} Hz, is above that of the controller "
+            f'manager, {manager_rate} Hz, and is set to it',
+        )
+        return 1
+    stride = (2 * manager_rate + rate) // (2 * rate)  # half away from zero, as C++ rounds
+    if manager_rate % rate:
+        log(
+            Severity.WARN,
+            f"The update rate of controller '{name}', {rate} Hz, is not achievable with a "
+            f'controller manager at {manager_rate} Hz; it runs at {manager_rate / stride:g} Hz',
+        )
+    return stride

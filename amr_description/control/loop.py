@@ -111,6 +111,7 @@ class Loop:
         if self._is_stopped:
             return
         if not self._is_running:
+            self._publisher.set_clocks(self.time)  # a command may have brought a new node
             self._publisher.publish(self.time)
             self._commands.wait()
             return
@@ -136,8 +137,9 @@ class Loop:
 
     def resume(self) -> None:
         """Let time go on; for commands."""
-        self._is_running = True
-        self._pacer.resume(self.time)
+        if not self._is_running:
+            self._is_running = True
+            self._pacer.resume(self.time)
 
     def reset(self) -> None:
         """Tell everybody that the stepper's time has jumped, maybe back; for commands."""
@@ -150,4 +152,4 @@ class Loop:
     def _until_next(self, time: int) -> int:
         """Time to the next instant at which a manager or ``/clock`` is due, ns; above 0."""
         next_clock = time - time % self._clock_period + self._clock_period
-        return min(next_clock, *(manager.next_tick for manager in self.managers)) - time
+        return min([next_clock, *(manager.next_tick for manager in self.managers)]) - time

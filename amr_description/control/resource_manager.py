@@ -7,14 +7,16 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import (
     Claim,
     CommandInterface,
+    Handle,
     InterfaceRequest,
     LifecycleState,
     StateInterface,
 )
-from amr_description.errors import AmrError, HardwareError, InterfaceError
+from amr_description.errors import HardwareError, InterfaceError
 
 if TYPE_CHECKING:
     from amr_description.model.ros2_control_tag import HardwareInfo
@@ -54,8 +56,8 @@ class ResourceManager:
         info = component.info
         if info.name in self.components:
             raise HardwareError(f"Hardware component '{info.name}' is there twice")
-        states = {handle.name: handle for handle in component.state_interfaces()}
-        commands = {handle.name: handle for handle in component.command_interfaces()}
+        states = _by_name(component.state_interfaces(), info.name)
+        commands = _by_name(component.command_interfaces(), info.name)
         for other in self.components.values():
             twice = states.keys() & other.states.keys() | commands.keys() & other.commands.keys()
             if twice:
@@ -84,8 +86,19 @@ class ResourceManager:
         while owned.state != target:
             upwards = owned.state < target
             following = LifecycleState(owned.state + (1 if upwards else -1))
-            _transition(owned, following, upwards)
+            try:
+                _transition(owned, following, upwards)
+            except Exception as error:  # a foreign component may raise anything
+                raise HardwareError(
+                    f"Hardware component '{name}' failed on its way from {owned.state.label} to "
+                    f'{following.label}: {describe(error)}'
+                ) from error
             owned.state = following
+
+    def shut_down(self) -> None:
+        """Stop and close every component, as far as it still can."""
+        for owned in self.components.values():
+            self._bring_down(owned)
 
     def read(self, time: int, period: int) -> list[str]:
         """Read every available component; return the names of those that failed."""
@@ -101,14 +114,26 @@ class ResourceManager:
         try:
             getattr(owned.component, action)(time, period)
         except Exception as error:  # a foreign component may raise anything; the others go on
-            kind = '' if isinstance(error, AmrError) else f'{type(error).__name__}: '
-            self.log(
-                Severity.ERROR,
-                f"{action} of hardware component '{owned.info.name}' failed: {kind}{error}",
-            )
-            owned.state = LifecycleState.UNCONFIGURED
+            self._report(owned, action, error)
+            self._bring_down(owned)
             return False
         return True
+
+    def _bring_down(self, owned: OwnedComponent) -> None:
+        """Stop its actuators, which nobody may command any more, and close it; never raises."""
+        while owned.state > LifecycleState.UNCONFIGURED:
+            following = LifecycleState(owned.state - 1)
+            try:
+                _transition(owned, following, upwards=False)
+            except Exception as error:
+                self._report(owned, f'transition to {following.label}', error)
+            owned.state = following
+
+    def _report(self, owned: OwnedComponent, action: str, error: Exception) -> None:
+        self.log(
+            Severity.ERROR,
+            f"{action} of hardware component '{owned.info.name}' failed: {describe(error)}",
+        )
 
     # --- interfaces ---------------------------------------------------------------------------
 
@@ -122,7 +147,8 @@ class ResourceManager:
         available = (owned for owned in self.components.values() if owned.is_available)
         return {name: handle for owned in available for name, handle in owned.states.items()}
 
-    def names(self, request: InterfaceRequest, available: Iterable[str]) -> tuple[str, ...]:
+    @staticmethod
+    def names(request: InterfaceRequest, available: Iterable[str]) -> tuple[str, ...]:
         """Resolve a request to names: all that are available, those listed, or none."""
         if request.claim is Claim.ALL:
             return tuple(available)
@@ -153,12 +179,27 @@ class ResourceManager:
         self.claims = {name: by for name, by in self.claims.items() if by != controller}
 
     def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Tell each component which of its commands begin and end. Raises HardwareError."""
+        """
+        Tell each component which of its commands begin and end.
+
+        Raises HardwareError when one refuses; those that had agreed are then told the reverse.
+        """
+        agreed: list[tuple[HardwareComponent, list[str], list[str]]] = []
         for owned in self.components.values():
-            mine_start = [name for name in start if name in owned.commands]
-            mine_stop = [name for name in stop if name in owned.commands]
-            if mine_start or mine_stop:
-                owned.component.switch_command_mode(mine_start, mine_stop)
+            begin = [name for name in start if name in owned.commands]
+            end = [name for name in stop if name in owned.commands]
+            if not owned.is_available or not (begin or end):
+                continue
+            try:
+                owned.component.switch_command_mode(begin, end)
+            except Exception as error:  # a foreign component may raise anything
+                for component, begun, ended in reversed(agreed):
+                    component.switch_command_mode(ended, begun)
+                raise HardwareError(
+                    f"Hardware component '{owned.info.name}' refuses the command mode: "
+                    f'{describe(error)}'
+                ) from error
+            agreed.append((owned.component, begin, end))
 
 
 def _transition(owned: OwnedComponent, target: LifecycleState, upwards: bool) -> None:
@@ -170,6 +211,17 @@ def _transition(owned: OwnedComponent, target: LifecycleState, upwards: bool) ->
         (LifecycleState.UNCONFIGURED, False): component.cleanup,
     }[target, upwards]
     transition()
+
+
+def _by_name[H: Handle](handles: Sequence[H], component: str) -> dict[str, H]:
+    """Raises HardwareError where the component exports one name twice."""
+    by_name: dict[str, H] = {}
+    for handle in handles:
+        if by_name.setdefault(handle.name, handle) is not handle:
+            raise HardwareError(
+                f"Hardware component '{component}' exports the interface '{handle.name}' twice"
+            )
+    return by_name
 
 
 def _listed(names: Iterable[str]) -> str:

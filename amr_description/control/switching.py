@@ -57,8 +57,8 @@ class Switching:
         """Return what can be done. Raises ControllerError with the message of the response."""
         leaving = self._known(deactivate, 'deactivate')
         entering = self._known(activate, 'activate')
-        restarting = {c.name for c in leaving} & {c.name for c in entering}
         leaving = [c for c in leaving if self._passes(self._objection_to_deactivation(c))]
+        restarting = {c.name for c in leaving}
         entering = [
             c
             for c in entering
@@ -132,9 +132,9 @@ class Switching:
         freed = {controller.name for controller in leaving}
         promised: set[str] = set()
         for controller in entering:
-            controller.resolve(self._resources)
+            wanted_commands, wanted_states = controller.wanted(self._resources)
             refusal = f"Unable to activate controller '{controller.name}' since the "
-            for name in controller.required_commands:
+            for name in wanted_commands:
                 holder = self._resources.claims.get(name)
                 if name not in commands:
                     raise ControllerError(
@@ -150,7 +150,7 @@ class Switching:
                         f"{refusal}command interface '{name}' will be used by another controller "
                         'that is being activated.'
                     )
-            promised.update(controller.required_commands)
-            for name in controller.required_states:
+            promised.update(wanted_commands)
+            for name in wanted_states:
                 if name not in states:
                     raise ControllerError(f"{refusal}state interface '{name}' is not available.")

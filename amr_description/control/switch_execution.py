@@ -1,0 +1,94 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Carrying out a switch that :mod:`amr_description.control.switching` has planned.
+
+A controller or a component of a stranger may raise anything at any point; what it raises is
+logged, and the others go on.
+"""
+
+from collections.abc import Iterable, Sequence
+
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.foreign_errors import describe
+from amr_description.control.loaded_controller import LoadedController
+from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.switching import Strictness, SwitchPlan
+from amr_description.errors import ControllerError, HardwareError
+
+
+class SwitchExecution:
+    """Moves controllers between inactive and active, and tells the hardware."""
+
+    def __init__(self, resources: ResourceManager, log: Log) -> None:
+        self._resources = resources
+        self._log = log
+
+    def carry_out(self, plan: SwitchPlan, strictness: Strictness, time: int) -> None:
+        """
+        Deactivate, then activate.
+
+        Raises ControllerError when the hardware refuses (nothing has then changed) and when a
+        controller cannot be activated: STRICT then deactivates the plan's others again.
+        """
+        self._switch_command_mode(plan)
+        self._deactivate(plan.deactivate, time)
+        failed = [c for c in plan.activate if not self._activate(c, time)]
+        if not failed:
+            return
+        if strictness is Strictness.STRICT:
+            self.drop([c for c in plan.activate if c.is_active], time)
+        self._release_commands(failed)
+        raise ControllerError(
+            'Failed switching controllers.... '
+            f'Unable to activate controllers: [ {names_of(failed)} ]'
+        )
+
+    def drop(self, controllers: Sequence[LoadedController], time: int) -> None:
+        """Deactivate controllers that cannot go on; nobody is asked."""
+        self._deactivate(controllers, time)
+        self._release_commands(controllers)
+
+    def _switch_command_mode(self, plan: SwitchPlan) -> None:
+        start = [name for c in plan.activate for name in c.wanted(self._resources)[0]]
+        stop = [name for c in plan.deactivate for name in c.required_commands]
+        try:
+            self._resources.switch_command_mode(start, stop)
+        except HardwareError as error:
+            raise ControllerError(
+                'Could not switch controllers since prepare command mode switch was rejected. '
+                f'{error}'
+            ) from error
+
+    def _release_commands(self, controllers: Iterable[LoadedController]) -> None:
+        """Tell the hardware that nobody commands these any more."""
+        stop = [name for c in controllers for name in c.required_commands]
+        try:
+            self._resources.switch_command_mode((), stop)
+        except HardwareError as error:
+            self._log(Severity.ERROR, str(error))
+
+    def _activate(self, controller: LoadedController, time: int) -> bool:
+        try:
+            controller.activate(self._resources, time)
+        except Exception as error:
+            self._log(
+                Severity.ERROR, f"Failed to activate '{controller.name}': {describe(error)}"
+            )
+            return False
+        return True
+
+    def _deactivate(self, controllers: Iterable[LoadedController], time: int) -> None:
+        for controller in controllers:
+            try:
+                controller.deactivate(self._resources, time)
+            except Exception as error:  # it is inactive all the same, and its claims are free
+                self._log(
+                    Severity.ERROR,
+                    f"Failed to deactivate '{controller.name}' cleanly: {describe(error)}",
+                )
+
+
+def names_of(controllers: Iterable[LoadedController]) -> str:
+    """Return the names as the messages of ros2_control list them."""
+    return ' '.join(controller.name for controller in controllers)
