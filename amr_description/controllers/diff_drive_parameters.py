@@ -87,10 +87,16 @@ class DiffDriveParameters:
     )
     wheel_radius: float = parameter(0.0, 'Radius of a wheel', unit='m', above=0.0)
     wheel_separation_multiplier: float = parameter(
-        1.0, 'Factor on the separation: a skid-steered robot scrubs, and turns less'
+        1.0,
+        'Factor on the separation: a skid-steered robot scrubs, and turns less',
+        not_zero=True,
     )
-    left_wheel_radius_multiplier: float = parameter(1.0, 'Factor on the radius, left')
-    right_wheel_radius_multiplier: float = parameter(1.0, 'Factor on the radius, right')
+    left_wheel_radius_multiplier: float = parameter(
+        1.0, 'Factor on the radius, left', not_zero=True
+    )
+    right_wheel_radius_multiplier: float = parameter(
+        1.0, 'Factor on the radius, right', not_zero=True
+    )
     tf_frame_prefix_enable: bool = parameter(True, 'Put a prefix before the frame ids')
     tf_frame_prefix: str = parameter('', 'That prefix; empty: the namespace of the node')
     odom_frame_id: str = parameter('odom', 'Frame in which the pose is given')
@@ -116,3 +122,16 @@ class DiffDriveParameters:
     publish_rate: float = parameter(50.0, 'Rate of odometry and transform', unit='Hz', above=0.0)
     linear: SpeedLimits = group('linear.x', SpeedLimits)
     angular: SpeedLimits = group('angular.z', SpeedLimits)
+
+    def frame_ids(self, namespace: str) -> tuple[str, str]:
+        """
+        Return the ids of the odometry and the base frame, with the prefix that is asked for.
+
+        The prefix is ``tf_frame_prefix``, or the node's namespace where that is empty; it ends
+        with one slash and begins with none.
+        """
+        prefix = ''
+        if self.tf_frame_prefix_enable:
+            prefix = self.tf_frame_prefix or namespace
+            prefix = (prefix if prefix.endswith('/') else f'{prefix}/').removeprefix('/')
+        return prefix + self.odom_frame_id, prefix + self.base_frame_id

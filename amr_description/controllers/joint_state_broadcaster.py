@@ -149,19 +149,16 @@ class JointStateBroadcaster(Controller):
 
     def _mapping(self, parameters: BroadcasterParameters) -> dict[str, str]:
         """Interface name → field; a standard interface that is also claimed beats its mapping."""
-        field_of = {field: field for field in _FIELDS}
+        field_of: dict[str, str] = {}
         for field in _FIELDS:
             interface = getattr(parameters.map_interface_to_joint_state, field)
-            if interface == field:
-                continue
-            if field in parameters.interfaces:
+            if interface != field and self._is_choosing and field in parameters.interfaces:
                 self.log(
                     Severity.WARN,
                     f"Mapping from '{interface}' to interface '{field}' will not be done, because "
                     f"'{field}' is defined in 'interfaces' parameter.",
                 )
-                continue
-            field_of.pop(field, None)
+                interface = field
             field_of[interface] = field
         return field_of
 
