@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import dataclasses
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, get_type_hints
 
 from amr_description.errors import ParameterError
 
@@ -41,11 +41,15 @@ _KEY = 'amr_description.parameter'
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """What a value must satisfy; a NaN satisfies every bound on size where ``nan`` is true."""
+    """
+    What a value must satisfy. A number is finite; where ``nan`` is true, it may also be NaN or
+    infinite, and NaN satisfies every bound on size.
+    """
 
     minimum: float | None = None
     maximum: float | None = None
     above: float | None = None
+    not_zero: bool = False
     choices: tuple[str, ...] = ()
     length: int | None = None
     not_empty: bool = False
@@ -59,13 +63,17 @@ class Bounds:
             return f'must have {self.length} elements'
         if self.choices and value not in self.choices:
             return f'must be one of {", ".join(self.choices)}'
-        if isinstance(value, float) and math.isnan(value):
-            return '' if self.nan else 'must be a number'
-        if isinstance(value, int | float) and not isinstance(value, bool):
-            return self._complaint_on_size(value)
-        return ''
+        numbers = value if isinstance(value, tuple) else (value,)
+        complaints = (self._complaint_on_number(n) for n in numbers if type(n) in (int, float))
+        return next(filter(None, complaints), '')
 
-    def _complaint_on_size(self, value: float) -> str:
+    def _complaint_on_number(self, value: float) -> str:
+        if not self.nan and not math.isfinite(value):
+            return 'must be a finite number'
+        if math.isnan(value):
+            return ''
+        if self.not_zero and value == 0:
+            return 'must not be zero'
         if self.above is not None and not value > self.above:
             return f'must be greater than {self.above:g}'
         if self.minimum is not None and not value >= self.minimum:
@@ -124,12 +132,11 @@ def group(prefix: str, table: Callable[[], Any]) -> Any:
 
 def specs(table: type, prefix: str = '') -> Iterator[Spec]:
     """Yield the rows of a table, groups flattened, in the order of its fields."""
-    for field in dataclasses.fields(table):
-        row = field.metadata[_KEY]
-        if isinstance(row, str):
-            yield from specs(field.default_factory, f'{prefix}{row}.')
+    for _, row in _rows(table, prefix):
+        if isinstance(row, _Group):
+            yield from specs(row.table, row.prefix)
         else:
-            yield _spec(field, prefix)
+            yield row
 
 
 def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = '') -> Table:
@@ -141,20 +148,33 @@ def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = ''
     Raises ParameterError.
     """
     arguments: dict[str, Any] = {}
-    for field in dataclasses.fields(table):
-        row = field.metadata[_KEY]
-        if isinstance(row, str):
-            arguments[field.name] = build(field.default_factory, values, f'{prefix}{row}.')
+    for field, row in _rows(table, prefix):
+        if isinstance(row, _Group):
+            arguments[field] = build(row.table, values, row.prefix)
         else:
-            spec = _spec(field, prefix)
-            arguments[field.name] = spec.check(values.get(spec.name, spec.default))
+            arguments[field] = row.check(values.get(row.name, row.default))
     return table(**arguments)
 
 
-def _spec(field: dataclasses.Field[Any], prefix: str) -> Spec:
-    return Spec(
-        name=prefix + field.name,
-        type=TYPE_NAMES[field.type],
-        default=field.default,
-        **field.metadata[_KEY],
-    )
+@dataclass(frozen=True, slots=True)
+class _Group:
+    table: Callable[[], Any]
+    prefix: str
+
+
+def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group]]:
+    """One a field, with its name; ParameterError at a field whose type no ROS parameter has."""
+    types = get_type_hints(table)  # the fields' own are mere text in a module that defers them
+    for field in dataclasses.fields(table):
+        row, kind = field.metadata[_KEY], types[field.name]
+        if isinstance(row, str):
+            yield field.name, _Group(field.default_factory, f'{prefix}{row}.')
+        elif kind in TYPE_NAMES:
+            spec = Spec(prefix + field.name, TYPE_NAMES[kind], field.default, **row)
+            yield field.name, spec
+        else:
+            known = ', '.join(t.__name__ if isinstance(t, type) else str(t) for t in TYPE_NAMES)
+            raise ParameterError(
+                f"parameter '{prefix}{field.name}' of {table.__name__} is annotated as {kind}, "
+                f'which is none of {known}'
+            )

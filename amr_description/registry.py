@@ -43,10 +43,11 @@ class Registry:
         target = self._table.get(name) or name.replace('/', ':')
         try:
             return resolve(target)
-        except (ImportError, AttributeError, ValueError) as cause:
+        except Exception as cause:  # a stranger's module may raise anything
             if name in self._table:
                 raise
             raise self._error(
                 f"{self._kind} '{name}' is not known, and cannot be imported as "
-                f'package.module/Class ({cause}). Known: {", ".join(self.names)}'
+                f'package.module/Class ({type(cause).__name__}: {cause}). '
+                f'Known: {", ".join(self.names)}'
             ) from cause
