@@ -31,6 +31,8 @@ orchestrator.py    the engine: start, watch, stop
 lifeline.py        what a child sees of the orchestrator's life; the guardian is started here
 guardian.py        a program of its own: ends what is left, whatever became of the orchestrator
 log_folder.py      the folder of log files of one run
+narrator.py        what the orchestrator says of a stack, in launch's words
+post_mortem.py     pure: what is said of the failure that stopped a stack
 console.py         what a person reads: prefixes, colours, log files
 main.py            the command ``bringup``
 stacks/            the ready-made stacks

@@ -11,19 +11,19 @@ is 0 if the stack ended by itself, and if it was stopped by a signal: Ctrl-C is 
 """
 
 import asyncio
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 import contextlib
 import os
 import signal
 import time
 
 from amr_description.bringup.child import Child
-from amr_description.bringup.console import Console, LAUNCH
+from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
 from amr_description.bringup.job import Job
 from amr_description.bringup.lifeline import Lifeline
-from amr_description.bringup.post_mortem import post_mortem
+from amr_description.bringup.narrator import Narrator
 from amr_description.bringup.progress import Progress
 
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed
@@ -38,23 +38,19 @@ class Orchestrator:
 
     def __init__(self, stack: Stack, jobs: Sequence[Job], console: Console, run_name: str) -> None:
         """``jobs``: the nodes of the stack, made ready by :func:`job.jobs_of`."""
-        self._stack = stack
         self._jobs: dict[Node, Job] = {job.node: job for job in jobs}
-        self._console = console
         self._run_name = run_name
+        self._narrator = Narrator(stack, jobs, console)
         self._progress = Progress(stack)
         self._children: dict[Node, Child] = {}  # in the order of their start
-        self._unstarted: dict[Node, str] = {}  # why, of those that could not be
+        self._last_lines: dict[Node, Collection[str]] = {}
         self._wake = asyncio.Event()
         self._stop_requests = 0
-        self._told_ready = False
-        self._told_unreachable: set[Node] = set()
         self._exit_code = 0
         console.on_screen_lost = self._on_screen_lost
 
     async def run(self) -> int:
         """Run the stack to its end and return the exit code; nothing is left when it returns."""
-        self._begin = time.monotonic()
         with self._signal_handlers():
             self._lifeline = Lifeline(self._run_name)
             try:
@@ -62,9 +58,11 @@ class Orchestrator:
             finally:
                 await self._stop_all()
                 await self._end_the_rest()
-        self._tell_failure()
         failure = self._progress.failure
-        return failure.exit_code if failure else self._exit_code
+        if failure is None:
+            return self._exit_code
+        self._narrator.failure(self._progress, self._last_lines[failure.node])
+        return failure.exit_code
 
     @contextlib.contextmanager
     def _signal_handlers(self) -> Iterator[None]:
@@ -84,9 +82,7 @@ class Orchestrator:
                 loop.remove_signal_handler(number)
 
     def _on_stop_signal(self, number: signal.Signals) -> None:
-        again = ' again: not waiting any longer' if self._stop_requests else ''
-        how = 'user interrupted with ctrl-c (SIGINT)' if number == signal.SIGINT else number.name
-        self._console.say('WARNING', LAUNCH, how + again)
+        self._narrator.stop_requested(number, again=self._stop_requests > 0)
         self._request_stop()
 
     def _on_screen_lost(self) -> None:
@@ -102,7 +98,7 @@ class Orchestrator:
         while not self._progress.over:
             while not self._progress.over and (nodes := self._progress.startable()):
                 self._start(nodes[0])
-            self._tell_progress()
+            self._narrator.progress(self._progress)
             await self._event(None)
             self._collect()
 
@@ -125,25 +121,27 @@ class Orchestrator:
                 job.command,
                 environment,
                 self._lifeline.reader,
-                lambda line: self._console.output(job.name, line),
+                lambda line: self._narrator.output(node, line),
             )
         except OSError as error:
-            self._unstarted[node] = f'could not be started: {error}'
-            self._console.say('ERROR', job.name, f'process {self._unstarted[node]}')
+            reason = f'could not be started: {error}'
+            self._narrator.not_started(node, reason)
+            self._last_lines[node] = [reason]
             self._progress.end(node, CANNOT_START)
             self._wake.set()
             return
         self._children[node] = child
-        self._console.say('INFO', job.name, f'process started with pid [{child.pid}]')
+        self._last_lines[node] = child.last_lines
+        self._narrator.started(node, child.pid)
 
     def _collect(self) -> None:
         """Take note of all processes that have ended."""
         for node, child in self._running().items():
             if child.poll():
-                self._tell_end(self._jobs[node], child)
+                self._narrator.ended(node, child)
                 self._progress.end(node, child.returncode)
         if self._lifeline.revive():
-            self._console.say('WARNING', LAUNCH, 'somebody ended the guardian; started it anew')
+            self._narrator.guardian_replaced()
         self._lifeline.reap_adopted(self._running_pids())
 
     def _running(self) -> dict[Node, Child]:
@@ -159,7 +157,7 @@ class Orchestrator:
         for number, patience in _ESCALATION:
             running = self._running()
             for node, child in reversed(running.items()):
-                self._tell_signal(self._jobs[node].name, number, before, time.monotonic() - begin)
+                self._narrator.signalled(node, number, before, time.monotonic() - begin)
                 child.send(number)
             await self._until_ended(patience)
             before = number
@@ -182,54 +180,3 @@ class Orchestrator:
             self._lifeline.reap_adopted(self._running_pids())
         for child in self._children.values():
             child.close()
-
-    def _tell_progress(self) -> None:
-        name_of = self._name_of
-        for node in self._progress.unreachable():
-            if node not in self._told_unreachable and not self._progress.over:
-                self._told_unreachable.add(node)
-                reason = node.start_when.describe(name_of)
-                self._console.say('WARNING', name_of(node), f'never starts: needs that {reason}')
-        if self._progress.ready and not self._told_ready:
-            self._told_ready = True
-            steps = f': {self._stack.next_steps}' if self._stack.next_steps else ''
-            took = time.monotonic() - self._begin
-            self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
-
-    def _tell_end(self, job: Job, child: Child) -> None:
-        if child.returncode == 0:
-            text = f'process has finished cleanly [pid {child.pid}]'
-            self._console.say('INFO', job.name, text)
-            return
-        text = (
-            f'process has died [pid {child.pid}, exit code {child.returncode}, '
-            f"cmd '{' '.join(job.command)}']."
-        )
-        self._console.say('ERROR', job.name, text)
-
-    def _tell_signal(
-        self, name: str, number: signal.Signals, before: signal.Signals | None, elapsed: float
-    ) -> None:
-        if before is None:
-            text = f"sending signal '{number.name}' to process[{name}]"
-            self._console.say('INFO', name, text)
-            return
-        seconds = f'{elapsed:.1f}'.removesuffix('.0')
-        text = (
-            f"process[{name}] failed to terminate '{seconds}' seconds after receiving "
-            f"'{before.name}', escalating to '{number.name}'"
-        )
-        self._console.say('ERROR', name, text)
-
-    def _tell_failure(self) -> None:
-        failure = self._progress.failure
-        if failure is None:
-            return
-        child = self._children.get(failure.node)
-        lines = list(child.last_lines) if child else [self._unstarted[failure.node]]
-        waiting = [self._name_of(node) for node in self._progress.waiting()]
-        for text in post_mortem(self._name_of(failure.node), failure, lines, waiting):
-            self._console.say('ERROR', LAUNCH, text)
-
-    def _name_of(self, node: Node) -> str:
-        return self._jobs[node].name

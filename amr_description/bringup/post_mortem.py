@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is said about the failure that stopped a stack, last of all, where it is read."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 import signal
 
 from amr_description.bringup.progress import Failure
@@ -11,7 +11,7 @@ _LONGEST_REASON = 300  # characters
 
 
 def post_mortem(
-    name: str, failure: Failure, last_lines: Sequence[str], never_started: Sequence[str]
+    name: str, failure: Failure, last_lines: Collection[str], never_started: Sequence[str]
 ) -> list[str]:
     """
     Return the texts to print: the last lines of the process, then one line that says it all.

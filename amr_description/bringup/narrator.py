@@ -1,0 +1,105 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the orchestrator says of a stack, in the words of launch where launch has them."""
+
+from collections.abc import Collection, Sequence
+import signal
+import time
+
+from amr_description.bringup.child import Child
+from amr_description.bringup.console import Console, LAUNCH
+from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.job import Job
+from amr_description.bringup.post_mortem import post_mortem
+from amr_description.bringup.progress import Progress
+
+
+class Narrator:
+    """Tells a person each event of a stack, once."""
+
+    def __init__(self, stack: Stack, jobs: Sequence[Job], console: Console) -> None:
+        """``jobs``: the nodes of the stack."""
+        self._stack = stack
+        self._jobs = {job.node: job for job in jobs}
+        self._console = console
+        self._begin = time.monotonic()
+        self._told: set[object] = set()
+
+    def output(self, node: Node, line: str) -> None:
+        """Show a line that the process of the node wrote."""
+        self._console.output(self._name_of(node), line)
+
+    def started(self, node: Node, pid: int) -> None:
+        """Say that its process runs."""
+        self._console.say('INFO', self._name_of(node), f'process started with pid [{pid}]')
+
+    def not_started(self, node: Node, reason: str) -> None:
+        """Say that its process could not be started."""
+        self._console.say('ERROR', self._name_of(node), f'process {reason}')
+
+    def ended(self, node: Node, child: Child) -> None:
+        """Say how its process ended."""
+        if child.returncode == 0:
+            text = f'process has finished cleanly [pid {child.pid}]'
+            self._console.say('INFO', self._name_of(node), text)
+        else:
+            command = ' '.join(self._jobs[node].command)
+            code = f'exit code {child.returncode}'
+            text = f"process has died [pid {child.pid}, {code}, cmd '{command}']."
+            self._console.say('ERROR', self._name_of(node), text)
+
+    def progress(self, progress: Progress) -> None:
+        """Say that the stack is ready, and what of it can never start."""
+        for node in progress.unreachable():
+            if node not in self._told and not progress.over and node.start_when:
+                self._told.add(node)
+                needs = node.start_when.describe(self._name_of)
+                text = f'never starts: needs that {needs}'
+                self._console.say('WARNING', self._name_of(node), text)
+        if progress.ready and 'ready' not in self._told:
+            self._told.add('ready')
+            took = time.monotonic() - self._begin
+            steps = f': {self._stack.next_steps}' if self._stack.next_steps else ''
+            self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
+
+    def guardian_replaced(self) -> None:
+        """Say that somebody ended the guardian."""
+        self._console.say('WARNING', LAUNCH, 'somebody ended the guardian; started it anew')
+
+    def stop_requested(self, number: signal.Signals, again: bool) -> None:
+        """Say that a signal asks for the end of all; ``again``: not for the first time."""
+        how = 'user interrupted with ctrl-c (SIGINT)' if number == signal.SIGINT else number.name
+        suffix = ' again: not waiting any longer' if again else ''
+        self._console.say('WARNING', LAUNCH, how + suffix)
+
+    def signalled(
+        self, node: Node, number: signal.Signals, before: signal.Signals | None, elapsed: float
+    ) -> None:
+        """
+        Say that its process is sent a signal.
+
+        :param before: The signal that did not help, or None.
+        :param elapsed: s since the first signal.
+        """
+        name = self._name_of(node)
+        if before is None:
+            self._console.say('INFO', name, f"sending signal '{number.name}' to process[{name}]")
+            return
+        seconds = f'{elapsed:.1f}'.removesuffix('.0')
+        text = (
+            f"process[{name}] failed to terminate '{seconds}' seconds after receiving "
+            f"'{before.name}', escalating to '{number.name}'"
+        )
+        self._console.say('ERROR', name, text)
+
+    def failure(self, progress: Progress, last_lines: Collection[str]) -> None:
+        """Say, last of all, which failure stopped the stack, and why."""
+        if progress.failure is None:
+            return
+        name = self._name_of(progress.failure.node)
+        waiting = [self._name_of(node) for node in progress.waiting()]
+        for text in post_mortem(name, progress.failure, last_lines, waiting):
+            self._console.say('ERROR', LAUNCH, text)
+
+    def _name_of(self, node: Node) -> str:
+        return self._jobs[node].name
