@@ -1,0 +1,142 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Run the rosidl generators as CMake would, through their arguments files.
+
+Everything of a package lands in ``<build>/<package>/``: ``idl/`` and, one folder per generator,
+``<generator>/<package>/``. The order matters only for the type descriptions: they read those of
+the packages they refer to. The code generators are independent of each other.
+"""
+
+from dataclasses import dataclass
+import json
+from pathlib import Path
+
+from interface_build.packages import InterfacePackage, KINDS
+
+TYPESUPPORTS = ('rosidl_typesupport_fastrtps_c', 'rosidl_typesupport_introspection_c')
+TYPE_DESCRIPTION = 'rosidl_generator_type_description'
+# Slowest first: they run side by side.
+CODE_GENERATORS = ('rosidl_generator_py', 'rosidl_generator_c', *TYPESUPPORTS,
+                   'rosidl_typesupport_c')
+
+
+@dataclass(frozen=True)
+class GeneratedPackage:
+    """A package on its way: its sources, where its generated files go, and the ROS prefix."""
+
+    source: InterfacePackage
+    build: Path
+    prefix: Path
+
+    @property
+    def name(self) -> str:
+        """The package's name."""
+        return self.source.name
+
+    @property
+    def idl(self) -> Path:
+        """Where the ``.idl`` files are, below ``msg/``, ``srv/``, ``action/``."""
+        return self.build / 'idl'
+
+    def generated(self, generator: str) -> Path:
+        """Return the folder that holds what ``generator`` made for this package."""
+        return self.build / generator / self.name
+
+    def write_arguments(self, generator: str, **more: object) -> str:
+        """Write the arguments file of ``generator`` and return its path."""
+        output = self.generated(generator)
+        for kind in {path.parent.name for path in self.source.interfaces}:
+            (output / kind).mkdir(parents=True, exist_ok=True)
+        arguments = {
+            'package_name': self.name,
+            'output_dir': str(output),
+            'template_dir': str(self.prefix / 'share' / generator / 'resource'),
+            'idl_tuples': [f'{self.idl}:{path.with_suffix(".idl").as_posix()}'
+                           for path in self.source.interfaces],
+            'ros_interface_dependencies': [],
+            'target_dependencies': [],
+            **more,
+        }
+        file = self.build / f'{generator}__arguments.json'
+        file.write_text(json.dumps(arguments, indent=1))
+        return str(file)
+
+
+def write_idl(package: GeneratedPackage) -> None:
+    """Translate ``.msg``, ``.srv`` and ``.action`` to ``.idl``."""
+    from rosidl_adapter.action import convert_action_to_idl
+    from rosidl_adapter.msg import convert_msg_to_idl
+    from rosidl_adapter.srv import convert_srv_to_idl
+
+    convert = {
+        '.msg': convert_msg_to_idl, '.srv': convert_srv_to_idl, '.action': convert_action_to_idl,
+    }
+    for path in package.source.interfaces:
+        convert[path.suffix](package.source.folder, package.name, path, package.idl / path.parent)
+
+
+def write_type_descriptions(package: GeneratedPackage, earlier: list[GeneratedPackage]) -> None:
+    """Write the type descriptions with their RIHS01 hashes, ``<Name>.json``."""
+    from rosidl_generator_type_description import generate_type_hash
+
+    folders = {
+        share.name: share for share in sorted((package.prefix / 'share').iterdir())
+        if any((share / kind).is_dir() for kind in KINDS)
+    }
+    folders |= {other.name: other.generated(TYPE_DESCRIPTION) for other in earlier}
+    include_paths = [f'{name}:{folder}' for name, folder in folders.items()]
+    generate_type_hash(package.write_arguments(TYPE_DESCRIPTION, include_paths=include_paths))
+
+
+def write_code(package: GeneratedPackage, generator: str) -> None:
+    """Run one of :data:`CODE_GENERATORS`."""
+    if generator == 'rosidl_generator_py':
+        from rosidl_generator_py import generate_py
+
+        generate_py(package.write_arguments(generator), ['rosidl_typesupport_c', *TYPESUPPORTS])
+        (package.generated(generator) / '__init__.py').touch()
+    elif generator == 'rosidl_generator_c':
+        from rosidl_generator_c import generate_c
+
+        generate_c(_description_arguments(package))
+    elif generator == 'rosidl_typesupport_c':
+        from rosidl_typesupport_c import generate_c
+
+        generate_c(package.write_arguments(generator), list(TYPESUPPORTS))
+    elif generator == 'rosidl_typesupport_fastrtps_c':
+        from rosidl_typesupport_fastrtps_c import generate_typesupport_fastrtps_c
+
+        generate_typesupport_fastrtps_c(package.write_arguments(generator))
+    else:
+        from rosidl_typesupport_introspection_c import generate_c
+
+        generate_c(package.write_arguments(generator))
+    _write_visibility_header(package, generator)
+
+
+def _description_arguments(package: GeneratedPackage) -> str:
+    """Write the arguments of the C generator, which embeds descriptions and original texts."""
+    descriptions = package.generated(TYPE_DESCRIPTION)
+    idl_files = [path.with_suffix('.idl').as_posix() for path in package.source.interfaces]
+    return package.write_arguments(
+        'rosidl_generator_c',
+        type_description_tuples=[
+            f'{file}:{(descriptions / file).with_suffix(".json")}' for file in idl_files
+        ],
+        ros_interface_files=[
+            str(package.source.folder / path) for path in package.source.interfaces
+        ],
+    )
+
+
+def _write_visibility_header(package: GeneratedPackage, generator: str) -> None:
+    """Expand the header with the export macros, which CMake's ``configure_file`` would do."""
+    name = f'{generator}__visibility_control.h'
+    template = package.prefix / 'share' / generator / 'resource' / f'{name}.in'
+    if not template.exists():  # rosidl_typesupport_c and rosidl_generator_py have none
+        return
+    text = template.read_text().replace('@PROJECT_NAME_UPPER@', package.name.upper())
+    header = package.generated(generator) / 'msg' / name
+    header.parent.mkdir(exist_ok=True)
+    header.write_text(text.replace('@PROJECT_NAME@', package.name))
