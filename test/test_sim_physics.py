@@ -127,7 +127,7 @@ def vertical_accelerations(drive, seconds):
 def test_turning_robot_keeps_its_wheels_on_the_ground(linear, angular):
     drive = Drive()
     drive.command(linear, angular)
-    # From the step of the command on, not only when the turn is steady. Measured: 0.05 m/s².
+    # From the step of the command on; measured: 0.16, 0.34 and 0.21. In a steady turn it is 0.000.
     assert pstdev(vertical_accelerations(drive, 3.0)) < 0.5
 
 

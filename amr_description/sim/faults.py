@@ -63,17 +63,18 @@ class FaultMonitor:
         while _warnings:
             self._tell_warning(_warnings.popleft())
         time = self._engine.time
-        if time >= self._next_fall_check:
+        if time >= self._next_fall_check and not self._state_is_lost:
             self._next_fall_check = time + FALL_CHECK_INTERVAL
             for name, index in roots:
                 self._check_fall(name, float(self._engine.data.qpos[index]))
 
     def _tell_warning(self, text: str) -> None:
+        if self._state_is_lost:
+            return  # The first bad value is the cause; what follows from it is not told.
         bad = _BAD_VALUE.search(text)
         if bad is None:
             self._log(Severity.WARN, f'MuJoCo: {one_line(text)}')
-        elif not self._state_is_lost:
-            # The first bad value is the cause; those that follow from it are not told.
+        else:
             self._state_is_lost = True
             where = _place(self._engine.model, bad[1], int(bad[2]))
             self._log(
