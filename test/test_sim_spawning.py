@@ -10,7 +10,7 @@ import pytest
 
 from amr_description.errors import SpawnError
 from amr_description.model.frames import Transform
-from amr_description.sim.spawning import checked_pose, free_name, SpawnCode
+from amr_description.sim.spawning import checked_pose, free_name, read_description, SpawnCode
 from amr_description.sim.world import MujocoWorld
 
 TUTORIAL = (ROOT / 'test' / 'fixtures' / 'tutorial' / 'amr.urdf').read_text()
@@ -68,9 +68,9 @@ def test_refusals(world, name, urdf, pose, code, text):
     assert world.names == ('first',)
 
 
-def test_source_is_named_in_messages(world):
+def test_source_is_named_in_messages():
     with pytest.raises(SpawnError, match='^/robot_description:1: this is no URDF'):
-        world.spawn('x', '<html/>', source='/robot_description')
+        read_description('<html/>', '/robot_description')
 
 
 def test_warnings_of_the_checker_are_told():
@@ -150,7 +150,7 @@ def test_mesh_beside_the_description(package):
     source = package / 'robot.urdf'
     source.touch()
     urdf = with_meshes('meshes/chassis.stl', 'meshes/chassis.stl')
-    MujocoWorld('empty').spawn('amr', urdf, source=str(source))
+    MujocoWorld('empty').spawn('amr', read_description(urdf, str(source)))
 
 
 @pytest.mark.parametrize(

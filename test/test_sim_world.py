@@ -170,6 +170,21 @@ def test_refused_robot_leaves_the_world_as_it_was(world):
     world.spawn('broken', AMR, Transform((0.0, 3.0, 0.0)))
 
 
+def test_name_that_the_world_has_already_is_refused_and_undone(tmp_path):
+    path = tmp_path / 'taken.xml'
+    ground = '<geom type="plane" size="0 0 1"/><body name="amr/base_link"/>'
+    path.write_text(f'<mujoco><worldbody>{ground}</worldbody></mujoco>')
+    world = MujocoWorld(str(path))
+    with pytest.raises(SpawnError, match="'amr' cannot be put into the world: .*repeated name"):
+        world.spawn('amr', AMR)
+    assert world.names == ()
+    world.step(10)
+    world.spawn('other', AMR)
+    world.step(500)
+    height = world.robot('other').pose('base_footprint').translation[2]
+    assert height == pytest.approx(0.0, abs=1e-4)
+
+
 # --- reset and determinism -----------------------------------------------------------------------
 
 

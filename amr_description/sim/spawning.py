@@ -11,9 +11,9 @@ import enum
 import math
 import re
 
+from amr_description.control.contracts import Log, Severity
 from amr_description.errors import DescriptionError, SpawnError
 from amr_description.model.checks import require_sound
-from amr_description.model.findings import Finding
 from amr_description.model.frames import Quaternion, Transform
 from amr_description.model.robot import Robot
 
@@ -37,6 +37,10 @@ class SpawnCode(enum.IntEnum):
     MISSING_ASSETS = 107
     UNSUPPORTED_ASSETS = 108
     INVALID_POSE = 109
+
+
+def say_nothing(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+    """A log that nobody reads."""
 
 
 def check_name(name: str, taken: Collection[str]) -> None:
@@ -78,11 +82,12 @@ def checked_pose(pose: Transform) -> Transform:
     return Transform(pose.translation, rotation)
 
 
-def read_description(text: str, source: str) -> tuple[Robot, tuple[Finding, ...]]:
+def read_description(text: str, source: str, log: Log = say_nothing) -> Robot:
     """
-    The robot of a URDF, and what the checker warns of; ``source`` names the text in messages.
+    The robot of a URDF; ``source`` names the text in messages.
 
-    Refused: no text, another format than URDF, and what the checker calls an error.
+    What the checker warns of goes to the log. Refused: no text, another format than URDF, and what
+    the checker calls an error.
     """
     if not text.strip():
         raise SpawnError(
@@ -96,6 +101,9 @@ def read_description(text: str, source: str) -> tuple[Robot, tuple[Finding, ...]
                 SpawnCode.UNSUPPORTED_FORMAT,
             )
     try:
-        return require_sound(text, source)
+        robot, warnings = require_sound(text, source)
     except DescriptionError as cause:
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
+    for warning in warnings:
+        log(Severity.WARN, warning.text)
+    return robot

@@ -14,24 +14,26 @@ The simulated world: a ground, robots that come and go, and time.
     robot.pose('base_footprint')
 """
 
-
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Log
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
+from amr_description.model.robot import Robot
 from amr_description.sim.contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
 from amr_description.sim.engine import Engine
 from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
-from amr_description.sim.spawning import check_name, checked_pose, read_description, SpawnCode
+from amr_description.sim.spawning import (
+    check_name,
+    checked_pose,
+    read_description,
+    say_nothing,
+    SpawnCode,
+)
 from amr_description.sim.stepping import LONGEST_STEP
 from amr_description.sim.world_file import load_world, static_surfaces
 
 AT_ORIGIN = Transform()
-
-
-def _say_nothing(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
-    """The log of a world that nobody listens to."""
 
 
 class MujocoWorld:
@@ -47,7 +49,7 @@ class MujocoWorld:
         *,
         timestep: int = LONGEST_STEP,
         contact: ContactSettings = WHEEL_CONTACT,
-        log: Log = _say_nothing,
+        log: Log = say_nothing,
     ) -> None:
         """
         Load a shipped world by name or an MJCF file by path; ``timestep``: physics step, ns.
@@ -96,21 +98,19 @@ class MujocoWorld:
             ) from None
 
     def spawn(
-        self, name: str, urdf: str, pose: Transform = AT_ORIGIN, source: str = ''
+        self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN
     ) -> RobotView:
         """
         Put a robot into the world, at rest.
 
-        ``urdf``: the text. ``pose``: transform from the robot's root link to the world.
-        ``source``: where the text is from, for messages and for meshes given by a relative path;
-        else the name. What the checker warns of goes to the log. Time and all other robots stay
-        as they are. Raises SpawnError; the world is then as before.
+        ``description``: a URDF, or what :func:`~amr_description.sim.spawning.read_description`
+        made of it. ``pose``: transform from the robot's root link to the world. Time and all
+        other robots stay as they are. Raises SpawnError; the world is then as before.
         """
         check_name(name, self.names)
         pose = checked_pose(pose)
-        description, warnings = read_description(urdf, source or name)
-        for warning in warnings:
-            self._log(Severity.WARN, warning.text)
+        if isinstance(description, str):
+            description = read_description(description, name, self._log)
         self._attach(name, build_robot(description, self._log), pose)
         view = RobotView(self._engine, name, description, pose, self._log)
         self._robots[name] = view
@@ -141,11 +141,11 @@ class MujocoWorld:
         place = spec.worldbody.add_frame(
             name=name, pos=pose.translation, quat=wxyz_from_xyzw(pose.rotation)
         )
-        spec.attach(model.spec, frame=place, prefix=f'{name}/')
-        for tread in model.treads:
-            for surface in self._surfaces:
-                add_wheel_contact(spec, f'{name}/{tread}', surface, self._contact)
         try:
+            spec.attach(model.spec, frame=place, prefix=f'{name}/')
+            for tread in model.treads:
+                for surface in self._surfaces:
+                    add_wheel_contact(spec, f'{name}/{tread}', surface, self._contact)
             self._engine.recompile()
         except ValueError as cause:
             spec.delete(place)
