@@ -32,7 +32,7 @@ def world(log, tmp_path, monkeypatch):
 
 def break_wheel(world, quantity, value):
     """Put ``value`` where the physics has the front left wheel of 'amr'."""
-    data = world._engine.data
+    data = world.engine.data
     joint = data.joint('amr/joint_wheel_front_left')
     getattr(joint, quantity)[0] = value
 

@@ -61,27 +61,28 @@ class MujocoWorld:
         self._surfaces = static_surfaces(spec)
         self._contact = contact
         try:
-            self._engine = Engine(spec, timestep)
+            self.engine = Engine(spec, timestep)
+            """Model and data, for this package and its tests."""
         except ValueError as cause:
             raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
         self._log = log
-        self._faults = FaultMonitor(self._engine, log)
+        self._faults = FaultMonitor(self.engine, log)
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
 
     @property
     def time(self) -> int:
         """Simulated time, ns."""
-        return self._engine.time
+        return self.engine.time
 
     @property
     def timestep(self) -> int:
         """The physics step, ns; it may be set at any time, and time goes on from where it is."""
-        return self._engine.timestep
+        return self.engine.timestep
 
     @timestep.setter
     def timestep(self, timestep: int) -> None:
-        self._engine.timestep = timestep
+        self.engine.timestep = timestep
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -112,7 +113,7 @@ class MujocoWorld:
         if isinstance(description, str):
             description = read_description(description, name, self._log)
         self._attach(name, build_robot(description, self._log), pose)
-        view = RobotView(self._engine, name, description, pose, self._log)
+        view = RobotView(self.engine, name, description, pose, self._log)
         self._robots[name] = view
         self._find_roots()
         return view
@@ -120,24 +121,24 @@ class MujocoWorld:
     def remove(self, name: str) -> None:
         """Take a robot out; its view is dead. Raises SimulationError for an unknown name."""
         self.robot(name)
-        spec = self._engine.spec
+        spec = self.engine.spec
         spec.delete(spec.frame(name))
-        self._engine.recompile()
+        self.engine.recompile()
         del self._robots[name]
         self._find_roots()
 
     def step(self, count: int = 1) -> None:
         """Advance by ``count`` physics steps; faults are told to the log."""
-        self._engine.step(count)
+        self.engine.step(count)
         self._faults.check(self._roots)
 
     def reset(self) -> None:
         """Time 0, every robot at rest where it was spawned, all commands zero."""
-        self._engine.reset()
+        self.engine.reset()
         self._faults.reset()
 
     def _attach(self, name: str, model: RobotSpec, pose: Transform) -> None:
-        spec = self._engine.spec
+        spec = self.engine.spec
         place = spec.worldbody.add_frame(
             name=name, pos=pose.translation, quat=wxyz_from_xyzw(pose.rotation)
         )
@@ -146,7 +147,7 @@ class MujocoWorld:
             for tread in model.treads:
                 for surface in self._surfaces:
                     add_wheel_contact(spec, f'{name}/{tread}', surface, self._contact)
-            self._engine.recompile()
+            self.engine.recompile()
         except ValueError as cause:
             spec.delete(place)
             raise SpawnError(
