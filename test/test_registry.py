@@ -1,0 +1,58 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tables from a name to a class, imported only when used."""
+
+import sys
+
+import pytest
+
+from amr_description.controllers import CONTROLLERS
+from amr_description.controllers.diff_drive_controller import DiffDriveController
+from amr_description.errors import ControllerError
+from amr_description.registry import Registry, resolve
+
+TABLE = {'a/Path': 'pathlib:Path', 'a/Gone': 'pathlib:Gone'}
+
+
+def test_a_name_of_the_table_is_found():
+    assert Registry('thing', TABLE, ControllerError).find('a/Path').__name__ == 'Path'
+
+
+def test_a_strangers_class_needs_no_entry():
+    assert Registry('thing', TABLE, ControllerError).find('fractions/Fraction').__name__ == (
+        'Fraction'
+    )
+
+
+def test_nothing_is_imported_before_it_is_asked_for(monkeypatch):
+    monkeypatch.delitem(sys.modules, 'this', raising=False)
+    registry = Registry('thing', {'a/This': 'this:s'}, ControllerError)
+    assert registry.names == ('a/This',)
+    assert 'this' not in sys.modules
+
+
+@pytest.mark.parametrize(
+    'name',
+    ['nobody.knows/Me', 'pathlib/Nothing', 'pathlib', '', '/', '.rel/Me', 'a/b/c', 'broken/C'],
+)
+def test_an_unknown_name_is_told_with_those_there_are(name, tmp_path, monkeypatch):
+    (tmp_path / 'broken.py').write_text('this is no Python\n')
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ControllerError, match=r"thing '.*' is not known.*Known: a/Path, a/Gone"):
+        Registry('thing', TABLE, ControllerError).find(name)
+
+
+def test_a_fault_of_the_table_itself_is_not_the_users():
+    with pytest.raises(AttributeError, match='Gone'):
+        Registry('thing', TABLE, ControllerError).find('a/Gone')
+
+
+def test_the_shipped_controllers_are_found_by_the_names_of_ros2_controllers():
+    assert CONTROLLERS.find('diff_drive_controller/DiffDriveController') is DiffDriveController
+    for name in CONTROLLERS.names:
+        assert CONTROLLERS.find(name).parameters_type
+
+
+def test_resolve_says_what_import_says():
+    with pytest.raises(ImportError, match='nobody_knows_me'):
+        resolve('nobody_knows_me:Class')
