@@ -1,0 +1,49 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Start-up stages from the lines of a bring-up."""
+
+import pytest
+
+from amr_description.errors import BringupError
+from amr_description.nodes.startup_stages import Stage, stages_of, table
+
+LINES = [
+    (0.1, '[INFO] [mujoco_sim-1]: process started with pid [10]'),
+    (0.1, '[INFO] [create-3]: process started with pid [12]'),
+    (0.9, "[mujoco_sim-1] [INFO] [1.0] [mujoco_sim]: World 'empty'; waiting for robots on x"),
+    (1.4, '[INFO] [create-3]: process has finished cleanly [pid 12]'),
+    (2.0, '[spawner-4] [INFO] [2.0] [s]: Configured and activated joint_state_broadcaster'),
+    (2.1, '[INFO] [spawner-4]: process has finished cleanly [pid 13]'),
+    (2.9, '[spawner-5] [INFO] [3.0] [s]: \x1b[32mConfigured and activated diff_drive_controller'),
+    (3.0, '[INFO] [launch]: ready in 3.0 s: drive with, in another shell,'),
+]
+
+
+def test_stages():
+    stages = stages_of(LINES)
+    assert [(stage.name, stage.at) for stage in stages] == [
+        ('bring-up has started its processes', 0.1),
+        ('mujoco_sim is up', 0.9),
+        ('the robot is in the world', 1.4),
+        ('joint_state_broadcaster is active', 2.0),
+        ('diff_drive_controller is active', 2.9),
+        ('ready', 3.0),
+    ]
+    assert sum(stage.took for stage in stages) == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(
+    'end, name', [(0, 'bring-up has'), (2, 'mujoco_sim is up'), (6, 'diff_drive_controller is')]
+)
+def test_stage_that_was_not_reached_is_named(end, name):
+    last = LINES[end - 1][1] if end else 'nothing'
+    with pytest.raises(BringupError, match=f"did not come to '{name}.*its last line: ") as error:
+        stages_of(LINES[:end])
+    assert str(error.value).endswith(last)
+
+
+def test_table():
+    assert table([Stage('ready', 3.0, 0.25)]).splitlines() == [
+        'start-up                                   at     took',
+        'ready                                  3.00 s   0.25 s',
+    ]
