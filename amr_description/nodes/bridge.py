@@ -192,6 +192,7 @@ def declare(node: Node, spec: Spec) -> None:
     declared = node.declare_parameter(spec.name, array_type)
     if declared.type_ == Parameter.Type.NOT_SET:
         node.set_parameters([Parameter(spec.name, array_type, list(spec.default))])
+    descriptor.type = array_type.value
     node.set_descriptor(spec.name, descriptor)
 
 

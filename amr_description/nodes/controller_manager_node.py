@@ -7,7 +7,8 @@ The ``controller_manager`` node of one robot: ros2_control's services over the p
 owner, so that nothing here ever blocks the executor: a slow configure delays no list.
 """
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Sequence
+import traceback
 from typing import Any
 
 from controller_manager_msgs import srv
@@ -33,6 +34,7 @@ from amr_description.nodes.manager_messages import (
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.outgoing import Outgoing, SIM_TIME
 from amr_description.nodes.owner import Owner
+from amr_description.nodes.runtime import argument_errors
 
 NODE_NAME = 'controller_manager'
 _SERVICE_QOS = QoSProfile(history=HistoryPolicy.KEEP_ALL)
@@ -237,16 +239,17 @@ class ControllerManagerNode:
         controller_class = CONTROLLERS.find(type_name)
         self._loading.add(name)
         try:
-            bridge = ControllerNode(
-                name,
-                controller_class,
-                self._controller_arguments(name),
-                namespace=self.node.get_namespace(),
-                update_rate=self.update_rate,
-                robot=self._robot,
-                outgoing=self._outgoing,
-                logs=self._logs,
-            )
+            with argument_errors():
+                bridge = ControllerNode(
+                    name,
+                    controller_class,
+                    self._controller_arguments(name),
+                    namespace=self.node.get_namespace(),
+                    update_rate=self.update_rate,
+                    robot=self._robot,
+                    outgoing=self._outgoing,
+                    logs=self._logs,
+                )
             try:
                 await self._owner.submit(lambda: self.manager.load(bridge.controller, type_name))
             except AmrError:
@@ -284,6 +287,9 @@ class ControllerManagerNode:
             await work
         except AmrError as error:
             self.node.get_logger().error(str(error))
+            return False
+        except Exception:  # a stranger's class may raise anything; the robot must go on
+            self.node.get_logger().error(traceback.format_exc())
             return False
         return True
 

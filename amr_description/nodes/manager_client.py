@@ -1,0 +1,162 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A controller manager as seen by a program that asks it for something, ours or a C++ one."""
+
+from collections.abc import Mapping, Sequence
+import time
+from typing import Any
+
+from controller_manager_msgs import srv
+from rcl_interfaces.msg import Log
+from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from amr_description.control.switching import Strictness
+from amr_description.errors import ControllerError
+from amr_description.nodes.clients import call, wait_until
+
+_ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class ManagerClient:
+    """Calls the services of one controller manager."""
+
+    def __init__(
+        self, node: Node, manager: str, *, timeout: float = 0.0, call_timeout: float = 10.0
+    ) -> None:
+        """
+        Wait until the manager is there; ``manager``: its node, relative to the namespace.
+
+        ``timeout``: s, 0 for ever. Raises ControllerError when it does not come.
+        """
+        self._node = node
+        self._call_timeout = call_timeout
+        self._asked = time.time()
+        self.name = node.resolve_service_name(manager)
+        self.namespace = self.name.rpartition('/')[0] or '/'
+        service = f'{self.name}/list_controllers'
+
+        def say() -> None:
+            node.get_logger().warning(f'Could not contact service {service}')
+            node.get_logger().info(f'waiting for service {service} to become available...')
+
+        node.get_logger().info(f'waiting for service {service} to become available...')
+        client = node.create_client(srv.ListControllers, service)
+        try:
+            found = wait_until(
+                node,
+                lambda: True if client.service_is_ready() else None,
+                say,
+                every=10.0,
+                timeout=timeout,
+            )
+        finally:
+            node.destroy_client(client)
+        if not found:
+            raise ControllerError(
+                f'Could not contact service {service} within {timeout:g} s: the controller '
+                'manager comes up when a robot with a <ros2_control> block is spawned'
+            )
+
+    def states(self) -> dict[str, str]:
+        """Name → state of every loaded controller."""
+        response = self._call(srv.ListControllers, 'list_controllers')
+        return {controller.name: controller.state for controller in response.controller}
+
+    def load(self, name: str) -> bool:
+        """Load a controller."""
+        return self._call(srv.LoadController, 'load_controller', name=name).ok
+
+    def configure(self, name: str) -> bool:
+        """Configure a controller."""
+        return self._call(srv.ConfigureController, 'configure_controller', name=name).ok
+
+    def unload(self, name: str) -> bool:
+        """Unload a controller."""
+        return self._call(srv.UnloadController, 'unload_controller', name=name).ok
+
+    def switch(
+        self,
+        *,
+        activate: Sequence[str] = (),
+        deactivate: Sequence[str] = (),
+        timeout: float = 5.0,
+        activate_asap: bool = True,
+    ) -> str | None:
+        """Switch under STRICT; return ``None``, or why it failed."""
+        response = self._call(
+            srv.SwitchController,
+            'switch_controller',
+            activate_controllers=list(activate),
+            deactivate_controllers=list(deactivate),
+            strictness=int(Strictness.STRICT),
+            activate_asap=activate_asap,
+            timeout=Duration(seconds=timeout).to_msg(),
+        )
+        return None if response.ok else response.message
+
+    def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
+        """Set ``<controller>.<key>`` at the manager. Raises ControllerError."""
+        if not parameters:
+            return
+        rows = [Parameter(f'{controller}.{k}', value=v) for k, v in parameters.items()]
+        response = self._call(
+            SetParameters, 'set_parameters', parameters=[row.to_parameter_msg() for row in rows]
+        )
+        for row, result in zip(rows, response.results, strict=True):
+            if not result.successful:
+                raise ControllerError(f"{self.name} refuses '{row.name}': {result.reason}")
+
+    def reasons(self, controller: str) -> str:
+        """
+        Say why the last request failed; the services only say that it did.
+
+        A missing type is found by asking; the rest is what manager and controller have logged as
+        errors since this client began, taken from the latched ``/rosout``.
+        """
+        missing = self._missing_type(controller)
+        if missing:
+            return missing
+        loggers = {self.name, f'{self.namespace.rstrip("/")}/{controller}'}
+        loggers = {name.strip('/').replace('/', '.') for name in loggers}
+        lines: list[str] = []
+
+        def hear(message: Log) -> None:
+            stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
+            if (
+                message.level >= Log.ERROR
+                and message.name in loggers
+                and stamp >= self._asked
+            ):
+                lines.append(message.msg)
+
+        subscription = self._node.create_subscription(Log, '/rosout', hear, _ROSOUT)
+        wait_until(self._node, lambda: lines or None, lambda: None, every=1.0, timeout=1.0)
+        self._node.destroy_subscription(subscription)
+        return '; '.join(dict.fromkeys(lines))
+
+    def _missing_type(self, controller: str) -> str:
+        """Say which controllers have a type, if this one has none."""
+        response = self._call(GetParameters, 'get_parameters', names=[f'{controller}.type'])
+        if response.values and response.values[0].string_value:
+            return ''
+        listed = self._call(ListParameters, 'list_parameters').result.names
+        typed = sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
+        return (
+            f"no type is set for it; the parameters of {self.name} hold one for: "
+            f'{", ".join(typed) or "none"}; another file is given with -p FILE'
+        )
+
+    def _call(self, service_type: Any, service: str, **fields: Any) -> Any:
+        request = service_type.Request(**fields)
+        return call(
+            self._node,
+            service_type,
+            f'{self.name}/{service}',
+            request,
+            timeout=self._call_timeout,
+        )
+
