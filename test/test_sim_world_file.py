@@ -11,9 +11,7 @@ from amr_description.sim.resources import package_share, resolve_uri, shipped_wo
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world
 
-WHEELS = [
-    f'joint_wheel_{end}_{side}' for end in ('front', 'back') for side in ('left', 'right')
-]
+WHEELS = [f'joint_wheel_{end}_{side}' for end in ('front', 'back') for side in ('left', 'right')]
 
 
 @pytest.fixture

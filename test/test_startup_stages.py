@@ -44,6 +44,6 @@ def test_stage_that_was_not_reached_is_named(end, name):
 
 def test_table():
     assert table([Stage('ready', 3.0, 0.25)]).splitlines() == [
-        'start-up                                   at     took',
+        'warm start-up                              at     took',
         'ready                                  3.00 s   0.25 s',
     ]

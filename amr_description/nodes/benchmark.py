@@ -3,9 +3,10 @@
 """
 ``benchmark``: how much of the physics' speed the whole stack keeps, and how long a start takes.
 
-The stack is started as a user starts it, in a ROS domain of its own, with real-time factor 0 (as
-fast as possible). The same robot, stepped by nothing but ``mj_step``, is measured before and
-after, so that a machine that changes its speed meanwhile is noticed.
+The stack is started as a user starts it, in a ROS domain of its own: once as fast as possible
+(real-time factor 0), to see how fast that is, and once in real time, to see how long a warm start
+takes. The same robot, stepped by nothing but ``mj_step``, is measured before and after, so that a
+machine that changes its speed meanwhile is noticed.
 """
 
 import argparse
@@ -37,13 +38,13 @@ _STOP_TIMEOUT = 15.0
 class BringUp:
     """One run of the stack ``simulation``; its lines are kept with the time of their coming."""
 
-    def __init__(self) -> None:
-        """Start it."""
+    def __init__(self, factor: int) -> None:
+        """Start it at a real-time factor."""
         self.lines: list[tuple[float, str]] = []
         self._is_ready = threading.Event()
         self._start = time.monotonic()
         self._process = subprocess.Popen(
-            [sys.executable, '-c', _BRINGUP, 'simulation', 'rtf:=0'],
+            [sys.executable, '-c', _BRINGUP, 'simulation', f'rtf:={factor}'],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -82,9 +83,9 @@ class BringUp:
 
 
 @contextmanager
-def bring_up() -> Iterator[BringUp]:
-    """The stack, ready; it is ended in every way out."""
-    run = BringUp()
+def bring_up(factor: int) -> Iterator[BringUp]:
+    """The stack at a real-time factor, ready; it is ended in every way out."""
+    run = BringUp(factor)
     try:
         run.wait_until_ready()
         yield run
@@ -96,9 +97,7 @@ def real_time_factor(node: Node, seconds: float) -> float:
     """Simulated over wall time of the running simulator, over ``seconds`` of wall time."""
     simulated_before, wall_before = _simulated_time(node)
     deadline = wall_before + seconds
-    wait_until(
-        node, lambda: time.monotonic() >= deadline or None, lambda: None, every=seconds
-    )
+    wait_until(node, lambda: time.monotonic() >= deadline or None, lambda: None, every=seconds)
     simulated_after, wall_after = _simulated_time(node)
     return (simulated_after - simulated_before) / (wall_after - wall_before)
 
@@ -131,13 +130,13 @@ def benchmark(options: argparse.Namespace) -> int:
     with ros([]):
         node = Node('benchmark')
         before = bare_real_time_factor(urdf, options.seconds / 2)
-        print('first start, which warms the caches ...', flush=True)
-        with bring_up():
-            pass
-        print('second start, which is measured ...', flush=True)
-        with bring_up() as run:
-            stages = stages_of(run.lines)
+        print('as fast as possible ...', flush=True)
+        with bring_up(0):
             full = real_time_factor(node, options.seconds)
+        # The run before has warmed the caches.
+        print('in real time ...', flush=True)
+        with bring_up(1) as run:
+            stages = stages_of(run.lines)
         after = bare_real_time_factor(urdf, options.seconds / 2)
         node.destroy_node()
     bare = (before + after) / 2

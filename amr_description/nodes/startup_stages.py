@@ -48,7 +48,7 @@ def stages_of(lines: Sequence[tuple[float, str]]) -> tuple[Stage, ...]:
 
 def table(stages: Iterable[Stage]) -> str:
     """The stages as text, one a line."""
-    head = f'{"start-up":36} {"at":>8} {"took":>8}'
+    head = f'{"warm start-up":36} {"at":>8} {"took":>8}'
     rows = (f'{stage.name:36} {stage.at:6.2f} s {stage.took:6.2f} s' for stage in stages)
     return '\n'.join((head, *rows))
 

@@ -48,9 +48,7 @@ def _mesh_file(uri: str, source: str, place: str) -> Path:
         raise SpawnError(f'{place}: {uri}: {cause}', SpawnCode.MISSING_ASSETS) from cause
     if not path.is_file():
         found = '' if str(path) == uri else f', which is {path}'
-        raise SpawnError(
-            f'{place}: there is no file {uri}{found}', SpawnCode.MISSING_ASSETS
-        )
+        raise SpawnError(f'{place}: there is no file {uri}{found}', SpawnCode.MISSING_ASSETS)
     if path.suffix.lower() not in FORMATS:
         raise SpawnError(
             f'{place}: {uri}: the simulator reads {", ".join(FORMATS)}, not {path.suffix}',

@@ -90,9 +90,7 @@ def read_description(text: str, source: str, log: Log = say_nothing) -> Robot:
     the checker calls an error.
     """
     if not text.strip():
-        raise SpawnError(
-            'no robot description: resource_string is empty', SpawnCode.NO_RESOURCE
-        )
+        raise SpawnError('no robot description: resource_string is empty', SpawnCode.NO_RESOURCE)
     for tag, language in (('<sdf', 'SDF'), ('<mujoco', 'MJCF')):
         head, found, _ = text.partition(tag)
         if found and '<robot' not in head:

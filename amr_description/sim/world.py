@@ -98,9 +98,7 @@ class MujocoWorld:
                 f"there is no robot '{name}'; there are: {', '.join(self.names) or 'none'}"
             ) from None
 
-    def spawn(
-        self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN
-    ) -> RobotView:
+    def spawn(self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN) -> RobotView:
         """
         Put a robot into the world, at rest.
 
