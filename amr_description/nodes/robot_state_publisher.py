@@ -19,11 +19,15 @@ Transforms carry the stamp of the joint states they come from. As in the origina
 thinned out by comparing these stamps (:class:`~amr_description.nodes.robot_state.Throttle`). Where
 the original hurts:
 
-* a joint state with a zero stamp, which it never publishes, counts as stamped on arrival;
+* a joint state with a zero stamp, which it never publishes, counts as stamped on arrival (its
+  transforms too: TF has no use for stamp 0), and is thinned out by that stamp;
 * the first message about a joint is always published, also in the first 50 ms of simulated time;
 * ``publish_frequency`` 0 publishes every message;
 * an unusable description ends it with one line and exit code 1, not with an abort;
 * ``/tf_static`` carries the fixed joints of the present description only.
+
+100 joint states of four wheels a second cost 4 % of a core, of which 3.5 % go into receiving them
+at all (an empty callback); ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
 """
 
 from collections.abc import Iterable, Sequence
@@ -41,6 +45,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
+from amr_description.control.interfaces import NANOSECONDS
 from amr_description.errors import AmrError, DescriptionError, ParameterError
 from amr_description.model.urdf import load, parse
 from amr_description.nodes.node_parameters import declare, values
@@ -49,7 +54,6 @@ from amr_description.nodes.runtime import run
 from amr_description.parameters import parameter
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_NANOSECONDS = 1_000_000_000
 _QUIET = 5.0  # s between two complaints
 
 
@@ -79,7 +83,10 @@ class RobotStatePublisher(Node):
         if not self._settings.robot_description and arguments:
             self._take_file(arguments[0])
         if not self._settings.robot_description:
-            raise ParameterError('robot_description parameter must not be empty')
+            raise ParameterError(
+                'robot_description parameter must not be empty; give it the text of a URDF in a '
+                '--params-file, or name the URDF file as the argument'
+            )
         self._state: RobotState | None = None
         self._throttle = Throttle()
         self._last_now = 0  # ns
@@ -147,9 +154,8 @@ class RobotStatePublisher(Node):
             self._static.publish(self._message(state.static, self.get_clock().now().to_msg()))
 
     def _on_joint_state(self, message: JointState) -> None:
-        names, positions = message.name, message.position
-        if len(names) != len(positions):
-            self._complain(names, empty=not positions)
+        if len(message.name) != len(message.position):
+            self._complain(message)
             return
         now = self.get_clock().now()
         if now.nanoseconds < self._last_now:
@@ -159,33 +165,33 @@ class RobotStatePublisher(Node):
         stamp = message.header.stamp
         if not (stamp.sec or stamp.nanosec):
             stamp = now.to_msg()
-        nanoseconds = stamp.sec * _NANOSECONDS + stamp.nanosec
-        due = self._throttle.admit(names, nanoseconds, self._period)
-        if not (due or self._settings.ignore_timestamp):
-            return
-        self._throttle.note(names, nanoseconds)
-        transforms = self._state.moving(dict(zip(names, positions, strict=True)))
-        if transforms:
-            self._moving.publish(self._message(transforms, stamp))
+        nanoseconds = stamp.sec * NANOSECONDS + stamp.nanosec
+        due = self._throttle.admit(message.name, nanoseconds, self._period)
+        if due or self._settings.ignore_timestamp:
+            self._throttle.note(message.name, nanoseconds)
+            positions = dict(zip(message.name, message.position, strict=True))
+            transforms = self._state.moving(positions)
+            if transforms:
+                self._moving.publish(self._message(transforms, stamp))
 
-    def _message(self, transforms: Iterable[LinkTransform], stamp: Time) -> TFMessage:
-        prefix = self._settings.frame_prefix
-        return TFMessage(transforms=[_stamped(link, prefix, stamp) for link in transforms])
-
-    def _complain(self, names: Sequence[str], *, empty: bool) -> None:
-        """Say, every few seconds, that joint states are unusable."""
-        if empty:
-            joints = ','.join(f'"{name}"' for name in names)
+    def _complain(self, message: JointState) -> None:
+        """Say, every few seconds, that a joint state cannot be used."""
+        if message.position:
+            self.get_logger().error(
+                'Robot state publisher ignored an invalid JointState message',
+                throttle_duration_sec=_QUIET,
+            )
+        else:
+            joints = ','.join(f'"{name}"' for name in message.name)
             self.get_logger().warning(
                 'Robot state publisher ignored a JointState message about joint(s) '
                 f'{joints} whose position member was empty.',
                 throttle_duration_sec=_QUIET,
             )
-        else:
-            self.get_logger().error(
-                'Robot state publisher ignored an invalid JointState message',
-                throttle_duration_sec=_QUIET,
-            )
+
+    def _message(self, transforms: Iterable[LinkTransform], stamp: Time) -> TFMessage:
+        prefix = self._settings.frame_prefix
+        return TFMessage(transforms=[_stamped(link, prefix, stamp) for link in transforms])
 
 
 def _stamped(link: LinkTransform, prefix: str, stamp: Time) -> TransformStamped:
