@@ -48,7 +48,7 @@ from amr_description.controllers.odometry import Odometry
 from amr_description.controllers.publish_gate import PublishGate
 from amr_description.controllers.rate_limiter import RateLimiter
 from amr_description.controllers.wheel_side import WheelSide
-from amr_description.errors import ControllerError, ParameterError
+from amr_description.errors import ControllerError
 
 _STAMPED = 'geometry_msgs/msg/TwistStamped'
 _CONVERT = 'amr_description.nodes.converters'
@@ -79,8 +79,8 @@ class DiffDriveController(Controller):
             )
         self._parameters = parameters
         self._separation = parameters.wheel_separation_multiplier * parameters.wheel_separation
-        self._linear_limiter = self._limiter('linear', parameters.linear)
-        self._angular_limiter = self._limiter('angular', parameters.angular)
+        self._linear_limiter = self._limiter(parameters.linear)
+        self._angular_limiter = self._limiter(parameters.angular)
         self._reception = CommandReception(
             round(parameters.cmd_vel_timeout * NANOSECONDS), self.log
         )
@@ -216,17 +216,14 @@ class DiffDriveController(Controller):
             states[count:],
         )
 
-    def _limiter(self, axis: str, limits: SpeedLimits) -> RateLimiter:
+    def _limiter(self, limits: SpeedLimits) -> RateLimiter:
         for name in limits.uses_deprecated:
             self.log(
                 Severity.WARN,
                 f'[deprecated] {name} parameter is deprecated, instead set the respective limits '
                 'to NAN',
             )
-        try:
-            return limits.limiter()
-        except ParameterError as error:
-            raise ControllerError(f'Failed to configure {axis} speed limiter: {error}') from error
+        return limits.limiter()
 
     def _make_ports(self, parameters: DiffDriveParameters) -> None:
         self._frames = Frames(
