@@ -133,9 +133,7 @@ def inherited(args: Sequence[str]) -> list[str]:
     """
     kept: list[str] = []
     for flag, value in zip(args, args[1:], strict=False):
-        if flag in ('-r', '--remap') and not value.startswith(('__node:=', '__name:=', '__ns:=')):
-            kept += [flag, value]
-        elif flag == '--log-level':
+        if flag in ('-r', '--remap') and not value.startswith(('__node:=', '__name:=', '__ns:=')) or flag == '--log-level':
             kept += [flag, value]
     return kept
 

@@ -15,7 +15,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
-from rclpy.time import Time, ClockType
+from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
 from amr_description.control.interfaces import NANOSECONDS

@@ -103,8 +103,9 @@ class Spawner:
                     self._log.info(_green(f'Configured and activated {name}'))
         if self._options.as_group and to_activate:
             self._activate(to_activate)
+            names = str(to_activate)
             self._log.info(
-                _green(f'Configured and activated all the parsed controllers list : {to_activate}!')
+                _green(f'Configured and activated all the parsed controllers list : {names}!')
             )
 
     def unload(self, names: Sequence[str]) -> None:

@@ -1,0 +1,309 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The controller manager as others on the network see it: services, topics, parameters, time."""
+
+from pathlib import Path
+import sys
+import threading
+
+from control_fakes import FakeHardware, WHEELS
+from controller_manager_msgs import srv
+import pytest
+from rcl_interfaces.srv import DescribeParameters
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+
+from amr_description.control.interfaces import LifecycleState
+from amr_description.control.loop import Loop
+from amr_description.control.resource_manager import ResourceManager
+from amr_description.errors import ParameterError
+from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.controller_manager_node import ControllerManagerNode
+from amr_description.nodes.manager_client import ManagerClient
+from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.owner import Mailbox, Owner, WallPacer
+
+PERIOD = 10_000_000
+FIXTURES = Path(__file__).parent / 'fixtures' / 'nodes'
+YAML = f"""
+controller_manager:
+  ros__parameters:
+    update_rate: 100
+    joint_state_broadcaster: {{type: joint_state_broadcaster/JointStateBroadcaster}}
+    diff_drive_controller:
+      type: diff_drive_controller/DiffDriveController
+      node_options_args: ["-r", "~/odom:=/odom"]
+    wrong_number: {{type: diff_drive_controller/DiffDriveController}}
+    slow: {{type: strangers/Slow}}
+    broken: {{type: strangers/Broken}}
+    nowhere: {{type: no_such_package/Nothing}}
+diff_drive_controller:
+  ros__parameters:
+    left_wheel_names: [{WHEELS[0]}, {WHEELS[1]}]
+    right_wheel_names: [{WHEELS[2]}, {WHEELS[3]}]
+    wheel_separation: 0.3
+    wheel_radius: 0.1
+wrong_number:
+  ros__parameters: {{wheel_radius: 1}}
+"""
+
+
+class Clockwork:
+    """A stepper: time, and nothing in it."""
+
+    time = 0
+
+    def advance(self, period):
+        self.time += period
+        return self.time
+
+
+class Host:
+    """A process with one manager over fake wheels, and a client that knows only ROS."""
+
+    def __init__(self, parameter_file):
+        self.client_node = Node('client')
+        self.node = Node('host')
+        self.executor = SingleThreadedExecutor()
+        self.logs = LogThread()
+        outgoing = Outgoing(self.node)
+        mailbox = Mailbox()
+        loop = Loop(Clockwork(), WallPacer(1.0), mailbox, outgoing, PERIOD)
+        self.owner = Owner(loop, mailbox, self.executor)
+        try:
+            self.manager_node = ControllerManagerNode(
+                self.owner,
+                outgoing,
+                self.logs,
+                namespace='/',
+                robot=None,
+                arguments=['--params-file', str(parameter_file)],
+            )
+        except Exception:
+            self.logs.stop()
+            raise
+        self.hardware = FakeHardware()
+        resources = ResourceManager(self.manager_node.log)
+        resources.add(self.hardware)
+        resources.set_state('hardware', LifecycleState.ACTIVE)
+        loop.managers.append(self.manager_node.start(resources, PERIOD))
+        self.executor.add_node(self.node)
+        self.executor.add_node(self.manager_node.node)
+        self.thread = threading.Thread(target=self.executor.spin)
+
+    def start(self):
+        self.owner.start()
+        self.thread.start()
+        self.client = ManagerClient(self.client_node, 'controller_manager', timeout=20.0)
+
+    def close(self):
+        self.owner.stop()
+        self.executor.shutdown()
+        self.thread.join()
+        self.manager_node.destroy()
+        self.node.destroy_node()
+        self.client_node.destroy_node()
+        self.logs.stop()
+
+    def activate(self, *names):
+        for name in names:
+            assert self.client.load(name)
+            assert self.client.configure(name)
+        assert self.client.switch(activate=names) is None
+
+
+@pytest.fixture
+def ros():
+    rclpy.init(args=[])
+    yield
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def host(ros, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(FIXTURES))
+    monkeypatch.delitem(sys.modules, 'strangers', raising=False)
+    (tmp_path / 'controllers.yaml').write_text(YAML)
+    host = Host(tmp_path / 'controllers.yaml')
+    host.start()
+    yield host
+    host.close()
+
+
+def test_a_controller_goes_through_its_states_by_services(host):
+    client = host.client
+    assert client.states() == {}
+    assert client.load('joint_state_broadcaster')
+    assert client.states() == {'joint_state_broadcaster': 'unconfigured'}
+    assert client.configure('joint_state_broadcaster')
+    assert client.states() == {'joint_state_broadcaster': 'inactive'}
+    assert client.switch(activate=['joint_state_broadcaster']) is None
+    assert client.states() == {'joint_state_broadcaster': 'active'}
+    assert not client.unload('joint_state_broadcaster')
+    assert client.switch(deactivate=['joint_state_broadcaster']) is None
+    assert client.unload('joint_state_broadcaster')
+    assert client.states() == {}
+    assert 'joint_state_broadcaster' not in host.client_node.get_node_names()
+
+
+def test_topics_have_the_names_and_the_qos_that_the_original_has(host):
+    host.activate('joint_state_broadcaster', 'diff_drive_controller')
+    publishers = host.client_node.get_publishers_info_by_topic
+    (odom,) = wait_until(
+        host.client_node, lambda: publishers('/odom') or None, lambda: None, every=1.0, timeout=5.0
+    )
+    (joints,) = publishers('/joint_states')
+    for endpoint, node in ((odom, 'diff_drive_controller'), (joints, 'joint_state_broadcaster')):
+        assert endpoint.node_name == node
+        assert endpoint.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        assert endpoint.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    (command,) = host.client_node.get_subscriptions_info_by_topic('/diff_drive_controller/cmd_vel')
+    assert command.topic_type == 'geometry_msgs/msg/TwistStamped'
+    assert command.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
+    assert command.qos_profile.durability == DurabilityPolicy.VOLATILE
+
+
+def test_nodes_say_sim_time_but_do_not_subscribe_to_the_clock(host):
+    host.activate('diff_drive_controller')
+    assert host.client_node.get_publishers_info_by_topic('/clock')
+    assert host.client_node.get_subscriptions_info_by_topic('/clock') == []
+    controllers = [n for n in host.manager_node.nodes() if n.get_name() == 'diff_drive_controller']
+    for node in (host.manager_node.node, *controllers):
+        assert node.get_parameter('use_sim_time').value is True
+        before = node.get_clock().now().nanoseconds
+        wait_until(
+            host.client_node,
+            lambda: node.get_clock().now().nanoseconds > before or None,  # noqa: B023
+            lambda: None,
+            every=1.0,
+            timeout=5.0,
+        )
+        after = node.get_clock().now().nanoseconds
+        assert before < after <= host.owner.loop.time
+        assert after % PERIOD == 0
+
+
+def test_a_slow_configure_does_not_keep_the_list_waiting(host):
+    assert host.client.load('slow')
+    import strangers
+
+    future = host.client_node.create_client(
+        srv.ConfigureController, '/controller_manager/configure_controller'
+    ).call_async(srv.ConfigureController.Request(name='slow'))
+    assert strangers.Slow.configuring.wait(5.0)
+    assert host.client.states() == {'slow': 'unconfigured'}
+    assert not future.done()
+    strangers.Slow.let.set()
+    rclpy.spin_until_future_complete(host.client_node, future, timeout_sec=5.0)
+    assert future.result().ok
+    assert host.client.states() == {'slow': 'inactive'}
+
+
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        ('unheard_of', 'no type is set for it; the parameters of /controller_manager hold one'),
+        ('nowhere', "controller type 'no_such_package/Nothing' is not known"),
+        ('broken', 'ValueError: a stranger made a mistake'),
+        ('wrong_number', "'wheel_radius' to '1' of type 'INTEGER', expecting type 'DOUBLE'"),
+    ],
+)
+def test_a_controller_that_cannot_be_loaded_is_refused_with_the_reason(host, name, reason):
+    assert not host.client.load(name)
+    assert reason in host.client.reasons(name)
+    assert host.client.states() == {}
+    assert name not in host.client_node.get_node_names()
+
+
+def test_a_parameter_is_checked_when_set_and_counts_at_the_next_configure(host):
+    host.activate('diff_drive_controller')
+    node = next(n for n in host.manager_node.nodes() if n.get_name() == 'diff_drive_controller')
+    (refused,) = node.set_parameters([Parameter('wheel_radius', value=-0.1)])
+    assert not refused.successful
+    assert refused.reason == "parameter 'wheel_radius' must be greater than 0, found -0.1 m"
+    (accepted,) = node.set_parameters([Parameter('publish_limited_velocity', value=True)])
+    assert accepted.successful
+    assert (
+        host.client_node.get_publishers_info_by_topic('/diff_drive_controller/cmd_vel_out') == []
+    )
+    assert host.client.switch(deactivate=['diff_drive_controller']) is None
+    assert host.client.configure('diff_drive_controller')
+    publishers = host.client_node.get_publishers_info_by_topic
+    assert wait_until(
+        host.client_node,
+        lambda: publishers('/diff_drive_controller/cmd_vel_out') or None,
+        lambda: None,
+        every=1.0,
+        timeout=5.0,
+    )
+
+
+def test_parameters_are_described_with_unit_and_meaning(host):
+    assert host.client.load('diff_drive_controller')
+    response = call(
+        host.client_node,
+        DescribeParameters,
+        '/diff_drive_controller/describe_parameters',
+        DescribeParameters.Request(names=['cmd_vel_timeout', 'left_wheel_names']),
+    )
+    timeout, wheels = response.descriptors
+    assert timeout.description.endswith('[s]')
+    assert wheels.type == Parameter.Type.STRING_ARRAY.value
+
+
+def test_the_message_of_a_refused_switch_is_the_response(host):
+    assert host.client.load('diff_drive_controller')
+    message = host.client.switch(activate=['diff_drive_controller'])
+    assert "is in 'unconfigured' state" in message
+
+
+def test_types_interfaces_and_components_are_listed(host):
+    host.activate('diff_drive_controller')
+    types = call(
+        host.client_node,
+        srv.ListControllerTypes,
+        '/controller_manager/list_controller_types',
+        srv.ListControllerTypes.Request(),
+    )
+    bases = dict(zip(types.types, types.base_classes, strict=True))
+    assert bases['diff_drive_controller/DiffDriveController'].endswith(
+        'ChainableControllerInterface'
+    )
+    interfaces = call(
+        host.client_node,
+        srv.ListHardwareInterfaces,
+        '/controller_manager/list_hardware_interfaces',
+        srv.ListHardwareInterfaces.Request(),
+    )
+    assert [i.name for i in interfaces.command_interfaces] == sorted(
+        f'{w}/velocity' for w in WHEELS
+    )
+    assert all(i.is_available and i.is_claimed for i in interfaces.command_interfaces)
+    components = call(
+        host.client_node,
+        srv.ListHardwareComponents,
+        '/controller_manager/list_hardware_components',
+        srv.ListHardwareComponents.Request(),
+    )
+    (component,) = components.component
+    assert (component.name, component.state.label) == ('hardware', 'active')
+
+
+def test_a_failing_turn_of_the_loop_ends_the_owner_and_tells(host):
+    told = threading.Event()
+    host.owner.on_failure = told.set
+    host.owner.loop.managers.append(None)  # what no loop can tick
+    assert told.wait(5.0)
+    assert host.owner.failed
+
+
+@pytest.mark.parametrize('rate', ['0', '-5', '99.5', 'fast'])
+def test_an_update_rate_that_cannot_be_is_refused(ros, tmp_path, rate):
+    path = tmp_path / 'rate.yaml'
+    path.write_text(f'controller_manager: {{ros__parameters: {{update_rate: {rate}}}}}')
+    with pytest.raises(ParameterError, match="'update_rate' of controller_manager must be an int"):
+        Host(path)
