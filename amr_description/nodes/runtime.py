@@ -164,6 +164,30 @@ def spin(executor: Executor, until: Callable[[], bool]) -> None:
 
 
 @contextmanager
+def spinning(
+    node: Node, *, executor: Callable[[], Executor] = EventsExecutor
+) -> Iterator[Executor]:
+    """
+    Serve the callbacks of ``node`` in a thread while inside; ``destroy_node()`` in every way out.
+
+    For programs whose main thread has something else to wait for.
+    """
+    server = executor()
+    ended = threading.Event()
+    server.add_node(node)
+    thread = threading.Thread(target=spin, args=(server, ended.is_set), name='spinning')
+    thread.start()
+    try:
+        yield server
+    finally:
+        ended.set()
+        server.wake()
+        thread.join()
+        server.shutdown()
+        node.destroy_node()
+
+
+@contextmanager
 def argument_errors() -> Iterator[None]:
     """Turn what rclpy raises about ROS arguments, names and parameters into ParameterError."""
     try:
