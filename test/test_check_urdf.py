@@ -257,12 +257,23 @@ def test_unreadable_files_give_one_line(run, tmp_path, name, content, message):
     assert err.count('\n') == 1
 
 
-def test_thousands_of_findings_are_not_all_printed(run):
-    links = '\n'.join('<link/>' for _ in range(1000))
+def test_a_file_that_is_wrong_all_over_is_not_read_to_the_end(run):
+    links = '\n'.join('<link/>' for _ in range(10_000))
     code, _, err = run(stdin=f'<robot name="r">{links}</robot>')
     assert code == 255
-    assert err.splitlines()[-1].startswith('… and ')
+    assert err.splitlines()[-1] == '… and 901 more'
     assert err.count('\n') < 150
+
+
+def test_a_chain_of_links_is_not_indented_for_ever(run):
+    size = 3000
+    links = ''.join(f'<link name="l{i}"/>' for i in range(size))
+    ends = '<joint name="j{0}" type="fixed"><parent link="l{1}"/><child link="l{0}"/></joint>'
+    joints = ''.join(ends.format(i, i - 1) for i in range(1, size))
+    code, out, _ = run(stdin=f'<robot name="r">{links}{joints}</robot>')
+    assert code == 0
+    assert out.endswith(f'child(1):  l{size - 1}\n')
+    assert len(out) < 500 * size
 
 
 def test_names_of_the_file_do_not_paint_on_the_terminal(run):

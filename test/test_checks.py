@@ -125,15 +125,15 @@ MASS = {
         'f:2: nothing that is rigidly joined to the root "a" has mass; .* a root link "world"',
     ),
     'zero': (
-        f'<link name="a">\n{SOLID.replace("value=\"1\"", "value=\"0\"")}</link>',
+        f'<link name="a">\n{SOLID.replace('value="1"', 'value="0"')}</link>',
         'f:3: link "a": mass: found 0 kg, expected more than 0',
     ),
     'negative': (
-        f'<link name="a">\n{SOLID.replace("value=\"1\"", "value=\"-2.5\"")}</link>',
+        f'<link name="a">\n{SOLID.replace('value="1"', 'value="-2.5"')}</link>',
         'f:3: link "a": mass: found -2.5 kg, expected more than 0',
     ),
     'indefinite': (
-        f'<link name="a">\n{SOLID.replace("ixy=\"0\"", "ixy=\"0.2\"")}</link>',
+        f'<link name="a">\n{SOLID.replace('ixy="0"', 'ixy="0.2"')}</link>',
         'f:3: link "a": the inertia is not positive definite: found principal moments -0.1, 0.1,',
     ),
     'zero inertia': (
@@ -141,7 +141,7 @@ MASS = {
         'f:3: link "a": the inertia is not positive definite: found principal moments 0, 0, 0 kg',
     ),
     'triangle': (
-        f'<link name="a">\n{SOLID.replace("izz=\"0.1\"", "izz=\"0.3\"")}</link>',
+        f'<link name="a">\n{SOLID.replace('izz="0.1"', 'izz="0.3"')}</link>',
         'f:3: link "a": no body has this inertia: found principal moments 0.1, 0.1, 0.3 kg',
     ),
 }
@@ -179,7 +179,7 @@ def test_links_that_need_no_mass(body):
 
 
 def test_a_number_that_is_none_is_reported_once():
-    text = robot_text(f'<link name="a">{SOLID.replace("value=\"1\"", "value=\"heavy\"")}</link>')
+    text = robot_text(f'<link name="a">{SOLID.replace('value="1"', 'value="heavy"')}</link>')
     (error,) = findings(text)
     assert 'found "heavy", expected a number' in error
     assert len(findings(robot_text('<link name="a"><inertial/></link>'))) == 2, 'mass and inertia'
@@ -234,12 +234,12 @@ def test_limits_are_ordered():
     assert findings(two_links(joint_text('a', 'b', 'continuous', limited(1, -1)))) == []
 
 
-@pytest.mark.parametrize('source', ['nobody', 'a_b'], ids=['unknown', 'itself'])
-def test_mimicked_joint_exists(source):
+@pytest.mark.parametrize(('source', 'found'), [('nobody', '"nobody"'), ('a_b', 'itself')])
+def test_mimicked_joint_exists(source, found):
     (error,) = findings(two_links(joint_text('a', 'b', inside=f'<mimic joint="{source}"/>')))
     assert error == (
-        f'error: f:3: joint "a_b" mimics a joint that is not there: found "{source}", '
-        'expected one of none'
+        f'error: f:3: joint "a_b" mimics a joint that is not there: found {found}, '
+        'expected another one of "a_b"'
     )
 
 

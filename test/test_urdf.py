@@ -438,9 +438,9 @@ def test_refuses_document_types(text):
 
 
 def test_refuses_size_and_depth():
-    with pytest.raises(DescriptionError, match=r'^f.*: larger than 8 MiB'):
+    with pytest.raises(DescriptionError, match=r'^f.*: larger than 4 MiB'):
         urdf.parse(' ' * (MAX_BYTES + 1), 'f')
-    with pytest.raises(DescriptionError, match=r'^f.*: larger than 8 MiB'):
+    with pytest.raises(DescriptionError, match=r'^f.*: larger than 4 MiB'):
         urdf.parse(b' ' * (MAX_BYTES + 1), 'f')
     with pytest.raises(DescriptionError, match=r'^f:1: not .*: Excessive depth in document: 256$'):
         urdf.parse('<a>' * 100_000, 'f')

@@ -21,7 +21,7 @@ import argparse
 import sys
 
 from amr_description.errors import DescriptionError
-from amr_description.model.checks import examine, Examination
+from amr_description.model.checks import Examination, examine
 from amr_description.model.findings import Finding, one_line
 from amr_description.model.robot import Robot
 from amr_description.model.xml_source import read_file, read_stream
@@ -34,6 +34,8 @@ _NO_ARGUMENT = 'Expect URDF xml file to parse. Use - for stdin'
 _REFUSED = 'ERROR: Model Parsing the xml failed'
 # A file may hold a fault per element; nobody reads more of them.
 _SHOWN_FINDINGS = 100
+# Levels of the tree that are indented: a made-up chain of 60,000 links would print gigabytes.
+_INDENTED_LEVELS = 100
 
 
 def main(argv: list[str]) -> int:
@@ -61,7 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='check_urdf',
         description='Print the tree of a robot description, and what is wrong with it.',
-        epilog='Exit code: 0 sound, 255 refused as by urdfdom, 1 unusable although urdfdom takes it.',
+        epilog='Exit code: 0 sound, 255 urdfdom refuses it, too, 1 it passes urdfdom, unusable.',
     )
     parser.add_argument('file', nargs='?', metavar='FILE', help='a URDF file, or - for stdin')
     return parser
@@ -102,7 +104,8 @@ def tree_lines(robot: Robot) -> list[str]:
     numbers: dict[str, int] = {}
     for depth, joint in robot.walk():
         numbers[joint.parent] = numbers.get(joint.parent, 0) + 1
-        lines.append(f'{"    " * depth}child({numbers[joint.parent]}):  {joint.child}')
+        indent = '    ' * min(depth, _INDENTED_LEVELS)
+        lines.append(f'{indent}child({numbers[joint.parent]}):  {joint.child}')
     return [one_line(line) for line in lines]
 
 

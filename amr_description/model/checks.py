@@ -10,18 +10,20 @@ not be sound, and yields findings; it keeps silent on what a reader has reported
 number that is none (NaN).
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from amr_description.errors import DescriptionError
 from amr_description.model import rules_drive, rules_joints, rules_mass
-from amr_description.model.findings import Finding, Severity
+from amr_description.model.findings import Finding, Report, Severity
 from amr_description.model.gazebo_tag import read_gazebo_plugins
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
 from amr_description.model.subject import Rule, Subject
 from amr_description.model.urdf import read_robot
 from amr_description.model.xml_source import parse_xml
+
+# Nobody reads more; and a made-up file may hold a million.
+MAX_FINDINGS = 1000
 
 RULES: tuple[Rule, ...] = (
     rules_mass.inertial_is_present,
@@ -56,23 +58,45 @@ class Examination:
         return tuple(f for f in self.findings if f.severity is Severity.WARNING)
 
 
+class _TooManyFindingsError(Exception):
+    """Ends the reading of a file that is wrong all over."""
+
+
 def examine(text: str, source: str = '<string>') -> Examination:
-    """Return everything that is wrong with a URDF; ``source`` names the file in messages."""
+    """
+    Return everything that is wrong with a URDF; ``source`` names the file in messages.
+
+    Beyond :data:`MAX_FINDINGS` the file is not read on, and there is no robot.
+    """
     findings: list[Finding] = []
-    xml = parse_xml(text, source, findings.append)
-    if xml is None:
-        return Examination(tuple(findings), None)
-    robot = read_robot(xml, text, source, findings.append)
-    hardware = read_hardware(xml, robot, findings.append)
-    plugins = read_gazebo_plugins(xml, source, findings.append)
-    subject = Subject(robot, hardware, plugins, xml)
-    findings.extend(_judge(subject))
+
+    def report(finding: Finding) -> None:
+        findings.append(finding)
+        if len(findings) >= MAX_FINDINGS:
+            raise _TooManyFindingsError
+
+    try:
+        robot = _examine(text, source, report)
+    except _TooManyFindingsError:
+        robot = None
+        findings.append(
+            Finding.error(source, findings[-1].line, f'{MAX_FINDINGS} findings; reading ends here')
+        )
     return Examination(tuple(findings), robot)
 
 
-def _judge(subject: Subject) -> Iterator[Finding]:
+def _examine(text: str, source: str, report: Report) -> Robot | None:
+    xml = parse_xml(text, source, report)
+    if xml is None:
+        return None
+    robot = read_robot(xml, text, source, report)
+    hardware = read_hardware(xml, robot, report)
+    plugins = read_gazebo_plugins(xml, source, report)
+    subject = Subject(robot, hardware, plugins, xml)
     for rule in RULES:
-        yield from rule(subject)
+        for finding in rule(subject):
+            report(finding)
+    return robot
 
 
 def check(text: str, source: str = '<string>') -> list[Finding]:

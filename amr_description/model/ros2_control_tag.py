@@ -137,6 +137,7 @@ def _read_joints(
     element: etree._Element, robot: Robot, reader: ElementReader
 ) -> Iterator[ComponentInfo]:
     seen: set[str] = set()
+    moving = quote_all([joint.name for joint in robot.joints if joint.has_position])
     for child in element.iterchildren('joint'):
         name = child.get('name', '')
         if name in seen:
@@ -144,11 +145,10 @@ def _read_joints(
             continue
         seen.add(name)
         if name and not robot.has_joint(name):
-            moving = [joint.name for joint in robot.joints if joint.has_position]
             reader.error(
                 child,
                 f"Joint '{name}' not found in URDF",
-                expected=f'one of {quote_all(moving)}',
+                expected=f'one of {moving}',
             )
         joint = robot.joint(name) if robot.has_joint(name) else None
         if joint is not None and joint.type is JointType.FIXED:

@@ -24,16 +24,14 @@ def limits_are_ordered(subject: Subject) -> Iterator[Finding]:
 
 def mimicked_joint_exists(subject: Subject) -> Iterator[Finding]:
     """A mimic joint follows another joint of the robot."""
-    names = [joint.name for joint in subject.robot.joints]
-    known = set(names)
-    for joint in subject.robot.joints:
-        if joint.mimic is None or not joint.mimic.joint:
-            continue
-        if joint.mimic.joint not in known - {joint.name}:
-            others = [name for name in names if name != joint.name]
+    robot = subject.robot
+    known = quote_all([joint.name for joint in robot.joints])
+    for joint in robot.joints:
+        source = '' if joint.mimic is None else joint.mimic.joint
+        if source and (source == joint.name or not robot.has_joint(source)):
             yield subject.error(
                 joint.line,
                 f'joint {quote(joint.name)} mimics a joint that is not there',
-                found=quote(joint.mimic.joint),
-                expected=f'one of {quote_all(others)}',
+                found='itself' if source == joint.name else quote(source),
+                expected=f'another one of {known}',
             )

@@ -18,7 +18,7 @@ from amr_description.errors import DescriptionError
 from amr_description.model.findings import Finding, quote, Report
 
 # The largest published robots stay below 1 MiB: meshes are files of their own.
-MAX_BYTES = 8 * 2**20
+MAX_BYTES = 4 * 2**20
 # libxml2 keeps the line of an element in 16 bits; a wrong line is worse than none.
 MAX_LINES = 2**16 - 2
 _TOO_LARGE = f'larger than {MAX_BYTES // 2**20} MiB, which no robot description is'
