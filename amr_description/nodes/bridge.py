@@ -146,7 +146,7 @@ class ControllerNode:
         rate = self.node.get_parameter('update_rate').value
         if rate < 0:
             raise ParameterError(
-                f"parameter 'update_rate' must be at least 0 (0: that of the manager), found {rate}"
+                f"parameter 'update_rate' must be at least 0 Hz (0: as the manager), found {rate}"
             )
         return rate or manager_rate
 

@@ -70,6 +70,7 @@ def create(args: list[str] | None) -> int:
                 name=options.name,
                 allow_renaming=options.allow_renaming,
                 entity_namespace=node.get_namespace(),
+                uri=options.file or '',
                 resource_string=_description(node, options),
             )
             pose = Transform.from_xyz_rpy(

@@ -8,6 +8,7 @@ their controller managers. ``~/get_entity_state`` tells where a robot truly is.
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
 import sys
 
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -118,9 +119,7 @@ class MujocoSim:
         state.header.frame_id = WORLD_FRAME
         fill_stamp(time, state.header.stamp)
         fill_pose(pose, state.pose)
-        fill_velocity(
-            rotate(pose.rotation, linear), rotate(pose.rotation, angular), state.twist
-        )
+        fill_velocity(rotate(pose.rotation, linear), rotate(pose.rotation, angular), state.twist)
         response.result.result = Result.RESULT_OK
         return response
 
@@ -131,9 +130,11 @@ def inherited(args: Sequence[str]) -> list[str]:
 
     Not the name and namespace of this node, and not its parameters.
     """
+    own = ('__node:=', '__name:=', '__ns:=')
     kept: list[str] = []
-    for flag, value in zip(args, args[1:], strict=False):
-        if flag in ('-r', '--remap') and not value.startswith(('__node:=', '__name:=', '__ns:=')) or flag == '--log-level':
+    for flag, value in pairwise(args):
+        is_remap = flag in ('-r', '--remap') and not value.startswith(own)
+        if is_remap or flag == '--log-level':
             kept += [flag, value]
     return kept
 

@@ -1,0 +1,77 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Executables of this package as real processes, for tests."""
+
+from collections.abc import Sequence
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+
+ROOT = Path(__file__).parents[1]
+PATIENCE = 30.0
+"""s: how long a test waits for what should take a second, on a busy machine."""
+
+_START = (
+    'import sys; from importlib import import_module; sys.argv[0] = sys.argv[1].rpartition(".")[2];'
+    'module = import_module(sys.argv.pop(1)); sys.exit(module.main())'
+)
+
+
+def command(executable: str, *arguments: str) -> list[str]:
+    """The command line of a node of this source tree."""
+    return [sys.executable, '-c', _START, f'amr_description.nodes.{executable}', *arguments]
+
+
+def run(executable: str, *arguments: str) -> subprocess.CompletedProcess:
+    """Run a node that ends by itself; what it says is in ``stderr``."""
+    return subprocess.run(
+        command(executable, *arguments),
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
+        env=environment(),
+    )
+
+
+@contextmanager
+def running(executable: str, *arguments: str, until: str):
+    """A node that has said ``until``; it is interrupted at the end, and must leave with 0."""
+    process = subprocess.Popen(
+        command(executable, *arguments),
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment(),
+        start_new_session=True,
+    )
+    try:
+        wait_for_line(process, until)
+        yield process
+        process.send_signal(signal.SIGINT)
+        _, rest = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 0, rest
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+def wait_for_line(process: subprocess.Popen, text: str) -> str:
+    """Read what the process says up to the line that holds ``text``."""
+    said: Sequence[str] = []
+    for line in process.stderr:
+        said = [*said, line]
+        if text in line:
+            return line
+    raise AssertionError(
+        f'it ended ({process.wait()}) without {text!r}, and said: {"".join(said)}'
+    )
+
+
+def environment() -> dict[str, str]:
+    """That of the test run, with this source tree first."""
+    path = os.environ.get('PYTHONPATH', '')
+    return os.environ | {'PYTHONPATH': f'{ROOT}{os.pathsep}{path}', 'PYTHONUNBUFFERED': '1'}
