@@ -14,8 +14,9 @@ def main() -> int:
     """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(prog='interface_build', description=__doc__)
     parser.add_argument('--check', action='store_true', help='check the compiler, build nothing')
-    parser.add_argument('--source', type=Path, default=Path(__file__).parents[1],
-                        help='the folder of the packages')
+    parser.add_argument(
+        '--source', type=Path, default=Path(__file__).parents[1], help='the folder of the packages'
+    )
     parser.add_argument('--stage', type=Path, help='where the built tree goes')
     arguments = parser.parse_args()
     try:

@@ -34,19 +34,19 @@ def build(source: Path, target: Path, work: Path, log: Callable[[str], None] = p
     with ProcessPoolExecutor(workers, initializer=_silence_output) as pool:
         _finish(pool.submit(generators.write_idl, package) for package in generated)
         for number, package in enumerate(generated):
-            _finish([pool.submit(
-                generators.write_type_descriptions, package, generated[:number])])
+            _finish([pool.submit(generators.write_type_descriptions, package, generated[:number])])
         _finish(
             pool.submit(generators.write_code, package, generator)
-            for generator in generators.CODE_GENERATORS for package in generated
+            for generator in generators.CODE_GENERATORS
+            for package in generated
         )
-        log(f'generated {sum(len(one.interfaces) for one in found)} interfaces'
-            f' of {len(found)} packages in {time.monotonic() - start:.0f} s')
+        log(
+            f'generated {sum(len(one.interfaces) for one in found)} interfaces'
+            f' of {len(found)} packages in {time.monotonic() - start:.0f} s'
+        )
         start = time.monotonic()
         jobs = [job for package in generated for job in libraries.compile_jobs(package)]
-        _finish(
-            pool.submit(libraries.compile_object, job, compilers, includes) for job in jobs
-        )
+        _finish(pool.submit(libraries.compile_object, job, compilers, includes) for job in jobs)
     for package in generated:
         dependencies = packages.interface_dependencies(package.source, found, prefix)
         libraries.link_package(package, dependencies, target, compilers)

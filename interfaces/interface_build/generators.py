@@ -17,8 +17,12 @@ from interface_build.packages import InterfacePackage, KINDS
 TYPESUPPORTS = ('rosidl_typesupport_fastrtps_c', 'rosidl_typesupport_introspection_c')
 TYPE_DESCRIPTION = 'rosidl_generator_type_description'
 # Slowest first: they run side by side.
-CODE_GENERATORS = ('rosidl_generator_py', 'rosidl_generator_c', *TYPESUPPORTS,
-                   'rosidl_typesupport_c')
+CODE_GENERATORS = (
+    'rosidl_generator_py',
+    'rosidl_generator_c',
+    *TYPESUPPORTS,
+    'rosidl_typesupport_c',
+)
 
 
 @dataclass(frozen=True)
@@ -52,8 +56,10 @@ class GeneratedPackage:
             'package_name': self.name,
             'output_dir': str(output),
             'template_dir': str(self.prefix / 'share' / generator / 'resource'),
-            'idl_tuples': [f'{self.idl}:{path.with_suffix(".idl").as_posix()}'
-                           for path in self.source.interfaces],
+            'idl_tuples': [
+                f'{self.idl}:{path.with_suffix(".idl").as_posix()}'
+                for path in self.source.interfaces
+            ],
             'ros_interface_dependencies': [],
             'target_dependencies': [],
             **more,
@@ -70,7 +76,9 @@ def write_idl(package: GeneratedPackage) -> None:
     from rosidl_adapter.srv import convert_srv_to_idl
 
     convert = {
-        '.msg': convert_msg_to_idl, '.srv': convert_srv_to_idl, '.action': convert_action_to_idl,
+        '.msg': convert_msg_to_idl,
+        '.srv': convert_srv_to_idl,
+        '.action': convert_action_to_idl,
     }
     for path in package.source.interfaces:
         convert[path.suffix](package.source.folder, package.name, path, package.idl / path.parent)
@@ -81,7 +89,8 @@ def write_type_descriptions(package: GeneratedPackage, earlier: list[GeneratedPa
     from rosidl_generator_type_description import generate_type_hash
 
     folders = {
-        share.name: share for share in sorted((package.prefix / 'share').iterdir())
+        share.name: share
+        for share in sorted((package.prefix / 'share').iterdir())
         if any((share / kind).is_dir() for kind in KINDS)
     }
     folders |= {other.name: other.generated(TYPE_DESCRIPTION) for other in earlier}

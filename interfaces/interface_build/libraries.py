@@ -40,8 +40,14 @@ LIBRARIES = (
     Library('rosidl_generator_c', ('rosidl_runtime_c', 'rcutils')),
     Library(
         'rosidl_typesupport_fastrtps_c',
-        ('rosidl_typesupport_fastrtps_c', 'rosidl_typesupport_fastrtps_cpp', 'fastcdr', 'rmw',
-         'rosidl_runtime_c', 'rcutils'),
+        (
+            'rosidl_typesupport_fastrtps_c',
+            'rosidl_typesupport_fastrtps_cpp',
+            'fastcdr',
+            'rmw',
+            'rosidl_runtime_c',
+            'rcutils',
+        ),
         ('rosidl_generator_c',),
         link_as_cpp=True,
     ),
@@ -97,7 +103,8 @@ def compile_jobs(package: GeneratedPackage) -> list[CompileJob]:
         folder = object_folder(package, library.name)
         folder.mkdir(parents=True)
         sources = sorted(
-            path for path in package.generated(library.name).rglob('*.c*')
+            path
+            for path in package.generated(library.name).rglob('*.c*')
             if '.ep.' not in path.name
         )
         for number, unit in enumerate(translation_units(sources)):
@@ -119,7 +126,7 @@ def translation_units(sources: list[Path]) -> list[list[Path]]:
     apart = [[path] for path in sources if path.stem.endswith('__description')]
     together = [path for path in sources if not path.stem.endswith('__description')]
     return [
-        together[start:start + SOURCES_PER_UNIT]
+        together[start : start + SOURCES_PER_UNIT]
         for start in range(0, len(together), SOURCES_PER_UNIT)
     ] + apart
 
@@ -129,19 +136,32 @@ def include_flags(packages: list[GeneratedPackage], prefix: Path) -> list[str]:
     import numpy
 
     ours = [
-        package.generated(generator).parent for package in packages
+        package.generated(generator).parent
+        for package in packages
         for generator in ('rosidl_generator_c', *TYPESUPPORTS)
     ]
-    wheels = [folder for folder in sorted((prefix / 'include').iterdir())
-              if (folder / folder.name).is_dir()]
+    wheels = [
+        folder
+        for folder in sorted((prefix / 'include').iterdir())
+        if (folder / folder.name).is_dir()
+    ]
     others = [prefix / 'include', python_headers(), Path(numpy.get_include())]
     return [f'-I{folder}' for folder in (*ours, *wheels, *others)]
 
 
 def compile_object(job: CompileJob, toolchain: Toolchain, includes: list[str]) -> None:
     """Make one object file; raise :class:`BuildError` with what the compiler said."""
-    _run([*toolchain.compiler_for(job.source), *FLAGS, *includes, '-c', str(job.source),
-          '-o', str(job.object)])
+    _run(
+        [
+            *toolchain.compiler_for(job.source),
+            *FLAGS,
+            *includes,
+            '-c',
+            str(job.source),
+            '-o',
+            str(job.object),
+        ]
+    )
 
 
 def link_package(
@@ -154,20 +174,35 @@ def link_package(
         output: Path, objects: list[Path], names: list[str], run_path: str, cpp: bool
     ) -> None:
         output.parent.mkdir(parents=True, exist_ok=True)
-        _run([
-            *(toolchain.cpp if cpp else toolchain.c), '-shared', '-s', '-o', str(output),
-            *map(str, objects), f'-Wl,-soname,{output.name}', f'-Wl,-rpath,{run_path}',
-            '-Wl,--as-needed', *search, *(f'-l{name}' for name in names),
-        ])
+        _run(
+            [
+                *(toolchain.cpp if cpp else toolchain.c),
+                '-shared',
+                '-s',
+                '-o',
+                str(output),
+                *map(str, objects),
+                f'-Wl,-soname,{output.name}',
+                f'-Wl,-rpath,{run_path}',
+                '-Wl,--as-needed',
+                *search,
+                *(f'-l{name}' for name in names),
+            ]
+        )
 
     for library in LIBRARIES:
         own = [f'{package.name}__{other}' for other in library.calls_ours]
-        others = [f'{name}__{other}' for name in dependencies
-                  for other in (library.name, *library.calls_ours)]
+        others = [
+            f'{name}__{other}'
+            for name in dependencies
+            for other in (library.name, *library.calls_ours)
+        ]
         link(
             stage / 'lib' / f'lib{package.name}__{library.name}.so',
             sorted(object_folder(package, library.name).glob('*.o')),
-            [*own, *others, *library.calls], '$ORIGIN', library.link_as_cpp,
+            [*own, *others, *library.calls],
+            '$ORIGIN',
+            library.link_as_cpp,
         )
     suffix = sysconfig.get_config_var('EXT_SUFFIX')
     for extension in EXTENSIONS:
@@ -175,9 +210,13 @@ def link_package(
         link(
             stage / 'python' / package.name / f'{package.name}_s__{extension}{suffix}',
             [extension_object(package, extension)],
-            [*(f'{package.name}__{other}' for other in sorted(own)),
-             'rosidl_typesupport_c', 'rosidl_runtime_c'],
-            '$ORIGIN/../../..', cpp=False,  # lib/python3.12/site-packages/<package> -> lib
+            [
+                *(f'{package.name}__{other}' for other in sorted(own)),
+                'rosidl_typesupport_c',
+                'rosidl_runtime_c',
+            ],
+            '$ORIGIN/../../..',
+            cpp=False,  # lib/python3.12/site-packages/<package> -> lib
         )
 
 

@@ -40,8 +40,9 @@ def manifest_dependencies(manifest: Path) -> frozenset[str]:
     """Return the names that a ``package.xml`` needs when building against it or running."""
     root = ElementTree.parse(manifest).getroot()
     tags = ('depend', 'build_depend', 'build_export_depend', 'exec_depend')
-    return frozenset(element.text.strip() for tag in tags for element in root.iter(tag)
-                     if element.text)
+    return frozenset(
+        element.text.strip() for tag in tags for element in root.iter(tag) if element.text
+    )
 
 
 def read_package(folder: Path) -> InterfacePackage:
@@ -57,7 +58,9 @@ def read_package(folder: Path) -> InterfacePackage:
             ' give both the same name'
         )
     interfaces = tuple(
-        path.relative_to(folder) for kind in KINDS for path in sorted(folder.glob(f'{kind}/*'))
+        path.relative_to(folder)
+        for kind in KINDS
+        for path in sorted(folder.glob(f'{kind}/*'))
         if path.suffix == f'.{kind}'
     )
     if not interfaces:

@@ -12,8 +12,7 @@ def stage_package(package: GeneratedPackage, stage: Path) -> None:
     """Copy what a ROS installation holds of ``package``, beside its libraries."""
     _stage_share(package, stage / 'share' / package.name)
     _stage_index(package, stage / 'share' / 'ament_index' / 'resource_index')
-    _copy_tree(
-        package.generated('rosidl_generator_py'), stage / 'python' / package.name, '*.py')
+    _copy_tree(package.generated('rosidl_generator_py'), stage / 'python' / package.name, '*.py')
     for generator in ('rosidl_generator_c', *TYPESUPPORTS):  # to build other packages on top
         target = stage / 'include' / package.name / package.name
         _copy_tree(package.generated(generator), target, '*.h')
@@ -33,7 +32,8 @@ def _stage_share(package: GeneratedPackage, share: Path) -> None:
 def _stage_index(package: GeneratedPackage, index: Path) -> None:
     """Write the ament index entries that the ROS tools look packages and interfaces up by."""
     listed = sorted(
-        file.as_posix() for path in package.source.interfaces
+        file.as_posix()
+        for path in package.source.interfaces
         for file in (path, path.with_suffix('.idl'))
     )
     entries = {

@@ -1,0 +1,32 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The pip underlay: make the environment that this checkout runs in, and keep it up to date.
+
+Python 3.12's standard library only: nothing is installed yet when this runs. ``scripts/setup``
+finds the Python and starts :mod:`.main`, which goes through the parts in this order:
+
+============================  =====================================================================
+:mod:`.host`                  can the wheels run here; which foreign ROS or conda is in the way
+:mod:`.checkout`              where everything is; the lock that keeps two set-ups apart
+:mod:`.stamps`                what was made of what: content hashes, written last
+:mod:`.virtual_environment`   ``.venv`` with exactly the versions of ``requirements.lock``
+:mod:`.interface_wheel`       ``interfaces/`` as a wheel, cached for the user by content
+:mod:`.launchers`             what ``.venv`` gets beside packages: ros2, check_urdf, prefix hooks
+:mod:`.workspace`             ``colcon build --symlink-install``
+============================  =====================================================================
+
+Each part can be interrupted: it removes its stamp, works (under another name where others may be
+using the result), and writes the stamp last.
+"""
+
+
+class SetupError(Exception):
+    """The environment cannot be made; ``str(error)`` says what was found and what would do."""
+
+
+def say(text: str) -> None:
+    """Tell the person in front of it, on standard error, one line."""
+    import sys
+
+    print(f'scripts/setup: {text}', file=sys.stderr, flush=True)

@@ -1,0 +1,80 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What ``.venv`` gets beside its packages: commands, and the hooks every ROS prefix has.
+
+**Commands.** colcon puts executables into ``lib/<package>``, where ``ros2 run`` looks; ``ros2``
+and ``check_urdf`` must be on the PATH. Each is a shell script of two lines that starts our Python
+with the wheels' libraries on LD_LIBRARY_PATH, and says so to ``ros_wheels_bootstrapper``: that
+would otherwise start Python a second time, for every command (25 ms of 60, more when cold).
+
+Only the scripts set these two, never the shell: exported, the path would make foreign programs
+load our libraries, and the mark would keep another environment's wheels from finding theirs. What
+the commands start inherits both; ``ros2 run`` takes them away again from foreign executables.
+
+**Hooks.** ``local_setup.*`` puts the environment in front of PATH and AMENT_PREFIX_PATH. colcon
+chains it into each workspace that is built on top, the same as it does with ``/opt/ros/jazzy``.
+
+**Path file.** ``amr_description.pth`` makes the package importable by ``.venv/bin/python`` in any
+shell; it names colcon's build folder, where the package's metadata are too.
+"""
+
+import os
+from pathlib import Path
+import shlex
+
+from . import stamps
+from .checkout import PACKAGE
+
+COMMANDS = ('ros2', 'check_urdf')
+
+COMMAND = """\
+#!/bin/sh
+_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 \
+LD_LIBRARY_PATH={libraries}"${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}" \
+exec {python} -P -m amr_description.cli {command} "$@"
+"""
+
+LOCAL_SETUP = """\
+# Written by scripts/setup: this virtual environment as a ROS prefix (the underlay of workspaces).
+case ":${{PATH-}}:" in *:{bin}:*) ;; *) export PATH={bin}"${{PATH:+:$PATH}}" ;; esac
+case ":${{AMENT_PREFIX_PATH-}}:" in
+  *:{venv}:*) ;;
+  *) export AMENT_PREFIX_PATH={venv}"${{AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}}" ;;
+esac
+export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
+"""
+
+
+def library_path(venv: Path, home: Path) -> str:
+    """Return the LD_LIBRARY_PATH of the ROS wheels in ``venv``, once it has moved to ``home``."""
+    bundled = sorted(venv.glob('lib/python3.12/site-packages/ros_*.libs'))
+    return os.pathsep.join(
+        str(home / folder.relative_to(venv)) for folder in (venv / 'lib', *bundled)
+    )
+
+
+def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
+    """Return the text of each file, by its path in ``venv``, as it has to be at ``home``."""
+    python = shlex.quote(str(home / 'bin' / 'python'))
+    libraries = shlex.quote(library_path(venv, home))
+    local_setup = LOCAL_SETUP.format(
+        venv=shlex.quote(str(home)), bin=shlex.quote(str(home / 'bin'))
+    )
+    return {
+        **{
+            venv / 'bin' / command: COMMAND.format(
+                command=command, libraries=libraries, python=python
+            )
+            for command in COMMANDS
+        },
+        **{venv / f'local_setup.{shell}': local_setup for shell in ('sh', 'bash', 'zsh')},
+        venv / 'lib/python3.12/site-packages' / f'{PACKAGE}.pth': f'{build}\n',
+    }
+
+
+def write(venv: Path, home: Path, build: Path) -> None:
+    """Write the files that are not there already, commands with the execute bit."""
+    for file, text in files(venv, home, build).items():
+        if not file.is_file() or file.read_text() != text:
+            stamps.replace_file(file, text, 0o755 if file.parent.name == 'bin' else 0o644)

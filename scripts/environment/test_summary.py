@@ -1,0 +1,38 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``test_summary.py RESULTS CODE``: the last line of ``scripts/test``, and its exit code.
+
+RESULTS is pytest's JUnit file, CODE what ``colcon test`` ended with. An error (a test that could
+not be collected, a fixture that raised) counts as failed; so does a run without a result.
+"""
+
+from pathlib import Path
+import sys
+import xml.etree.ElementTree as ElementTree
+
+
+def count(results: Path) -> tuple[int, int, int]:
+    """Return how many passed, failed and were skipped."""
+    suites = list(ElementTree.parse(results).getroot().iter('testsuite'))
+    total, failures, errors, skipped = (
+        sum(int(suite.get(name, '0')) for suite in suites)
+        for name in ('tests', 'failures', 'errors', 'skipped')
+    )
+    failed = failures + errors
+    return total - failed - skipped, failed, skipped
+
+
+def main(results: Path, colcon_code: int) -> int:
+    """Print the line; return the exit code."""
+    try:
+        passed, failed, skipped = count(results)
+    except (OSError, ElementTree.ParseError) as error:
+        print(f'scripts/test: no test result: {error}')
+        passed, failed, skipped = 0, 0, 0
+    print(f'{passed} passed, {failed} failed' + (f', {skipped} skipped' if skipped else ''))
+    return 0 if passed and not failed and colcon_code == 0 else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main(Path(sys.argv[1]), int(sys.argv[2])))

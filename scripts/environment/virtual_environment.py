@@ -1,0 +1,93 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``.venv``, with exactly the versions of the lock file.
+
+A new one is made beside the old, as ``.venv.new``, and takes its place at the end: programs that
+run from the old one, and an interruption, do no harm. pip and venv write the environment's path
+into a few text files of ``bin/``, which :func:`relocate` corrects.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+import re
+import shutil
+import sys
+
+from . import say, SetupError
+from .checkout import PACKAGE
+from .commands import run
+
+REQUIREMENT = re.compile(r'^([A-Za-z0-9._-]+)==(\S+)')
+
+
+def python_of(venv: Path) -> Path:
+    """Return the interpreter of a virtual environment."""
+    return venv / 'bin' / 'python'
+
+
+def pinned_versions(lock: str) -> dict[str, str]:
+    """Return name → version of a lock file's text; raise SetupError on a line that pins none."""
+    pins = {}
+    for number, line in enumerate(lock.splitlines(), 1):
+        text = line.partition('#')[0].strip()
+        if not text:
+            continue
+        match = REQUIREMENT.match(text)
+        if not match or match[1] in pins:
+            raise SetupError(f'requirements.lock:{number}: want one NAME==VERSION, got {text!r}')
+        pins[match[1]] = match[2]
+    return pins
+
+
+def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
+    """
+    Make the environment ``venv`` from nothing and install all that ``lock`` pins.
+
+    Never resolved: every package is in the lock. Never built from source, but EmPy, which has no
+    wheel and for which the pinned setuptools is there first.
+    """
+    pins = pinned_versions(lock.read_text())
+    shutil.rmtree(venv, ignore_errors=True)
+    base = getattr(sys, '_base_executable', sys.executable)
+    version = '.'.join(map(str, sys.version_info[:3]))
+    say(f'installing {len(pins)} packages for Python {version} ({base}), a minute or so ...')
+    make = [base, '-m', 'venv', '--prompt', PACKAGE, venv]
+    run(make, environment, 'making the virtual environment')
+    pip = [
+        python_of(venv),
+        '-m',
+        'pip',
+        'install',
+        '--no-deps',
+        '--no-build-isolation',
+        '--only-binary=:all:',
+        '--no-binary=empy',
+        '--no-input',
+    ]
+    hint = 'installing packages (is the network there? `pip config list` shows the index used)'
+    run([*pip, f'setuptools=={pins["setuptools"]}'], environment, hint)
+    run([*pip, '-r', lock], environment, hint)
+
+
+def relocate(venv: Path, home: Path) -> None:
+    """Make ``venv`` fit for being moved to ``home``: correct its path where it was written."""
+    for file in [venv / 'pyvenv.cfg', *(venv / 'bin').iterdir()]:
+        if file.is_symlink() or not file.is_file():
+            continue
+        content = file.read_bytes()
+        if b'\0' in content[:1024]:  # a program, ruff say
+            continue
+        changed = content.replace(str(venv).encode(), str(home).encode())
+        if changed != content:
+            file.write_bytes(changed)
+
+
+def replace(home: Path, fresh: Path) -> None:
+    """Put ``fresh`` in the place of ``home``."""
+    old = home.with_name(f'{home.name}.old')
+    shutil.rmtree(old, ignore_errors=True)
+    if home.exists():
+        home.rename(old)
+    fresh.rename(home)
+    shutil.rmtree(old, ignore_errors=True)

@@ -1,0 +1,77 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``colcon build --symlink-install`` of the checkout, which is a workspace and its only package.
+
+Edits of modules and data files need no build: all is linked. What does: another setup.py,
+setup.cfg or package.xml, and a data file that comes or goes, as these are globbed by the build.
+"""
+
+from collections.abc import Mapping
+import os
+from pathlib import Path
+import shutil
+
+from . import say, stamps
+from .checkout import Checkout, PACKAGE
+from .commands import run
+from .virtual_environment import python_of
+
+MANIFESTS = ('setup.py', 'setup.cfg', 'package.xml')
+DATA_FOLDERS = ('urdf', 'config')
+
+
+def key(checkout: Checkout) -> str:
+    """Return the hash of everything that the build looks at."""
+    root = checkout.root
+    manifests = [root / name for name in MANIFESTS]
+    data = [
+        str(file.relative_to(root))
+        for folder in DATA_FOLDERS
+        for file in stamps.files_below(root / folder)
+    ]
+    return stamps.digest(
+        str(root), stamps.digest_files(manifests, root), checkout.requirements.read_bytes(), *data
+    )
+
+
+def is_complete(checkout: Checkout) -> bool:
+    """
+    Say whether a linked build is there.
+
+    One may have deleted ``build/`` alone, or have run a plain ``colcon build``, which copies.
+    """
+    return (checkout.build / PACKAGE).is_symlink() and (checkout.install / 'lib').is_dir()
+
+
+def build(checkout: Checkout, environment: Mapping[str, str]) -> None:
+    """
+    Build anew.
+
+    colcon leaves links to files, and executables, that are gone: those folders are emptied
+    first. The link to the modules stays, for the sake of running programs.
+    """
+    say('building the package with colcon ...')
+    stale = [checkout.install / 'share' / PACKAGE, checkout.install / 'lib' / PACKAGE]
+    stale += [checkout.build / folder for folder in DATA_FOLDERS]
+    if not is_complete(checkout):
+        stale = [checkout.build, checkout.install]
+    for folder in stale:
+        shutil.rmtree(folder, ignore_errors=True)
+    run(
+        [python_of(checkout.venv), '-m', 'colcon', 'build', '--symlink-install'],
+        workspace_environment(checkout, environment),
+        'colcon build',
+        checkout.root,
+    )
+
+
+def workspace_environment(checkout: Checkout, environment: Mapping[str, str]) -> dict[str, str]:
+    """Return the environment in which colcon sees ``.venv`` as the underlay."""
+    path = f'{checkout.venv / "bin"}{os.pathsep}{environment.get("PATH", os.defpath)}'
+    return {**environment, 'PATH': path, 'AMENT_PREFIX_PATH': str(checkout.venv)}
+
+
+def stamp_folder(checkout: Checkout) -> Path:
+    """Return the folder whose disappearance makes the build stale."""
+    return checkout.root / 'install'
