@@ -118,11 +118,14 @@ class ControllerManager:
         """Deactivate every controller that used a component which has just gone."""
         if not components:
             return
-        there = self.resources.available_commands().keys() | self.resources.available_states()
+        # A command and a state often have the same name: each kind is looked up by itself.
+        commands = self.resources.available_commands().keys()
+        states = self.resources.available_states().keys()
         orphans = [
             controller
             for controller in self._active()
-            if not there >= {*controller.required_commands, *controller.required_states}
+            if not commands >= set(controller.required_commands)
+            or not states >= set(controller.required_states)
         ]
         if orphans:
             self._log(

@@ -217,10 +217,11 @@ def _by_name[H: Handle](handles: Sequence[H], component: str) -> dict[str, H]:
     """Raises HardwareError where the component exports one name twice."""
     by_name: dict[str, H] = {}
     for handle in handles:
-        if by_name.setdefault(handle.name, handle) is not handle:
+        if handle.name in by_name:
             raise HardwareError(
                 f"Hardware component '{component}' exports the interface '{handle.name}' twice"
             )
+        by_name[handle.name] = handle
     return by_name
 
 

@@ -54,7 +54,7 @@ class ComponentSnapshot:
 
 @dataclass(frozen=True, slots=True)
 class ManagerSnapshot:
-    """All of one manager, names in alphabetical order."""
+    """All of one manager: controllers by name, components in the order of the description."""
 
     controllers: tuple[ControllerSnapshot, ...] = ()
     components: tuple[ComponentSnapshot, ...] = ()

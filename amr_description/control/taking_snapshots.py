@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a snapshot is taken of the controllers and the resources of a manager."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 from amr_description.control.interfaces import Handle, LifecycleState
 from amr_description.control.loaded_controller import LoadedController
@@ -45,10 +45,10 @@ def _controller(loaded: LoadedController, rate: int) -> ControllerSnapshot:
 
 def _component(owned: OwnedComponent, resources: ResourceManager, rate: int) -> ComponentSnapshot:
     def interfaces(
-        handles: Mapping[str, Handle], is_available: bool
+        handles: Mapping[str, Handle], claims: Container[str]
     ) -> tuple[InterfaceSnapshot, ...]:
         return tuple(
-            InterfaceSnapshot(name, handle.data_type, is_available, name in resources.claims)
+            InterfaceSnapshot(name, handle.data_type, owned.is_available, name in claims)
             for name, handle in handles.items()
         )
 
@@ -58,6 +58,6 @@ def _component(owned: OwnedComponent, resources: ResourceManager, rate: int) -> 
         plugin=owned.info.plugin,
         state=owned.state,
         rate=rate,
-        commands=interfaces(owned.commands, owned.is_available),
-        states=interfaces(owned.states, owned.is_available),
+        commands=interfaces(owned.commands, resources.claims),
+        states=interfaces(owned.states, ()),
     )

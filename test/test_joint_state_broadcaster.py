@@ -1,0 +1,199 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""joint_state_broadcaster: names, order and values, as its upstream tests have them."""
+
+import math
+from pathlib import Path
+
+from control_fakes import collect, FakeLog, MS, WHEELS
+import pytest
+
+from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.interfaces import ALL_INTERFACES, StateInterface
+from amr_description.controllers.joint_state_broadcaster import (
+    BroadcasterParameters,
+    JointStateBroadcaster,
+)
+from amr_description.errors import ControllerError
+from amr_description.model.urdf import load
+from amr_description.parameters import build
+
+URDF = load(Path(__file__).parents[1] / 'urdf' / 'amr.urdf')
+STANDARD = ('position', 'velocity', 'effort')
+JOINTS = ('joint1', 'joint2', 'joint3')
+VALUES = (1.1, 2.1, 3.1)
+
+
+def gauges(joints=JOINTS, interfaces=STANDARD):
+    """Every interface of a joint reads the joint's value."""
+    return [
+        StateInterface(joint, interface, value)
+        for joint, value in zip(joints, VALUES, strict=False)
+        for interface in interfaces
+    ]
+
+
+class Bench:
+    def __init__(self, robot=None, **values):
+        self.log = FakeLog()
+        self.controller = JointStateBroadcaster(ControllerContext('jsb', self.log, robot=robot))
+        values = {'use_urdf_to_filter': robot is not None} | values
+        self.controller.configure(build(BroadcasterParameters, values))
+        self.sent = collect(self.controller.outputs()[0])
+
+    def read(self, states):
+        self.controller.activate((), states, 0)
+        self.controller.update(10 * MS, 10 * MS)
+        return self.sent[-1]
+
+
+def test_every_interface_of_every_joint():
+    sample = Bench().read(gauges())
+    assert sample.name == JOINTS
+    assert sample.position == sample.velocity == sample.effort == VALUES
+    assert (sample.stamp, sample.frame_id) == (10 * MS, 'base_link')
+
+
+def test_one_message_an_update_with_what_the_gauges_then_read():
+    bench, states = Bench(), gauges(['joint1'], ['position'])
+    bench.read(states)
+    states[0].value = 7.0
+    bench.controller.update(20 * MS, 10 * MS)
+    assert [(s.stamp, s.position) for s in bench.sent] == [(10 * MS, (1.1,)), (20 * MS, (7.0,))]
+
+
+def test_all_fields_have_one_length_and_what_is_missing_is_nan():
+    sample = Bench().read([*gauges(['joint1'], ['position']), *gauges(['joint2'], ['velocity'])])
+    assert sample.name == ('joint1', 'joint2')
+    assert sample.position == (1.1, pytest.approx(math.nan, nan_ok=True))
+    assert sample.velocity == (pytest.approx(math.nan, nan_ok=True), 1.1)
+    assert all(map(math.isnan, sample.effort))
+    assert len(sample.effort) == 2
+
+
+def test_it_asks_for_all_unless_joints_and_interfaces_are_given():
+    for values in ({}, {'joints': JOINTS}, {'interfaces': STANDARD}):
+        bench = Bench(**values)
+        assert bench.controller.state_interfaces() == ALL_INTERFACES
+        assert 'All available state interfaces will be published' in bench.log.texts()[0]
+    bench = Bench(joints=['b', 'a'], interfaces=['position', 'velocity'])
+    assert bench.controller.state_interfaces().names == (
+        'b/position', 'b/velocity', 'a/position', 'a/velocity'
+    )  # fmt: skip
+    assert "defined in 'joints' and 'interfaces'" in bench.log.texts()[0]
+
+
+def test_given_joints_come_in_the_given_order():
+    joints = ('joint3', 'joint1')
+    bench = Bench(joints=joints, interfaces=['position'])
+    assert bench.read(gauges(interfaces=['position'])[::-1]).name == joints
+
+
+def test_a_partial_set_leaves_a_gap():
+    bench = Bench(joints=JOINTS, interfaces=['position', 'velocity'])
+    sample = bench.read(gauges(interfaces=['position', 'velocity'])[:-1])
+    assert sample.position == VALUES
+    assert math.isnan(sample.velocity[2])
+
+
+def test_with_the_urdf_the_order_is_alphabetical_and_sensors_stay_out():
+    states = [StateInterface(wheel, 'position', 0.0) for wheel in WHEELS]
+    sensor = StateInterface('imu', 'velocity', 0.0)
+    assert Bench(URDF).read([*states, sensor]).name == (
+        'joint_wheel_back_left',
+        'joint_wheel_back_right',
+        'joint_wheel_front_left',
+        'joint_wheel_front_right',
+    )
+    assert Bench(URDF, use_urdf_to_filter=False).read([*states, sensor]).name == (*WHEELS, 'imu')
+
+
+def test_fixed_joints_stay_out():
+    states = [StateInterface(name, 'position', 0.0) for name in ('base_joint', WHEELS[0])]
+    assert Bench(URDF).read(states).name == (WHEELS[0],)
+
+
+def test_a_robot_without_a_description_is_published_unfiltered_and_said_so():
+    bench = Bench(use_urdf_to_filter=True)
+    assert bench.read(gauges()).name == JOINTS
+    assert 'Failed to parse robot description' in bench.log.texts(Severity.ERROR)[0]
+
+
+def test_extra_joints_come_last_at_zero_and_known_ones_are_not_doubled():
+    sample = Bench(extra_joints=['extra1', 'joint2', 'extra2']).read(gauges())
+    assert sample.name == (*JOINTS, 'extra1', 'extra2')
+    assert sample.position == sample.velocity == sample.effort == (*VALUES, 0.0, 0.0)
+
+
+@pytest.mark.parametrize('field', STANDARD)
+def test_a_mapped_interface_fills_its_field(field):
+    bench = Bench(**{f'map_interface_to_joint_state.{field}': 'measured'})
+    sample = bench.read([StateInterface('joint1', 'measured', 3.5)])
+    assert getattr(sample, field) == (3.5,)
+    for other in set(STANDARD) - {field}:
+        assert math.isnan(getattr(sample, other)[0])
+
+
+def test_fields_can_be_swapped():
+    bench = Bench(**{
+        'map_interface_to_joint_state.position': 'velocity',
+        'map_interface_to_joint_state.velocity': 'position',
+    })  # fmt: skip
+    states = [StateInterface('j', 'position', 1.0), StateInterface('j', 'velocity', 2.0)]
+    sample = bench.read(states)
+    assert (sample.position, sample.velocity) == ((2.0,), (1.0,))
+
+
+def test_a_standard_interface_that_is_chosen_beats_its_mapping():
+    bench = Bench(
+        joints=['joint1'],
+        interfaces=['position', 'measured'],
+        **{'map_interface_to_joint_state.position': 'measured'},
+    )
+    states = [StateInterface('joint1', 'position', 1.0), StateInterface('joint1', 'measured', 2.0)]
+    assert bench.read(states).position == (1.0,)
+    assert (
+        "Mapping from 'measured' to interface 'position' will not be done"
+        in (bench.log.texts(Severity.WARN)[0])
+    )
+
+
+def test_interfaces_without_joints_count_for_nothing_even_for_a_mapping():
+    bench = Bench(interfaces=['position'], **{'map_interface_to_joint_state.position': 'measured'})
+    assert bench.read([StateInterface('joint1', 'measured', 2.0)]).position == (2.0,)
+    assert bench.log.texts(Severity.WARN) == []
+
+
+def test_a_custom_interface_without_a_mapping_makes_no_joint():
+    assert Bench().read([*gauges(['joint1']), StateInterface('tank', 'level')]).name == ('joint1',)
+
+
+def test_what_is_no_double_is_left_out_and_said_so():
+    bench = Bench()
+    sample = bench.read([*gauges(['joint1']), StateInterface('door', 'position', 1.0, 'bool')])
+    assert sample.name == ('joint1',)
+    assert "'door/position' is of type bool" in bench.log.texts(Severity.WARN)[0]
+
+
+def test_no_interface_at_all_is_an_error():
+    with pytest.raises(ControllerError, match=r'No state interfaces found to publish\.'):
+        Bench().controller.activate((), (), 0)
+
+
+@pytest.mark.parametrize(('local', 'topic'), [(False, 'joint_states'), (True, '~/joint_states')])
+def test_the_topic(local, topic):
+    port = Bench(use_local_topics=local).controller.outputs()[0].port
+    assert (port.name, port.message) == (topic, 'sensor_msgs/msg/JointState')
+
+
+def test_an_empty_frame_is_warned_of():
+    bench = Bench(frame_id='')
+    assert 'Frame ID is not set.' in bench.log.texts(Severity.WARN)
+    assert bench.read(gauges()).frame_id == ''
+
+
+def test_it_can_be_activated_again_on_other_hardware():
+    bench = Bench()
+    bench.read(gauges())
+    bench.controller.deactivate(0)
+    assert bench.read(gauges(['joint1'])).name == ('joint1',)
