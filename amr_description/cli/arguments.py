@@ -1,0 +1,67 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Flags that verbs share, and the types of values on a command line."""
+
+from argparse import ArgumentParser, ArgumentTypeError
+
+
+def add_node_arguments(parser: ArgumentParser) -> None:
+    """Add the flags of a verb that makes a node: ``spin_time``, s, and ``use_sim_time``."""
+    parser.add_argument(
+        '--spin-time',
+        type=nonnegative_float,
+        default=0.5,
+        help='Shortest time in seconds to wait for discovery (default: 0.5); the wait goes on '
+        'while news of other nodes comes in',
+    )
+    parser.add_argument(
+        '-s', '--use-sim-time', action='store_true', help='Enable ROS simulation time'
+    )
+
+
+def add_graph_arguments(parser: ArgumentParser) -> None:
+    """Add the flags of a verb that looks at the graph."""
+    add_node_arguments(parser)
+    parser.add_argument(
+        '--no-daemon',
+        action='store_true',
+        help='Accepted for scripts: there is no daemon, every answer is fresh',
+    )
+
+
+def nonnegative_int(text: str) -> int:
+    """Read an integer from 0 on."""
+    value = _number(int, text)
+    if value is None or value < 0:
+        raise ArgumentTypeError('value must be non-negative integer')
+    return value
+
+
+def positive_int(text: str) -> int:
+    """Read an integer from 1 on."""
+    value = _number(int, text)
+    if value is None or value <= 0:
+        raise ArgumentTypeError('value must be a positive integer')
+    return value
+
+
+def positive_float(text: str) -> float:
+    """Read a number above 0."""
+    value = _number(float, text)
+    if value is None:
+        raise ArgumentTypeError(f"'{text}' is not a number")
+    if not 0.0 < value < float('inf'):
+        raise ArgumentTypeError('Value must be positive')
+    return value
+
+
+def nonnegative_float(text: str) -> float:
+    """Read a number from 0 on."""
+    return 0.0 if _number(float, text) == 0.0 else positive_float(text)
+
+
+def _number[T: (int, float)](kind: type[T], text: str) -> T | None:
+    try:
+        return kind(text)
+    except ValueError:
+        return None

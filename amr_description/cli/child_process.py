@@ -1,0 +1,77 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run a child to its end as a shell would: its terminal, its signals, its exit code."""
+
+from collections.abc import Mapping, Sequence
+import os
+import signal
+
+from amr_description.errors import AmrError
+
+_FORWARDED = {
+    signal.SIGINT,
+    signal.SIGTERM,
+    signal.SIGHUP,
+    signal.SIGQUIT,
+    signal.SIGUSR1,
+    signal.SIGUSR2,
+}
+_SENT_BY_KERNEL = 0x80  # SI_KERNEL of siginfo_t: the terminal's Ctrl-C
+_GRACE = 0.5  # s
+
+
+def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
+    """
+    Run a command with our stdin, stdout and stderr; return its exit code.
+
+    That is minus the number of a signal that ended it. A signal from the terminal reaches the
+    child by itself, as it is of the same process group. One that a process sent to us is passed
+    on, so that no ``kill`` of this process leaves the child behind. SIGINT is passed on only if
+    the child is still there after half a second: whoever sent it may have sent it to the whole
+    group (``timeout -s INT``), and a second SIGINT would break into the child's clean-up.
+
+    :raises AmrError: The command cannot be started.
+    """
+    watched = _FORWARDED | {signal.SIGCHLD}
+    previous = signal.pthread_sigmask(signal.SIG_BLOCK, watched)
+    try:
+        pid = _start(command, environment, previous)
+        return os.waitstatus_to_exitcode(_serve_signals(pid, watched))
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous)
+
+
+def _start(
+    command: Sequence[str], environment: Mapping[str, str], mask: set[int | signal.Signals]
+) -> int:
+    try:
+        return os.posix_spawnp(
+            command[0],
+            command,
+            environment,
+            setsigmask=mask,
+            setsigdef=(signal.SIGPIPE, signal.SIGXFSZ),  # which Python ignores
+        )
+    except OSError as error:
+        raise AmrError(f'{command[0]} cannot be started: {error.strerror}') from error
+
+
+def _serve_signals(pid: int, watched: set[signal.Signals]) -> int:
+    """Pass signals on until the child ends; return its wait status."""
+    interrupt_pending = False
+    while True:
+        if interrupt_pending:
+            info = signal.sigtimedwait(watched, _GRACE)
+        else:
+            info = signal.sigwaitinfo(watched)
+        ended, status = os.waitpid(pid, os.WNOHANG)
+        if ended:
+            return status
+        if info is None:
+            os.kill(pid, signal.SIGINT)
+            interrupt_pending = False
+        elif info.si_signo != signal.SIGCHLD and info.si_code != _SENT_BY_KERNEL:
+            if info.si_signo == signal.SIGINT:
+                interrupt_pending = True
+            else:
+                os.kill(pid, info.si_signo)

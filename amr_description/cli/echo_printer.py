@@ -1,0 +1,69 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``ros2 topic echo`` prints of each message."""
+
+from argparse import Namespace
+from collections.abc import Mapping
+from functools import reduce
+from typing import Any
+
+from rclpy.event_handler import QoSMessageLostInfo
+
+from amr_description.cli.message_filter import make_filter
+from amr_description.cli.message_text import dump_yaml, Style, to_csv, to_yaml
+from amr_description.errors import AmrError
+
+
+class EchoPrinter:
+    """Selects, formats and prints messages."""
+
+    def __init__(self, args: Namespace, message_class: Any) -> None:
+        """Raise AmrError if the class has no such field as ``args.field``."""
+        self.count = 0
+        """How many messages were printed."""
+        self._field = args.field.split('.') if args.field else []
+        if not args.raw:
+            self._select(message_class())
+        self._filter = make_filter(args.filter_expr)
+        self._with_info = args.include_message_info
+        self._csv = args.csv
+        self._style = Style(
+            truncate_length=None if args.full_length else args.truncate_length,
+            arrays=not args.no_arr,
+            strings=not args.no_str,
+            flow_style=args.flow_style,
+        )
+
+    def receive(self, message: Any, info: Mapping[str, Any]) -> None:
+        """Print a message, or the bytes of one, if it passes the filter."""
+        if not isinstance(message, bytes):
+            message = self._select(message)
+        if not self._filter(message):
+            return
+        self.count += 1
+        if self._with_info:
+            print(dump_yaml(dict(info), sort_keys=True), end='---\n')
+        self._print(message)
+
+    def report_lost(self, lost: QoSMessageLostInfo) -> None:
+        """Say that the queue ran over."""
+        print(
+            'A message was lost!!!\n'
+            f'\ttotal count change:{lost.total_count_change}\n'
+            f'\ttotal count: {lost.total_count}',
+            end='---\n',
+        )
+
+    def _print(self, value: Any) -> None:
+        if not hasattr(value, 'get_fields_and_field_types'):
+            print(value, end='\n---\n')
+        elif self._csv:
+            print(to_csv(value, self._style))
+        else:
+            print(to_yaml(value, self._style), end='---\n')
+
+    def _select(self, message: Any) -> Any:
+        try:
+            return reduce(getattr, self._field, message)
+        except AttributeError as error:
+            raise AmrError(f"Invalid field '{'.'.join(self._field)}': {error}") from error

@@ -1,0 +1,42 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How many DDS participants run on this host: whom discovery has yet to find.
+
+Each listens to its discovery messages at a UDP port of its own, and by the port formula of the
+DDS standard (DDSI-RTPS 2.5, 9.6.2.3) that port tells its domain:
+``7400 + 250 * domain + 10 + 2 * participant``. Linux lists the ports in use.
+"""
+
+from collections.abc import Iterable
+from contextlib import suppress
+
+_TABLES = ('/proc/net/udp', '/proc/net/udp6')
+_PORT_BASE = 7400
+_DOMAIN_GAIN = 250
+_PARTICIPANT_GAIN = 2
+_UNICAST_OFFSET = 10
+_MOST_PARTICIPANTS = 120
+
+
+def count_local_participants(domain: int) -> int:
+    """Return how many participants of a domain run on this host, ours included."""
+    return len(set(participant_ids(_lines(), domain)))
+
+
+def participant_ids(table: Iterable[str], domain: int) -> Iterable[int]:
+    """Yield the participants of a domain, from the lines of ``/proc/net/udp``."""
+    first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
+    for line in table:
+        _slot, local_address, *_ = line.split()
+        port = int(local_address.rpartition(':')[2], 16)
+        participant, odd = divmod(port - first, _PARTICIPANT_GAIN)
+        if 0 <= participant < _MOST_PARTICIPANTS and not odd:
+            yield participant
+
+
+def _lines() -> Iterable[str]:
+    for path in _TABLES:
+        with suppress(OSError), open(path) as table:
+            next(table)  # the heading
+            yield from table

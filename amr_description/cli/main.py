@@ -1,0 +1,62 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The way in and out of every command.
+
+================================================  =============================  ============
+what happened                                     what it prints                 exit code
+================================================  =============================  ============
+the verb returned                                 nothing more                   what it
+                                                                                 returned
+an :class:`~amr_description.errors.AmrError`      its line, on stderr            ``exit_code``
+the command line is wrong                         argparse's usage and error     2
+Ctrl-C                                            nothing                        2 (SIGINT)
+SIGTERM while ROS is in use                       nothing                        15 (SIGTERM)
+the reader of the output is gone (``| head``)     nothing                        141
+any other exception: a bug                        its traceback                  1
+================================================  =============================  ============
+"""
+
+from collections.abc import Sequence
+import importlib
+import signal
+import sys
+
+from amr_description.cli import streams
+from amr_description.errors import AmrError
+
+PROGRAMS = {
+    'ros2': 'amr_description.cli.ros2',
+    'check_urdf': 'amr_description.cli.check_urdf',
+}
+
+
+def main(command: str, argv: Sequence[str]) -> int:
+    """
+    Run one of :data:`PROGRAMS` with the arguments after its name; return its exit code.
+
+    Ready for ``sys.exit()``: everything is written out, and nothing is left to fail at exit.
+    """
+    try:
+        streams.make_line_buffered()
+        code = importlib.import_module(PROGRAMS[command]).main(list(argv))
+        sys.stdout.flush()
+        return code
+    except AmrError as error:
+        print(error, file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt as stop:
+        return getattr(stop, 'signum', signal.SIGINT)
+    except BrokenPipeError:
+        streams.abandon_stdout()
+        return 128 + signal.SIGPIPE
+
+
+def ros2() -> int:
+    """Console entry of ``ros2``."""
+    return main('ros2', sys.argv[1:])
+
+
+def check_urdf() -> int:
+    """Console entry of ``check_urdf``."""
+    return main('check_urdf', sys.argv[1:])

@@ -1,0 +1,9 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Various package related sub-commands."""
+
+VERBS = {
+    'executables': 'amr_description.cli.pkg.executables',
+    'list': 'amr_description.cli.pkg.list',
+    'prefix': 'amr_description.cli.pkg.prefix',
+}

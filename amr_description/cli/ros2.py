@@ -1,0 +1,39 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""ros2 is an extensible command-line tool for ROS 2."""
+
+import argparse
+from collections.abc import Sequence
+
+from amr_description.cli import streams
+from amr_description.cli.program import LazyParser, run
+
+COMMANDS = {
+    'control': 'amr_description.cli.control',
+    'node': 'amr_description.cli.node',
+    'pkg': 'amr_description.cli.pkg',
+    'run': 'amr_description.cli.run',
+    'topic': 'amr_description.cli.topic',
+}
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run ``ros2`` with the arguments after its name; return the exit code."""
+    parser = LazyParser(prog='ros2', description=__doc__)
+    parser.add_argument(
+        '--use-python-default-buffering',
+        action=_DefaultBuffering,
+        nargs=0,
+        help='Do not force line buffering in stdout and instead use the python default '
+        'buffering, which might be affected by PYTHONUNBUFFERED/-u and depends on whatever '
+        'stdout is interactive or not',
+    )
+    parser.read_table(COMMANDS)
+    return run(parser, argv)
+
+
+class _DefaultBuffering(argparse.Action):
+    """Takes effect while the command line is read: what follows may already print its help."""
+
+    def __call__(self, *_args: object, **_kwargs: object) -> None:
+        streams.make_fully_buffered()

@@ -1,0 +1,113 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Run a package specific executable.
+
+What follows the executable is handed to it as it stands. Its signals are its own: Ctrl-C reaches
+it from the terminal, and what another process sends to 'ros2 run' is passed on.
+
+examples:
+  ros2 run amr_description talker
+  ros2 run amr_description talker --ros-args -r __ns:=/left -r topic:=chatter
+  ros2 run --prefix 'gdb -ex run --args' my_package my_node
+"""
+
+from argparse import ArgumentParser, Namespace, REMAINDER
+import os
+from pathlib import Path
+import shlex
+import shutil
+import sys
+
+from amr_description.errors import AmrError, UsageError
+
+_OURS = 'amr_description'
+
+# Well-known executables whose part one of ours takes where their package is not installed.
+_STAND_INS = {
+    ('controller_manager', 'spawner'): 'spawner',
+    ('demo_nodes_py', 'listener'): 'listener',
+    ('demo_nodes_py', 'talker'): 'talker',
+    ('py_pubsub', 'listener'): 'listener',
+    ('py_pubsub', 'talker'): 'talker',
+    ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
+    ('ros_gz_sim', 'create'): 'create',
+    ('teleop_twist_keyboard', 'teleop_twist_keyboard'): 'teleop_twist_keyboard',
+}
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        '--prefix',
+        default='',
+        help='Prefix command, which should go before the executable. Command must be wrapped in '
+        "quotes if it contains spaces (e.g. --prefix 'gdb -ex run --args').",
+    )
+    parser.add_argument('package_name', help='Name of the ROS package')
+    parser.add_argument('executable_name', help='Name of the executable')
+    parser.add_argument('argv', nargs=REMAINDER, help='Pass arbitrary arguments to the executable')
+
+
+def main(args: Namespace) -> int:
+    """
+    Run an executable; return its exit code, or minus the number of the signal that ended it.
+
+    (The shell sees the last byte of that: 254 after Ctrl-C.)
+    """
+    from amr_description.bringup.environment import child_environment
+    from amr_description.cli.child_process import run_to_end
+
+    executable = _find(args.package_name, args.executable_name)
+    command = [*_prefix(args.prefix), str(executable), *args.argv]
+    environment = child_environment(executable, os.environ)
+    if 'PYTHONUNBUFFERED' not in os.environ:  # is for pipes; this child may have a terminal
+        environment.pop('PYTHONUNBUFFERED', None)
+    sys.stdout.flush()
+    code = run_to_end(command, environment)
+    if code:
+        print(f'[ros2run]: {_end(code)}')
+    return code
+
+
+def _find(package: str, name: str) -> Path:
+    """Return the path of an executable. Raises AmrError."""
+    from amr_description.cli.packages import executables_of, packages
+
+    stand_in = _STAND_INS.get((package, name))
+    if stand_in and package not in packages() and _OURS in packages():
+        print(
+            f"[ros2run]: package '{package}' is not installed: running '{stand_in}' of {_OURS}",
+            file=sys.stderr,
+        )
+        package, name = _OURS, stand_in
+    known = executables_of(package)
+    paths = [path for path in known if path.name == name]
+    if not paths:
+        names = ', '.join(sorted({path.name for path in known}))
+        raise AmrError(
+            f"No executable found: package '{package}' has no '{name}', "
+            + (f'it has {names}' if names else 'nor any other')
+        )
+    if len(paths) > 1:
+        raise AmrError('\n'.join(['Multiple executables found:', *(f'- {p}' for p in paths)]))
+    return paths[0]
+
+
+def _prefix(text: str) -> list[str]:
+    """Return the words of ``--prefix``. Raises UsageError."""
+    try:
+        words = shlex.split(text)
+    except ValueError as error:
+        raise UsageError(f"--prefix '{text}' is not a command: {error}") from error
+    if words and not shutil.which(words[0]):
+        raise AmrError(f"--prefix '{text}': there is no command '{words[0]}'")
+    return words
+
+
+def _end(code: int) -> str:
+    import signal
+
+    if code > 0:
+        return f'Process exited with failure {code}'
+    return signal.strsignal(-code) or f'Signal {-code}'

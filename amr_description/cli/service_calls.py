@@ -1,0 +1,43 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A request and its response."""
+
+from typing import Any
+
+from amr_description.cli.session import Session
+from amr_description.errors import AmrError
+
+_ATTEMPTS = 3
+_TIMEOUT = 10.0  # s
+
+
+def call(session: Session, name: str, service_type: Any, request: Any) -> Any:
+    """
+    Return the response of a service.
+
+    Waits for the service for ever, saying so; then three times 10 s for an answer.
+
+    :raises AmrError: No answer.
+    """
+    client = session.node.create_client(service_type, name)
+    try:
+        _wait_for_service(session, client, name)
+        for _ in range(_ATTEMPTS):
+            future = client.call_async(request)
+            session.serve(future.done, _TIMEOUT)
+            if future.done():
+                return future.result()
+            client.remove_pending_request(future)
+            session.node.get_logger().warning(f'no answer from {name} for {_TIMEOUT:g} s')
+        raise AmrError(f'Could not successfully call service {name} after {_ATTEMPTS} attempts.')
+    finally:
+        session.node.destroy_client(client)
+
+
+def _wait_for_service(session: Session, client: Any, name: str) -> None:
+    if session.spin(client.service_is_ready, 0.5):
+        return
+    log = session.node.get_logger()
+    log.info(f'waiting for service {name} to become available...')
+    while not session.spin(client.service_is_ready, _TIMEOUT):
+        log.warning(f'Could not contact service {name}')

@@ -1,0 +1,22 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Various topic related sub-commands."""
+
+import argparse
+
+VERBS = {
+    'echo': 'amr_description.cli.topic.echo',
+    'find': 'amr_description.cli.topic.find',
+    'hz': 'amr_description.cli.topic.hz',
+    'info': 'amr_description.cli.topic.info',
+    'list': 'amr_description.cli.topic.list',
+    'pub': 'amr_description.cli.topic.pub',
+    'type': 'amr_description.cli.topic.type',
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what every verb of ``ros2 topic`` reads."""
+    parser.add_argument(
+        '--include-hidden-topics', action='store_true', help='Consider hidden topics as well'
+    )

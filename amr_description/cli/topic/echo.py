@@ -1,0 +1,153 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Output messages from a topic.
+
+examples:
+  ros2 topic echo /odom --once
+  ros2 topic echo /odom --field pose.pose.position
+  ros2 topic echo /joint_states --csv
+"""
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
+from typing import Any, TYPE_CHECKING
+
+from amr_description.cli.arguments import add_graph_arguments, nonnegative_int, positive_float
+from amr_description.cli.qos_arguments import add_qos_arguments
+
+if TYPE_CHECKING:
+    from amr_description.cli.session import Session
+
+_TRUNCATE_LENGTH = 128
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the verb."""
+    add_graph_arguments(parser)
+    parser.add_argument('topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')")
+    parser.add_argument(
+        'message_type',
+        nargs='?',
+        help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
+    )
+    add_qos_arguments(parser, 'subscribe', 'sensor_data', matched='reliability, durability')
+    _add_selection(parser)
+    _add_appearance(parser)
+
+
+def _add_selection(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        '--field',
+        help="Echo a selected field of a message. Use '.' to select sub-fields. "
+        'For example, to echo the position field of a nav_msgs/msg/Odometry message: '
+        "'ros2 topic echo /odom --field pose.pose.position'",
+    )
+    parser.add_argument(
+        '--filter',
+        dest='filter_expr',
+        metavar='FILTER_EXPR',
+        help='Python expression to filter messages that are printed. Expression can use '
+        "Python builtins as well as m (the message), as in 'm.twist.twist.linear.x > 0.1'",
+    )
+    parser.add_argument(
+        '--once', action='store_true', help='Print the first message received and then exit.'
+    )
+    parser.add_argument(
+        '--timeout',
+        metavar='N',
+        type=positive_float,
+        help='Set a timeout in seconds for waiting',
+    )
+    parser.add_argument('--lost-messages', action='store_true', help='DEPRECATED: Does nothing')
+    parser.add_argument(
+        '--no-lost-messages', action='store_true', help="Don't report when a message is lost"
+    )
+
+
+def _add_appearance(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        '--csv',
+        action='store_true',
+        help='Output all recursive fields separated by commas (e.g. for plotting)',
+    )
+    parser.add_argument(
+        '--full-length',
+        '-f',
+        action='store_true',
+        help='Output all elements for arrays, bytes, and string with a length > '
+        "'--truncate-length', by default they are truncated after '--truncate-length' "
+        "elements with '...'",
+    )
+    parser.add_argument(
+        '--truncate-length',
+        '-l',
+        type=nonnegative_int,
+        default=_TRUNCATE_LENGTH,
+        help=f'The length to truncate arrays, bytes, and string to (default: {_TRUNCATE_LENGTH})',
+    )
+    parser.add_argument(
+        '--no-arr', action='store_true', help="Don't print array fields of messages"
+    )
+    parser.add_argument(
+        '--no-str', action='store_true', help="Don't print string fields of messages"
+    )
+    parser.add_argument(
+        '--flow-style',
+        action='store_true',
+        help='Print arrays in one line (not available with csv format)',
+    )
+    parser.add_argument('--raw', action='store_true', help='Echo the raw binary representation')
+    parser.add_argument(
+        '--include-message-info',
+        '-i',
+        action='store_true',
+        help='Shows the associated message info.',
+    )
+
+
+def main(args: Namespace) -> int:
+    """Print messages until ``--once``, ``--timeout`` or Ctrl-C; 0 for the first two."""
+    from amr_description.cli import graph
+    from amr_description.cli.message_types import message_type
+    from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.session import open_session
+
+    if args.message_type:
+        message_type(args.message_type)
+    with open_session(use_sim_time=args.use_sim_time) as session:
+        topic = graph.full_topic_name(session.node, args.topic_name)
+        graph.wait_for_discovery(
+            session,
+            args.spin_time,
+            None if args.message_type else lambda: graph.is_published(session.node, topic),
+        )
+        type_name = args.message_type or graph.only_type_of(session.node, topic)
+        message_class = message_type(type_name)
+        Mismatch(session.node, topic, message_class, publishing=False).tell()
+        printed = _subscribe(session, args, topic, message_class)
+        session.serve(lambda: args.once and printed(), args.timeout)
+    return 0
+
+
+def _subscribe(
+    session: 'Session', args: Namespace, topic: str, message_class: Any
+) -> Callable[[], bool]:
+    """Have the messages printed; return what tells whether one was."""
+    from rclpy.event_handler import SubscriptionEventCallbacks
+
+    from amr_description.cli import qos
+    from amr_description.cli.echo_printer import EchoPrinter
+
+    publishers = session.node.get_publishers_info_by_topic(topic)
+    profile, notes = qos.for_subscription(args, [p.qos_profile for p in publishers])
+    for note in notes:
+        print(note)
+    printer = EchoPrinter(args, message_class)
+    events = SubscriptionEventCallbacks()
+    if not args.no_lost_messages:
+        events.message_lost = printer.report_lost
+    session.node.create_subscription(
+        message_class, topic, printer.receive, profile, raw=args.raw, event_callbacks=events
+    )
+    return lambda: printer.count > 0

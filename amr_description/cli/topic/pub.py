@@ -1,0 +1,199 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Publish a message to a topic.
+
+Fields that are not mentioned keep their defaults. The word 'auto' for a header, or 'now' for a
+time, stands for the time of each publication.
+
+examples:
+  ros2 topic pub --once /chatter std_msgs/msg/String "{data: hello}"
+  ros2 topic pub -r 10 /cmd_vel geometry_msgs/msg/TwistStamped "{header: auto}"
+"""
+
+from argparse import ArgumentParser, Namespace
+import sys
+from typing import Any, TYPE_CHECKING
+
+from amr_description.cli.arguments import (
+    add_node_arguments,
+    nonnegative_float,
+    nonnegative_int,
+    positive_float,
+)
+from amr_description.cli.qos_arguments import add_qos_arguments
+from amr_description.errors import AmrError
+
+if TYPE_CHECKING:
+    from rclpy.publisher import Publisher
+
+    from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.session import Session
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the verb."""
+    parser.add_argument('topic_name', help="Name of the ROS topic to publish to (e.g. '/chatter')")
+    parser.add_argument(
+        'message_type', help="Type of the ROS message (e.g. 'std_msgs/msg/String')"
+    )
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument(
+        'values',
+        nargs='?',
+        default='{}',
+        help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
+        'otherwise the message will be published with default values',
+    )
+    source.add_argument('--stdin', action='store_true', help='Read values from standard input')
+    _add_repetition(parser)
+    _add_waiting(parser)
+    parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
+    add_qos_arguments(parser, 'publish', 'default')
+    add_node_arguments(parser)
+
+
+def _add_repetition(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        '-r',
+        '--rate',
+        metavar='N',
+        type=positive_float,
+        default=1.0,
+        help='Publishing rate in Hz (default: 1)',
+    )
+    parser.add_argument(
+        '-p',
+        '--print',
+        metavar='N',
+        type=nonnegative_int,
+        default=1,
+        help='Only print every N-th published message (default: 1), 0: none',
+    )
+    times = parser.add_mutually_exclusive_group()
+    times.add_argument('-1', '--once', action='store_true', help='Publish one message and exit')
+    times.add_argument(
+        '-t',
+        '--times',
+        type=nonnegative_int,
+        default=0,
+        help='Publish this number of times and then exit',
+    )
+
+
+def _add_waiting(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        '-w',
+        '--wait-matching-subscriptions',
+        type=nonnegative_int,
+        help='Wait until finding the specified number of matching subscriptions. Defaults to 1 '
+        'when using "-1"/"--once"/"--times", otherwise defaults to 0.',
+    )
+    parser.add_argument(
+        '--max-wait-time-secs',
+        type=positive_float,
+        help='The maximum time in seconds to wait for matching subscriptions; without it the '
+        'wait is endless',
+    )
+    parser.add_argument(
+        '--keep-alive',
+        metavar='N',
+        type=nonnegative_float,
+        default=0.1,
+        help='Keep publishing node alive for N seconds after the last msg (default: 0.1)',
+    )
+
+
+def main(args: Namespace) -> int:
+    """Publish until done or Ctrl-C; 0 if done."""
+    from amr_description.cli import graph, qos
+    from amr_description.cli.message_fields import set_fields
+    from amr_description.cli.message_types import message_type
+    from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.session import open_session
+    from amr_description.cli.yaml_input import read_mapping
+
+    times = 1 if args.once else args.times
+    awaited = args.wait_matching_subscriptions
+    awaited = (1 if times else 0) if awaited is None else awaited
+    if args.max_wait_time_secs is not None and awaited == 0:
+        raise AmrError(
+            '--max-wait-time-secs option is only effective with '
+            '--wait-matching-subscriptions, --once or --times'
+        )
+    message = message_type(args.message_type)()
+    stamps = set_fields(message, read_mapping(sys.stdin.read() if args.stdin else args.values))
+    with open_session(name=args.node_name, use_sim_time=args.use_sim_time) as session:
+        topic = graph.full_topic_name(session.node, args.topic_name)
+        publisher = session.node.create_publisher(type(message), topic, qos.from_flags(args))
+        others = Mismatch(session.node, topic, type(message), publishing=True)
+        _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)
+        print('publisher: beginning loop')
+        _Loop(session, publisher, message, stamps, args.print).run(times, args.rate, others)
+        session.serve(timeout=args.keep_alive)
+    return 0
+
+
+def _wait_for_subscriptions(
+    session: 'Session',
+    publisher: 'Publisher',
+    awaited: int,
+    timeout: float | None,
+    others: 'Mismatch',
+) -> None:
+    """Wait until so many subscriptions match; say so every second. Raises AmrError."""
+
+    def matched() -> bool:
+        return publisher.get_subscription_count() >= awaited
+
+    left = float('inf') if timeout is None else timeout
+    while not matched():
+        print(f'Waiting for at least {awaited} matching subscription(s)...')
+        if left <= 0.0:
+            raise AmrError(
+                f'Timed out waiting for subscribers: Expected {awaited} subcribers but only got '
+                f'{publisher.get_subscription_count()} subscribers'
+            )
+        session.spin(matched, min(left, 1.0))
+        left -= 1.0
+        others.tell()
+
+
+class _Loop:
+    """Publishes one message again and again."""
+
+    def __init__(
+        self,
+        session: 'Session',
+        publisher: 'Publisher',
+        message: Any,
+        stamps: list[Any],
+        print_every: int,
+    ) -> None:
+        self._session = session
+        self._publisher = publisher
+        self._message = message
+        self._stamps = stamps
+        self._print_every = print_every
+        self._count = 0
+
+    def run(self, times: int, rate: float, others: 'Mismatch') -> None:
+        """Publish at once and then at ``rate``, Hz: ``times`` times, or for ever if that is 0."""
+        self._publish()
+        if times == 1:
+            return
+        node = self._session.node
+        timer = node.create_timer(1.0 / rate, self._publish)
+        watch = node.create_timer(1.0, others.tell)
+        self._session.serve(lambda: 0 < times <= self._count)
+        node.destroy_timer(watch)
+        node.destroy_timer(timer)
+
+    def _publish(self) -> None:
+        self._count += 1
+        now = self._session.node.get_clock().now().to_msg()
+        for stamp in self._stamps:
+            stamp(now)
+        if self._print_every and self._count % self._print_every == 0:
+            print(f'publishing #{self._count}: {self._message!r}\n')
+        self._publisher.publish(self._message)

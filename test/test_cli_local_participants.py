@@ -1,0 +1,32 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whom discovery has yet to find, from the UDP ports in use."""
+
+import socket
+
+import pytest
+
+from amr_description.cli.local_participants import count_local_participants, participant_ids
+
+LINE = '{slot}: 00000000:{port:04X} 00000000:0000 07 00000000:00000000 00:00000000 0 0 0 2 0 0'
+
+
+def table(*ports):
+    return [LINE.format(slot=slot, port=port) for slot, port in enumerate(ports)]
+
+
+@pytest.mark.parametrize('domain', [0, 33, 101])
+def test_the_port_tells_domain_and_participant(domain):
+    discovery, user, multicast = (7400 + 250 * domain + offset for offset in (10, 11, 0))
+    lines = table(discovery, user, discovery + 4, user + 4, multicast, 53)
+    assert list(participant_ids(lines, domain)) == [0, 2]
+    assert list(participant_ids(lines, domain + 1)) == []
+
+
+def test_a_port_in_use_counts():
+    domain = 99
+    before = count_local_participants(domain)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as participant:
+        participant.bind(('127.0.0.1', 7400 + 250 * domain + 10 + 2 * 77))
+        assert count_local_participants(domain) == before + 1
+    assert count_local_participants(domain) == before

@@ -1,0 +1,116 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a person sees first: help, wrong words; and that none of it costs an import too many."""
+
+import re
+
+from fixtures.cli.commands import python, ros2
+import pytest
+
+from amr_description.cli import qos_arguments
+from amr_description.cli.program import LazyParser, run
+from amr_description.cli.ros2 import COMMANDS
+
+TOPIC_HELP = """\
+usage: ros2 topic [-h] [--include-hidden-topics]
+                  Call `ros2 topic <command> -h` for more detailed usage. ...
+
+Various topic related sub-commands
+
+options:
+  -h, --help            show this help message and exit
+  --include-hidden-topics
+                        Consider hidden topics as well
+
+Commands:
+  echo  Output messages from a topic
+  find  Output a list of available topics of a given type
+  hz    Print the average publishing rate to screen
+  info  Print information about a topic
+  list  Output a list of available topics
+  pub   Publish a message to a topic
+  type  Print a topic's type
+
+  Call `ros2 topic <command> -h` for more detailed usage.
+"""
+
+IMPORTED = """\
+import sys
+from amr_description.cli.main import main
+try:
+    main('ros2', sys.argv[1:])
+except SystemExit:
+    pass
+print(*sorted(sys.modules), sep='\\n')
+"""
+
+
+def imported_by(*args):
+    return set(python('-c', IMPORTED, *args).stdout.splitlines())
+
+
+@pytest.mark.parametrize('args', [(), ('-h',), ('--help',)])
+def test_help_names_every_command(args):
+    result = ros2(*args)
+    assert result.returncode == 0
+    listed = result.stdout.partition('Commands:\n')[2].splitlines()
+    assert [line.split()[0] for line in listed[: len(COMMANDS)]] == sorted(COMMANDS)
+
+
+@pytest.mark.parametrize('args', [(), ('-h',), ('--help',)])
+def test_the_help_of_a_command_is_laid_out_like_the_genuine_one(args):
+    result = ros2('topic', *args)
+    assert (result.returncode, result.stdout, result.stderr) == (0, TOPIC_HELP, '')
+
+
+def test_an_unknown_word_is_told_with_those_there_are():
+    result = ros2('topic', 'ecko')
+    assert (result.returncode, result.stdout) == (2, '')
+    assert result.stderr.startswith('usage: ros2 topic [-h]')
+    assert re.search(r"invalid choice: 'ecko' \(choose from 'echo', .*'type'\)\n", result.stderr)
+
+
+def test_help_needs_neither_rclpy_nor_verbs():
+    modules = imported_by('--help')
+    assert 'amr_description.cli.topic' in modules
+    assert not {'rclpy', 'yaml', 'numpy', 'amr_description.cli.topic.echo'} & modules
+
+
+def test_the_help_of_verbs_needs_no_rclpy():
+    modules = imported_by('topic', '--help')
+    assert 'amr_description.cli.topic.echo' in modules
+    assert not {'rclpy', 'yaml', 'numpy'} & modules
+    assert not {'rclpy', 'yaml', 'numpy'} & imported_by('topic', 'pub', '--help')
+
+
+def test_a_verb_does_not_import_the_others():
+    modules = imported_by('pkg', 'prefix', 'nobody')
+    assert 'amr_description.cli.pkg.prefix' in modules
+    assert not {'amr_description.cli.topic', 'amr_description.cli.pkg.list'} & modules
+
+
+@pytest.mark.parametrize('command', COMMANDS)
+def test_every_verb_has_a_line_of_help_and_a_way_to_run(command):
+    parser = LazyParser(prog='ros2')
+    parser.read_table({command: COMMANDS[command]})
+    with pytest.raises(SystemExit, match='0'):
+        run(parser, [command, '--help'])
+
+
+def test_what_follows_a_name_is_read_by_its_verb():
+    parser = LazyParser(prog='ros2')
+    parser.read_table(COMMANDS)
+    words = ['run', 'pkg', 'exe', '-h', '--', '--ros-args', '-p', 'x:=1']
+    args = parser.parse_args(words)
+    assert (args.package_name, args.executable_name) == ('pkg', 'exe')
+    assert args.argv == words[3:]
+
+
+def test_the_choices_of_qos_flags_are_those_of_rclpy():
+    from rclpy import qos
+
+    assert list(qos_arguments.PROFILES) == qos.QoSPresetProfiles.short_keys()
+    assert list(qos_arguments.HISTORIES) == qos.QoSHistoryPolicy.short_keys()
+    assert list(qos_arguments.RELIABILITIES) == qos.QoSReliabilityPolicy.short_keys()
+    assert list(qos_arguments.DURABILITIES) == qos.QoSDurabilityPolicy.short_keys()
+    assert list(qos_arguments.LIVELINESSES) == qos.QoSLivelinessPolicy.short_keys()
