@@ -1,0 +1,69 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Give each test run a ROS of its own: a free domain, this host only, its own log folder."""
+
+import fcntl
+import os
+from pathlib import Path
+import signal
+import sys
+import tempfile
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces')]  # their parts are tested too
+
+# Domains whose ports lie below the system's ephemeral ones; 0 is everybody's.
+DOMAINS = range(1, 102)
+# Beside rclpy itself, as child processes inherit it.
+KEPT: dict[str, object] = {}
+
+
+def take_domain() -> tuple[int, object]:
+    """
+    Return a domain that no other test run holds, and what holds it as long as it is open.
+
+    Never the one of the shell: a robot may be listening there.
+    """
+    forbidden = os.environ.get('ROS_DOMAIN_ID')
+    start = os.getpid() % len(DOMAINS)
+    for domain in (*DOMAINS[start:], *DOMAINS[:start]):
+        if str(domain) == forbidden:
+            continue
+        try:
+            lock = Path(tempfile.gettempdir(), f'ros_domain_{domain}.lock').open('a')
+        except PermissionError:  # another user's
+            continue
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            lock.close()
+            continue
+        return domain, lock
+    raise RuntimeError(f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken')
+
+
+def pytest_configure():
+    domain, KEPT['lock'] = take_domain()
+    KEPT['logs'] = tempfile.TemporaryDirectory(prefix='amr-test-logs-')
+    prefixes = [str(ROOT / 'install' / 'amr_description'), sys.prefix]
+    known = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
+    os.environ |= {
+        'ROS_DOMAIN_ID': str(domain),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'ROS_LOG_DIR': KEPT['logs'].name,
+        'AMENT_PREFIX_PATH': os.pathsep.join(
+            dict.fromkeys(prefix for prefix in (*prefixes, *known) if prefix)
+        ),
+    }
+    # A background job starts with Ctrl-C ignored, which every child would inherit.
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_report_header():
+    return f'ROS_DOMAIN_ID={os.environ["ROS_DOMAIN_ID"]}, LOCALHOST'
+
+
+def pytest_unconfigure():
+    KEPT['logs'].cleanup()
+    KEPT['lock'].close()
