@@ -14,13 +14,13 @@ sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces')]  # their parts 
 
 # Domains whose ports lie below the system's ephemeral ones; 0 is everybody's.
 DOMAINS = range(1, 102)
-# Beside rclpy itself, as child processes inherit it.
-KEPT: dict[str, object] = {}
+LOCKS = Path(tempfile.gettempdir())
+KEPT = {}  # what has to last as long as the run
 
 
-def take_domain() -> tuple[int, object]:
+def take_domain() -> tuple[int, int]:
     """
-    Return a domain that no other test run holds, and what holds it as long as it is open.
+    Return a domain that no other test run holds, and the open file that holds it.
 
     Never the one of the shell: a robot may be listening there.
     """
@@ -30,13 +30,13 @@ def take_domain() -> tuple[int, object]:
         if str(domain) == forbidden:
             continue
         try:
-            lock = Path(tempfile.gettempdir(), f'ros_domain_{domain}.lock').open('a')
+            lock = os.open(LOCKS / f'ros_domain_{domain}.lock', os.O_CREAT | os.O_RDWR, 0o666)
         except PermissionError:  # another user's
             continue
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            lock.close()
+            os.close(lock)
             continue
         return domain, lock
     raise RuntimeError(f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken')
@@ -66,4 +66,4 @@ def pytest_report_header():
 
 def pytest_unconfigure():
     KEPT['logs'].cleanup()
-    KEPT['lock'].close()
+    os.close(KEPT['lock'])
