@@ -88,7 +88,7 @@ def run(
             with argument_errors():
                 node = make_node()
             try:
-                spin_node(node, executor(), stop)
+                _spin_until_stopped(node, executor, stop)
             finally:
                 stop.leave()
                 node.destroy_node()
@@ -132,22 +132,6 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
             rclpy.try_shutdown()
 
 
-def spin_node(node: Node, executor: Executor, stop: StopRequests) -> None:
-    """Serve the callbacks of ``node`` until a request to stop, then shut the executor down."""
-    stopped = threading.Event()
-
-    def end_spin() -> None:
-        stopped.set()
-        executor.wake()
-
-    executor.add_node(node)
-    try:
-        with stop.on_stop(end_spin):
-            spin(executor, stopped.is_set)
-    finally:
-        executor.shutdown()
-
-
 def spin(executor: Executor, until: Callable[[], bool]) -> None:
     """
     Serve the executor's callbacks in this thread until ``until()``, or a shutdown of the context.
@@ -156,11 +140,14 @@ def spin(executor: Executor, until: Callable[[], bool]) -> None:
     at once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
     never run a callback. This loop is right for every executor.)
     """
-    try:
-        while not until():
+    while executor.context.ok() and not until():
+        try:
             executor.spin_once(timeout_sec=_SPIN_TIMEOUT)
-    except ExternalShutdownException:
-        pass
+        except ExternalShutdownException:
+            return
+        except rclpy_implementation.RCLError:
+            if executor.context.ok():  # otherwise: it was shut down while the wait was set up
+                raise
 
 
 @contextmanager
@@ -204,6 +191,27 @@ def argument_errors() -> Iterator[None]:
         NameValidationException,
     ) as error:
         raise ParameterError(_one_line(str(error))) from error
+
+
+def _spin_until_stopped(
+    node: Node, make_executor: Callable[[], Executor], stop: StopRequests
+) -> None:
+    stopped = threading.Event()
+    executor: Executor | None = None
+
+    def end_spin() -> None:
+        stopped.set()
+        if executor is not None:
+            executor.wake()
+
+    # A half-made executor complains when it is interrupted, so it is made where nothing raises.
+    with stop.on_stop(end_spin):
+        executor = make_executor()
+        executor.add_node(node)
+        try:
+            spin(executor, stopped.is_set)
+        finally:
+            executor.shutdown()
 
 
 def _one_line(text: str) -> str:
