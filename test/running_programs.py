@@ -66,6 +66,11 @@ class Program:
         return cls(sys.executable, '-m', f'amr_description.nodes.{name}', *args, **options)
 
     @property
+    def lines(self):
+        """What it has printed, without Fast DDS's remarks on others' shared memory."""
+        return [line for line in self.output.splitlines() if 'RTPS_TRANSPORT_SHM' not in line]
+
+    @property
     def terminal(self):
         """The side of the pseudo-terminal that the program has."""
         return self._slave

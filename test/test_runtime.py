@@ -108,7 +108,7 @@ def test_a_node_ends_on_each_signal_with_0_and_without_a_word(signum, executor):
     with Program.of(NODE, executor) as node:
         node.expect('up')
         assert node.end(signum) == 0
-        assert set(node.output.splitlines()) == {'up for 0'}
+        assert set(node.lines) == {'up for 0'}
 
 
 def test_a_node_can_still_publish_when_it_is_asked_to_stop(listener):
@@ -134,7 +134,7 @@ def test_a_program_is_interrupted_wherever_it_waits(signum, wait):
     with Program.of(OWN_LOOP.format(wait=wait)) as waiting:
         waiting.expect('up')
         assert waiting.end(signum) == 128 + signum
-        assert set(waiting.output.split()) == {'up'}
+        assert set(waiting.lines) == {'up'}
 
 
 @pytest.mark.parametrize(
