@@ -18,6 +18,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``spawning``        the request to spawn, checked; simulation_interfaces' codes
 ``resources``       ``package://`` and ``file://``, world names
 ``faults``          MuJoCo's warnings, non-finite states and falls, told once, in one line
+``bare_loop``       the physics alone, to measure against
 ==================  =========================================================================
 
 Not thread-safe: one owner calls everything.

@@ -18,8 +18,10 @@ import mujoco
 from amr_description.control.contracts import Log
 from amr_description.control.interfaces import VELOCITY
 from amr_description.errors import SpawnError
+from amr_description.model.findings import raise_error
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.xml_source import parse_xml
 from amr_description.sim.actuators import ACTUATORS
 from amr_description.sim.faults import one_line
 from amr_description.sim.meshes import resolve_meshes
@@ -79,7 +81,8 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
 
 def _prepared_xml(robot: Robot, log: Log) -> str:
     """The URDF with MuJoCo's compiler settings and the true paths of its meshes."""
-    root = etree.fromstring(robot.text.encode())
+    root = parse_xml(robot.text, robot.source, raise_error)
+    assert root is not None, 'raise_error does not return from an error'
     extension = root.find('mujoco')
     if extension is None:
         extension = etree.SubElement(root, 'mujoco')
