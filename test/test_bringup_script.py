@@ -20,7 +20,7 @@ def checkout(tmp_path):
     root = tmp_path / 'a checkout'
     for name, text in {
         'scripts/setup': 'echo "$PPID" >"$0.ran"; exec ${SETUP_DOES:-true}',
-        'scripts/activate': 'export ACTIVATED=$UNSET_VARIABLE"yes"',
+        'scripts/activate': 'export ACTIVATED="$AMR_ALONE"yes',
         'install/amr_description/lib/amr_description/bringup': (
             'echo "$$ $ACTIVATED"; printf "%s\\n" "$@"'
         ),
@@ -57,7 +57,7 @@ def start(checkout, *words, **env):
 def test_it_becomes_the_bring_up_with_the_arguments(checkout, words, passed):
     with start(checkout, *words) as process:
         first, *rest = process.communicate(timeout=PATIENCE)[0].splitlines()
-    assert first == f'{process.pid} yes'
+    assert first == f'{process.pid} 1yes'
     assert rest == passed
     assert (checkout / 'scripts/setup.ran').exists()
 

@@ -105,13 +105,17 @@ def start(stack: Stack) -> int:
         console = Console(sys.stdout, folder, colour=wants_colour(sys.stdout, os.environ))
         where = _with_tilde(folder.path)
         console.say('INFO', LAUNCH, f'All log files can be found below {where}')
-        return asyncio.run(_orchestrate(stack, jobs, console, run))
+        # The log files that the nodes write themselves belong to this run, too.
+        environment = {**os.environ, 'ROS_LOG_DIR': str(folder.path)}
+        return asyncio.run(_orchestrate(stack, jobs, console, run, environment))
     finally:
         folder.close()
 
 
-async def _orchestrate(stack: Stack, jobs: list[Job], console: Console, run: str) -> int:
-    return await Orchestrator(stack, jobs, console, run).run()
+async def _orchestrate(
+    stack: Stack, jobs: list[Job], console: Console, run: str, environment: dict[str, str]
+) -> int:
+    return await Orchestrator(stack, jobs, console, run, environment).run()
 
 
 def _with_tilde(path: Path) -> str:

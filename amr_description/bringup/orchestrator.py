@@ -11,9 +11,8 @@ is 0 if the stack ended by itself, and if it was stopped by a signal: Ctrl-C is 
 """
 
 import asyncio
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 import contextlib
-import os
 import signal
 import time
 
@@ -36,10 +35,24 @@ _ESCALATION = ((signal.SIGINT, 5.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, Non
 class Orchestrator:
     """Runs one stack, once."""
 
-    def __init__(self, stack: Stack, jobs: Sequence[Job], console: Console, run_name: str) -> None:
-        """``jobs``: the nodes of the stack, made ready by :func:`job.jobs_of`."""
+    def __init__(
+        self,
+        stack: Stack,
+        jobs: Sequence[Job],
+        console: Console,
+        run_name: str,
+        environment: Mapping[str, str],
+    ) -> None:
+        """
+        Take over what is to be run.
+
+        :param jobs: The nodes of the stack, made ready by :func:`job.jobs_of`.
+        :param run_name: A name that no other run on this machine has.
+        :param environment: The environment variables of the children.
+        """
         self._jobs: dict[Node, Job] = {job.node: job for job in jobs}
         self._run_name = run_name
+        self._environment = environment
         self._narrator = Narrator(stack, jobs, console)
         self._progress = Progress(stack)
         self._children: dict[Node, Child] = {}  # in the order of their start
@@ -113,13 +126,13 @@ class Orchestrator:
 
     def _start(self, node: Node) -> None:
         job = self._jobs[node]
-        environment = child_environment(job.executable, os.environ) | self._lifeline.variables
         self._progress.start(node)
         try:
+            environment = child_environment(job.executable, self._environment)
             job.write_parameter_files()
             child = Child(
                 job.command,
-                environment,
+                environment | self._lifeline.variables,
                 self._lifeline.reader,
                 lambda line: self._narrator.output(node, line),
             )
