@@ -212,6 +212,7 @@ def test_spin_ends_when_the_context_is_shut_down(listener, make_executor):
     executor.add_node(listener)
     spin(executor, until=lambda: False)
     assert not rclpy.ok()
+    executor.shutdown()
 
 
 @pytest.mark.parametrize('make_executor', [EventsExecutor, SingleThreadedExecutor])

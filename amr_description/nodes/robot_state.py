@@ -13,6 +13,8 @@ import math
 from amr_description.model.frames import joint_transform, Transform
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 
+_RESTART = 1_000_000_000  # ns: messages of one source do not overtake one another by so much
+
 
 @dataclass(frozen=True, slots=True)
 class LinkTransform:
@@ -78,13 +80,14 @@ class Throttle:
         """
         Tell whether a message stamped ``stamp`` about the joints ``names`` is to be published.
 
-        That is so if ``period`` ns have passed since the stamp last published for one of them,
-        or nothing has been published for one. Call :meth:`note` for what was published.
+        That is so if for one of them nothing has been published, or ``period`` ns have passed
+        since the stamp last published, or the stamp is so much older that its source must have
+        started anew. Call :meth:`note` for what was published.
         """
         published = self._published
         for name in names:
             last = published.get(name)
-            if last is None or stamp >= last + period:
+            if last is None or stamp >= last + period or stamp < last - _RESTART:
                 return True
         return False
 

@@ -22,6 +22,8 @@ the original hurts:
 * a joint state with a zero stamp, which it never publishes, counts as stamped on arrival (its
   transforms too: TF has no use for stamp 0), and is thinned out by that stamp;
 * the first message about a joint is always published, also in the first 50 ms of simulated time;
+* joint states that go back in time by more than a second are published, also when the node's own
+  clock does not go back with them (a restarted simulator, ``use_sim_time`` forgotten);
 * ``publish_frequency`` 0 publishes every message;
 * an unusable description ends it with one line and exit code 1, not with an abort;
 * ``/tf_static`` carries the fixed joints of the present description only.
@@ -32,6 +34,7 @@ at all (an empty callback); ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
@@ -74,11 +77,12 @@ class RobotStatePublisher(Node):
     The node; see the module.
 
     :param arguments: The command line without ROS arguments; the first may name a URDF file.
+    :param options: Keywords of :class:`rclpy.node.Node`.
     :raises AmrError: The description or a parameter cannot be used.
     """
 
-    def __init__(self, arguments: Sequence[str] = ()) -> None:
-        super().__init__('robot_state_publisher')
+    def __init__(self, arguments: Sequence[str] = (), **options: Any) -> None:
+        super().__init__('robot_state_publisher', **options)
         self._settings = declare(self, Settings)
         if not self._settings.robot_description and arguments:
             self._take_file(arguments[0])
