@@ -86,7 +86,7 @@ class MujocoSim:
     async def _spawn(self, request: SpawnEntity.Request) -> str:
         text = request.resource_string or _read(request.uri)
         source = request.uri or request.name or 'robot_description'
-        robot = read_description(text, source)
+        robot = read_description(text, source, self.simulation.log)
         name = request.name or robot.name
         if request.allow_renaming:
             name = free_name(name, self.simulation.world.names)

@@ -23,6 +23,10 @@ _HOPELESSLY_LATE = 0.1
 """s: beyond it the pacer starts anew, instead of making good what was missed in a burst."""
 
 
+_SHARE = 0.005
+"""s: how long the owner keeps going, as fast as possible, before it yields."""
+
+
 class Mailbox:
     """The queue of commands; any thread puts, the owner takes (``Commands`` of the loop)."""
 
@@ -58,6 +62,7 @@ class WallPacer:
     def __init__(self, factor: float) -> None:
         self._factor = factor
         self._wall_start = self._start = 0.0
+        self._yielded = 0.0
 
     def resume(self, time_now: int) -> None:
         """Count from now on, simulated time being ``time_now``, ns."""
@@ -67,7 +72,7 @@ class WallPacer:
     def pace(self, time_due: int) -> None:
         """Sleep until the instant ``time_due`` (ns) is due."""
         if self._factor == 0.0:
-            time.sleep(0)  # lets the ROS thread have the interpreter's lock
+            self._yield()
             return
         due = self._wall_start + (time_due / NANOSECONDS - self._start) / self._factor
         delay = due - time.monotonic()
@@ -75,6 +80,13 @@ class WallPacer:
             time.sleep(delay)
         elif delay < -_HOPELESSLY_LATE:
             self.resume(time_due)
+
+    def _yield(self) -> None:
+        """Let the ROS thread have the interpreter's lock now and then; each time costs."""
+        now = time.monotonic()
+        if now - self._yielded > _SHARE:
+            time.sleep(0)
+            self._yielded = time.monotonic()
 
 
 class Owner:

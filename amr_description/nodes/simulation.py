@@ -86,14 +86,14 @@ class Simulation:
         """``ros_args`` go on to every manager and controller. Raises SimulationError."""
         self.logs = LogThread()
         try:
-            self._log = self.logs.log_of(node.get_logger())
+            self.log = self.logs.log_of(node.get_logger())
             self._parameters = parameters
             self._ros_args = ros_args
             self._executor = executor
             self._managers: dict[str, ControllerManagerNode] = {}
             self._outgoing = Outgoing(node)
             self._outgoing.own_clock_of(node)
-            self.world = MujocoWorld(parameters.world, log=self._log)
+            self.world = MujocoWorld(parameters.world, log=self.log)
             mailbox = Mailbox()
             loop = Loop(
                 WorldStepper(self.world),
@@ -184,7 +184,7 @@ class Simulation:
         asked = _period_of(rate)
         period = steps_in(asked, self.world.timestep).period
         if period != asked:
-            self._log(
+            self.log(
                 Severity.WARN,
                 f'an update rate of {rate} Hz is {asked} ns, which physics steps of '
                 f'{self.world.timestep} ns do not divide; the controllers run every {period} ns',
