@@ -4,12 +4,15 @@
 
 from array import array
 from dataclasses import dataclass
+import json
 import math
 
+from control_fakes import FIXTURES
 from deferred_annotations import DeferredTable
 import pytest
 
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
 from amr_description.errors import ParameterError
 from amr_description.parameters import build, group, parameter, specs
 
@@ -99,6 +102,24 @@ def test_every_default_is_good_but_those_that_must_be_given():
 def test_a_wrong_value_is_told_with_its_name_and_what_would_do(values, message):
     with pytest.raises(ParameterError, match=message):
         build(Table, values)
+
+
+@pytest.mark.parametrize(
+    ('controller', 'table'),
+    [
+        ('diff_drive_controller', DiffDriveParameters),
+        ('joint_state_broadcaster', BroadcasterParameters),
+    ],
+)
+def test_the_shipped_tables_are_those_of_ros2_controllers(controller, table):
+    recorded = json.loads((FIXTURES / 'parameters.json').read_text())[controller]
+    ours = {row.name: row for row in specs(table)}
+    assert set(ours) == set(recorded)
+    for name, (kind, default, read_only) in recorded.items():
+        default = tuple(default) if isinstance(default, list) else default
+        default = math.nan if default == 'nan' else default
+        assert (ours[name].type, ours[name].read_only) == (kind, read_only), name
+        assert ours[name].default == pytest.approx(default, nan_ok=True), name
 
 
 def test_lists_of_any_kind_become_tuples():

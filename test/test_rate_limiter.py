@@ -155,6 +155,11 @@ def test_the_message_names_the_kind(limits, message):
         RateLimiter(**limits)
 
 
+def test_limits_may_meet():
+    limiter = RateLimiter(0.5, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    assert limiter.limit(9.0, 0.5, 0.5, 0.01) == 0.5
+
+
 def test_what_is_not_set_follows_from_what_is():
     limiter = RateLimiter(max_value=1.0, max_acceleration=2.0, max_jerk=3.0)
     assert (limiter.min_value, limiter.min_jerk) == (-1.0, -3.0)

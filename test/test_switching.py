@@ -3,6 +3,7 @@
 """switch_controller: its laws, and its checks and messages, word for word."""
 
 import random
+import re
 
 from control_fakes import FakeController, FakeHardware, FakeLog, make_manager, MS, start
 import pytest
@@ -141,6 +142,12 @@ def test_what_is_switched_on_and_off_again_leaves_no_trace(seed):
     assert bench.manager.snapshot == before
 
 
+def test_strictness_has_the_numbers_of_the_service():
+    assert {s.name: s.value for s in Strictness} == {
+        'BEST_EFFORT': 1, 'STRICT': 2, 'AUTO': 3, 'FORCE_AUTO': 4
+    }  # fmt: skip
+
+
 # --- success -------------------------------------------------------------------------------------
 
 
@@ -258,6 +265,7 @@ def test_best_effort_drops_an_unknown_name_but_not_a_list_of_nothing_else(bench)
 def test_wrong_states(bench, activate, deactivate, objection):
     bench.switch('B')
     assert bench.refuses(objection, activate, deactivate)
+    assert re.search(objection, bench.log.texts(Severity.ERROR)[0])
     before = set(bench.active)
     bench.switch(activate, deactivate, BEST_EFFORT)
     wanted = {name for name in activate.split() if name != 'U'}
