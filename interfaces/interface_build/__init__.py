@@ -26,3 +26,11 @@ through ``setup.py``.
 
 class BuildError(Exception):
     """An interface package cannot be built; ``str(error)`` says what was found and what to do."""
+
+    exit_code = 1
+
+
+class CompilerError(BuildError):
+    """There is no compiler that works."""
+
+    exit_code = 3

@@ -30,7 +30,7 @@ def main() -> int:
                 build.build(arguments.source.resolve(), arguments.stage.resolve(), Path(work))
     except BuildError as error:
         print(f'error: {error}', file=sys.stderr)
-        return 1
+        return error.exit_code
     return 0
 
 

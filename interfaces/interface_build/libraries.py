@@ -17,9 +17,8 @@ import sysconfig
 
 from interface_build import BuildError
 from interface_build.generators import GeneratedPackage, TYPESUPPORTS
-from interface_build.toolchain import python_headers, Toolchain
+from interface_build.toolchain import FLAGS, python_headers, Toolchain
 
-FLAGS = ('-O2', '-DNDEBUG', '-fPIC')
 SOURCES_PER_UNIT = 20
 
 

@@ -20,8 +20,9 @@ import sys
 import sysconfig
 import tempfile
 
-from interface_build import BuildError
+from interface_build import BuildError, CompilerError
 
+FLAGS = ('-O2', '-DNDEBUG', '-fPIC')  # of CMake's release builds
 PROBE = {
     'probe.c': '#include <stdint.h>\nint32_t one(void) { return 1; }\n',
     'probe.cpp': '#include <string>\nstd::string two() { return std::string("2"); }\n',
@@ -74,7 +75,8 @@ def complaint(toolchain: Toolchain) -> str | None:
         for name, text in PROBE.items():
             source = Path(folder, name)
             source.write_text(text)
-            command = [*toolchain.compiler_for(source), '-fPIC', '-shared', str(source)]
+            # With the flags of the build: zig compiles its C++ library for each set of them.
+            command = [*toolchain.compiler_for(source), *FLAGS, '-shared', str(source)]
             command += ['-o', f'{source}.so']
             try:
                 subprocess.run(command, capture_output=True, text=True, check=True)
@@ -87,14 +89,14 @@ def complaint(toolchain: Toolchain) -> str | None:
 
 
 def find_toolchain(environment: dict[str, str] | None = None) -> Toolchain:
-    """Return the first candidate that works; raise :class:`BuildError` with each one's fault."""
+    """Return the first candidate that works; raise :class:`CompilerError` saying why none does."""
     faults = []
     for toolchain in candidates(dict(os.environ) if environment is None else environment):
         fault = complaint(toolchain)
         if fault is None:
             return toolchain
         faults.append(fault)
-    raise BuildError(
+    raise CompilerError(
         f'no working C and C++ compiler ({"; ".join(faults) or "neither gcc nor clang on PATH"});'
         ' install one (Debian, Ubuntu: g++), or, without root: pip install ziglang'
     )

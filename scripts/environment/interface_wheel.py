@@ -20,11 +20,15 @@ from . import say, SetupError, stamps
 from .commands import run
 from .virtual_environment import pinned_versions, python_of
 
+# Reads .idl files. Here for the time of the build and not in .venv, for a reason: each node that
+# uses a message imports rosidl_generator_py, which imports the whole generator when it finds this
+# (else it goes without, by design): 45 of 170 ms of processor time, for each node that starts.
+PARSER = 'lark-parser==0.12.0'
 # The compiler that needs no root: a wheel, for machines without gcc and clang.
 ZIG = 'ziglang==0.17.1'
 NO_COMPILER = 3  # exit code of `python -m interface_build --check`
 # What the build reads of the environment: headers, generators, the template engine, numpy's ABI.
-COMPILED_AGAINST = ('ros-', 'numpy', 'empy', 'lark-parser', 'setuptools')
+COMPILED_AGAINST = ('ros-', 'numpy', 'empy', 'setuptools')
 
 
 def key(interfaces: Path, lock: Path) -> str:
@@ -35,12 +39,9 @@ def key(interfaces: Path, lock: Path) -> str:
         for name, version in sorted(pins.items())
         if name.startswith(COMPILED_AGAINST)
     ]
-    return stamps.digest(
-        stamps.digest_files(stamps.files_below(interfaces), interfaces),
-        *against,
-        sys.implementation.cache_tag or '',
-        platform.machine(),
-    )
+    sources = stamps.digest_files(stamps.files_below(interfaces), interfaces)
+    python = sys.implementation.cache_tag or ''
+    return stamps.digest(sources, *against, PARSER, python, platform.machine())
 
 
 def install(
@@ -51,41 +52,23 @@ def install(
     if not list(folder.glob('*.whl')):
         _build(interfaces, venv, folder, environment)
     wheel = next(folder.glob('*.whl'))
-    command = [
-        python_of(venv),
-        '-m',
-        'pip',
-        'install',
-        '--no-deps',
-        '--no-index',
-        '--force-reinstall',
-        wheel,
-    ]
+    options = ['--no-deps', '--no-index', '--force-reinstall']
+    command = [python_of(venv), '-m', 'pip', 'install', *options, wheel]
     run(command, environment, f'installing {wheel.name}')
 
 
 def _build(interfaces: Path, venv: Path, target: Path, environment: Mapping[str, str]) -> None:
     """Build in a copy, which keeps the sources clean, and move the wheel to ``target``."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix='amr-interfaces-') as folder:
-        environment = _with_compiler(interfaces, venv, Path(folder), environment)
-        copy = Path(folder, 'interfaces')
+    with tempfile.TemporaryDirectory(prefix='amr-interfaces-') as scratch:
+        environment = _with_tools(interfaces, venv, Path(scratch), environment)
+        copy = Path(scratch, 'interfaces')
         shutil.copytree(interfaces, copy, ignore=shutil.ignore_patterns(*stamps.IGNORED))
         say('compiling the interface packages that PyPI lacks, a minute or so ...')
         fresh = Path(tempfile.mkdtemp(dir=target.parent, prefix='unfinished-'))
+        options = ['--no-deps', '--no-index', '--no-build-isolation', '--wheel-dir', fresh]
         try:
-            command = [
-                python_of(venv),
-                '-m',
-                'pip',
-                'wheel',
-                '--no-deps',
-                '--no-index',
-                '--no-build-isolation',
-                '--wheel-dir',
-                fresh,
-                copy,
-            ]
+            command = [python_of(venv), '-m', 'pip', 'wheel', *options, copy]
             run(command, environment, 'building interfaces/')
             shutil.rmtree(target, ignore_errors=True)
             fresh.rename(target)
@@ -93,10 +76,19 @@ def _build(interfaces: Path, venv: Path, target: Path, environment: Mapping[str,
             shutil.rmtree(fresh, ignore_errors=True)
 
 
-def _with_compiler(
+def _with_tools(
     interfaces: Path, venv: Path, scratch: Path, environment: Mapping[str, str]
 ) -> Mapping[str, str]:
-    """Return the environment to build in: as it is if it has a compiler, else with zig's."""
+    """Return the environment to build in: with the parser, and a compiler if there is none."""
+    tools = scratch / 'tools'
+    environment = {
+        **environment,
+        'PYTHONPATH': os.fspath(tools),
+        'ZIG_GLOBAL_CACHE_DIR': os.fspath(scratch / 'zig-cache'),
+    }
+    fetch = [python_of(venv), '-m', 'pip', 'install', '--no-deps', '--only-binary=:all:']
+    fetch += ['--target', tools]
+    run([*fetch, PARSER], environment, f'fetching {PARSER}')
     check = subprocess.run(
         [python_of(venv), '-m', 'interface_build', '--check'],
         cwd=interfaces,
@@ -104,29 +96,13 @@ def _with_compiler(
         stderr=subprocess.PIPE,
         text=True,
     )
-    if check.returncode == 0:
-        return environment
-    if check.returncode != NO_COMPILER:
-        raise SetupError(check.stderr.strip().removeprefix('error: '))
-    say('no C++ compiler here; fetching zig from PyPI for this once (100 MB) ...')
-    packages = scratch / 'zig'
-    fetch = [
-        python_of(venv),
-        '-m',
-        'pip',
-        'install',
-        '--no-deps',
-        '--only-binary=:all:',
-        '--target',
-        packages,
-        ZIG,
-    ]
-    try:
-        run(fetch, environment, f'fetching {ZIG}')
-    except SetupError as error:
-        raise SetupError(f'{check.stderr.strip().removeprefix("error: ")}\n{error}') from None
-    return {
-        **environment,
-        'PYTHONPATH': os.fspath(packages),
-        'ZIG_GLOBAL_CACHE_DIR': os.fspath(scratch / 'zig-cache'),
-    }
+    complaint = check.stderr.strip().removeprefix('error: ')
+    if check.returncode == NO_COMPILER:
+        say('no C++ compiler here; fetching zig from PyPI for this once (100 MB) ...')
+        try:
+            run([*fetch, ZIG], environment, f'fetching {ZIG}')
+        except SetupError as error:
+            raise SetupError(f'{complaint}\n{error}') from None
+    elif check.returncode != 0:
+        raise SetupError(complaint)
+    return environment

@@ -19,6 +19,7 @@ from .virtual_environment import python_of
 
 MANIFESTS = ('setup.py', 'setup.cfg', 'package.xml')
 DATA_FOLDERS = ('urdf', 'config')
+LONGEST_FIRST_LINE = 127  # bytes, of Linux before 5.1
 
 
 def key(checkout: Checkout) -> str:
@@ -64,6 +65,21 @@ def build(checkout: Checkout, environment: Mapping[str, str]) -> None:
         'colcon build',
         checkout.root,
     )
+    for executable in (checkout.install / 'lib' / PACKAGE).iterdir():
+        make_startable(executable, python_of(checkout.venv))
+
+
+def make_startable(executable: Path, python: Path) -> None:
+    """
+    Have ``executable`` start by way of the shell where the kernel cannot find ``python``.
+
+    That is when its path has spaces, or is longer than the first line of a script may be. Shell
+    and Python both read the new beginning; pip gives its executables the same.
+    """
+    first_line, _, rest = executable.read_text().partition('\n')
+    if first_line.startswith('#!"') or len(first_line) > LONGEST_FIRST_LINE:
+        start = f"#!/bin/sh\n'''exec' \"{python}\" \"$0\" \"$@\"\n' '''\n"
+        executable.write_text(start + rest)
 
 
 def workspace_environment(checkout: Checkout, environment: Mapping[str, str]) -> dict[str, str]:

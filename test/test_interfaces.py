@@ -1,0 +1,138 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The compiled interface packages: whole, with the hashes of the originals, over real DDS."""
+
+from contextlib import contextmanager
+from importlib import import_module
+import json
+from pathlib import Path
+import signal
+import subprocess
+import sys
+
+from ament_index_python.packages import get_package_share_directory
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import deserialize_message, serialize_message
+
+INTERFACES = Path(__file__).parents[1] / 'interfaces'
+FIXTURES = Path(__file__).parent / 'fixtures' / 'interfaces'
+# The originals' hashes: control_msgs, simulation_interfaces and TFMessage as published by their
+# packages, the rest as built by CMake and by this build alike.
+HASHES = json.loads((FIXTURES / 'type_hashes.json').read_text())
+PACKAGES = sorted(path.parent.name for path in INTERFACES.glob('*/package.xml'))
+SOURCES = sorted(
+    f'{path.parent.parent.name}/{path.parent.name}/{path.stem}'
+    for package in PACKAGES
+    for kind in ('msg', 'srv', 'action')
+    for path in (INTERFACES / package).glob(f'{kind}/*.{kind}')
+)
+PATIENCE = 30.0  # s; a bound that only a broken test reaches
+
+
+def python_type(name):
+    package, kind, message = name.split('/')
+    return getattr(import_module(f'{package}.{kind}'), message)
+
+
+def test_packages_are_whole():
+    wanted = [name for name in HASHES if name.split('/')[0] in PACKAGES]
+    assert wanted == SOURCES
+
+
+@pytest.mark.parametrize('package', PACKAGES)
+def test_types_have_the_hashes_of_the_originals(package):
+    share = Path(get_package_share_directory(package))
+    built = {}
+    for name in (name for name in SOURCES if name.startswith(f'{package}/')):
+        description = json.loads((share.parent / f'{name}.json').read_text())
+        hashes = {entry['type_name']: entry['hash_string'] for entry in description['type_hashes']}
+        built[name] = hashes[name]
+    assert built == {name: HASHES[name] for name in built}
+
+
+@pytest.mark.parametrize('name', SOURCES)
+def test_type_support_loads(name):
+    interface = python_type(name)
+    interface.__class__.__import_type_support__()
+    assert interface.__class__._TYPE_SUPPORT is not None
+
+
+def test_index_lists_packages_and_interfaces():
+    index = Path(sys.prefix, 'share/ament_index/resource_index')
+    for package in PACKAGES:
+        assert (index / 'packages' / package).exists()
+        listed = (index / 'rosidl_interfaces' / package).read_text().split()
+        names = {f'{package}/{line.rpartition(".")[0]}' for line in listed}
+        assert names == {name for name in SOURCES if name.startswith(f'{package}/')}
+
+
+def test_messages_survive_the_wire_format():
+    spawn = python_type('simulation_interfaces/msg/SpawnEntity')()
+    spawn.name = 'Roboter “Über”'
+    spawn.entity_resource.resource_string = '<robot/>' * 1000
+    spawn.initial_pose.pose.position.z = 0.2
+    features = python_type('simulation_interfaces/msg/SimulatorFeatures')
+    several = features(features=[features.SPAWNING, 513], spawn_formats=['urdf', 'mjcf'])
+    for message in (spawn, several):
+        assert deserialize_message(serialize_message(message), type(message)) == message
+
+
+@pytest.fixture
+def node():
+    context = Context()
+    rclpy.init(context=context)
+    executor = SingleThreadedExecutor(context=context)
+    node = rclpy.create_node('asker', context=context)
+    executor.add_node(node)
+    yield node
+    executor.shutdown()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+@contextmanager
+def peer():
+    process = subprocess.Popen([sys.executable, FIXTURES / 'peer.py'])
+    try:
+        yield
+    finally:
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE) == 0
+
+
+def call(node, name, kind, request):
+    client = node.create_client(kind, name)
+    assert client.wait_for_service(PATIENCE)
+    future = client.call_async(request)
+    node.executor.spin_until_future_complete(future, PATIENCE)
+    return future.result()
+
+
+def test_topic_and_services_between_two_processes(node):
+    tf_message = python_type('tf2_msgs/msg/TFMessage')
+    list_controllers = python_type('controller_manager_msgs/srv/ListControllers')
+    step_simulation = python_type('simulation_interfaces/srv/StepSimulation')
+    received = rclpy.Future(executor=node.executor)
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    node.create_subscription(tf_message, 'tf', received.set_result, latched)
+    with peer():
+        node.executor.spin_until_future_complete(received, PATIENCE)
+        first, second = received.result().transforms
+        assert first == second
+        assert (first.header.frame_id, first.child_frame_id) == ('odom', 'base_footprint')
+        assert first.transform.translation.x == 1.5
+        (publisher,) = node.get_publishers_info_by_topic('tf')
+        assert str(publisher.topic_type_hash) == HASHES['tf2_msgs/msg/TFMessage']
+
+        answer = call(node, 'list_controllers', list_controllers, list_controllers.Request())
+        assert [state.name for state in answer.controller] == ['drive']
+        assert answer.controller[0].claimed_interfaces == ['left/velocity', 'right/velocity']
+        assert answer.controller[0].chain_connections[0].reference_interfaces == ['x']
+
+        request = step_simulation.Request(steps=7)
+        answer = call(node, 'step_simulation', step_simulation, request)
+        assert (answer.result.result, answer.result.error_message) == (7, 'Grüße')
