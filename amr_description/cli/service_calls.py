@@ -9,6 +9,7 @@ from amr_description.errors import AmrError
 
 _ATTEMPTS = 3
 _TIMEOUT = 10.0  # s
+_SILENT = 1.0  # s; usual discovery is not worth a line
 
 
 def call(session: Session, name: str, service_type: Any, request: Any) -> Any:
@@ -35,7 +36,7 @@ def call(session: Session, name: str, service_type: Any, request: Any) -> Any:
 
 
 def _wait_for_service(session: Session, client: Any, name: str) -> None:
-    if session.spin(client.service_is_ready, 0.5):
+    if session.spin(client.service_is_ready, _SILENT):
         return
     log = session.node.get_logger()
     log.info(f'waiting for service {name} to become available...')

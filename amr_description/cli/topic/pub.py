@@ -30,6 +30,11 @@ if TYPE_CHECKING:
     from amr_description.cli.mismatch import Mismatch
     from amr_description.cli.session import Session
 
+# s, at most. A subscriber learns of us up to 0.1 s later than we of it, on a busy machine still
+# later, and what a publisher that is gone sent too early is lost. (Fast DDS's confirmation comes
+# within 0.1 s or with the next heartbeat, after 3 s, although the message arrived at once.)
+_DELIVERY_TIME = 0.5
+
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
@@ -106,6 +111,8 @@ def _add_waiting(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Publish until done or Ctrl-C; 0 if done."""
+    from rclpy.duration import Duration
+
     from amr_description.cli import graph, qos
     from amr_description.cli.message_fields import set_fields
     from amr_description.cli.message_types import message_type
@@ -130,6 +137,7 @@ def main(args: Namespace) -> int:
         _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)
         print('publisher: beginning loop')
         _Loop(session, publisher, message, stamps, args.print).run(times, args.rate, others)
+        publisher.wait_for_all_acked(Duration(seconds=_DELIVERY_TIME))
         session.serve(timeout=args.keep_alive)
     return 0
 

@@ -1,0 +1,232 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``ros2 run``: what is found, what the child gets, how it ends."""
+
+import os
+import signal
+import sys
+
+from fixtures.cli.commands import ros2, started
+import pytest
+
+from amr_description.cli.packages import executables_of, packages, prefix_of
+from amr_description.errors import AmrError
+
+PYTHON = f'#!{sys.executable}\n'
+EXECUTABLES = {
+    'echo_words': '#!/bin/sh\necho words "$@"\n',
+    'fail': '#!/bin/sh\nexit 3\n',
+    'clean': PYTHON
+    + """\
+import signal, sys
+signal.signal(signal.SIGTERM, lambda *_: sys.exit('terminated'))
+print('up', flush=True)
+try:
+    signal.pause()
+except KeyboardInterrupt:
+    print('interrupted', flush=True)
+""",
+    'default': PYTHON
+    + """\
+import signal
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+print('up', flush=True)
+signal.pause()
+""",
+    'environment': '#!/bin/sh\necho "${MINE-} ${PYTHONUNBUFFERED-}"\n'
+    "grep -E 'SigBlk|SigIgn' /proc/self/status\n",
+    'parts/deep': '#!/bin/sh\necho deep\n',
+    '.hidden/buried': '#!/bin/sh\necho buried\n',
+    'one/twin': '#!/bin/sh\n',
+    'two/twin': '#!/bin/sh\n',
+}
+
+
+@pytest.fixture(scope='module')
+def prefix(tmp_path_factory):
+    """A prefix with the packages ``toys``, full of executables, and ``books``, without any."""
+    folder = tmp_path_factory.mktemp('prefix')
+    index = folder / 'share/ament_index/resource_index/packages'
+    index.mkdir(parents=True)
+    for package in ('toys', 'books'):
+        (index / package).touch()
+    for name, text in EXECUTABLES.items():
+        path = folder / 'lib/toys' / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+    (folder / 'lib/toys/notes.txt').write_text('not executable')
+    return str(folder)
+
+
+@pytest.fixture
+def run(prefix):
+    def run_it(*args, **env):
+        return ros2('run', *args, AMENT_PREFIX_PATH=prefix, **env)
+
+    return run_it
+
+
+@pytest.fixture
+def in_prefix(prefix, monkeypatch):
+    monkeypatch.setenv('AMENT_PREFIX_PATH', prefix)
+
+
+def test_words_are_handed_over_as_they_stand(run):
+    words = ['--ros-args', '-p', 'x:=1', '-h', '--', '--prefix', 'a b']
+    result = run('toys', 'echo_words', *words)
+    assert result.stdout == f'words {" ".join(words)}\n'
+    assert (result.returncode, result.stderr) == (0, '')
+
+
+def test_executables_are_found_in_folders_too(run):
+    assert run('toys', 'deep').stdout == 'deep\n'
+
+
+@pytest.mark.parametrize(
+    ('words', 'said'),
+    [
+        (('nope', 'x'), "Package 'nope' not found"),
+        (('../toys', 'x'), "Package '../toys' not found"),
+        (('books', 'x'), 'No executable found'),
+        (('toys', 'buried'), 'No executable found'),
+        (('toys', 'notes.txt'), 'No executable found'),
+        (('toys', 'deeper'), 'No executable found'),
+        (('--prefix', 'no_such_command -x', 'toys', 'deep'), "--prefix 'no_such_command -x'"),
+    ],
+)
+def test_what_is_not_there_is_told(run, words, said):
+    result = run(*words)
+    assert (result.returncode, result.stdout) == (1, '')
+    assert result.stderr.startswith(said)
+    assert result.stderr.count('\n') == 1
+
+
+def test_two_of_one_name_are_told(run, prefix):
+    result = run('toys', 'twin')
+    assert result.returncode == 1
+    assert result.stderr.splitlines() == [
+        'Multiple executables found:',
+        f'- {prefix}/lib/toys/one/twin',
+        f'- {prefix}/lib/toys/two/twin',
+    ]
+
+
+def test_without_an_index_the_way_to_one_is_told():
+    result = ros2('run', 'toys', 'deep', AMENT_PREFIX_PATH='')
+    assert result.returncode == 1
+    assert result.stderr.startswith("Package 'toys' not found: AMENT_PREFIX_PATH is not set;")
+
+
+def test_a_failure_is_told_and_handed_on(run):
+    result = run('toys', 'fail')
+    assert (result.returncode, result.stdout) == (3, '[ros2run]: Process exited with failure 3\n')
+
+
+def test_a_prefix_stands_before_the_command(run, prefix):
+    result = run('--prefix', 'echo "two words"', 'toys', 'deep', 'end')
+    assert result.stdout == f'two words {prefix}/lib/toys/parts/deep end\n'
+    assert run('--prefix', '"', 'toys', 'deep').returncode == 2
+
+
+def test_a_child_starts_as_from_a_shell(run):
+    variables, blocked, ignored = run('toys', 'environment', MINE='1').stdout.splitlines()
+    assert variables == f'1 {os.environ.get("PYTHONUNBUFFERED", "")}'
+    assert int(blocked.split()[1], 16) == 0
+    assert int(ignored.split()[1], 16) & (1 << (signal.SIGPIPE - 1)) == 0
+
+
+def test_a_stand_in_is_named_once(tmp_path):
+    index = tmp_path / 'share/ament_index/resource_index/packages'
+    index.mkdir(parents=True)
+    (index / 'amr_description').touch()
+    talker = tmp_path / 'lib/amr_description/talker'
+    talker.parent.mkdir(parents=True)
+    talker.write_text('#!/bin/sh\necho ours\n')
+    talker.chmod(0o755)
+    result = ros2('run', 'py_pubsub', 'talker', AMENT_PREFIX_PATH=str(tmp_path))
+    assert (result.returncode, result.stdout) == (0, 'ours\n')
+    assert result.stderr == (
+        "[ros2run]: package 'py_pubsub' is not installed: running 'talker' of amr_description\n"
+    )
+    (index / 'py_pubsub').touch()
+    result = ros2('run', 'py_pubsub', 'talker', AMENT_PREFIX_PATH=str(tmp_path))
+    assert result.stderr.startswith('No executable found')
+
+
+def test_ctrl_c_is_the_childs(prefix):
+    with started('run', 'toys', 'clean', terminal=True, AMENT_PREFIX_PATH=prefix) as program:
+        program.expect('up')
+        program.type('\x03')
+        program.expect('interrupted')
+        assert program.end() == 0
+        assert 'Traceback' not in program.output
+
+
+def test_a_child_that_died_of_ctrl_c_is_told(prefix):
+    with started('run', 'toys', 'default', terminal=True, AMENT_PREFIX_PATH=prefix) as program:
+        program.expect('up')
+        program.type('\x03')
+        program.expect(r'\[ros2run\]: Interrupt')
+        assert program.end() == 254
+
+
+@pytest.mark.parametrize(
+    ('executable', 'signum', 'said', 'code'),
+    [
+        ('clean', signal.SIGTERM, 'terminated', 1),
+        ('clean', signal.SIGINT, 'interrupted', 0),
+        ('default', signal.SIGTERM, r'\[ros2run\]: Terminated', 241),
+        ('default', signal.SIGINT, r'\[ros2run\]: Interrupt', 254),
+        ('default', signal.SIGHUP, r'\[ros2run\]: Hangup', 255),
+        ('default', signal.SIGUSR1, r'\[ros2run\]: User defined signal 1', 246),
+    ],
+)
+def test_signals_of_others_are_passed_on(prefix, executable, signum, said, code):
+    with started('run', 'toys', executable, AMENT_PREFIX_PATH=prefix) as program:
+        program.expect('up')
+        program.signal(signum)
+        program.expect(said)
+        assert program.end() == code
+
+
+def test_an_interrupt_of_the_whole_group_comes_once(prefix):
+    with started('run', 'toys', 'clean', AMENT_PREFIX_PATH=prefix) as program:
+        program.expect('up')
+        os.killpg(program.process.pid, signal.SIGINT)
+        assert program.end() == 0
+        assert program.output.count('interrupted') == 1
+        assert 'Traceback' not in program.output
+
+
+def test_packages_are_those_of_the_index(in_prefix, prefix):
+    assert {name: str(path) for name, path in packages().items()} == {
+        'books': prefix,
+        'toys': prefix,
+    }
+    assert str(prefix_of('toys')) == prefix
+    with pytest.raises(AmrError, match="Package 'nope' not found"):
+        prefix_of('nope')
+
+
+def test_executables_may_be_executed_and_are_not_hidden(in_prefix):
+    names = [path.name for path in executables_of('toys')]
+    assert sorted(names) == sorted(
+        name.rpartition('/')[2] for name in EXECUTABLES if not name.startswith('.')
+    )
+    assert executables_of('books') == []
+
+
+def test_pkg_tells_the_same(prefix):
+    def pkg(*args):
+        result = ros2('pkg', *args, AMENT_PREFIX_PATH=prefix)
+        return result.returncode, result.stdout, result.stderr
+
+    assert pkg('list') == (0, 'books\ntoys\n', '')
+    assert pkg('prefix', 'toys') == (0, f'{prefix}\n', '')
+    assert pkg('prefix', '--share', 'toys') == (0, f'{prefix}/share/toys\n', '')
+    assert pkg('prefix', 'nope') == (1, '', 'Package not found\n')
+    assert pkg('executables', 'books') == (0, '', '')
+    assert pkg('executables', 'nope') == (1, '', "Package 'nope' not found\n")
+    assert 'toys fail\n' in pkg('executables')[1]
+    assert f'{prefix}/lib/toys/fail\n' in pkg('executables', 'toys', '--full-path')[1]

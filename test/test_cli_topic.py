@@ -1,0 +1,143 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``ros2 topic`` beyond the recordings: what goes on, what ends, and who is not reached."""
+
+import os
+import signal
+
+from fixtures.cli.commands import ros2, running_node, shell, started
+import pytest
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from amr_description.cli.mismatch import mismatches
+from amr_description.cli.quick_discovery import quick_discovery
+
+COMMAND = '/diff_drive_controller/cmd_vel'
+STAMPED = 'geometry_msgs/msg/TwistStamped'
+PROFILE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
+
+
+@pytest.fixture(scope='module')
+def fixture_node():
+    with running_node('fixture_node.py') as node:
+        yield node
+
+
+def test_a_command_reaches_the_controller(fixture_node):
+    seen = len(fixture_node.output)
+    values = '{header: {frame_id: base_link}, twist: {linear: {x: 0.5}}}'
+    assert ros2('topic', 'pub', '--once', COMMAND, STAMPED, values).returncode == 0
+    fixture_node.expect("command x=0.5 frame='base_link' stamped=False", seen)
+
+
+def test_auto_stamps_every_message(fixture_node):
+    seen = len(fixture_node.output)
+    result = ros2(
+        'topic', 'pub', '-t', '3', '-r', '50', COMMAND, STAMPED, '{header: auto}', '-p', '3'
+    )
+    assert result.returncode == 0
+    assert result.stdout.count('publishing #') == 1
+    fixture_node.expect(r"(command x=0.0 frame='' stamped=True\s+){3}", seen)
+
+
+def test_a_publisher_of_another_type_is_told(fixture_node):
+    twist = 'geometry_msgs/msg/Twist'
+    with started('topic', 'pub', '--once', COMMAND, twist, '{linear: {x: 1}}') as program:
+        program.expect(
+            f'WARNING: you publish {twist} on {COMMAND}, but /fixture expects {STAMPED} there: '
+            f'nothing will arrive; use {STAMPED}'
+        )
+        assert program.end(signal.SIGINT) == 2
+        assert program.output.count('WARNING') == 1
+
+
+def test_a_listener_of_another_type_is_told(fixture_node):
+    result = ros2('topic', 'echo', '/chatter', 'std_msgs/msg/Int32', '--timeout', '0.1')
+    assert (result.returncode, result.stdout) == (0, '')
+    assert 'but /fixture publishes std_msgs/msg/String there' in result.stderr
+
+
+def test_each_node_of_another_type_is_named_once():
+    def endpoint(node, topic_type, namespace='/'):
+        return TopicEndpointInfo(node_name=node, node_namespace=namespace, topic_type=topic_type)
+
+    ends = [
+        endpoint('b', 'p/msg/Other'),
+        endpoint('b', 'p/msg/Other'),
+        endpoint('a', 'p/msg/Other', '/left'),
+        endpoint('c', 'p/msg/Ours'),
+    ]
+    lines = mismatches('p/msg/Ours', '/t', ends, publishing=True)
+    assert [line.partition(' expects')[0].rpartition(' ')[2] for line in lines] == [
+        '/b',
+        '/left/a',
+    ]
+    assert mismatches('p/msg/Ours', '/t', ends[3:], publishing=False) == []
+
+
+@pytest.mark.parametrize(
+    'words',
+    [
+        ('echo', '/chatter'),
+        ('hz', '/chatter'),
+        ('pub', '-r', '20', '/elsewhere', 'std_msgs/msg/String'),
+        ('pub', '--once', '/elsewhere', 'std_msgs/msg/String'),
+    ],
+    ids=['echo', 'hz', 'pub', 'pub --once'],
+)
+def test_ctrl_c_ends_without_a_word(fixture_node, words):
+    with started('topic', *words, terminal=True) as program:
+        program.expect('Hello World|average rate|publishing #3|Waiting for at least 1')
+        program.type('\x03')
+        assert program.end() == signal.SIGINT
+        assert 'Traceback' not in program.output
+        assert program.output.partition('^C')[2].strip() == ''
+
+
+def test_sigterm_ends_without_a_word(fixture_node):
+    with started('topic', 'echo', '/chatter') as program:
+        program.expect('Hello World')
+        assert program.end(signal.SIGTERM) == signal.SIGTERM
+        assert 'Traceback' not in program.output
+
+
+def test_a_pipe_shows_lines_at_once_and_may_be_closed(fixture_node, tmp_path):
+    line = 'ros2 topic echo /chatter | head -1; echo ${PIPESTATUS[0]}'
+    result = shell(line, tmp_path)
+    first, status = result.stdout.splitlines()
+    assert first.startswith('data: ')
+    assert (int(status), result.stderr) == (128 + signal.SIGPIPE, '')
+
+
+def test_a_topic_that_comes_later_is_heard_if_its_type_is_given():
+    with started('topic', 'echo', '--once', '/late', 'std_msgs/msg/String') as listener:
+        result = ros2('topic', 'pub', '--once', '/late', 'std_msgs/msg/String', 'data: at last')
+        assert result.returncode == 0
+        listener.expect('data: at last')
+        assert listener.end() == 0
+
+
+def test_hz_waits_for_the_topic_and_measures(fixture_node):
+    with started('topic', 'hz', '/soon') as program:
+        program.expect(r'WARNING: topic \[/soon\] does not appear to be published yet')
+        with started('topic', 'pub', '-r', '20', '/soon', 'std_msgs/msg/String'):
+            rate = program.expect(r'average rate: ([\d.]+)\n\tmin: [\d.]+s max: [\d.]+s std dev')
+            assert float(rate[1]) == pytest.approx(20.0, rel=0.5)
+        assert program.end(signal.SIGINT) == 2
+
+
+def test_the_profile_is_handed_over_and_taken_back(monkeypatch):
+    monkeypatch.delenv(PROFILE, raising=False)
+    with quick_discovery():
+        path = os.environ[PROFILE]
+        with open(path) as file:
+            assert '<throughputController>' in file.read()
+    assert PROFILE not in os.environ
+    assert not os.path.exists(path)
+
+
+def test_a_profile_of_the_users_stays(monkeypatch):
+    monkeypatch.setenv(PROFILE, '/their/profile.xml')
+    with quick_discovery():
+        assert os.environ[PROFILE] == '/their/profile.xml'
+    assert os.environ[PROFILE] == '/their/profile.xml'
