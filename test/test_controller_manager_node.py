@@ -293,12 +293,20 @@ def test_types_interfaces_and_components_are_listed(host):
     assert (component.name, component.state.label) == ('hardware', 'active')
 
 
-def test_a_failing_turn_of_the_loop_ends_the_owner_and_tells(host):
+def test_a_failing_turn_of_the_loop_ends_the_owner_with_the_motors_stopped(host, monkeypatch):
+    host.activate('diff_drive_controller')
+
+    def break_down():
+        raise RuntimeError('a bug in the loop')
+
     told = threading.Event()
     host.owner.on_failure = told.set
-    host.owner.loop.managers.append(None)  # what no loop can tick
+    monkeypatch.setattr(host.owner.loop, 'tick', break_down)
     assert told.wait(5.0)
+    host.owner.stop()
     assert host.owner.failed
+    assert set(host.hardware.written.values()) == {0.0}
+    assert host.hardware.count('deactivate') == 1
 
 
 @pytest.mark.parametrize('rate', ['0', '-5', '99.5', 'fast'])

@@ -268,7 +268,13 @@ class ControllerManagerNode:
                 'this name exists'
             )
         parameters = bridge.parameters()
-        await self._owner.submit(lambda: self.manager.configure(name, parameters))
+        try:
+            await self._owner.submit(lambda: self.manager.configure(name, parameters))
+        except AmrError:
+            states = {each.name: each.state for each in self.manager.snapshot.controllers}
+            if states.get(name) is LifecycleState.UNCONFIGURED:
+                bridge.disconnect()
+            raise
         bridge.connect()
 
     async def _cleanup(self, name: str) -> None:

@@ -41,9 +41,7 @@ class Mailbox:
 
     def take(self) -> Iterable[Callable[[], None]]:
         """Return what has arrived; what a call puts while it runs waits for the next turn."""
-        if not self._calls:
-            return ()
-        self._arrived.clear()
+        self._arrived.clear()  # before the calls are taken: what comes in between wakes again
         return [self._calls.popleft() for _ in range(len(self._calls))]
 
     def wait(self) -> None:
@@ -91,7 +89,7 @@ class WallPacer:
 
 class Owner:
     """
-    Runs the loop in a thread of its own.
+    Runs the loop in a thread of its own; when it ends, every manager is shut down, motors first.
 
     When the loop raises, that is a bug: the traceback is printed, ``failed`` is set and
     ``on_failure`` is called, so that the process ends instead of standing still.
@@ -144,3 +142,6 @@ class Owner:
             traceback.print_exc()
             self.failed = True
             self.on_failure()
+        finally:
+            for manager in self.loop.managers:
+                manager.shut_down(self.loop.time)

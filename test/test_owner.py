@@ -1,0 +1,91 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The owner's queue and its pace."""
+
+import threading
+import time
+
+from amr_description.nodes import owner
+from amr_description.nodes.owner import Mailbox, WallPacer
+
+SECOND = 1_000_000_000
+
+
+class WallClock:
+    """The ``time`` module as the pacer uses it, without waiting."""
+
+    def __init__(self):
+        self.now = 100.0
+        self.slept = []
+
+    def monotonic(self):
+        return self.now
+
+    def sleep(self, delay):
+        self.slept.append(delay)
+        self.now += delay
+
+
+def paced(monkeypatch, factor):
+    clock = WallClock()
+    monkeypatch.setattr(owner, 'time', clock)
+    pacer = WallPacer(factor)
+    pacer.resume(0)
+    return clock, pacer
+
+
+def test_calls_come_out_in_the_order_in_which_they_were_put():
+    box = Mailbox()
+    for number in range(3):
+        box.put(number)
+    assert list(box.take()) == [0, 1, 2]
+    assert list(box.take()) == []
+
+
+def test_waiting_ends_with_a_call_and_only_with_a_call():
+    box = Mailbox()
+    box.put(1)
+    box.take()
+    arrived = []
+    waiter = threading.Thread(target=lambda: (box.wait(), arrived.extend(box.take())))
+    waiter.start()
+    assert arrived == []
+    box.put(2)
+    waiter.join(5.0)
+    assert arrived == [2]
+
+
+def test_a_call_that_was_taken_already_does_not_keep_the_owner_awake():
+    box = Mailbox()
+    box.put(1)
+    box._calls.clear()  # taken by a turn that had cleared the event before the put set it
+    assert list(box.take()) == []
+    assert not box._arrived.is_set()
+
+
+def test_the_pace_is_absolute_so_that_errors_do_not_add_up(monkeypatch):
+    clock, pacer = paced(monkeypatch, factor=2.0)
+    for tick in range(1, 101):
+        clock.now += 0.001  # the work of a turn
+        pacer.pace(tick * SECOND // 100)
+    assert abs(clock.now - (100.0 + 0.5)) < 1e-9
+
+
+def test_a_late_turn_is_made_good_but_a_stop_of_the_machine_is_not(monkeypatch):
+    clock, pacer = paced(monkeypatch, factor=1.0)
+    clock.now += 0.05
+    pacer.pace(SECOND // 100)
+    assert clock.slept == []
+    clock.now += 10.0
+    pacer.pace(2 * SECOND // 100)
+    pacer.pace(3 * SECOND // 100)
+    assert clock.slept[-1] > 0.0099
+
+
+def test_as_fast_as_possible_still_yields_now_and_then():
+    pacer = WallPacer(0.0)
+    pacer.resume(0)
+    begin = time.monotonic()
+    for tick in range(1000):
+        pacer.pace(tick * SECOND)
+    assert time.monotonic() - begin < 1000.0  # a thousand simulated seconds, not waited for
