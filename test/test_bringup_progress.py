@@ -130,6 +130,7 @@ def test_the_post_mortem_ends_with_one_line_that_says_it_all():
     assert post_mortem('sim-1', Failure(Node('sim'), -11), [], []) == [
         'stopped because sim-1 died of SIGSEGV, without a word'
     ]
-    assert post_mortem('sim-1', Failure(Node('sim'), -40), ['x'], []) == [
-        'stopped because sim-1 died of signal 40: x'
+    line = "[FATAL] [1795282350.335513884] [left.sim]: world 'x' [1]: no file"
+    assert post_mortem('sim-1', Failure(Node('sim'), -40), [line], []) == [
+        "stopped because sim-1 died of signal 40: world 'x' [1]: no file"
     ]

@@ -4,6 +4,7 @@
 
 import os
 from pathlib import Path
+import re
 import signal
 import sys
 import time
@@ -36,6 +37,21 @@ def test_one_way_out_for_every_signal(tmp_path, number):
         assert bringup.text.count('ended on <Signals.SIGINT: 2>') == 2
         assert bringup.text.count('[pid ') == len(bringup.pids())
         assert bringup.left() == []
+
+
+@pytest.mark.parametrize(
+    ('code', 'told'),
+    [
+        (0, r'\[INFO\] \[plain-1\]: process has ended on SIGINT \[pid \d+\]'),
+        (130, r'\[INFO\] \[plain-1\]: process has ended on SIGINT \[pid \d+\]'),
+        (7, r'\[ERROR\] \[plain-1\]: process has died \[pid \d+, exit code 7, cmd'),
+    ],
+)
+def test_to_end_as_told_is_no_error(tmp_path, code, told):
+    with Bringup(tmp_path, str(STACKS / 'plain.py'), f'code:={code}') as bringup:
+        bringup.wait_for('plain is up')
+        assert bringup.stop(signal.SIGTERM) == 0
+        assert re.search(told, bringup.text)
 
 
 def test_children_hear_sigint_even_if_the_orchestrator_was_started_without(tmp_path):

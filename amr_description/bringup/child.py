@@ -63,6 +63,8 @@ class Child:
             os.close(writer)
         os.set_blocking(reader, False)
         self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
+        self.sent: signal.Signals | None = None
+        """The last signal that :meth:`send` sent."""
         self._reader: int | None = reader
         self._on_line = on_line
         self._splitter = LineSplitter()
@@ -88,6 +90,7 @@ class Child:
     def send(self, number: signal.Signals) -> None:
         """Signal its whole process group, as Ctrl-C in a terminal does."""
         if self.returncode is None:
+            self.sent = number
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self.pid, number)
 

@@ -13,6 +13,8 @@ from amr_description.bringup.job import Job
 from amr_description.bringup.post_mortem import post_mortem
 from amr_description.bringup.progress import Progress
 
+_POLITE = (signal.SIGINT, signal.SIGTERM)  # what a program may leave to its default
+
 
 class Narrator:
     """Tells a person each event of a stack, once."""
@@ -38,9 +40,12 @@ class Narrator:
         self._console.say('ERROR', self._name_of(node), f'process {reason}')
 
     def ended(self, node: Node, child: Child) -> None:
-        """Say how its process ended."""
+        """Say how its process ended; launch calls it an error, too, if it did as it was told."""
         if child.returncode == 0:
             text = f'process has finished cleanly [pid {child.pid}]'
+            self._console.say('INFO', self._name_of(node), text)
+        elif child.sent in _POLITE and child.returncode in (-child.sent, 128 + child.sent):
+            text = f'process has ended on {child.sent.name} [pid {child.pid}]'
             self._console.say('INFO', self._name_of(node), text)
         else:
             command = ' '.join(self._jobs[node].command)

@@ -3,11 +3,13 @@
 """What is said about the failure that stopped a stack, last of all, where it is read."""
 
 from collections.abc import Collection, Sequence
+import re
 import signal
 
 from amr_description.bringup.progress import Failure
 
-_LONGEST_REASON = 300  # characters
+_LONGEST_REASON = 500  # characters
+_ROS_LOG_PREFIX = re.compile(r'\[[A-Z]+\] \[[\d.]+\] \[\S+\]: ')
 
 
 def post_mortem(
@@ -22,7 +24,7 @@ def post_mortem(
     texts = []
     if len(last_lines) > 1:
         texts.append('\n    '.join([f'the last lines of {name}:', *last_lines]))
-    spoken = [line.strip() for line in last_lines if line.strip()]
+    spoken = [_ROS_LOG_PREFIX.sub('', line.strip()) for line in last_lines if line.strip()]
     reason = f': {spoken[-1][:_LONGEST_REASON]}' if spoken else ', without a word'
     missing = f' (never started: {", ".join(never_started)})' if never_started else ''
     return [*texts, f'stopped because {name} {manner(failure)}{missing}{reason}']
