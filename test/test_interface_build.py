@@ -1,0 +1,164 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The build of interface packages: what it finds, in which order, and what it says of faults."""
+
+from pathlib import Path
+import sys
+import sysconfig
+
+from interface_build import BuildError, CompilerError, libraries, packages, toolchain
+import pytest
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Return a function that writes a package; each depends on the ones named."""
+
+    def write(name, *depends, files=('msg/A.msg',), called=None):
+        for file in files:
+            (tmp_path / name / file).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / name / file).write_text('int8 a\n')
+        tags = ''.join(f'<depend>{other}</depend>' for other in depends)
+        (tmp_path / name).mkdir(exist_ok=True)
+        (tmp_path / name / 'package.xml').write_text(
+            f'<package format="3"><name>{called or name}</name>{tags}</package>'
+        )
+        return tmp_path
+
+    return write
+
+
+def test_every_folder_with_a_manifest_is_found_dependencies_first(folder):
+    folder('a_msgs', 'b_msgs', 'std_msgs')
+    folder('b_msgs', 'c_msgs')
+    root = folder('c_msgs')
+    (root / 'interface_build').mkdir()
+    assert [found.name for found in packages.find_packages(root)] == ['c_msgs', 'b_msgs', 'a_msgs']
+
+
+def test_interfaces_of_each_kind_are_found(folder):
+    root = folder('a_msgs', files=('msg/B.msg', 'msg/A.msg', 'srv/S.srv', 'action/T.action'))
+    (root / 'a_msgs/msg/README').touch()
+    (found,) = packages.find_packages(root)
+    assert [str(path) for path in found.interfaces] == [
+        'msg/A.msg', 'msg/B.msg', 'srv/S.srv', 'action/T.action',
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ('files', 'needed'),
+    [
+        (('msg/A.msg',), set()),
+        (('srv/A.srv',), {'service_msgs', 'builtin_interfaces'}),
+        (
+            ('action/A.action',),
+            {'service_msgs', 'builtin_interfaces', 'action_msgs', 'unique_identifier_msgs'},
+        ),
+    ],
+)
+def test_services_and_actions_imply_dependencies(folder, files, needed):
+    (found,) = packages.find_packages(folder('a_msgs', files=files))
+    assert found.needed == needed
+
+
+def test_dependencies_are_followed_here_and_in_the_prefix(folder, tmp_path):
+    root = folder('a_msgs', 'b_msgs', 'ament_cmake')
+    folder('b_msgs', 'c_msgs')
+    prefix = tmp_path / 'prefix'
+    for name, depends in (('c_msgs', '<depend>d_msgs</depend>'), ('d_msgs', '')):
+        (prefix / 'share' / name).mkdir(parents=True)
+        (prefix / 'share' / name / 'package.xml').write_text(f'<package>{depends}</package>')
+        (prefix / 'lib').mkdir(exist_ok=True)
+        (prefix / 'lib' / f'lib{name}__rosidl_generator_c.so').touch()
+    found = packages.find_packages(root)
+    reached = packages.interface_dependencies(found[-1], found, prefix)
+    assert reached == ['b_msgs', 'c_msgs', 'd_msgs']
+
+
+def test_packages_that_need_each_other_are_refused(folder):
+    folder('a_msgs', 'b_msgs')
+    with pytest.raises(BuildError, match='need each other: [ab]_msgs -> [ab]_msgs -> [ab]_msgs'):
+        packages.find_packages(folder('b_msgs', 'a_msgs'))
+
+
+def test_folder_and_package_have_the_same_name(folder):
+    with pytest.raises(BuildError, match="called 'b_msgs', its folder 'a_msgs'"):
+        packages.find_packages(folder('a_msgs', called='b_msgs'))
+
+
+def test_a_package_without_interfaces_is_refused(folder):
+    with pytest.raises(BuildError, match='a_msgs: no interface found'):
+        packages.find_packages(folder('a_msgs', files=()))
+
+
+def test_a_broken_manifest_is_named(folder):
+    root = folder('a_msgs')
+    (root / 'a_msgs/package.xml').write_text('<package>')
+    with pytest.raises(BuildError, match='a_msgs/package.xml: not well-formed XML'):
+        packages.find_packages(root)
+
+
+def test_an_empty_folder_is_refused(tmp_path):
+    with pytest.raises(BuildError, match='no folder with a package.xml'):
+        packages.find_packages(tmp_path)
+
+
+def compiler(folder, name, text):
+    path = folder / name
+    path.write_text(f'#!/bin/sh\n{text}\n')
+    path.chmod(0o755)
+    return str(path)
+
+
+def test_compilers_of_the_environment_come_first(monkeypatch):
+    monkeypatch.setenv('PATH', '')
+    found = next(toolchain.candidates({'CC': 'ccache cc', 'CXX': 'c++'}))
+    assert found == toolchain.Toolchain(('ccache', 'cc'), ('c++',))
+
+
+def test_a_compiler_that_does_not_work_is_passed_over(tmp_path, monkeypatch):
+    monkeypatch.setenv('PATH', str(tmp_path))
+    for name in ('gcc', 'g++'):
+        compiler(tmp_path, name, 'echo "fatal error: string: No such file" >&2; exit 1')
+    for name in ('clang', 'clang++'):
+        compiler(tmp_path, name, 'exit 0')
+    assert toolchain.find_toolchain({}) == toolchain.Toolchain(('clang',), ('clang++',))
+
+
+def test_no_compiler_gives_the_reasons_and_the_way(tmp_path, monkeypatch):
+    monkeypatch.setenv('PATH', str(tmp_path))
+    monkeypatch.setattr('importlib.util.find_spec', lambda _name: None)
+    with pytest.raises(CompilerError, match='neither gcc nor clang on PATH.*pip install ziglang'):
+        toolchain.find_toolchain({})
+    for name in ('gcc', 'g++'):
+        compiler(tmp_path, name, 'echo "fatal error: string: No such file" >&2; exit 1')
+    with pytest.raises(CompilerError, match='gcc .*: fatal error: string: No such file'):
+        toolchain.find_toolchain({})
+
+
+def test_zig_is_the_last_resort(tmp_path, monkeypatch):
+    monkeypatch.setenv('PATH', str(tmp_path))
+    monkeypatch.setattr('importlib.util.find_spec', lambda name: name == 'ziglang')
+    (found,) = toolchain.candidates({})
+    assert found.c == (sys.executable, '-m', 'ziglang', 'cc')
+    assert found.cpp == (sys.executable, '-m', 'ziglang', 'c++')
+
+
+def test_missing_headers_of_python_are_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(sysconfig, 'get_path', lambda _name: str(tmp_path))
+    with pytest.raises(BuildError, match=f'{tmp_path}/Python.h not found.*python3.12-dev'):
+        toolchain.python_headers()
+
+
+def test_language_follows_the_suffix():
+    compilers = toolchain.Toolchain(('gcc',), ('g++',))
+    assert compilers.compiler_for(Path('a.c')) == ('gcc', '-std=gnu11')
+    assert compilers.compiler_for(Path('a.cpp')) == ('g++', '-std=c++17')
+
+
+def test_descriptions_are_compiled_apart_all_else_together():
+    names = [f'm{number}__functions.c' for number in range(libraries.SOURCES_PER_UNIT + 1)]
+    sources = [Path(name) for name in (*names, 'a__description.c', 'b__description.c')]
+    units = libraries.translation_units(sources)
+    assert [len(unit) for unit in units] == [libraries.SOURCES_PER_UNIT, 1, 1, 1]
+    assert sorted(path for unit in units for path in unit) == sorted(sources)
