@@ -34,9 +34,7 @@ PARAMETERS = {
 }
 
 
-def read_back(path, monkeypatch):
-    monkeypatch.setenv('ROS_DOMAIN_ID', '34')
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+def read_back(path):
     context = rclpy.Context()
     rclpy.init(args=['--ros-args', '--params-file', str(path)], context=context)
     try:
@@ -51,10 +49,10 @@ def read_back(path, monkeypatch):
 
 
 @pytest.mark.parametrize('key', ['/**', '/reader'])
-def test_rcl_reads_what_was_meant(tmp_path, monkeypatch, key):
+def test_rcl_reads_what_was_meant(tmp_path, key):
     path = tmp_path / 'parameters.yaml'
     path.write_text(yaml_text(key, PARAMETERS), encoding='utf-8')
-    got = read_back(path, monkeypatch)
+    got = read_back(path)
     expected = {**PARAMETERS, 'nested.deep.name': 'value'}
     del expected['nested']
     for name, value in expected.items():
@@ -65,10 +63,10 @@ def test_rcl_reads_what_was_meant(tmp_path, monkeypatch, key):
         assert type(found) is type(value) or isinstance(value, list | tuple), name
 
 
-def test_not_a_number_is_one_too(tmp_path, monkeypatch):
+def test_not_a_number_is_one_too(tmp_path):
     path = tmp_path / 'parameters.yaml'
     path.write_text(yaml_text('/**', {'nan': math.nan}), encoding='utf-8')
-    assert math.isnan(read_back(path, monkeypatch)['nan'])
+    assert math.isnan(read_back(path)['nan'])
 
 
 @pytest.mark.parametrize(

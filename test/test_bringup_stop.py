@@ -9,8 +9,9 @@ import signal
 import sys
 import time
 
-from fixtures.bringup.running import Bringup, ends, PATIENCE, STACKS
+from fixtures.bringup.running import Bringup, ends, STACKS
 import pytest
+from running_programs import PATIENCE
 
 from amr_description.bringup.guardian import processes
 
@@ -20,22 +21,22 @@ STUBBORN = str(STACKS / 'stubborn.py')
 
 def up(bringup):
     """Wait until both workers of the stack can be interrupted."""
-    bringup.wait_for(r'ready in')
-    bringup.wait_for(r'\[worker-2\] working')
-    bringup.wait_for(r'\[worker-3\] working')
+    bringup.expect(r'ready in')
+    bringup.expect(r'\[worker-2\] working')
+    bringup.expect(r'\[worker-3\] working')
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_one_way_out_for_every_signal(tmp_path, number):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         up(bringup)
-        assert bringup.stop(number) == 0
-        told = bringup.text[bringup.text.index('[WARNING] [launch]') :].splitlines()
+        assert bringup.end(number) == 0
+        told = bringup.output[bringup.output.index('[WARNING] [launch]') :].splitlines()
         assert told[1:3] == [
             f"[INFO] [worker-{n}]: sending signal 'SIGINT' to process[worker-{n}]" for n in (3, 2)
         ]
-        assert bringup.text.count('ended on <Signals.SIGINT: 2>') == 2
-        assert bringup.text.count('[pid ') == len(bringup.pids())
+        assert bringup.output.count('ended on <Signals.SIGINT: 2>') == 2
+        assert bringup.output.count('[pid ') == len(bringup.pids())
         assert bringup.left() == []
 
 
@@ -49,17 +50,17 @@ def test_one_way_out_for_every_signal(tmp_path, number):
 )
 def test_to_end_as_told_is_no_error(tmp_path, code, told):
     with Bringup(tmp_path, str(STACKS / 'plain.py'), f'code:={code}') as bringup:
-        bringup.wait_for('plain is up')
-        assert bringup.stop(signal.SIGTERM) == 0
-        assert re.search(told, bringup.text)
+        bringup.expect('plain is up')
+        assert bringup.end(signal.SIGTERM) == 0
+        assert re.search(told, bringup.output)
 
 
 def test_children_hear_sigint_even_if_the_orchestrator_was_started_without(tmp_path):
     ignoring = [sys.executable, '-c', IGNORE_SIGINT]
     with Bringup(tmp_path, IN_ORDER, launcher=ignoring) as bringup:
         up(bringup)
-        assert 'ignored [],' in bringup.text
-        assert bringup.stop(signal.SIGINT) == 0
+        assert 'ignored [],' in bringup.output
+        assert bringup.end(signal.SIGINT) == 0
 
 
 IGNORE_SIGINT = (
@@ -71,65 +72,65 @@ IGNORE_SIGINT = (
 def test_nohup_is_respected(tmp_path):
     with Bringup(tmp_path, IN_ORDER, launcher=['nohup']) as bringup:
         up(bringup)
-        bringup.process.send_signal(signal.SIGHUP)
-        assert bringup.stop(signal.SIGTERM) == 0
-        assert '[launch]: SIGHUP' not in bringup.text
-        assert '[launch]: SIGTERM' in bringup.text
+        bringup.signal(signal.SIGHUP)
+        assert bringup.end(signal.SIGTERM) == 0
+        assert '[launch]: SIGHUP' not in bringup.output
+        assert '[launch]: SIGTERM' in bringup.output
 
 
 def test_ctrl_c_in_a_terminal_reaches_the_orchestrator_alone(tmp_path):
     with Bringup(tmp_path, IN_ORDER, terminal=True, NO_COLOR='1') as bringup:
         up(bringup)
         assert all(os.getsid(pid) == pid for pid in bringup.left())
-        os.write(bringup.screen, b'\x03')
-        assert bringup.finish() == 0
-        assert bringup.text.count('user interrupted with ctrl-c (SIGINT)') == 1
-        assert bringup.text.count("sending signal 'SIGINT'") == 2
+        bringup.type('\x03')
+        assert bringup.end() == 0
+        assert bringup.output.count('user interrupted with ctrl-c (SIGINT)') == 1
+        assert bringup.output.count("sending signal 'SIGINT'") == 2
 
 
 def test_a_closed_terminal_ends_the_stack(tmp_path):
     with Bringup(tmp_path, IN_ORDER, terminal=True, NO_COLOR='1') as bringup:
         up(bringup)
-        bringup.close_screen()
+        bringup.hang_up()
         assert bringup.process.wait(PATIENCE) in (0, 128 + signal.SIGPIPE)
         assert bringup.left() == []
 
 
 def hurry(bringup):
     """Ask three times, each time once the one before was heard; return the exit code."""
-    bringup.process.send_signal(signal.SIGINT)
-    bringup.wait_for("sending signal 'SIGINT' to process.stubborn-2")
-    bringup.process.send_signal(signal.SIGINT)
-    bringup.wait_for("after receiving 'SIGINT', escalating to 'SIGTERM'")
-    return bringup.stop(signal.SIGINT)
+    bringup.signal(signal.SIGINT)
+    bringup.expect("sending signal 'SIGINT' to process.stubborn-2")
+    bringup.signal(signal.SIGINT)
+    bringup.expect("after receiving 'SIGINT', escalating to 'SIGTERM'")
+    return bringup.end(signal.SIGINT)
 
 
 def test_a_second_and_a_third_request_hurry(tmp_path):
     with Bringup(tmp_path, STUBBORN, 'role:=alone') as bringup:
-        bringup.wait_for(r'\] stubborn pid')
+        bringup.expect(r'\] stubborn pid')
         assert hurry(bringup) == 0
-        assert "after receiving 'SIGTERM', escalating to 'SIGKILL'" in bringup.text
-        assert 'exit code -9' in bringup.text
+        assert "after receiving 'SIGTERM', escalating to 'SIGKILL'" in bringup.output
+        assert 'exit code -9' in bringup.output
 
 
 def test_a_process_that_left_the_session_is_ended_too(tmp_path):
     with Bringup(tmp_path, STUBBORN) as bringup:
-        grandchild = int(bringup.wait_for(r'grandchild pid (\d+)')[1])
-        bringup.wait_for(f'stubborn pid {grandchild}')
+        grandchild = int(bringup.expect(r'grandchild pid (\d+)')[1])
+        bringup.expect(f'stubborn pid {grandchild}')
         assert hurry(bringup) == 0
         assert bringup.left() == []
-        assert f'ended what was left: pid {grandchild}' in bringup.text
+        assert f'ended what was left: pid {grandchild}' in bringup.output
 
 
 @pytest.mark.parametrize('stack', [IN_ORDER, STUBBORN])
 def test_nothing_outlives_a_killed_orchestrator(tmp_path, stack):
     with Bringup(tmp_path, stack) as bringup:
-        bringup.wait_for('ready in')
-        bringup.wait_for(r'working' if stack == IN_ORDER else r'grandchild pid (\d+)')
+        bringup.expect('ready in')
+        bringup.expect(r'working' if stack == IN_ORDER else r'grandchild pid (\d+)')
         pids = bringup.left()
         assert len(pids) >= 2
-        bringup.process.kill()
-        bringup.finish()
+        bringup.signal(signal.SIGKILL)
+        bringup.end()
         assert all(ends(pid) for pid in pids)
         assert bringup.left() == []
 
@@ -139,10 +140,10 @@ def test_a_killed_guardian_is_replaced(tmp_path):
         up(bringup)
         (guardian,) = guardians_of(bringup.process.pid)
         os.kill(guardian, signal.SIGKILL)
-        bringup.wait_for('somebody ended the guardian; started it anew')
+        bringup.expect('somebody ended the guardian; started it anew')
         assert len(guardians_of(bringup.process.pid)) == 1
         pids = bringup.left()
-        bringup.process.kill()
+        bringup.signal(signal.SIGKILL)
         assert all(ends(pid) for pid in pids)
 
 
@@ -153,10 +154,10 @@ def guardians_of(orchestrator):
 
 def test_a_reader_that_goes_away_ends_the_stack(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
-        bringup.wait_for(r'process started')
+        bringup.expect(r'process started')
         run = bringup.run_name
-        bringup.close_screen()
-        assert bringup.process.wait(30.0) == 128 + signal.SIGPIPE
+        bringup.process.stdout.close()
+        assert bringup.process.wait(PATIENCE) == 128 + signal.SIGPIPE
         assert bringup.left() == []
         log = (bringup.logs / run / 'launch.log').read_text()
         assert "sending signal 'SIGINT' to process[worker-2]" in log
@@ -164,9 +165,9 @@ def test_a_reader_that_goes_away_ends_the_stack(tmp_path):
 
 def test_orphans_are_adopted_and_reaped(tmp_path):
     with Bringup(tmp_path, STUBBORN, 'required:=false') as bringup:
-        grandchild = int(bringup.wait_for(r'grandchild pid (\d+)')[1])
+        grandchild = int(bringup.expect(r'grandchild pid (\d+)')[1])
         os.kill(bringup.pids()['stubborn-2'], signal.SIGKILL)
-        bringup.wait_for(r'\[stubborn-2\]: process has died')
+        bringup.expect(r'\[stubborn-2\]: process has died')
         adopted = [p.pid for p in processes('') if p.parent == bringup.process.pid]
         assert grandchild in adopted
         os.kill(grandchild, signal.SIGKILL)
@@ -174,4 +175,4 @@ def test_orphans_are_adopted_and_reaped(tmp_path):
         while Path(f'/proc/{grandchild}').exists():
             assert time.monotonic() < deadline, 'the zombie stays'
             os.sched_yield()
-        assert bringup.stop(signal.SIGTERM) == 0
+        assert bringup.end(signal.SIGTERM) == 0
