@@ -190,6 +190,30 @@ def test_second_set_up_waits_for_the_first(checkout):
     assert output == 'mine\n'
 
 
+def test_lock_lasts_as_long_as_what_a_killed_set_up_has_started(checkout):
+    started, go_on = checkout.root / 'started', checkout.root / 'go_on'
+    os.mkfifo(started)
+    os.mkfifo(go_on)
+    program = (
+        'import os, sys; sys.path.insert(0, sys.argv[1])\n'
+        'from pathlib import Path\n'
+        'from environment import checkout, commands\n'
+        'root = Path(sys.argv[2])\n'
+        'with checkout.one_at_a_time(checkout.Checkout(root)):\n'
+        '    step = ["sh", "-c", "echo > started; read line < go_on"]\n'
+        '    commands.run(step, os.environ, "reading", root)\n'
+    )
+    first = subprocess.Popen([sys.executable, '-c', program, ROOT / 'scripts', checkout.root])
+    started.read_text()
+    first.kill()
+    first.wait()
+    with (checkout.root / '.setup.lock').open() as lock:
+        with pytest.raises(BlockingIOError):
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        go_on.write_text('now\n')
+        fcntl.flock(lock, fcntl.LOCK_EX)
+
+
 def test_digest_tells_parts_apart():
     assert digest('ab', 'c') != digest('a', 'bc')
     assert digest('a') == digest(b'a')

@@ -72,9 +72,15 @@ def cache_folder(environment: Mapping[str, str]) -> Path:
 
 @contextlib.contextmanager
 def one_at_a_time(checkout: Checkout) -> Iterator[None]:
-    """Hold the checkout's lock; the system frees it however this process ends."""
+    """
+    Hold the checkout's lock; the system frees it however this process ends.
+
+    What :mod:`.commands` runs inherits it: were this process killed, the lock would last as long
+    as what it has started, and is still at work in the checkout.
+    """
     file = checkout.root / '.setup.lock'
     with file.open('w') as lock:
+        os.set_inheritable(lock.fileno(), True)
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

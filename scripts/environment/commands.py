@@ -21,8 +21,7 @@ def run(
     """
     Run ``command`` in ``folder``; raise :class:`SetupError` with its last lines when it fails.
 
-    The checkout's lock is inherited (``close_fds``): were this process killed, the lock would
-    last as long as what it started.
+    The checkout's lock is handed on (``close_fds``), see :func:`.checkout.one_at_a_time`.
     """
     done = subprocess.run(
         list(map(os.fspath, command)),
