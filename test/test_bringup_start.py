@@ -42,6 +42,17 @@ def test_everything_a_process_wrote_stands_before_its_end(tmp_path):
         ]
 
 
+def test_an_unfinished_line_does_not_wait_for_who_keeps_the_output_open(tmp_path):
+    arguments = ['text:=one', 'unfinished:=rest', 'leave_child:=true']
+    with Bringup(tmp_path, CHATTY, *arguments) as bringup:
+        assert bringup.end() == 0
+        assert re.search(
+            r'\[step-1\] rest\n\[INFO\] \[step-1\]: process has finished', bringup.output
+        )
+        assert 'ended what was left: pid' in bringup.output
+        assert bringup.left() == []
+
+
 def test_a_node_gets_the_command_line_that_launch_builds(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         words = ['-z', '0.2', '--ros-args', '-r', '__node:=hand', '-r', '__ns:=/left']

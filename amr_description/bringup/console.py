@@ -5,7 +5,6 @@
 from collections.abc import Callable, Mapping
 import contextlib
 import itertools
-import os
 import time
 from typing import Literal, TextIO
 
@@ -80,7 +79,6 @@ class Console:
         except BlockingIOError:  # a terminal that another program made non-blocking is busy
             pass
         except OSError:
-            _discard_output(self._screen)
             self._screen = None
             self.on_screen_lost()
 
@@ -93,9 +91,3 @@ class Console:
 
     def _painted(self, text: str, colour: str) -> str:
         return f'{colour}{text}{_RESET}' if self._colour and colour else text
-
-
-def _discard_output(screen: TextIO) -> None:
-    """Let what is still buffered go nowhere, or Python fails to flush it when it exits."""
-    with open(os.devnull, 'wb') as nowhere:
-        os.dup2(nowhere.fileno(), screen.fileno())
