@@ -2,10 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator as a process: what it takes in, what it refuses, and how create and spawner end."""
 
+from pathlib import Path
+import signal
+import subprocess
+
 import pytest
 import rclpy
 from rclpy.node import Node
-from ros_processes import ROOT, run, running
+from ros_processes import command, environment, PATIENCE, ROOT, run, running
 from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
@@ -188,3 +192,19 @@ def test_a_world_that_is_not_there_ends_the_simulator():
 def test_remaps_go_on_to_controllers_but_names_and_parameters_do_not():
     args = '--ros-args -r __node:=sim -r /tf:=tf --remap __ns:=/a -p world:=x --log-level debug'
     assert inherited(args.split()) == ['-r', '/tf:=tf', '--log-level', 'debug']
+
+
+@pytest.mark.parametrize('library', ['librcl.so', 'librmw_fastrtps_cpp.so', 'libmujoco.so'])
+def test_a_stop_during_the_start_ends_it_too(library):
+    process = subprocess.Popen(
+        command('mujoco_sim'), stderr=subprocess.DEVNULL, env=environment(), start_new_session=True
+    )
+    try:
+        maps = Path(f'/proc/{process.pid}/maps')
+        while library not in maps.read_text():
+            assert process.poll() is None
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(PATIENCE) in (0, -signal.SIGTERM)
+    finally:
+        process.kill()
+        process.wait()

@@ -25,7 +25,8 @@ class LogThread:
         self._lines: queue.SimpleQueue[tuple[RcutilsLogger, Severity, str] | None] = (
             queue.SimpleQueue()
         )
-        self._thread = threading.Thread(target=self._run, name='log')
+        # A daemon: whatever ends the process before stop(), it must not wait for us.
+        self._thread = threading.Thread(target=self._run, name='log', daemon=True)
         self._thread.start()
 
     def log_of(self, logger: RcutilsLogger) -> 'NodeLog':
