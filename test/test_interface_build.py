@@ -6,7 +6,14 @@ from pathlib import Path
 import sys
 import sysconfig
 
-from interface_build import BuildError, CompilerError, libraries, packages, toolchain
+from interface_build import (
+    BuildError,
+    CompilerError,
+    generators,
+    libraries,
+    packages,
+    toolchain,
+)
 import pytest
 
 
@@ -162,3 +169,25 @@ def test_descriptions_are_compiled_apart_all_else_together():
     units = libraries.translation_units(sources)
     assert [len(unit) for unit in units] == [libraries.SOURCES_PER_UNIT, 1, 1, 1]
     assert sorted(path for unit in units for path in unit) == sorted(sources)
+
+
+def test_a_library_is_found_in_the_first_folder_that_has_it(tmp_path):
+    ours, wheels = tmp_path / 'ours', tmp_path / 'wheels'
+    for folder in (ours, wheels):
+        folder.mkdir()
+        (folder / 'libboth.so').touch()
+    (wheels / 'librmw.so').touch()
+    assert libraries.find_library('both', (ours, wheels)) == ours / 'libboth.so'
+    assert libraries.find_library('rmw', (ours, wheels)) == wheels / 'librmw.so'
+    with pytest.raises(BuildError, match=f'libnone.so is not in {ours} nor in {wheels}'):
+        libraries.find_library('none', (ours, wheels))
+
+
+def test_what_is_called_is_linked_before_its_caller(folder, tmp_path):
+    (found,) = packages.find_packages(folder('a_msgs'))
+    package = generators.GeneratedPackage(found, tmp_path / 'build', tmp_path / 'prefix')
+    made = []
+    for job in libraries.link_jobs(package, ['std_msgs'], tmp_path / 'stage'):
+        assert {name for name in job.calls if name.startswith('a_msgs')} <= set(made)
+        made.append(job.output.name.removeprefix('lib').removesuffix('.so'))
+    assert len(made) == len(libraries.LIBRARIES) + len(libraries.EXTENSIONS)

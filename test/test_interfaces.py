@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 
-from ament_index_python.packages import get_package_share_directory
+from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from ament_index_python.resources import get_resource
 import pytest
 import rclpy
@@ -68,6 +68,18 @@ def test_index_lists_packages_and_interfaces():
         listed = get_resource('rosidl_interfaces', package)[0].split()
         names = {f'{package}/{line.rpartition(".")[0]}' for line in listed}
         assert names == {name for name in SOURCES if name.startswith(f'{package}/')}
+
+
+def test_libraries_look_for_others_beside_themselves_only():
+    # A run path that names the build's temporary folder could be filled by anyone.
+    for package in PACKAGES:
+        prefix = Path(get_package_prefix(package))
+        site_packages = Path(import_module(package).__file__).parents[1]
+        built = [*prefix.glob(f'lib/lib{package}__*.so'), *site_packages.glob(f'{package}/*.so')]
+        assert len(built) == 8
+        for path in built:
+            assert b'$ORIGIN' in path.read_bytes()
+            assert b'amr-interfaces-' not in path.read_bytes()
 
 
 def test_messages_survive_the_wire_format():

@@ -49,7 +49,8 @@ def build(source: Path, target: Path, work: Path, log: Callable[[str], None] = p
         _finish(pool.submit(libraries.compile_object, job, compilers, includes) for job in jobs)
     for package in generated:
         dependencies = packages.interface_dependencies(package.source, found, prefix)
-        libraries.link_package(package, dependencies, target, compilers)
+        for job in libraries.link_jobs(package, dependencies, target):
+            libraries.link(job, compilers, (target / 'lib', prefix / 'lib'))
         stage.stage_package(package, target)
     log(f'compiled and linked them in {time.monotonic() - start:.0f} s ({compilers.c[-1]})')
     return [package.name for package in found]

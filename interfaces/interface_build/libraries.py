@@ -69,6 +69,7 @@ LIBRARIES = (
 )
 # One Python extension for each: rclpy asks for the first, which dispatches to the others.
 EXTENSIONS = ('rosidl_typesupport_c', *TYPESUPPORTS)
+EXTENSION_CALLS = ('rosidl_typesupport_c', 'rosidl_runtime_c')
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,19 @@ class CompileJob:
 
     source: Path
     object: Path
+
+
+@dataclass(frozen=True)
+class LinkJob:
+    """One shared object to make."""
+
+    output: Path
+    objects: list[Path]
+    calls: tuple[str, ...]
+    """The libraries that it calls, without ``lib`` and ``.so``."""
+    run_path: str
+    """Where it looks for them once installed."""
+    as_cpp: bool = False
 
 
 def extension_source(package: GeneratedPackage, typesupport: str) -> Path:
@@ -150,73 +164,53 @@ def include_flags(packages: list[GeneratedPackage], prefix: Path) -> list[str]:
 
 def compile_object(job: CompileJob, toolchain: Toolchain, includes: list[str]) -> None:
     """Make one object file; raise :class:`BuildError` with what the compiler said."""
+    files = ['-c', str(job.source), '-o', str(job.object)]
+    _run([*toolchain.compiler_for(job.source), *FLAGS, *includes, *files])
+
+
+def link_jobs(package: GeneratedPackage, dependencies: list[str], stage: Path) -> list[LinkJob]:
+    """Return what there is to link into ``stage``, in an order in which each finds its callees."""
+    jobs = []
+    for library in LIBRARIES:
+        own = [f'{package.name}__{other}' for other in library.calls_ours]
+        called = (library.name, *library.calls_ours)
+        others = [f'{name}__{other}' for name in dependencies for other in called]
+        output = stage / 'lib' / f'lib{package.name}__{library.name}.so'
+        objects = sorted(object_folder(package, library.name).glob('*.o'))
+        calls = (*own, *others, *library.calls)
+        jobs.append(LinkJob(output, objects, calls, '$ORIGIN', library.link_as_cpp))
+    suffix = sysconfig.get_config_var('EXT_SUFFIX')
+    to_lib = '$ORIGIN/../../..'  # from lib/python3.12/site-packages/<package>
+    for extension in EXTENSIONS:
+        own = {'rosidl_generator_py', 'rosidl_generator_c', 'rosidl_typesupport_c', extension}
+        calls = (*(f'{package.name}__{other}' for other in sorted(own)), *EXTENSION_CALLS)
+        output = stage / 'python' / package.name / f'{package.name}_s__{extension}{suffix}'
+        jobs.append(LinkJob(output, [extension_object(package, extension)], calls, to_lib))
+    return jobs
+
+
+def link(job: LinkJob, toolchain: Toolchain, folders: tuple[Path, ...]) -> None:
+    """Make one shared object; the libraries that it calls are looked for in ``folders``."""
+    job.output.parent.mkdir(parents=True, exist_ok=True)
+    compiler = toolchain.cpp if job.as_cpp else toolchain.c
+    run_path = [f'-Wl,-soname,{job.output.name}', f'-Wl,-rpath,{job.run_path}']
+    called = [str(find_library(name, folders)) for name in job.calls]
     _run(
-        [
-            *toolchain.compiler_for(job.source),
-            *FLAGS,
-            *includes,
-            '-c',
-            str(job.source),
-            '-o',
-            str(job.object),
-        ]
+        [*compiler, '-shared', '-s', '-o', str(job.output), *map(str, job.objects), *run_path]
+        + ['-Wl,--as-needed', *called]
     )
 
 
-def link_package(
-    package: GeneratedPackage, dependencies: list[str], stage: Path, toolchain: Toolchain
-) -> None:
-    """Link the libraries of ``package`` into ``stage``, where those it depends on may lie too."""
-    search = [f'-L{stage / "lib"}', f'-L{package.prefix / "lib"}']
+def find_library(name: str, folders: tuple[Path, ...]) -> Path:
+    """
+    Return the path of a shared library; raise :class:`BuildError` when it is in no folder.
 
-    def link(
-        output: Path, objects: list[Path], names: list[str], run_path: str, cpp: bool
-    ) -> None:
-        output.parent.mkdir(parents=True, exist_ok=True)
-        _run(
-            [
-                *(toolchain.cpp if cpp else toolchain.c),
-                '-shared',
-                '-s',
-                '-o',
-                str(output),
-                *map(str, objects),
-                f'-Wl,-soname,{output.name}',
-                f'-Wl,-rpath,{run_path}',
-                '-Wl,--as-needed',
-                *search,
-                *(f'-l{name}' for name in names),
-            ]
-        )
-
-    for library in LIBRARIES:
-        own = [f'{package.name}__{other}' for other in library.calls_ours]
-        others = [
-            f'{name}__{other}'
-            for name in dependencies
-            for other in (library.name, *library.calls_ours)
-        ]
-        link(
-            stage / 'lib' / f'lib{package.name}__{library.name}.so',
-            sorted(object_folder(package, library.name).glob('*.o')),
-            [*own, *others, *library.calls],
-            '$ORIGIN',
-            library.link_as_cpp,
-        )
-    suffix = sysconfig.get_config_var('EXT_SUFFIX')
-    for extension in EXTENSIONS:
-        own = {'rosidl_generator_py', 'rosidl_generator_c', 'rosidl_typesupport_c', extension}
-        link(
-            stage / 'python' / package.name / f'{package.name}_s__{extension}{suffix}',
-            [extension_object(package, extension)],
-            [
-                *(f'{package.name}__{other}' for other in sorted(own)),
-                'rosidl_typesupport_c',
-                'rosidl_runtime_c',
-            ],
-            '$ORIGIN/../../..',
-            cpp=False,  # lib/python3.12/site-packages/<package> -> lib
-        )
+    Found here and not by ``-L``: zig would write those folders into the run path.
+    """
+    for folder in folders:
+        if (path := folder / f'lib{name}.so').exists():
+            return path
+    raise BuildError(f'lib{name}.so is not in {" nor in ".join(map(str, folders))}')
 
 
 def _run(command: list[str]) -> None:
