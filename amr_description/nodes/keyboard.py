@@ -11,6 +11,7 @@ This module imports no rclpy.
 """
 
 import contextlib
+import copy
 import os
 import re
 import select
@@ -18,7 +19,7 @@ import signal
 import termios
 import tty
 from types import FrameType, TracebackType
-from typing import Self
+from typing import Any, Self
 
 from amr_description.errors import AmrError
 from amr_description.nodes.teleop_keys import CTRL_C, CTRL_Z
@@ -50,6 +51,9 @@ class Keyboard:
     def __enter__(self) -> Self:
         self._attributes = termios.tcgetattr(self._descriptor)
         self._pipe_out, self._pipe_in = os.pipe()
+        self._poll = select.poll()
+        self._poll.register(self._pipe_out, select.POLLIN)
+        self._poll.register(self._descriptor, select.POLLIN)
         self._handlers = {s: signal.signal(s, self._on_signal) for s in _ON_SIGNAL}
         self._take_terminal()
         return self
@@ -77,15 +81,16 @@ class Keyboard:
         An arrow or function key is one string, its whole escape sequence. A terminal that is gone
         counts as Ctrl-C.
         """
-        ready, _, _ = select.select([self._descriptor, self._pipe_out], [], [], timeout)
+        ready = dict(self._poll.poll(None if timeout is None else 1000.0 * timeout))
         if self._pipe_out in ready:
             keys = os.read(self._pipe_out, 16).decode()
             if _RESUMED in keys:
                 self._take_terminal()
             return list(keys.replace(_RESUMED, ''))
-        if self._descriptor in ready:
-            return self._typed()
-        return []
+        events = ready.get(self._descriptor, 0)
+        if events & ~select.POLLIN:
+            return [CTRL_C]
+        return self._typed() if events else []
 
     def suspend(self) -> None:
         """Give the terminal back and stop until ``fg``; without a shell, the kernel goes on."""
@@ -96,29 +101,34 @@ class Keyboard:
         self._take_terminal()
 
     def _typed(self) -> list[str]:
+        """Return what has been typed: nothing if a Ctrl-Z, which drops input, came in between."""
         try:
             typed = os.read(self._descriptor, 1024)
-        except OSError:  # EIO: the other end of the pseudo-terminal is closed
-            typed = b''
-        return _KEY.findall(typed.decode(errors='replace')) if typed else [CTRL_C]
+        except OSError:  # EIO: the terminal is gone
+            return [CTRL_C]
+        return _KEY.findall(typed.decode(errors='replace'))
 
     def _on_signal(self, signum: int, _frame: FrameType | None) -> None:
         os.write(self._pipe_in, _ON_SIGNAL[signal.Signals(signum)].encode())
 
     def _take_terminal(self) -> None:
-        if self._is_in_foreground():
-            attributes = termios.tcgetattr(self._descriptor)
-            tty.cfmakecbreak(attributes)
-            attributes[tty.IFLAG] &= ~termios.IXON  # Ctrl-S and Ctrl-V are keys like any other
-            attributes[tty.LFLAG] &= ~termios.IEXTEN
-            termios.tcsetattr(self._descriptor, termios.TCSANOW, attributes)
+        attributes = copy.deepcopy(self._attributes)
+        tty.cfmakecbreak(attributes)
+        attributes[tty.CC][termios.VMIN] = 0  # a read never waits
+        attributes[tty.IFLAG] &= ~termios.IXON  # Ctrl-S and Ctrl-V are keys like any other
+        attributes[tty.LFLAG] &= ~termios.IEXTEN
+        self._set_terminal(attributes)
 
     def _give_terminal(self) -> None:
-        """Restore the settings and drop keys not yet read: they are not for the shell."""
+        """Restore the settings and drop the keys not yet read: they are not for the shell."""
+        self._set_terminal(self._attributes, drop_keys=True)
+
+    def _set_terminal(self, attributes: list[Any], *, drop_keys: bool = False) -> None:
         if self._is_in_foreground():
             with contextlib.suppress(termios.error):  # the terminal is gone
-                termios.tcsetattr(self._descriptor, termios.TCSANOW, self._attributes)
-                termios.tcflush(self._descriptor, termios.TCIFLUSH)
+                termios.tcsetattr(self._descriptor, termios.TCSANOW, attributes)
+                if drop_keys:
+                    termios.tcflush(self._descriptor, termios.TCIFLUSH)
 
     def _is_in_foreground(self) -> bool:
         """
