@@ -48,6 +48,7 @@ setup(
             'spawner = amr_description.nodes.spawner:main',
             'talker = amr_description.nodes.talker:main',
             'teleop_twist_keyboard = amr_description.nodes.teleop_twist_keyboard:main',
+            'unspawner = amr_description.nodes.unspawner:main',
         ],
     },
 )

@@ -6,132 +6,33 @@ from pathlib import Path
 import sys
 import threading
 
-from control_fakes import FakeHardware, WHEELS
+from control_fakes import WHEELS
 from controller_manager_msgs import srv
+from manager_host import Host, PERIOD, ros_in_this_process, running_host
 import pytest
 from rcl_interfaces.srv import DescribeParameters
 import rclpy
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
-from amr_description.control.interfaces import LifecycleState
-from amr_description.control.loop import Loop
-from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import ParameterError
 from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.controller_manager_node import ControllerManagerNode
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.outgoing import Outgoing
-from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 
-PERIOD = 10_000_000
 FIXTURES = Path(__file__).parent / 'fixtures' / 'nodes'
-YAML = f"""
-controller_manager:
-  ros__parameters:
-    update_rate: 100
-    joint_state_broadcaster: {{type: joint_state_broadcaster/JointStateBroadcaster}}
-    diff_drive_controller:
-      type: diff_drive_controller/DiffDriveController
-      node_options_args: ["-r", "~/odom:=/odom"]
-    wrong_number: {{type: diff_drive_controller/DiffDriveController}}
-    slow: {{type: strangers/Slow}}
-    broken: {{type: strangers/Broken}}
-    nowhere: {{type: no_such_package/Nothing}}
-diff_drive_controller:
-  ros__parameters:
-    left_wheel_names: [{WHEELS[0]}, {WHEELS[1]}]
-    right_wheel_names: [{WHEELS[2]}, {WHEELS[3]}]
-    wheel_separation: 0.3
-    wheel_radius: 0.1
-wrong_number:
-  ros__parameters: {{wheel_radius: 1}}
-"""
-
-
-class Clockwork:
-    """A stepper: time, and nothing in it."""
-
-    time = 0
-
-    def advance(self, period):
-        self.time += period
-        return self.time
-
-
-class Host:
-    """A process with one manager over fake wheels, and a client that knows only ROS."""
-
-    def __init__(self, parameter_file):
-        self.client_node = Node('client')
-        self.node = Node('host')
-        self.executor = SingleThreadedExecutor()
-        self.logs = LogThread()
-        outgoing = Outgoing(self.node)
-        mailbox = Mailbox()
-        loop = Loop(Clockwork(), WallPacer(1.0), mailbox, outgoing, PERIOD)
-        self.owner = Owner(loop, mailbox, self.executor)
-        try:
-            self.manager_node = ControllerManagerNode(
-                self.owner,
-                outgoing,
-                self.logs,
-                namespace='/',
-                robot=None,
-                arguments=['--params-file', str(parameter_file)],
-            )
-        except Exception:
-            self.logs.stop()
-            raise
-        self.hardware = FakeHardware()
-        resources = ResourceManager(self.manager_node.log)
-        resources.add(self.hardware)
-        resources.set_state('hardware', LifecycleState.ACTIVE)
-        loop.managers.append(self.manager_node.start(resources, PERIOD))
-        self.executor.add_node(self.node)
-        self.executor.add_node(self.manager_node.node)
-        self.thread = threading.Thread(target=self.executor.spin)
-
-    def start(self):
-        self.owner.start()
-        self.thread.start()
-        self.client = ManagerClient(self.client_node, 'controller_manager', timeout=20.0)
-
-    def close(self):
-        self.owner.stop()
-        self.executor.shutdown()
-        self.thread.join()
-        self.manager_node.destroy()
-        self.node.destroy_node()
-        self.client_node.destroy_node()
-        self.logs.stop()
-
-    def activate(self, *names):
-        for name in names:
-            assert self.client.load(name)
-            assert self.client.configure(name)
-        assert self.client.switch(activate=names) is None
 
 
 @pytest.fixture
 def ros():
-    rclpy.init(args=[])
-    yield
-    rclpy.try_shutdown()
+    with ros_in_this_process():
+        yield
 
 
 @pytest.fixture
 def host(ros, tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(FIXTURES))
     monkeypatch.delitem(sys.modules, 'strangers', raising=False)
-    (tmp_path / 'controllers.yaml').write_text(YAML)
-    host = Host(tmp_path / 'controllers.yaml')
-    host.start()
-    yield host
-    host.close()
+    with running_host(tmp_path) as host:
+        yield host
 
 
 def test_a_controller_goes_through_its_states_by_services(host):
@@ -315,3 +216,33 @@ def test_an_update_rate_that_cannot_be_is_refused(ros, tmp_path, rate):
     path.write_text(f'controller_manager: {{ros__parameters: {{update_rate: {rate}}}}}')
     with pytest.raises(ParameterError, match="'update_rate' of controller_manager must be an int"):
         Host(path)
+
+
+def test_libraries_are_reloaded_once_nothing_runs_or_by_force(host, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(tmp_path))
+    source = tmp_path / 'edited.py'
+    template = 'from strangers import Slow\n\nclass Edited(Slow):\n    {body}\n'
+    source.write_text(template.format(body='configure = print'))
+    host.client.set_parameters('edited', {'type': 'edited/Edited'})
+    host.activate('joint_state_broadcaster', 'edited')
+
+    assert not host.client.reload_libraries(force_kill=False)
+    assert 'there are still active controllers: edited, joint' in host.client.reasons('edited')
+    assert set(host.client.states().values()) == {'active'}
+
+    source.write_text(template.format(body='def configure(self, _): raise ValueError("anew")'))
+    assert host.client.reload_libraries(force_kill=True)
+    assert host.client.states() == {}
+    assert 'edited' not in host.client_node.get_node_names()
+    assert host.client.load('edited')
+    assert not host.client.configure('edited')
+    assert "Failed to configure controller 'edited': ValueError: anew" in host.client.reasons(
+        'edited'
+    )
+
+    source.write_text('class Edited(\n')
+    assert not host.client.reload_libraries(force_kill=False)
+    assert "Cannot reload controller library 'edited': SyntaxError" in host.client.reasons(
+        'edited'
+    )
+    assert host.client.states() == {}

@@ -60,6 +60,11 @@ class ManagerSnapshot:
     components: tuple[ComponentSnapshot, ...] = ()
 
     @property
+    def active_controllers(self) -> tuple[str, ...]:
+        """The names of the active controllers."""
+        return tuple(c.name for c in self.controllers if c.state is LifecycleState.ACTIVE)
+
+    @property
     def commands(self) -> tuple[InterfaceSnapshot, ...]:
         """Every command interface, by name."""
         every = (interface for component in self.components for interface in component.commands)

@@ -26,6 +26,7 @@ from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError, ControllerError, ParameterError
 from amr_description.model.robot import Robot
 from amr_description.nodes.bridge import ControllerNode
+from amr_description.nodes.controller_libraries import reload_modules
 from amr_description.nodes.manager_messages import (
     component_message,
     controller_message,
@@ -69,6 +70,7 @@ class ControllerManagerNode:
         self._arguments = list(arguments)
         self._controllers: dict[str, ControllerNode] = {}
         self._loading: set[str] = set()
+        self._modules: set[str] = set()
         self.node = Node(
             NODE_NAME,
             namespace=namespace,
@@ -100,6 +102,7 @@ class ControllerManagerNode:
             (srv.SwitchController, self._switch_controller),
             (srv.CleanupController, self._cleanup_controller),
             (srv.UnloadController, self._unload_controller),
+            (srv.ReloadControllerLibraries, self._reload_controller_libraries),
             (srv.SetHardwareComponentState, self._set_hardware_component_state),
         ):
             name = callback.__name__.removeprefix('_')
@@ -182,6 +185,14 @@ class ControllerManagerNode:
         response.ok = await self._succeeds(self._unload(request.name))
         return response
 
+    async def _reload_controller_libraries(
+        self,
+        request: srv.ReloadControllerLibraries.Request,
+        response: srv.ReloadControllerLibraries.Response,
+    ) -> srv.ReloadControllerLibraries.Response:
+        response.ok = await self._succeeds(self._reload_libraries(force=request.force_kill))
+        return response
+
     async def _switch_controller(
         self, request: srv.SwitchController.Request, response: srv.SwitchController.Response
     ) -> srv.SwitchController.Response:
@@ -237,6 +248,7 @@ class ControllerManagerNode:
                 f'{", ".join(self._typed_controllers()) or "none"}'
             )
         controller_class = CONTROLLERS.find(type_name)
+        self._modules.add(controller_class.__module__)
         self._loading.add(name)
         try:
             with argument_errors():
@@ -286,6 +298,22 @@ class ControllerManagerNode:
         bridge = self._controllers.pop(name)
         self.node.executor.remove_node(bridge.node)
         bridge.destroy()
+
+    async def _reload_libraries(self, *, force: bool) -> None:
+        """Unload every controller, and import anew what they were made of."""
+        active = self.manager.snapshot.active_controllers
+        if active and not force:
+            raise ControllerError(
+                'Cannot reload controller libraries because there are still active controllers: '
+                f'{", ".join(active)}; deactivate them, or ask with force_kill'
+            )
+        if active:
+            await self._owner.submit(
+                lambda: self.manager.switch([], active, Strictness.STRICT, self._owner.loop.time)
+            )
+        for name in list(self._controllers):
+            await self._unload(name)
+        reload_modules(self._modules)
 
     async def _succeeds(self, work: Awaitable[Any]) -> bool:
         """Await the work; what it refuses is logged, as the services only answer ok or not."""

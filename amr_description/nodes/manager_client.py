@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 from controller_manager_msgs import srv
+from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
 from rclpy.duration import Duration
@@ -25,16 +26,23 @@ class ManagerClient:
     """Calls the services of one controller manager."""
 
     def __init__(
-        self, node: Node, manager: str, *, timeout: float = 0.0, call_timeout: float = 10.0
+        self,
+        node: Node,
+        manager: str,
+        *,
+        timeout: float = 0.0,
+        call_timeout: float = 10.0,
+        silent: float = 0.0,
     ) -> None:
         """
         Wait until the manager is there; ``manager``: its node, relative to the namespace.
 
-        ``timeout``: s, 0 for ever. Raises ControllerError when it does not come.
+        ``timeout``: s, 0 for ever. ``silent``: for so long, s, waiting is not worth a line.
+        Raises ControllerError when it does not come.
         """
         self._node = node
         self._call_timeout = call_timeout
-        self._asked = time.time()
+        self._asked = 0.0
         self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
         service = f'{self.name}/list_controllers'
@@ -43,16 +51,18 @@ class ManagerClient:
             node.get_logger().warning(f'Could not contact service {service}')
             node.get_logger().info(f'waiting for service {service} to become available...')
 
-        node.get_logger().info(f'waiting for service {service} to become available...')
         client = node.create_client(srv.ListControllers, service)
+
+        def ready() -> bool | None:
+            return True if client.service_is_ready() else None
+
         try:
-            found = wait_until(
-                node,
-                lambda: True if client.service_is_ready() else None,
-                say,
-                every=10.0,
-                timeout=timeout,
-            )
+            found = None
+            if silent:
+                found = wait_until(node, ready, lambda: None, every=10.0, timeout=silent)
+            if not found:
+                node.get_logger().info(f'waiting for service {service} to become available...')
+                found = wait_until(node, ready, say, every=10.0, timeout=timeout)
         finally:
             node.destroy_client(client)
         if not found:
@@ -78,6 +88,27 @@ class ManagerClient:
         """Unload a controller."""
         return self._call(srv.UnloadController, 'unload_controller', name=name).ok
 
+    def cleanup(self, name: str) -> bool:
+        """Bring an inactive controller back to unconfigured."""
+        return self._call(srv.CleanupController, 'cleanup_controller', name=name).ok
+
+    def reload_libraries(self, *, force_kill: bool) -> bool:
+        """Unload all controllers, and import what they are made of anew."""
+        return self._call(
+            srv.ReloadControllerLibraries, 'reload_controller_libraries', force_kill=force_kill
+        ).ok
+
+    def set_component_state(
+        self, name: str, state: State
+    ) -> srv.SetHardwareComponentState.Response:
+        """Bring a hardware component to a state; the response has the state that it is in."""
+        return self._call(
+            srv.SetHardwareComponentState,
+            'set_hardware_component_state',
+            name=name,
+            target_state=state,
+        )
+
     def switch(
         self,
         *,
@@ -87,16 +118,30 @@ class ManagerClient:
         activate_asap: bool = True,
     ) -> str | None:
         """Switch under STRICT; return ``None``, or why it failed."""
-        response = self._call(
+        response = self.request_switch(
+            activate, deactivate, Strictness.STRICT, timeout=timeout, activate_asap=activate_asap
+        )
+        return None if response.ok else response.message
+
+    def request_switch(
+        self,
+        activate: Sequence[str],
+        deactivate: Sequence[str],
+        strictness: int,
+        *,
+        timeout: float = 5.0,
+        activate_asap: bool = True,
+    ) -> srv.SwitchController.Response:
+        """Switch; ``strictness``: as in the request, 0 for the manager's default."""
+        return self._call(
             srv.SwitchController,
             'switch_controller',
             activate_controllers=list(activate),
             deactivate_controllers=list(deactivate),
-            strictness=int(Strictness.STRICT),
+            strictness=int(strictness),
             activate_asap=activate_asap,
             timeout=Duration(seconds=timeout).to_msg(),
         )
-        return None if response.ok else response.message
 
     def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
         """Set ``<controller>.<key>`` at the manager. Raises ControllerError."""
@@ -115,8 +160,9 @@ class ManagerClient:
         Say why the last request failed; the services only say that it did.
 
         A missing type is found by asking; the rest is what manager and controller have logged as
-        errors since this client began, taken from the latched ``/rosout``.
+        errors since that request, taken from the latched ``/rosout``.
         """
+        asked = self._asked
         missing = self._missing_type(controller)
         if missing:
             return missing
@@ -129,7 +175,7 @@ class ManagerClient:
             if (
                 message.level >= Log.ERROR
                 and message.name in loggers
-                and stamp >= self._asked
+                and stamp >= asked
             ):
                 lines.append(message.msg)
 
@@ -152,6 +198,7 @@ class ManagerClient:
 
     def _call(self, service_type: Any, service: str, **fields: Any) -> Any:
         request = service_type.Request(**fields)
+        self._asked = time.time()
         return call(
             self._node,
             service_type,

@@ -1,0 +1,76 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``unspawner``: deactivate controllers, unload them, and end.
+
+Arguments, messages and exit codes as the ``unspawner`` of Jazzy's controller_manager: 0 when all
+are gone, 1 when one is not, 2 for a wrong command line. Two things are better than there:
+
+- the active ones among them are deactivated even if others never were active;
+- one that cannot be unloaded is named, with the reason, and does not keep the others loaded.
+"""
+
+import argparse
+from collections.abc import Sequence
+import sys
+
+from rclpy.node import Node
+from rclpy.utilities import remove_ros_args
+
+from amr_description.errors import ControllerError
+from amr_description.nodes.manager_client import ManagerClient
+from amr_description.nodes.runtime import argument_errors, program, ros
+
+
+def parser() -> argparse.ArgumentParser:
+    """Make the parser, with the original's options and defaults."""
+    options = argparse.ArgumentParser(prog='unspawner', description=__doc__.split('\n\n')[0])
+    options.add_argument('controller_names', nargs='+', help='controllers to unload')
+    options.add_argument(
+        '-c', '--controller-manager', default='/controller_manager', help='its node'
+    )
+    options.add_argument('--switch-timeout', type=float, default=5.0, help='s')
+    return options
+
+
+def unload(
+    node: Node, manager: ManagerClient, names: Sequence[str], switch_timeout: float
+) -> None:
+    """Deactivate with one request and unload one by one. Raises ControllerError."""
+    log = node.get_logger()
+    states = manager.states()
+    active = [name for name in names if states.get(name) == 'active']
+    if active:
+        message = manager.switch(deactivate=active, timeout=switch_timeout)
+        if message is not None:
+            raise ControllerError(f'Failed to deactivate controllers : {active}: {message}')
+        log.info('Deactivated controller')
+    failures = []
+    for name in names:
+        if name not in states:
+            failures.append(f'{name}: no controller of this name is loaded')
+        elif manager.unload(name):
+            log.info('Unloaded controller')
+        else:
+            failures.append(f'{name}: {manager.reasons(name) or "see the log of the manager"}')
+    if failures:
+        raise ControllerError(f'Failed to unload controller {"; ".join(failures)}')
+
+
+def unspawn(args: list[str] | None) -> None:
+    """Do what the command line says."""
+    with ros(args):
+        words = sys.argv if args is None else ['unspawner', *args]
+        options = parser().parse_args(remove_ros_args(words)[1:])
+        with argument_errors():
+            node = Node(f'unspawner_{options.controller_names[0]}')
+        try:
+            manager = ManagerClient(node, options.controller_manager)
+            unload(node, manager, options.controller_names, options.switch_timeout)
+        finally:
+            node.destroy_node()
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the executable; return its exit code."""
+    return program(lambda: unspawn(args))
