@@ -20,8 +20,8 @@ EXECUTABLES = {
     + """\
 import signal, sys
 signal.signal(signal.SIGTERM, lambda *_: sys.exit('terminated'))
-print('up', flush=True)
 try:
+    print('up', flush=True)
     signal.pause()
 except KeyboardInterrupt:
     print('interrupted', flush=True)
@@ -136,22 +136,52 @@ def test_a_child_starts_as_from_a_shell(run):
     assert int(ignored.split()[1], 16) & (1 << (signal.SIGPIPE - 1)) == 0
 
 
-def test_a_stand_in_is_named_once(tmp_path):
+@pytest.fixture
+def only_ours(tmp_path):
+    """A prefix with nothing but a package of our name, whose executables print their words."""
     index = tmp_path / 'share/ament_index/resource_index/packages'
     index.mkdir(parents=True)
     (index / 'amr_description').touch()
-    talker = tmp_path / 'lib/amr_description/talker'
-    talker.parent.mkdir(parents=True)
-    talker.write_text('#!/bin/sh\necho ours\n')
-    talker.chmod(0o755)
-    result = ros2('run', 'py_pubsub', 'talker', AMENT_PREFIX_PATH=str(tmp_path))
-    assert (result.returncode, result.stdout) == (0, 'ours\n')
+    folder = tmp_path / 'lib/amr_description'
+    folder.mkdir(parents=True)
+    for name in ('talker', 'spawner'):
+        (folder / name).write_text(f'#!/bin/sh\necho our {name} "$@"\n')
+        (folder / name).chmod(0o755)
+    return tmp_path
+
+
+def test_a_stand_in_is_named_once_and_steps_back_for_the_original(only_ours):
+    result = ros2('run', 'py_pubsub', 'talker', 'a b', AMENT_PREFIX_PATH=str(only_ours))
+    assert (result.returncode, result.stdout) == (0, 'our talker a b\n')
     assert result.stderr == (
         "[ros2run]: package 'py_pubsub' is not installed: running 'talker' of amr_description\n"
     )
-    (index / 'py_pubsub').touch()
-    result = ros2('run', 'py_pubsub', 'talker', AMENT_PREFIX_PATH=str(tmp_path))
+    (only_ours / 'share/ament_index/resource_index/packages/py_pubsub').touch()
+    result = ros2('run', 'py_pubsub', 'talker', AMENT_PREFIX_PATH=str(only_ours))
     assert result.stderr.startswith('No executable found')
+
+
+def test_a_stand_in_has_the_names_of_the_original_unless_told_otherwise(only_ours):
+    result = ros2(
+        *('run', 'demo_nodes_py', 'talker', '--ros-args', '-r', '__node:=mine'),
+        AMENT_PREFIX_PATH=str(only_ours),
+    )
+    assert result.stdout == (
+        'our talker --ros-args -r __node:=mine --ros-args -r __node:=talker -r topic:=chatter\n'
+    )
+
+
+def test_a_stand_in_that_does_not_exist_yet_is_told(only_ours):
+    result = ros2('run', 'ros_gz_sim', 'create', AMENT_PREFIX_PATH=str(only_ours))
+    assert (result.returncode, result.stdout, result.stderr) == (
+        1,
+        '',
+        "Package 'ros_gz_sim' not found, and amr_description has no 'create' yet\n",
+    )
+
+
+def test_without_us_a_stand_in_is_not_found(run):
+    assert run('py_pubsub', 'talker').stderr == "Package 'py_pubsub' not found\n"
 
 
 def test_ctrl_c_is_the_childs(prefix):

@@ -13,6 +13,7 @@ examples:
 """
 
 from argparse import ArgumentParser, Namespace, REMAINDER
+from collections.abc import Sequence
 import os
 from pathlib import Path
 import shlex
@@ -23,11 +24,15 @@ from amr_description.errors import AmrError, UsageError
 
 _OURS = 'amr_description'
 
-# Well-known executables whose part one of ours takes where their package is not installed.
+# (package, executable) -> the executable of ours that takes its part where the package is not
+# installed, with what makes it the same to others; that comes last, so what the user says wins.
 _STAND_INS = {
     ('controller_manager', 'spawner'): 'spawner',
-    ('demo_nodes_py', 'listener'): 'listener',
-    ('demo_nodes_py', 'talker'): 'talker',
+    ('controller_manager', 'unspawner'): 'unspawner',
+    ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',
+    ('demo_nodes_py', 'talker'): 'talker --ros-args -r __node:=talker -r topic:=chatter',
+    ('joint_state_publisher', 'joint_state_publisher'): 'joint_state_publisher',
+    ('joint_state_publisher_gui', 'joint_state_publisher_gui'): 'joint_state_publisher_gui',
     ('py_pubsub', 'listener'): 'listener',
     ('py_pubsub', 'talker'): 'talker',
     ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
@@ -58,8 +63,8 @@ def main(args: Namespace) -> int:
     from amr_description.bringup.environment import child_environment
     from amr_description.cli.child_process import run_to_end
 
-    executable = _find(args.package_name, args.executable_name)
-    command = [*_prefix(args.prefix), str(executable), *args.argv]
+    executable, words = _find(args.package_name, args.executable_name)
+    command = [*_prefix(args.prefix), str(executable), *args.argv, *words]
     environment = child_environment(executable, os.environ)
     if 'PYTHONUNBUFFERED' not in os.environ:  # is for pipes; this child may have a terminal
         environment.pop('PYTHONUNBUFFERED', None)
@@ -70,21 +75,29 @@ def main(args: Namespace) -> int:
     return code
 
 
-def _find(package: str, name: str) -> Path:
-    """Return the path of an executable. Raises AmrError."""
+def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
+    """Return the path of an executable, and what to append to its words. Raises AmrError."""
     from amr_description.cli.packages import executables_of, packages
 
-    stand_in = _STAND_INS.get((package, name))
-    if stand_in and package not in packages() and _OURS in packages():
-        print(
-            f"[ros2run]: package '{package}' is not installed: running '{stand_in}' of {_OURS}",
-            file=sys.stderr,
-        )
-        package, name = _OURS, stand_in
-    known = executables_of(package)
-    paths = [path for path in known if path.name == name]
+    known = packages()
+    if package in known or (package, name) not in _STAND_INS or _OURS not in known:
+        return _only_one(executables_of(package), package, name), ()
+    stand_in, *words = _STAND_INS[package, name].split()
+    ours = executables_of(_OURS)
+    if stand_in not in {path.name for path in ours}:
+        raise AmrError(f"Package '{package}' not found, and {_OURS} has no '{stand_in}' yet")
+    print(
+        f"[ros2run]: package '{package}' is not installed: running '{stand_in}' of {_OURS}",
+        file=sys.stderr,
+    )
+    return _only_one(ours, _OURS, stand_in), words
+
+
+def _only_one(executables: Sequence[Path], package: str, name: str) -> Path:
+    """Return the one of that name. Raises AmrError."""
+    paths = [path for path in executables if path.name == name]
     if not paths:
-        names = ', '.join(sorted({path.name for path in known}))
+        names = ', '.join(sorted({path.name for path in executables}))
         raise AmrError(
             f"No executable found: package '{package}' has no '{name}', "
             + (f'it has {names}' if names else 'nor any other')
