@@ -18,7 +18,7 @@ from fixtures.cli.commands import running_node, shell
 import pytest
 
 GOLDEN = Path(__file__).parent / 'golden'
-FILES = ('node', 'topic_echo', 'topic_meta', 'topic_pub')
+FILES = ('node', 'service', 'service_call', 'topic_echo', 'topic_meta', 'topic_pub')
 AT_ONCE = 4  # replayed at a time; most of their time they wait for discovery
 
 # What differs from run to run: counters, times, identifiers, and how often a wait was told.
@@ -29,6 +29,7 @@ CHANGING = (
     (r'^\d{10},\d+,', 'N,N,'),
     (r'GID: [0-9a-f.]+', 'GID: N'),
     (r'<string length: <\d+>>', '<string length: <N>>'),
+    (r'^waiting for service to become available\.\.\.\n', ''),
     (r'(Waiting for at least 1 matching subscription\(s\)\.\.\.\n)+', ''),
 )
 # Fast DDS complains about locks that killed processes of other domains left in /dev/shm.

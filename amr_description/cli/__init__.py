@@ -21,13 +21,16 @@ streams.py            line buffering, a closed pipe, the noise of C++ libraries
 colors.py             when to colour, and how
 packages.py           packages and their executables, from the ament index
 yaml_input.py         what was typed -> a mapping, or one line that says where it is wrong
+excerpt.py            what was typed, as an error line may repeat it
 message_fields.py     a mapping -> the fields of a message; ``auto`` and ``now``
 message_text.py       a message -> YAML or CSV
 session.py            a hidden node while a verb runs; waiting and stopping
 quick_discovery.py    why ``ros2 topic list`` is complete after half a second
 local_participants.py how many others run on this host, from the UDP ports in use
 graph.py              who is there: topics, types, nodes
-message_types.py      message classes by their names
+services.py           who is there: services with their types
+names.py              names of topics, services and actions, as they are typed
+message_types.py      message, service and action classes by their names
 qos.py                QoS from flags, and matched to the publishers there are
 mismatch.py           tells who is there, but with another type
 message_filter.py     ``--filter``

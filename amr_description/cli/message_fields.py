@@ -20,6 +20,7 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
+from amr_description.cli.excerpt import excerpt
 from amr_description.cli.message_types import message_type
 from amr_description.errors import AmrError
 
@@ -150,4 +151,4 @@ def _is(slot: Any, name: str) -> bool:
 
 def _misfit(reason: str, path: str) -> AmrError:
     where = f' (field {path})' if path else ''
-    return AmrError(f'Failed to populate field: {reason}{where}')
+    return AmrError(f'Failed to populate field: {excerpt(reason)}{where}')

@@ -1,40 +1,67 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Message classes by their names."""
+"""Message, service and action classes by their names."""
 
 import difflib
 import importlib
+from types import ModuleType
 from typing import Any
 
+from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
 
-_INVALID = 'The passed message type is invalid'
+# What a class of each kind has, by which it is told from the parts that stand beside it.
+_MARKS = {'msg': 'get_fields_and_field_types', 'srv': 'Request', 'action': 'Goal'}
+_WORDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
 
 
 def message_type(name: str) -> Any:
     """Return the class of ``package/msg/Name``, or ``package/Name``. Raises AmrError."""
-    package, *middle, message = name.split('/')
-    if middle not in ([], ['msg']) or not package.isidentifier() or not message.isidentifier():
-        raise AmrError(f"{_INVALID}: '{name}' is not written as package/msg/Name")
-    try:
-        module = importlib.import_module(f'{package}.msg')
-    except ImportError as error:
-        raise AmrError(f"{_INVALID}: there is no package '{package}' with messages") from error
-    found = getattr(module, message, None)
-    if not hasattr(found, 'get_fields_and_field_types'):
+    return _interface(name, 'msg', 'The passed message type is invalid')
+
+
+def service_type(name: str) -> Any:
+    """Return the class of ``package/srv/Name``, or ``package/Name``. Raises AmrError."""
+    other = name.split('/')[1:-1]
+    if other in (['msg'], ['action']):
         raise AmrError(
-            f"{_INVALID}: {package} has no message '{message}'{_similar(module, message)}"
+            f"The passed type is not a service: '{excerpt(name)}' is written as "
+            f'{"a message" if other == ["msg"] else "an action"}'
         )
+    return _interface(name, 'srv', 'The passed service type is invalid')
+
+
+def action_type(name: str) -> Any:
+    """Return the class of ``package/action/Name``, or ``package/Name``. Raises AmrError."""
+    return _interface(name, 'action', 'The passed action type is invalid')
+
+
+def type_name(interface: Any) -> str:
+    """Return ``package/msg/Name`` of a message class, and so for a service or an action."""
+    package, kind, *_ = interface.__module__.split('.')
+    return f'{package}/{kind}/{interface.__name__}'
+
+
+def _interface(name: str, kind: str, invalid: str) -> Any:
+    path, _, last = name.rpartition('/')
+    package, *middle = path.split('/')
+    if middle not in ([], [kind]) or not package.isidentifier() or not last.isidentifier():
+        raise AmrError(f"{invalid}: '{excerpt(name)}' is not written as package/{kind}/Name")
+    word = _WORDS[kind]
+    try:
+        module = importlib.import_module(f'{package}.{kind}')
+    except ImportError as error:
+        raise AmrError(
+            f"{invalid}: there is no package '{excerpt(package)}' with {word}s"
+        ) from error
+    found = getattr(module, last, None)
+    if not hasattr(found, _MARKS[kind]):
+        similar = _similar(module, last, kind)
+        raise AmrError(f"{invalid}: {package} has no {word} '{excerpt(last)}'{similar}")
     return found
 
 
-def type_name(message: Any) -> str:
-    """Return ``package/msg/Name`` of a message class."""
-    package, kind, *_ = message.__module__.split('.')
-    return f'{package}/{kind}/{message.__name__}'
-
-
-def _similar(module: Any, message: str) -> str:
-    names = [name for name in vars(module) if name[0].isupper()]
-    close = difflib.get_close_matches(message, names, n=3)
+def _similar(module: ModuleType, name: str, kind: str) -> str:
+    names = [known for known, value in vars(module).items() if hasattr(value, _MARKS[kind])]
+    close = difflib.get_close_matches(name, names, n=3)
     return f'; did you mean {" or ".join(close)}?' if close else ''

@@ -10,9 +10,13 @@ from amr_description.cli.program import LazyParser, run
 
 COMMANDS = {
     'control': 'amr_description.cli.control',
+    'daemon': 'amr_description.cli.daemon',
+    'interface': 'amr_description.cli.interface',
     'node': 'amr_description.cli.node',
+    'param': 'amr_description.cli.param',
     'pkg': 'amr_description.cli.pkg',
     'run': 'amr_description.cli.run',
+    'service': 'amr_description.cli.service',
     'topic': 'amr_description.cli.topic',
 }
 

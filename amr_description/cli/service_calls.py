@@ -4,6 +4,8 @@
 
 from typing import Any
 
+from rclpy.client import Client
+
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 
@@ -24,18 +26,26 @@ def call(session: Session, name: str, service_type: Any, request: Any) -> Any:
     try:
         _wait_for_service(session, client, name)
         for _ in range(_ATTEMPTS):
-            future = client.call_async(request)
-            session.serve(future.done, _TIMEOUT)
-            if future.done():
-                return future.result()
-            client.remove_pending_request(future)
+            response = response_to(session, client, request, _TIMEOUT)
+            if response is not None:
+                return response
             session.node.get_logger().warning(f'no answer from {name} for {_TIMEOUT:g} s')
         raise AmrError(f'Could not successfully call service {name} after {_ATTEMPTS} attempts.')
     finally:
         session.node.destroy_client(client)
 
 
-def _wait_for_service(session: Session, client: Any, name: str) -> None:
+def response_to(session: Session, client: Client, request: Any, timeout: float | None) -> Any:
+    """Send a request once; return its response, or None if there is none within ``timeout`` s."""
+    future = client.call_async(request)
+    session.serve(future.done, timeout)
+    if future.done():
+        return future.result()
+    client.remove_pending_request(future)
+    return None
+
+
+def _wait_for_service(session: Session, client: Client, name: str) -> None:
     if session.spin(client.service_is_ready, _SILENT):
         return
     log = session.node.get_logger()

@@ -6,6 +6,7 @@ from typing import Any
 
 import yaml
 
+from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
 
 _NOT_A_MAPPING = 'The passed value needs to be a dictionary in YAML format'
@@ -26,7 +27,8 @@ def read_value(text: str) -> Any:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f'line {mark.line + 1}, column {mark.column + 1}: ' if mark else ''
-        raise AmrError(f'The passed value is not YAML: {place}{error.problem}') from error
+        problem = excerpt(str(error.problem))
+        raise AmrError(f'The passed value is not YAML: {place}{problem}') from error
     except yaml.reader.ReaderError as error:
         raise AmrError(
             f'The passed value is not YAML: character {error.position + 1} is '
@@ -48,4 +50,4 @@ def _kind(value: Any) -> str:
         return 'empty'
     if isinstance(value, list):
         return 'a list'
-    return f"the {type(value).__name__} '{str(value)[:40]}'"
+    return f"the {type(value).__name__} '{excerpt(str(value))}'"
