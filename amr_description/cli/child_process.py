@@ -17,7 +17,7 @@ _FORWARDED = {
     signal.SIGUSR2,
 }
 _SENT_BY_KERNEL = 0x80  # SI_KERNEL of siginfo_t: the terminal's Ctrl-C
-_GRACE = 0.5  # s
+_GRACE = 2.0  # s
 
 
 def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
@@ -27,7 +27,7 @@ def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
     That is minus the number of a signal that ended it. A signal from the terminal reaches the
     child by itself, as it is of the same process group. One that a process sent to us is passed
     on, so that no ``kill`` of this process leaves the child behind. SIGINT is passed on only if
-    the child is still there after half a second: whoever sent it may have sent it to the whole
+    the child is still there after a while: whoever sent it may have sent it to the whole
     group (``timeout -s INT``), and a second SIGINT would break into the child's clean-up.
 
     :raises AmrError: The command cannot be started.
