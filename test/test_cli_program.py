@@ -3,6 +3,8 @@
 """What a person sees first: help, wrong words; and that none of it costs an import too many."""
 
 import re
+import sys
+from types import ModuleType
 
 from fixtures.cli.commands import python, ros2
 import pytest
@@ -114,3 +116,30 @@ def test_the_choices_of_qos_flags_are_those_of_rclpy():
     assert list(qos_arguments.RELIABILITIES) == qos.QoSReliabilityPolicy.short_keys()
     assert list(qos_arguments.DURABILITIES) == qos.QoSDurabilityPolicy.short_keys()
     assert list(qos_arguments.LIVELINESSES) == qos.QoSLivelinessPolicy.short_keys()
+
+
+def test_options_may_stand_between_words(monkeypatch):
+    def add_arguments(parser):
+        parser.add_argument('first')
+        parser.add_argument('rest', nargs='*')
+        parser.add_argument('-n', type=int)
+
+    verb = ModuleType('verb', 'A verb.')
+    verb.add_arguments, verb.main = add_arguments, lambda args: (args.first, args.rest, args.n)
+    monkeypatch.setitem(sys.modules, 'verb', verb)
+
+    def read(*words):
+        parser = LazyParser(prog='ros2')
+        parser.read_table({'verb': 'verb'})
+        return run(parser, ['verb', *words])
+
+    for words in (['-n', '1', 'a', 'b', 'c'], ['a', '-n', '1', 'b', 'c'], ['a', 'b', '-n1', 'c']):
+        assert read(*words) == ('a', ['b', 'c'], 1)
+    assert read('a', '--', '-n') == ('a', ['-n'], None)
+    assert read('a') == ('a', [], None)
+
+
+def test_a_word_too_many_is_told():
+    result = ros2('node', 'info', '/node', '--include-hidden', 'more')
+    assert result.returncode == 2
+    assert result.stderr.endswith('ros2: error: unrecognized arguments: more\n')

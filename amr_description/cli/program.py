@@ -21,7 +21,11 @@ from typing import Any
 
 
 class LazyParser(argparse.ArgumentParser):
-    """A parser that learns from its module what it reads, once it has to read."""
+    """
+    A parser that learns from its module what it reads, once it has to read.
+
+    Options may stand between words that may be left out, wherever ``argparse`` can read that.
+    """
 
     def __init__(self, *args: Any, module: str = '', **kwargs: Any) -> None:
         """Take the dotted name of the module, besides the arguments of ``ArgumentParser``."""
@@ -29,6 +33,7 @@ class LazyParser(argparse.ArgumentParser):
         super().__init__(*args, **kwargs)
         self._module = module
         self._table: Mapping[str, str] = {}
+        self._mixing = False
 
     def parse_known_args(
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
@@ -38,7 +43,21 @@ class LazyParser(argparse.ArgumentParser):
             self._learn(importlib.import_module(self._module))
         if self._table:
             self._add_table(args or ())
-        return super().parse_known_args(args, namespace)
+        if self._mixing or not self._can_mix(args or ()):
+            return super().parse_known_args(args, namespace)
+        self._mixing = True  # it calls this method, for options and for positional words
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._mixing = False
+
+    def _can_mix(self, args: Sequence[str]) -> bool:
+        """Tell whether ``argparse`` can do it: no ``--``, open end, or alternative to a word."""
+        words = self._get_positional_actions()
+        open_ended = [a for a in words if a.nargs in (argparse.PARSER, argparse.REMAINDER)]
+        groups = [group._group_actions for group in self._mutually_exclusive_groups]
+        alternatives = {a for group in groups for a in group}
+        return '--' not in args and not open_ended and alternatives.isdisjoint(words)
 
     def read_table(self, table: Mapping[str, str]) -> None:
         """Read one name of a table, and hand what follows it to the parser of its module."""
