@@ -34,7 +34,7 @@ message_types.py      message, service and action classes by their names
 qos.py                QoS from flags, and matched to the publishers there are
 mismatch.py           tells who is there, but with another type
 message_filter.py     ``--filter``
-service_calls.py      a request and its response
+service_calls.py      requests and their responses
 ===================== =========================================================================
 
 rclpy and messages are imported by the part from ``session.py`` on, and that part only inside a

@@ -1,10 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A request and its response."""
+"""Requests and their responses."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from rclpy.client import Client
+from rclpy.task import Future
 
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
@@ -43,6 +45,30 @@ def response_to(session: Session, client: Client, request: Any, timeout: float |
         return future.result()
     client.remove_pending_request(future)
     return None
+
+
+def responses(
+    session: Session, service_type: Any, requests: Mapping[str, Any], timeout: float | None
+) -> dict[str, Any]:
+    """
+    Send a request to each of several services of a type at once, as soon as it is there.
+
+    :param requests: By the names of the services.
+    :returns: What came within ``timeout`` s, by the same names.
+    """
+    clients = {name: session.node.create_client(service_type, name) for name in requests}
+    futures: dict[str, Future] = {}
+
+    def all_answered() -> bool:
+        for name, client in clients.items():
+            if name not in futures and client.service_is_ready():
+                futures[name] = client.call_async(requests[name])
+        return len(futures) == len(clients) and all(future.done() for future in futures.values())
+
+    session.spin(all_answered, timeout)
+    for client in clients.values():
+        session.node.destroy_client(client)
+    return {name: future.result() for name, future in futures.items() if future.done()}
 
 
 def _wait_for_service(session: Session, client: Client, name: str) -> None:

@@ -32,9 +32,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         'service_name', help="Name of the ROS service to call to (e.g. '/add_two_ints')"
     )
-    parser.add_argument(
-        'service_type', help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"
-    )
+    parser.add_argument('service_type', help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
     source = parser.add_mutually_exclusive_group()
     source.add_argument(
         'values',

@@ -1,0 +1,106 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the verbs of ``ros2 lifecycle`` share: who has a lifecycle, and how to ask."""
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Mapping
+from typing import Any, TYPE_CHECKING
+
+from amr_description.cli.arguments import add_graph_arguments, positive_float
+from amr_description.cli.excerpt import excerpt
+from amr_description.errors import AmrError
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+    from amr_description.cli.session import Session
+
+TIMEOUT = 5.0
+"""How long a node may take to tell its state, s."""
+
+_SERVICE = 'get_state'
+_TYPE = 'lifecycle_msgs/srv/GetState'
+
+
+def add_lifecycle_arguments(parser: ArgumentParser, timeout: float | None = TIMEOUT) -> None:
+    """
+    Add the flags of a verb that asks nodes.
+
+    :param timeout: The default of ``--timeout``, s; None: for ever.
+    """
+    add_graph_arguments(parser)
+    parser.add_argument(
+        '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
+    )
+    default = 'for ever' if timeout is None else f'{timeout:g}'
+    parser.add_argument(
+        '--timeout',
+        metavar='N',
+        type=positive_float,
+        default=timeout,
+        help=f'Longest time in seconds to wait for the response of a node (default: {default})',
+    )
+
+
+def lifecycle_nodes(node: 'Node', *, hidden: bool) -> list[str]:
+    """Return the full names of the nodes that have a lifecycle, sorted."""
+    from amr_description.cli import graph
+    from amr_description.cli.services import services
+
+    served = {name for name, types in services(node, hidden=True) if _TYPE in types}
+    names = {found.full_name for found in graph.nodes(node, hidden=hidden)}
+    return sorted(name for name in names if f'{name}/{_SERVICE}' in served)
+
+
+def find_node(session: 'Session', args: Namespace) -> str:
+    """Return the full name of ``args.node_name`` once it is there. Raises AmrError."""
+    from amr_description.cli import graph
+
+    name = '/' + args.node_name.removeprefix('/')
+
+    def known() -> list[str]:
+        return lifecycle_nodes(session.node, hidden=args.include_hidden_nodes)
+
+    graph.wait_for_discovery(session, args.spin_time, lambda: name in known())
+    if name in known():
+        return name
+    there = {node.full_name: node.hidden for node in graph.nodes(session.node, hidden=True)}
+    raise AmrError(explain_absence(name, there, known()))
+
+
+def explain_absence(name: str, nodes: Mapping[str, bool], managed: list[str]) -> str:
+    """
+    Return the line for a node that is not one of the managed ones.
+
+    :param nodes: Whether each is hidden, by their full names.
+    """
+    if name not in nodes:
+        reason = 'is not there'
+    elif nodes[name]:
+        reason = 'is hidden, --include-hidden-nodes would consider it'
+    else:
+        reason = 'has no lifecycle'
+    others = f'those with a lifecycle are {", ".join(managed)}' if managed else 'no node has one'
+    return f"Node not found: '{excerpt(name)}' {reason}; {others}"
+
+
+def ask(
+    session: 'Session',
+    node: str,
+    service: str,
+    service_type: Any,
+    request: Any,
+    timeout: float | None,
+) -> Any:
+    """Return the response of a node's service, by its name below the node. Raises AmrError."""
+    from amr_description.cli.service_calls import responses
+
+    found = responses(session, service_type, {f'{node}/{service}': request}, timeout)
+    if not found:
+        raise AmrError(no_response(node, timeout))
+    return found[f'{node}/{service}']
+
+
+def no_response(node: str, timeout: float | None) -> str:
+    """Return the line for a node that does not answer."""
+    return f"Exception while calling service of node '{node}': no response within {timeout:g} s"

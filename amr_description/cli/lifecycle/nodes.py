@@ -1,0 +1,38 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Output a list of nodes with lifecycle."""
+
+from argparse import ArgumentParser, Namespace
+
+from amr_description.cli.arguments import add_graph_arguments
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the verb."""
+    add_graph_arguments(parser)
+    parser.add_argument(
+        '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
+    )
+    parser.add_argument(
+        '-c',
+        '--count-nodes',
+        action='store_true',
+        help='Only display the number of nodes discovered',
+    )
+
+
+def main(args: Namespace) -> int:
+    """Print the full names of the nodes; 0."""
+    from amr_description.cli import graph
+    from amr_description.cli.lifecycle.managed import lifecycle_nodes
+    from amr_description.cli.session import open_session
+
+    with open_session(use_sim_time=args.use_sim_time) as session:
+        graph.wait_for_discovery(session, args.spin_time)
+        names = lifecycle_nodes(session.node, hidden=args.all)
+    if args.count_nodes:
+        print(len(names))
+        return 0
+    for name in names:
+        print(name)
+    return 0
