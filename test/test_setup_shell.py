@@ -153,6 +153,16 @@ class TestActivate:
         done = shell_run(f'. {ACTIVATE}; once=$(env); . {ACTIVATE}; [ "$once" = "$(env)" ]', shell)
         assert done.returncode == 0, done.stdout
 
+    def test_script_started_from_an_activated_shell(self, shell, tmp_path):
+        program(tmp_path / 'deactivate', 'echo a program of that name was run')
+        inner = f'{shell} -c "set -e; . {ACTIVATE}; env" | grep -E "^(AMENT|COLCON|PATH)"'
+        outer = 'env | grep -E "^(AMENT|COLCON|PATH)"'
+        done = shell_run(
+            f'. {ACTIVATE}; {outer}; {inner}', shell, PATH=f'{tmp_path}:/usr/bin:/bin'
+        )
+        lines = done.stdout.splitlines()
+        assert lines[: len(lines) // 2] == lines[len(lines) // 2 :]
+
     def test_strict_shells_survive(self, shell):
         done = shell_run(f'set -eu; . {ACTIVATE}; echo $ROS_DISTRO', shell)
         assert (done.stdout, done.stderr) == ('jazzy\n', '')
