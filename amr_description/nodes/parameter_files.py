@@ -7,6 +7,7 @@ rcl says of a faulty file where its C source gave up; this says where the file i
 """
 
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -15,8 +16,12 @@ from amr_description.errors import ParameterError
 _SHAPE = 'a parameter file is written as  node_name: {ros__parameters: {name: value}}'
 
 
-def require_parameter_file(path: Path) -> None:
-    """Raise ParameterError, with line and column where there are any, if ``path`` is no good."""
+def read_parameter_file(path: Path) -> dict[str, Any]:
+    """
+    Return a parameter file as YAML gives it: nodes, perhaps below their namespaces.
+
+    :raises ParameterError: It is no good; with line and column where there are any.
+    """
     try:
         text = path.read_text(encoding='utf-8')
     except OSError as error:
@@ -30,10 +35,15 @@ def require_parameter_file(path: Path) -> None:
         place = f':{mark.line + 1}:{mark.column + 1}' if mark else ''
         raise ParameterError(f'{path}{place}: {error.problem}') from error
     except yaml.YAMLError as error:
+        raise ParameterError(f'{path}: {" ".join(str(error).split())}') from error
+    except RecursionError as error:
+        raise ParameterError(f'{path}: nested too deeply') from error
+    except ValueError as error:  # a date such as 2026-99-99, an integer of 5000 digits
         raise ParameterError(f'{path}: {error}') from error
     if not isinstance(content, dict) or not content:
         raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
     _require_nodes(content, path)
+    return content
 
 
 def _require_nodes(content: dict, path: Path, above: str = '') -> None:

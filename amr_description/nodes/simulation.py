@@ -27,7 +27,7 @@ from amr_description.nodes.controller_manager_node import ControllerManagerNode
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.outgoing import Outgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
-from amr_description.nodes.parameter_files import require_parameter_file
+from amr_description.nodes.parameter_files import read_parameter_file
 from amr_description.parameters import parameter
 from amr_description.sim.resources import package_share
 from amr_description.sim.stepping import physics_stepping, steps_in
@@ -135,7 +135,7 @@ class Simulation:
         if node is not None:
             self._managers[name] = node
             self._executor.add_node(node.node)
-            manager = node.start(resources, self._period(node.update_rate))
+            manager = node.start(resources, self._period(node.parameters.update_rate))
             await self.owner.submit(lambda: self.owner.loop.managers.append(manager))
 
     def _insert(
@@ -143,7 +143,7 @@ class Simulation:
     ) -> ResourceManager | None:
         """On the owner's thread: robot, components, all of them active."""
         if node is not None and not self.owner.loop.managers:
-            self.world.timestep = physics_stepping(_period_of(node.update_rate)).step
+            self.world.timestep = physics_stepping(_period_of(node.parameters.update_rate)).step
         view = self.world.spawn(name, robot, pose)
         if node is None:
             return None
@@ -176,7 +176,7 @@ class Simulation:
         if not paths:
             paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
         for path in paths:
-            require_parameter_file(Path(path))
+            read_parameter_file(Path(path))  # rcl would not say where it is wrong
         return [argument for path in paths for argument in ('--params-file', path)]
 
     def _period(self, rate: int) -> int:

@@ -6,10 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from amr_description.errors import ParameterError
-from amr_description.nodes.parameter_files import require_parameter_file
+from amr_description.nodes.parameter_files import read_parameter_file
 
 _WILDCARD = '/**'
 _KEY = 'ros__parameters'
@@ -23,8 +21,7 @@ def find_controller(name: str, files: Sequence[str], namespace: str) -> dict[str
     ParameterError: in none of the files, or only without the namespace that it needs.
     """
     for path in files:
-        require_parameter_file(Path(path))
-        content = yaml.safe_load(Path(path).read_text(encoding='utf-8'))
+        content = read_parameter_file(Path(path))
         parameters = parameters_of(name, content, namespace)
         if parameters is not None:
             return parameters
