@@ -24,12 +24,16 @@ from amr_description.registry import resolve as import_target
 type StackFunction = Callable[..., Stack]
 
 
-def main(args: list[str] | None = None) -> int:
-    """Run the command; return its exit code (see ``orchestrator.py``; 2: wrong command line)."""
+def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
+    """
+    Run the command; return its exit code (see ``orchestrator.py``; 2: wrong command line).
+
+    ``prog``: what messages call it.
+    """
     try:
         return _run(_parser().parse_intermixed_args(args))
     except AmrError as error:
-        print(f'bringup: {error}', file=sys.stderr)
+        print(f'{prog}: {error}', file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt:  # before or after the orchestrator handles it
         return 130

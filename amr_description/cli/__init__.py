@@ -14,11 +14,12 @@ main.py               the way in: standard streams, errors -> exit codes, Ctrl-C
 program.py            a command line read by tables; nothing is imported before it is needed
 ros2.py               the commands of ``ros2``
 topic/ node/ ...      a command each, its verbs in files of their own
-run.py                a command without verbs
+run.py launch.py      commands without verbs
 arguments.py          flags that verbs share, and the types of values
 qos_arguments.py      the ``--qos-*`` flags
 streams.py            line buffering, a closed pipe, the noise of C++ libraries
 colors.py             when to colour, and how
+launch_files.py       what ``ros2 launch`` is asked for -> what the bring-up starts
 packages.py           packages and their executables, from the ament index
 yaml_input.py         what was typed -> a mapping, or one line that says where it is wrong
 excerpt.py            what was typed, as an error line may repeat it

@@ -12,6 +12,7 @@ COMMANDS = {
     'control': 'amr_description.cli.control',
     'daemon': 'amr_description.cli.daemon',
     'interface': 'amr_description.cli.interface',
+    'launch': 'amr_description.cli.launch',
     'lifecycle': 'amr_description.cli.lifecycle',
     'node': 'amr_description.cli.node',
     'param': 'amr_description.cli.param',

@@ -1,0 +1,82 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Run a launch file.
+
+Here that is a stack: one of amr_description's by its name, or a Python file with a function that
+returns one (amr_description/bringup/__init__.py shows how). Ctrl-C stops all that it started.
+
+examples:
+  ros2 launch amr_description simulation
+  ros2 launch amr_description simulation --show-args
+  ros2 launch amr_description simulation rtf:=0
+  ros2 launch my_stack.py times:=3
+"""
+
+from argparse import ArgumentParser, Namespace
+import sys
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        '-n',
+        '--noninteractive',
+        action='store_true',
+        help='Accepted for scripts: each process is told to stop once, terminal or not',
+    )
+    parser.add_argument(
+        '-d',
+        '--debug',
+        action='store_true',
+        help='Accepted for scripts: what each process says is in the log folder anyway',
+    )
+    parser.add_argument(
+        '-p',
+        '--print',
+        '--print-description',
+        action='store_true',
+        help='Print what would be started, and when, without starting it',
+    )
+    parser.add_argument(
+        '-s',
+        '--show-args',
+        '--show-arguments',
+        action='store_true',
+        help='Show arguments that may be given to the launch file',
+    )
+    parser.add_argument(
+        '-a',
+        '--show-all-subprocesses-output',
+        action='store_true',
+        help='Accepted for scripts: the output of every process is shown anyway',
+    )
+    parser.add_argument(
+        'package_name',
+        help='Name of the ROS package which contains the launch file, or path of a file',
+    )
+    parser.add_argument(
+        'launch_file_name', nargs='?', help='Name of the stack, or of the launch file'
+    )
+    parser.add_argument(
+        'launch_arguments',
+        nargs='*',
+        metavar='name:=value',
+        help='Arguments of the stack; for duplicates, the last one wins',
+    )
+
+
+def main(args: Namespace) -> int:
+    """Become the bring-up; return its exit code."""
+    from amr_description.bringup.main import main as bringup
+    from amr_description.cli.launch_files import find_launch_file
+
+    stack, arguments = find_launch_file(
+        args.package_name, args.launch_file_name, args.launch_arguments
+    )
+    options = [
+        *(['--show-args'] if args.show_args else []),
+        *(['--print'] if args.print else []),
+    ]
+    sys.stdout.flush()
+    return bringup([*options, stack, *arguments], prog='ros2 launch')

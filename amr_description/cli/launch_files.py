@@ -1,0 +1,102 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``ros2 launch`` is asked for -> what the bring-up starts: a stack's name, or its file."""
+
+import ast
+from collections.abc import Sequence
+from pathlib import Path
+
+from amr_description.bringup.arguments import suggestion
+from amr_description.bringup.stacks import STACKS
+from amr_description.cli.packages import prefix_of
+from amr_description.errors import AmrError, UsageError
+
+_OURS = 'amr_description'
+_TUTORIALS = {'gazebo': 'simulation'}  # as the tutorial calls its launch file -> our stack
+_SUFFIXES = ('.launch.py', '.launch.xml', '.launch.yaml', '.launch', '.py')
+
+
+def find_launch_file(
+    package: str, file: str | None, arguments: Sequence[str]
+) -> tuple[str, list[str]]:
+    """
+    Return a stack, as the bring-up takes it, and its arguments.
+
+    :param package: A package, or the path of a file.
+    :param file: The name of a launch file; after a path the first argument.
+    :raises AmrError: It is not there, or not a stack.
+    """
+    if _is_path(package):
+        return _stack_file(Path(package)), [*([file] if file else []), *arguments]
+    if file is None or ':=' in file:
+        what = f"'{package}' is a stack" if package in STACKS else f"which one of '{package}'?"
+        raise UsageError(f'{what}; {_known_stacks()}')
+    return _of_package(package, file), list(arguments)
+
+
+def _is_path(word: str) -> bool:
+    return '/' in word or word.endswith(('.py', '.xml', '.yaml')) or Path(word).is_file()
+
+
+def _of_package(package: str, file: str) -> str:
+    share = prefix_of(package) / 'share' / package
+    found = sorted(path for path in share.rglob(file) if path.is_file()) if _is_name(file) else []
+    if len(found) > 1:
+        paths = ', '.join(f"'{path}'" for path in found)
+        raise AmrError(
+            f"file '{file}' was found more than once in the share directory of package "
+            f"'{package}': [{paths}]"
+        )
+    if found:
+        return _stack_file(found[0])
+    if package == _OURS:
+        return _ready_made(file)
+    raise AmrError(
+        f"file '{file}' was not found in the share directory of package '{package}' which is at "
+        f"'{share}'"
+    )
+
+
+def _is_name(file: str) -> bool:
+    """Tell whether it names a file rather than being a pattern or a path."""
+    return not set(file) & set('*?[/') and file not in ('', '.', '..')
+
+
+def _ready_made(file: str) -> str:
+    """Return one of our stacks, by its name or as the tutorial calls its launch file."""
+    name = next((file.removesuffix(s) for s in _SUFFIXES if file.endswith(s)), file)
+    name = _TUTORIALS.get(name, name)
+    if name not in STACKS:
+        raise AmrError(f"{_OURS} has no stack '{file}'{suggestion(name, list(STACKS))}")
+    return name
+
+
+def _known_stacks() -> str:
+    lines = ', '.join(f'ros2 launch {_OURS} {name}' for name in STACKS)
+    return f'there are: {lines}; or a file of yours, by its path'
+
+
+def _stack_file(path: Path) -> str:
+    """Return the path if there is a file with a stack in it, as the bring-up reads it."""
+    if not path.is_file():
+        raise AmrError(f"there is no launch file '{path}'; {_known_stacks()}")
+    if path.suffix != '.py':
+        raise _foreign(path)
+    try:
+        tree = ast.parse(path.read_bytes(), str(path))
+    except (SyntaxError, ValueError) as error:
+        line = f', line {error.lineno}' if isinstance(error, SyntaxError) else ''
+        reason = error.msg if isinstance(error, SyntaxError) else error
+        raise AmrError(f"'{path}'{line}: is not Python: {reason}") from error
+    functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    if path.stem not in functions and 'generate_launch_description' in functions:
+        raise _foreign(path)
+    return str(path)
+
+
+def _foreign(path: Path) -> AmrError:
+    return AmrError(
+        f"'{path}' is written for the launch system of a ROS distribution, which PyPI does not "
+        f'have; here it is a Python file, named after its function that returns a Stack; '
+        f'{_known_stacks()}'
+    )
