@@ -6,4 +6,5 @@ VERBS = {
     'executables': 'amr_description.cli.pkg.executables',
     'list': 'amr_description.cli.pkg.list',
     'prefix': 'amr_description.cli.pkg.prefix',
+    'xml': 'amr_description.cli.pkg.xml',
 }

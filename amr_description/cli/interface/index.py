@@ -1,0 +1,98 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which interfaces the packages of the ament index define, and in which files."""
+
+from collections.abc import Mapping
+import difflib
+import os
+from pathlib import Path
+
+from ament_index_python import get_resource, get_resources
+
+from amr_description.cli.excerpt import excerpt
+from amr_description.cli.interface.definition import Definition
+from amr_description.cli.interface.kinds import kind_of, KINDS
+from amr_description.cli.packages import packages
+from amr_description.errors import AmrError
+
+_RESOURCE = 'rosidl_interfaces'  # what rosidl registers for each of these packages
+
+
+def all_interfaces() -> Mapping[str, list[str]]:
+    """Return the interfaces of every package that has any, both sorted."""
+    known = get_resources(_RESOURCE) if packages() else {}
+    return {package: _interfaces(package) for package in sorted(known)}
+
+
+def interfaces_of(package: str) -> list[str]:
+    """Return the interfaces of a package, ``msg/Name``, sorted. Raises AmrError."""
+    if package not in packages():
+        raise _unknown_package(package)
+    try:
+        return _interfaces(package)
+    except LookupError:
+        return []
+
+
+def read_definition(name: str) -> Definition:
+    """Return the definition of ``package/msg/Name``. Raises AmrError."""
+    path = _path(name)
+    try:
+        text = path.read_text(encoding='utf-8', errors='replace')
+    except OSError as error:
+        raise AmrError(f"The interface '{path}' cannot be read: {error.strerror}") from error
+    return Definition(text, idl=path.suffix == '.idl')
+
+
+def split_name(name: str) -> tuple[str, str, str]:
+    """Return the parts of ``package/msg/Name``. Raises AmrError."""
+    parts = name.split('/')
+    if len(parts) != 3:
+        expected = "Expected three parts separated by '/'"
+        raise AmrError(f"Invalid name '{excerpt(name)}'. {expected}{_completed(parts)}")
+    package, kind, interface = parts
+    if kind not in KINDS:
+        expected = f'Expected its second part to be one of {", ".join(KINDS)}'
+        raise AmrError(f"Invalid name '{excerpt(name)}'. {expected}")
+    return package, kind, interface
+
+
+def _path(name: str) -> Path:
+    """Return the file that people wrote; the .idl, made from it, if there is no other."""
+    package, kind, interface = split_name(name)
+    prefix = packages().get(package)
+    if prefix is None:
+        raise _unknown_package(package)
+    folder = prefix / 'share' / package / kind
+    for path in (folder / f'{interface}.{kind}', folder / f'{interface}.idl'):
+        if path.is_file():
+            return path
+    known = [n.partition('/')[2] for n in interfaces_of(package) if kind_of(n) == kind]
+    similar = _similar(interface, known, f'{package}/{kind}/')
+    raise AmrError(f"Could not find the interface '{excerpt(str(path))}'{similar}")
+
+
+def _interfaces(package: str) -> list[str]:
+    """Raises LookupError: it defines none."""
+    content, _ = get_resource(_RESOURCE, package)
+    found = {os.path.splitext(line.strip())[0] for line in content.splitlines()}
+    return sorted(name for name in found if kind_of(name) in KINDS and '_' not in name)
+
+
+def _completed(parts: list[str]) -> str:
+    """Return a hint for a name without its middle, as older tools write it."""
+    if len(parts) != 2 or parts[0] not in packages():
+        return ''
+    full = [name for name in interfaces_of(parts[0]) if name.endswith(f'/{parts[1]}')]
+    return f'; did you mean {" or ".join(f"{parts[0]}/{name}" for name in full)}?' if full else ''
+
+
+def _unknown_package(package: str) -> AmrError:
+    known = packages()
+    hint = _similar(package, list(known)) if known else '; source scripts/activate first'
+    return AmrError(f"Unknown package '{excerpt(package)}'{hint}")
+
+
+def _similar(name: str, known: list[str], prefix: str = '') -> str:
+    close = difflib.get_close_matches(name, known, n=3)
+    return f'; did you mean {" or ".join(prefix + word for word in close)}?' if close else ''

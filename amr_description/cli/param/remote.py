@@ -1,0 +1,138 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of another node."""
+
+from argparse import Namespace
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+import difflib
+from typing import Any
+
+from rcl_interfaces.msg import (
+    Parameter,
+    ParameterDescriptor,
+    ParameterType,
+    ParameterValue,
+    SetParametersResult,
+)
+from rcl_interfaces.srv import GetParameters, SetParameters
+
+from amr_description.cli import graph
+from amr_description.cli.excerpt import excerpt
+from amr_description.cli.names import full_name
+from amr_description.cli.param.requests import ask_all, describe_all, list_all
+from amr_description.cli.param.values import advice, to_message, typed, Value
+from amr_description.cli.session import open_session, Session
+from amr_description.errors import AmrError
+
+_SHOWN = 5  # names in an error
+
+
+@contextmanager
+def remote_parameters(args: Namespace) -> 'Iterator[RemoteParameters]':
+    """Yield the parameters of the node that a command line names. Raises AmrError: not there."""
+    with open_session(use_sim_time=args.use_sim_time) as session:
+        yield RemoteParameters(session, find_node(session, args))
+
+
+def find_node(session: Session, args: Namespace) -> str:
+    """Return the full name of the node that a command line names. Raises AmrError: not there."""
+    name = full_name(session.node, '/' + args.node_name.removeprefix('/'), 'a node')
+
+    def known() -> list[str]:
+        return [node.full_name for node in graph.nodes(session.node, hidden=True)]
+
+    if not session.spin(lambda: name in known(), max(args.timeout, args.spin_time)):
+        graph.wait_for_discovery(session, 0.0)
+    if name not in known():
+        others = [node.full_name for node in graph.nodes(session.node)]
+        raise AmrError(f'Node not found{_instead(name, others)}')
+    return name
+
+
+class RemoteParameters:
+    """The parameters of one node. Every method raises AmrError if the node does not answer."""
+
+    def __init__(self, session: Session, node: str) -> None:
+        self.node = node
+        """The node's full name."""
+        self._session = session
+
+    def names(self) -> list[str]:
+        """Return the names of all parameters, sorted."""
+        return self._answer(list_all(self._session, [self.node]))
+
+    def values(self, names: Sequence[str]) -> dict[str, ParameterValue]:
+        """Return the values of those parameters that there are and that were given one."""
+        response = self._ask('get_parameters', GetParameters, GetParameters.Request(names=names))
+        if len(response.values) == len(names):
+            return dict(zip(names, response.values, strict=True))
+        # If one has no value, nodes tell of none.
+        each = [self.values([name]) for name in names] if len(names) > 1 else []
+        return {name: value for found in each for name, value in found.items()}
+
+    def descriptors(self, names: Sequence[str]) -> dict[str, ParameterDescriptor]:
+        """Return the descriptors of those parameters that there are."""
+        known = sorted(set(self.names()) & set(names))
+        return self._answer(describe_all(self._session, {self.node: known}))
+
+    def set(self, values: Mapping[str, Value]) -> dict[str, SetParametersResult]:
+        """Set parameters one by one; return what the node says to each."""
+        empty = [name for name, value in values.items() if value == []]
+        types = {k: d.type for k, d in self.descriptors(empty).items()} if empty else {}
+        return self._set({name: to_message(v, types.get(name, 0)) for name, v in values.items()})
+
+    def delete(self, name: str) -> SetParametersResult:
+        """Undeclare a parameter."""
+        return self._set({name: ParameterValue()})[name]
+
+    def absence(self, name: str) -> str:
+        """Say why a parameter has no value."""
+        names = self.names()
+        if name in names:
+            return f"'{name}' of {self.node} is declared, but was given no value"
+        return f"{self.node} has no parameter '{excerpt(name)}'{_close(name, names)}"
+
+    def explain(self, name: str, text: str) -> str:
+        """
+        Return what the node's refusal to set a parameter left out; perhaps nothing.
+
+        :param text: The value as YAML.
+        """
+        descriptor = self.descriptors([name]).get(name)
+        if descriptor is None:
+            return f'; {self.absence(name)}'
+        if descriptor.type in (ParameterType.PARAMETER_NOT_SET, to_message(typed(text)).type):
+            return ''
+        return f'; {advice(text, descriptor.type)}'
+
+    def _set(self, values: Mapping[str, ParameterValue]) -> dict[str, SetParametersResult]:
+        parameters = [Parameter(name=name, value=value) for name, value in values.items()]
+        request = SetParameters.Request(parameters=parameters)
+        response = self._ask('set_parameters', SetParameters, request)
+        return dict(zip(values, response.results, strict=True))
+
+    def _ask(self, service: str, service_type: Any, request: Any) -> Any:
+        return self._answer(ask_all(self._session, service, service_type, {self.node: request}))
+
+    def _answer[Response](self, responses: Mapping[str, Response]) -> Response:
+        if self.node not in responses:
+            raise AmrError(no_answer(self.node))
+        return responses[self.node]
+
+
+def no_answer(node: str) -> str:
+    """Say that a node's parameter services do not answer."""
+    return f'Wait for service timed out waiting for parameter services for node {node}'
+
+
+def _instead(name: str, known: Sequence[str]) -> str:
+    if not known:
+        return ': there are no nodes'
+    more = ', ...' if len(known) > _SHOWN else ''
+    return _close(name, known) or f'; there are {", ".join(known[:_SHOWN])}{more}'
+
+
+def _close(name: str, known: Sequence[str]) -> str:
+    close = difflib.get_close_matches(name, known, n=3)
+    return f'; did you mean {" or ".join(close)}?' if close else ''

@@ -1,0 +1,63 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The parameter services of nodes: several are asked at a time, and no wait is endless."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.srv import DescribeParameters, ListParameters
+
+from amr_description.cli.session import Session
+
+_SERVICE_TIMEOUT = 5.0  # s, for a node that is there to offer its services
+_RESPONSE_TIMEOUT = 10.0  # s; a node may do real work when it is set
+
+
+def ask_all[Response](
+    session: Session, service: str, service_type: Any, requests: Mapping[str, Any]
+) -> dict[str, Response]:
+    """
+    Send a request to each node, by its full name; return the responses that came in time.
+
+    :param service: The service's name below that of the node.
+    """
+    clients = {
+        node: session.node.create_client(service_type, f'{node}/{service}') for node in requests
+    }
+    futures: dict[str, Any] = {}
+
+    def all_sent() -> bool:
+        for node, client in clients.items():
+            if node not in futures and client.service_is_ready():
+                futures[node] = client.call_async(requests[node])
+        return len(futures) == len(clients)
+
+    try:
+        session.spin(all_sent, _SERVICE_TIMEOUT)
+        session.spin(lambda: all(f.done() for f in futures.values()), _RESPONSE_TIMEOUT)
+        return {node: future.result() for node, future in futures.items() if future.done()}
+    finally:
+        for client in clients.values():
+            session.node.destroy_client(client)
+
+
+def list_all(
+    session: Session, nodes: Iterable[str], prefixes: Sequence[str] = ()
+) -> dict[str, list[str]]:
+    """Return the parameters' names, sorted, of each node that answers."""
+    request = ListParameters.Request(prefixes=prefixes)
+    responses = ask_all(session, 'list_parameters', ListParameters, dict.fromkeys(nodes, request))
+    return {node: sorted(response.result.names) for node, response in responses.items()}
+
+
+def describe_all(
+    session: Session, names: Mapping[str, Sequence[str]]
+) -> dict[str, dict[str, ParameterDescriptor]]:
+    """Return the descriptors by name of each node that answers; none if one name is unknown."""
+    requests = {node: DescribeParameters.Request(names=known) for node, known in names.items()}
+    responses = ask_all(session, 'describe_parameters', DescribeParameters, requests)
+    return {
+        node: {descriptor.name: descriptor for descriptor in response.descriptors}
+        for node, response in responses.items()
+    }
