@@ -5,6 +5,7 @@
 from argparse import Namespace
 from collections.abc import Mapping
 from functools import reduce
+import sys
 from typing import Any
 
 from rclpy.event_handler import QoSMessageLostInfo
@@ -46,13 +47,18 @@ class EchoPrinter:
         self._print(message)
 
     def report_lost(self, lost: QoSMessageLostInfo) -> None:
-        """Say that the queue ran over."""
-        print(
-            'A message was lost!!!\n'
-            f'\ttotal count change:{lost.total_count_change}\n'
-            f'\ttotal count: {lost.total_count}',
-            end='---\n',
-        )
+        """
+        Say that the queue ran over: on stderr, as stdout holds YAML that others read.
+
+        What was lost before the first message is that publisher's past, which it kept too short.
+        """
+        if self.count:
+            print(
+                'A message was lost!!!\n'
+                f'\ttotal count change:{lost.total_count_change}\n'
+                f'\ttotal count: {lost.total_count}',
+                file=sys.stderr,
+            )
 
     def _print(self, value: Any) -> None:
         if not hasattr(value, 'get_fields_and_field_types'):

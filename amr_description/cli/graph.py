@@ -17,8 +17,8 @@ from amr_description.cli.local_participants import count_local_participants
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 
-_QUIET = 0.3  # s without news before discovery counts as done
-_AT_MOST = 3.5  # s; a graph may go on changing for ever, and 3 s is Fast DDS's longest silence
+_QUIET = 0.4  # s without news before discovery counts as done; Fast DDS asks again after 0.28 s
+_AT_MOST = 5.0  # s; a graph may go on changing for ever, and Fast DDS may be silent for 3 s
 _PATIENCE = 2.0  # s for something asked for by its name
 
 _NODE_LISTS = 'ros_discovery_info'  # each participant publishes its nodes there (rmw_dds_common)
@@ -46,7 +46,7 @@ def wait_for_discovery(
     """
     Wait until the graph is complete, and at least so many seconds.
 
-    It is when everybody on this host was found and no news came for 0.3 s.
+    It is when everybody on this host was found and no news came for 0.4 s.
 
     :param found: Tells whether what was asked for is there. If not, wait up to 2 s: it may be on
         another host.
@@ -77,9 +77,18 @@ def _snapshot(node: Node) -> object:
 
 
 def _all_local_found(node: Node) -> bool:
-    """Tell whether all participants of this host were found, and named their nodes."""
-    found = node.get_publishers_info_by_topic(_NODE_LISTS, no_mangle=True)
-    if len(found) < count_local_participants(node.context.get_domain_id()):
+    """
+    Tell whether all participants of this host were found, and what they publish and subscribe to.
+
+    Fast DDS tells these two apart from each other, either may come up to a second later. Each
+    participant of ROS both publishes and reads the lists of nodes.
+    """
+    there = count_local_participants(node.context.get_domain_id())
+    ends = (
+        node.get_publishers_info_by_topic(_NODE_LISTS, no_mangle=True),
+        node.get_subscriptions_info_by_topic(_NODE_LISTS, no_mangle=True),
+    )
+    if any(len(found) < there for found in ends):
         return False
     announcers = node.get_publishers_info_by_topic(_OF_EVERY_NODE)
     return all(publisher.node_name != _NOT_NAMED_YET for publisher in announcers)

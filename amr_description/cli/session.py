@@ -52,26 +52,32 @@ class Session:
 
 @contextmanager
 def open_session(
-    *, name: str = '', use_sim_time: bool = False, ros_args: Sequence[str] = ()
+    *,
+    name: str = '',
+    use_sim_time: bool = False,
+    ros_args: Sequence[str] = (),
+    executor: Callable[[], Executor] = SingleThreadedExecutor,
 ) -> Iterator[Session]:
     """
     Yield a session; end it in every way out.
 
     :param name: The node's name; empty: a hidden one, ``_ros2cli_<pid>``.
     :param ros_args: What stands behind ``--ros-args``.
+    :param executor: Makes the executor. EventsExecutor takes half the time, but fails at a
+        callback that wants the message's info (SystemError, rclpy 7.1.6).
     :raises StopRequested: (a KeyboardInterrupt) A signal asked the verb to stop.
     """
     streams.keep_libraries_off_stdout()
     with ros(['--ros-args', *ros_args] if ros_args else []) as stop:
         with argument_errors(), quick_discovery():
             node = _make_node(name or f'_ros2cli_{os.getpid()}', use_sim_time)
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
+        serving = executor()
+        serving.add_node(node)
         try:
-            yield Session(node, executor)
+            yield Session(node, serving)
         finally:
             stop.leave()
-            executor.shutdown()
+            serving.shutdown()
             node.destroy_node()
 
 

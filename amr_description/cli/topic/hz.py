@@ -46,13 +46,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print a report a second until Ctrl-C."""
+    from rclpy.experimental import EventsExecutor
     from rclpy.qos import qos_profile_sensor_data
 
     from amr_description.cli import graph
     from amr_description.cli.message_types import message_type
     from amr_description.cli.session import open_session
 
-    with open_session(use_sim_time=args.use_sim_time) as session:
+    with open_session(use_sim_time=args.use_sim_time, executor=EventsExecutor) as session:
         topic = graph.full_topic_name(session.node, args.topic_name)
         message_class = message_type(graph.wait_for_type(session, topic))
         session.node.create_subscription(
