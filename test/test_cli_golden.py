@@ -4,8 +4,8 @@
 Recordings of the genuine ``ros2`` (Jazzy, ros2cli 0.32.2), replayed against the same node.
 
 A recording is a line of bash, what it printed on stdout and, below ``--- stderr:``, on stderr,
-and its exit code. Where ours is better on purpose, a comment says what the genuine one does. A
-line on stderr may go on after the recorded text, with what was found and what would do.
+and its exit code. Where ours is better on purpose, a comment above says what the genuine one does.
+A line on stderr may go on after the recorded text, with what was found and what would do.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -13,16 +13,22 @@ from dataclasses import dataclass
 from pathlib import Path
 import re
 import subprocess
+import sys
 
 from fixtures.cli.commands import running_node, shell
 import pytest
 
 GOLDEN = Path(__file__).parent / 'golden'
-FILES = ('node', 'service', 'service_call', 'topic_echo', 'topic_meta', 'topic_pub')
-AT_ONCE = 4  # replayed at a time; most of their time they wait for discovery
+FILES = (
+    'interface', 'node', 'param', 'param_set', 'pkg', 'service', 'service_call', 'topic_echo',
+    'topic_meta', 'topic_pub',
+)  # fmt: skip
+IN_ORDER = ('param_set',)  # each line finds what those before it left behind
+AT_ONCE = 4  # others are replayed so many at a time; mostly they wait for discovery
 
-# What differs from run to run: counters, times, identifiers, and how often a wait was told.
+# What differs from run to run: places, counters, times, identifiers, how often a wait was told.
 CHANGING = (
+    (re.escape(sys.prefix), 'PREFIX'),
     (r'Hello World: \d+', 'Hello World: N'),
     (r'\b(sec: |nanosec: |sec=|nanosec=)[1-9]\d*', r'\1N'),
     (r'(_timestamp|_sequence_number): \d+', r'\1: N'),
@@ -38,6 +44,7 @@ NOISE = re.compile(r'.*RTPS_TRANSPORT_SHM.*\n')
 
 @dataclass(frozen=True)
 class Recording:
+    file: str
     line: str
     stdout: str
     stderr: str
@@ -45,12 +52,13 @@ class Recording:
 
 
 def recordings(name):
-    text = re.sub(r'^#.*\n', '', (GOLDEN / f'{name}.txt').read_text(), flags=re.MULTILINE)
+    text = (GOLDEN / f'{name}.txt').read_text()
+    text = re.sub(r'^#.*\n(?=(#.*\n)*\$ )', '', text, flags=re.MULTILINE)
     for block in re.split(r'^\$ ', text, flags=re.MULTILINE)[1:]:
         line, _, rest = block.partition('\n')
         output, code = re.fullmatch(r'(.*)\[exit (\d+)\]\n*', rest, re.DOTALL).groups()
         stdout, _, stderr = output.partition('--- stderr:\n')
-        yield Recording(line, stdout, stderr, int(code))
+        yield Recording(name, line, stdout, stderr, int(code))
 
 
 ALL = [pytest.param(r, id=f'{name}: {r.line}') for name in FILES for r in recordings(name)]
@@ -59,20 +67,23 @@ ALL = [pytest.param(r, id=f'{name}: {r.line}') for name in FILES for r in record
 @pytest.fixture(scope='module')
 def replayed(request, tmp_path_factory):
     """
-    Return what became of each selected line.
+    Return what became of each selected recording.
 
     Several lines of a file run at a time, but never of two files: who listens must not be
     counted by who looks at the graph.
     """
     folder = tmp_path_factory.mktemp('bin')
-    chosen = {i.callspec.params['recording'].line for i in request.session.items if is_ours(i)}
+    chosen = {i.callspec.params['recording'] for i in request.session.items if is_ours(i)}
     results = {}
     shell('true', folder)
-    with running_node('fixture_node.py'), ThreadPoolExecutor(AT_ONCE) as pool:
+    with running_node('fixture_node.py'):
         for name in FILES:
-            lines = [r.line for r in recordings(name) if r.line in chosen]
-            found = pool.map(lambda line: run(line, folder), lines)
-            results |= dict(zip(lines, found, strict=True))
+            replay = [r for r in recordings(name) if r in chosen]
+            if replay and name in IN_ORDER:
+                replay = list(recordings(name))
+            with ThreadPoolExecutor(1 if name in IN_ORDER else AT_ONCE) as pool:
+                found = pool.map(lambda recording: run(recording.line, folder), replay)
+                results |= dict(zip(replay, found, strict=True))
     return results
 
 
@@ -95,11 +106,11 @@ def steady(text):
 
 @pytest.mark.parametrize('recording', ALL)
 def test_a_command_does_what_the_genuine_one_does(replayed, recording):
-    result = replayed[recording.line]
+    result = replayed[recording]
     assert not isinstance(result, subprocess.TimeoutExpired), result
     assert result.returncode == recording.code, result.stderr
     assert steady(result.stdout) == steady(recording.stdout)
-    said = NOISE.sub('', result.stderr).splitlines()
+    said = steady(NOISE.sub('', result.stderr)).splitlines()
     recorded = recording.stderr.splitlines()
     assert len(said) == len(recorded), result.stderr
     for ours, theirs in zip(said, recorded, strict=True):
