@@ -35,6 +35,7 @@ message_types.py      message, service and action classes by their names
 qos.py                QoS from flags, and matched to the publishers there are
 mismatch.py           tells who is there, but with another type
 message_filter.py     ``--filter``
+*_meter.py, spread.py  rates, bandwidths and delays of messages that arrive
 service_calls.py      requests and their responses
 ===================== =========================================================================
 

@@ -6,12 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 import time
 
-from rclpy.exceptions import InvalidTopicNameException
-from rclpy.expand_topic_name import expand_topic_name
 from rclpy.node import Node
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
-from rclpy.validate_full_topic_name import validate_full_topic_name
-from rclpy.validate_topic_name import validate_topic_name
 
 from amr_description.cli.local_participants import count_local_participants
 from amr_description.cli.session import Session
@@ -92,19 +88,6 @@ def _all_local_found(node: Node) -> bool:
         return False
     announcers = node.get_publishers_info_by_topic(_OF_EVERY_NODE)
     return all(publisher.node_name != _NOT_NAMED_YET for publisher in announcers)
-
-
-def full_topic_name(node: Node, name: str) -> str:
-    """Return the topic's absolute name; ``chatter`` is ``/chatter``. Raises AmrError."""
-    try:
-        validate_topic_name(name)
-        full_name = expand_topic_name(name, node.get_name(), node.get_namespace())
-        validate_full_topic_name(full_name)
-    except (InvalidTopicNameException, ValueError) as error:
-        reason = str(error).splitlines()[0].removeprefix('Invalid topic name: ').rstrip(':')
-        reason = reason.partition(', at /')[0]  # the place in rcl's sources
-        raise AmrError(f"'{name}' is not a topic: {reason}") from error
-    return full_name
 
 
 def topics(node: Node, *, hidden: bool = False) -> list[tuple[str, list[str]]]:

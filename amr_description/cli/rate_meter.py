@@ -3,34 +3,23 @@
 """The rate at which messages arrive."""
 
 from collections import deque
-from dataclasses import dataclass
-from math import sqrt
+
+from amr_description.cli.spread import Spread
 
 _REPORT_PERIOD = 1_000_000_000  # ns
 
 
-@dataclass(frozen=True)
-class Rate:
-    """
-    The intervals between the messages of a window, s.
+class Rate(Spread):
+    """The intervals between the messages of a window, s."""
 
-    ``rate`` = 1 / mean, Hz; ``deviation`` = sqrt(mean((interval - mean)²)), that of the whole
-    window and not an estimate from a sample.
-    """
-
-    rate: float
-    shortest: float
-    longest: float
-    deviation: float
-    window: int
+    @property
+    def rate(self) -> float:
+        """1 / mean, Hz."""
+        return 1.0 / self.mean if self.mean > 0.0 else 0.0
 
     def __str__(self) -> str:
         """Return the two lines that ``ros2 topic hz`` prints."""
-        return (
-            f'average rate: {self.rate:.3f}\n'
-            f'\tmin: {self.shortest:.3f}s max: {self.longest:.3f}s '
-            f'std dev: {self.deviation:.5f}s window: {self.window}'
-        )
+        return f'average rate: {self.rate:.3f}\n{super().__str__()}'
 
 
 class RateMeter:
@@ -62,16 +51,4 @@ class RateMeter:
         if self._last < self._reported + _REPORT_PERIOD:
             return None
         self._reported = self._last
-        return self._rate()
-
-    def _rate(self) -> Rate:
-        count = len(self._intervals)
-        mean = sum(self._intervals) / count
-        variance = sum((interval - mean) ** 2 for interval in self._intervals) / count
-        return Rate(
-            rate=1e9 / mean if mean > 0.0 else 0.0,
-            shortest=min(self._intervals) * 1e-9,
-            longest=max(self._intervals) * 1e-9,
-            deviation=sqrt(variance) * 1e-9,
-            window=count,
-        )
+        return Rate.of(self._intervals)

@@ -5,6 +5,8 @@
 import argparse
 
 VERBS = {
+    'bw': 'amr_description.cli.topic.bw',
+    'delay': 'amr_description.cli.topic.delay',
     'echo': 'amr_description.cli.topic.echo',
     'find': 'amr_description.cli.topic.find',
     'hz': 'amr_description.cli.topic.hz',

@@ -111,12 +111,13 @@ def main(args: Namespace) -> int:
     from amr_description.cli import graph
     from amr_description.cli.message_types import message_type
     from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
 
     if args.message_type:
         message_type(args.message_type)
     with open_session(use_sim_time=args.use_sim_time) as session:
-        topic = graph.full_topic_name(session.node, args.topic_name)
+        topic = full_name(session.node, args.topic_name)
         graph.wait_for_discovery(
             session,
             args.spin_time,

@@ -7,12 +7,9 @@ It is the rate at which messages arrive here, which may be lower than that of th
 """
 
 from argparse import ArgumentParser, Namespace
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from amr_description.cli.arguments import add_node_arguments, positive_int
-
-if TYPE_CHECKING:
-    from amr_description.cli.session import Session
 
 _WINDOW = 10000
 
@@ -46,46 +43,26 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print a report a second until Ctrl-C."""
-    from rclpy.experimental import EventsExecutor
-    from rclpy.qos import qos_profile_sensor_data
-
-    from amr_description.cli import graph
-    from amr_description.cli.message_types import message_type
-    from amr_description.cli.session import open_session
-
-    with open_session(use_sim_time=args.use_sim_time, executor=EventsExecutor) as session:
-        topic = graph.full_topic_name(session.node, args.topic_name)
-        message_class = message_type(graph.wait_for_type(session, topic))
-        session.node.create_subscription(
-            message_class,
-            topic,
-            _receiver(session, args),
-            qos_profile_sensor_data,
-            raw=args.filter_expr is None,
-        )
-        session.serve()
-    return 0
-
-
-def _receiver(session: 'Session', args: Namespace) -> Any:
-    """Return the callback that measures and prints."""
     from rclpy.clock import Clock, ClockType
 
     from amr_description.cli.message_filter import make_filter
     from amr_description.cli.rate_meter import RateMeter
+    from amr_description.cli.topic.measuring import measured_topic
 
     meter = RateMeter(args.window_size)
     wanted = make_filter(args.filter_expr)
-    system_clock = Clock(clock_type=ClockType.SYSTEM_TIME)
-    clock = system_clock if args.wall_time else session.node.get_clock()
+    with measured_topic(args.topic_name, use_sim_time=args.use_sim_time) as topic:
+        system_clock = Clock(clock_type=ClockType.SYSTEM_TIME)
+        clock = system_clock if args.wall_time else topic.session.node.get_clock()
 
-    def receive(message: Any) -> None:
-        if not wanted(message):
-            return
-        if not meter.add(clock.now().nanoseconds):
-            print('time has reset, resetting counters')
-        rate = meter.report()
-        if rate is not None:
-            print(rate)
+        def receive(message: Any) -> None:
+            if not wanted(message):
+                return
+            if not meter.add(clock.now().nanoseconds):
+                print('time has reset, resetting counters')
+            rate = meter.report()
+            if rate is not None:
+                print(rate)
 
-    return receive
+        topic.subscribe(receive, raw=args.filter_expr is None)
+    return 0

@@ -24,11 +24,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print type, publishers and subscriptions; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         node = session.node
-        topic = graph.full_topic_name(node, args.topic_name)
+        topic = full_name(node, args.topic_name)
         graph.wait_for_discovery(session, args.spin_time, lambda: graph.is_published(node, topic))
         types = graph.types_of(node, topic)
         if not types:

@@ -113,10 +113,11 @@ def main(args: Namespace) -> int:
     """Publish until done or Ctrl-C; 0 if done."""
     from rclpy.duration import Duration
 
-    from amr_description.cli import graph, qos
+    from amr_description.cli import qos
     from amr_description.cli.message_fields import set_fields
     from amr_description.cli.message_types import message_type
     from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_mapping
 
@@ -131,7 +132,7 @@ def main(args: Namespace) -> int:
     message = message_type(args.message_type)()
     stamps = set_fields(message, read_mapping(sys.stdin.read() if args.stdin else args.values))
     with open_session(name=args.node_name, use_sim_time=args.use_sim_time) as session:
-        topic = graph.full_topic_name(session.node, args.topic_name)
+        topic = full_name(session.node, args.topic_name)
         publisher = session.node.create_publisher(type(message), topic, qos.from_flags(args))
         others = Mismatch(session.node, topic, type(message), publishing=True)
         _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)

@@ -1,0 +1,85 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Display delay of topic from timestamp in header.
+
+It is the time between the stamp of a message and its arrival here, both by the same clock: use
+--use-sim-time for what is stamped with simulation time.
+"""
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
+from typing import Any
+
+from amr_description.cli.arguments import add_node_arguments, positive_int
+from amr_description.errors import AmrError
+
+_WINDOW = 10000
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the verb."""
+    parser.add_argument('topic', help='Topic name to calculate the delay for')
+    parser.add_argument(
+        '--window',
+        '-w',
+        type=positive_int,
+        default=_WINDOW,
+        metavar='WINDOW',
+        help=f'window size, in # of messages, for calculating rate (default: {_WINDOW})',
+    )
+    add_node_arguments(parser)
+
+
+def main(args: Namespace) -> int:
+    """Print a report a second until Ctrl-C."""
+    from amr_description.cli.delay_meter import DelayMeter
+    from amr_description.cli.topic.measuring import measured_topic
+
+    meter = DelayMeter(args.window)
+    with measured_topic(args.topic, use_sim_time=args.use_sim_time) as topic:
+        stamp_of = stamp_reader(topic.message_class)
+        clock = topic.session.node.get_clock()
+
+        def receive(message: bytes) -> None:
+            if not meter.add(clock.now().nanoseconds, stamp_of(message)):
+                print('time has reset, resetting counters')
+
+        def report() -> None:
+            delay = meter.report()
+            if delay is not None:
+                print(delay)
+            elif meter.started:
+                print('no new messages')
+
+        topic.subscribe(receive)
+        topic.every_second(report)
+    return 0
+
+
+def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
+    """
+    Return what reads the stamp, ns, out of a serialized message.
+
+    A header that comes first is read alone: the whole of a large image takes longer to read than
+    to arrive.
+
+    :raises AmrError: Messages of this class have no header.
+    """
+    from rclpy.serialization import deserialize_message
+    from rclpy.time import Time
+    from std_msgs.msg import Header
+
+    from amr_description.cli.message_types import type_name
+
+    fields = list(message_class.get_fields_and_field_types().items())
+    header = ('header', 'std_msgs/Header')
+    if header not in fields:
+        raise AmrError(
+            f'msg does not have header: the delay of {type_name(message_class)} is not known'
+        )
+    if fields[0] == header:
+        return lambda data: Time.from_msg(deserialize_message(data, Header).stamp).nanoseconds
+    return lambda data: Time.from_msg(
+        deserialize_message(data, message_class).header.stamp
+    ).nanoseconds

@@ -1,0 +1,49 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``ros2 topic hz``, ``bw`` and ``delay`` share: a topic waited for, heard, reported on."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from rclpy.clock import Clock, ClockType
+from rclpy.experimental import EventsExecutor
+from rclpy.qos import qos_profile_sensor_data
+
+from amr_description.cli import graph
+from amr_description.cli.message_types import message_type
+from amr_description.cli.names import full_name
+from amr_description.cli.session import open_session, Session
+
+_PERIOD = 1.0  # s
+
+
+@dataclass(frozen=True)
+class MeasuredTopic:
+    """A topic that is there, by its absolute name."""
+
+    session: Session
+    name: str
+    message_class: Any
+
+    def subscribe(self, receive: Callable[[Any], None], *, raw: bool = True) -> None:
+        """Have ``receive`` called with each message, or its bytes if ``raw``."""
+        self.session.node.create_subscription(
+            self.message_class, self.name, receive, qos_profile_sensor_data, raw=raw
+        )
+
+    def every_second(self, report: Callable[[], None]) -> None:
+        """Have ``report`` called once a second, also while simulation time stands still."""
+        clock = Clock(clock_type=ClockType.STEADY_TIME)
+        self.session.node.create_timer(_PERIOD, report, clock=clock)
+
+
+@contextmanager
+def measured_topic(name: str, *, use_sim_time: bool) -> Iterator[MeasuredTopic]:
+    """Yield a topic once it is there, and serve its callbacks until Ctrl-C. Raises AmrError."""
+    with open_session(use_sim_time=use_sim_time, executor=EventsExecutor) as session:
+        topic = full_name(session.node, name)
+        message_class = message_type(graph.wait_for_type(session, topic))
+        yield MeasuredTopic(session, topic, message_class)
+        session.serve()
