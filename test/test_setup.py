@@ -325,3 +325,14 @@ def test_executable_that_starts_is_left_as_it_is(tmp_path):
 def test_takes_no_arguments(arguments, code, capsys):
     assert main.main(arguments) == code
     assert 'takes no arguments' in capsys.readouterr().err
+
+
+def test_a_full_or_foreign_disk_is_one_line(monkeypatch, capsys):
+    def refuse(*_):
+        raise PermissionError(13, 'Permission denied', '/srv/checkout/.setup.lock')
+
+    monkeypatch.setattr(main.checkouts, 'one_at_a_time', refuse)
+    assert main.main([]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith('scripts/setup: error: ')
+    assert "Permission denied: '/srv/checkout/.setup.lock'" in line

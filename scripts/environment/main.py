@@ -82,7 +82,7 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
         checkout.check()
         with checkouts.one_at_a_time(checkout):
             busy = set_up(checkout, host.clean_environment(environment))
-    except SetupError as error:
+    except (SetupError, OSError) as error:  # the latter: disk full, not ours to write
         say(f'error: {error}')
         return FAILED
     except KeyboardInterrupt:
