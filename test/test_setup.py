@@ -331,7 +331,7 @@ def test_a_full_or_foreign_disk_is_one_line(monkeypatch, capsys):
     def refuse(*_):
         raise PermissionError(13, 'Permission denied', '/srv/checkout/.setup.lock')
 
-    monkeypatch.setattr(main.checkouts, 'one_at_a_time', refuse)
+    monkeypatch.setattr(main, 'one_at_a_time', refuse)
     assert main.main([]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith('scripts/setup: error: ')

@@ -10,7 +10,6 @@ import sys
 import time
 
 from . import (
-    checkout as checkouts,
     host,
     interface_wheel,
     launchers,
@@ -20,49 +19,65 @@ from . import (
     virtual_environment,
     workspace,
 )
+from .checkout import cache_folder, Checkout, one_at_a_time, stamp
 
 FAILED, INTERRUPTED = 1, 130
 
 
-def set_up(checkout: checkouts.Checkout, environment: Mapping[str, str]) -> bool:
+def set_up(checkout: Checkout, environment: Mapping[str, str]) -> bool:
     """Bring the checkout up to date; say whether there was anything to do."""
-    lock, interfaces = checkout.requirements, checkout.interfaces
-    cache = checkouts.cache_folder(environment)
-    environment_key = stamps.digest(
+    steps = (update_environment, update_interfaces, update_workspace)
+    return any([step(checkout, environment) for step in steps])
+
+
+def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bool:
+    """Make ``.venv`` anew, interfaces included, if the lock, the Python or the path is another."""
+    key = stamps.digest(
         str(checkout.root),
         os.path.realpath(sys.base_prefix),
         platform.python_version(),
-        lock.read_bytes(),
+        checkout.requirements.read_bytes(),
     )
-    interfaces_key = interface_wheel.key(interfaces, lock)
-    workspace_key = workspace.key(checkout)
-    installed = checkouts.stamp(checkout.venv, 'environment')
-    compiled = checkouts.stamp(checkout.venv, 'interfaces')
-    built = checkouts.stamp(workspace.stamp_folder(checkout), 'workspace')
-    busy = False
-
-    if not installed.holds(environment_key) or not _starts(checkout.venv):
-        busy = True
+    stale = not stamp(checkout.venv, 'environment').holds(key) or not _starts(checkout.venv)
+    if stale:
         fresh = checkout.venv.with_name('.venv.new')
-        virtual_environment.create(fresh, lock, environment)
-        interface_wheel.install(interfaces, lock, fresh, cache, environment)
+        virtual_environment.create(fresh, checkout.requirements, environment)
+        _install_interfaces(checkout, fresh, environment)
         virtual_environment.relocate(fresh, checkout.venv)
         launchers.write(fresh, checkout.venv, checkout.build)
-        checkouts.stamp(fresh, 'environment').write(environment_key)
-        checkouts.stamp(fresh, 'interfaces').write(interfaces_key)
+        stamp(fresh, 'environment').write(key)
         virtual_environment.replace(checkout.venv, fresh)
-    elif not compiled.holds(interfaces_key):
-        busy = True
-        compiled.remove()
-        interface_wheel.install(interfaces, lock, checkout.venv, cache, environment)
-        compiled.write(interfaces_key)
     launchers.write(checkout.venv, checkout.venv, checkout.build)
-    if not built.holds(workspace_key) or not workspace.is_complete(checkout):
-        busy = True
-        built.remove()
-        workspace.build(checkout, environment)
-        built.write(workspace_key)
-    return busy
+    return stale
+
+
+def update_interfaces(checkout: Checkout, environment: Mapping[str, str]) -> bool:
+    """Install the interface packages if their sources, or what they are built with, changed."""
+    key = interface_wheel.key(checkout.interfaces, checkout.requirements)
+    if stamp(checkout.venv, 'interfaces').holds(key):
+        return False
+    _install_interfaces(checkout, checkout.venv, environment)
+    return True
+
+
+def _install_interfaces(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
+    sources, lock = checkout.interfaces, checkout.requirements
+    installed = stamp(venv, 'interfaces')
+    installed.remove()
+    interface_wheel.install(sources, lock, venv, cache_folder(environment), environment)
+    installed.write(interface_wheel.key(sources, lock))
+
+
+def update_workspace(checkout: Checkout, environment: Mapping[str, str]) -> bool:
+    """Build the package if what the build looks at changed, or what it made is gone."""
+    key = workspace.key(checkout)
+    built = stamp(workspace.stamp_folder(checkout), 'workspace')
+    if built.holds(key) and workspace.is_complete(checkout):
+        return False
+    built.remove()
+    workspace.build(checkout, environment)
+    built.write(key)
+    return True
 
 
 def _starts(venv: Path) -> bool:
@@ -76,11 +91,11 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
         say(f'takes no arguments, got {" ".join(arguments)}; it makes .venv, install/ and build/')
         return 0 if arguments[0] in ('-h', '--help') else 2
     start = time.monotonic()
-    checkout = checkouts.Checkout(Path(__file__).resolve().parents[2])
+    checkout = Checkout(Path(__file__).resolve().parents[2])
     try:
         host.check_host()
         checkout.check()
-        with checkouts.one_at_a_time(checkout):
+        with one_at_a_time(checkout):
             busy = set_up(checkout, host.clean_environment(environment))
     except (SetupError, OSError) as error:  # the latter: disk full, not ours to write
         say(f'error: {error}')
