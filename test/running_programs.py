@@ -11,7 +11,6 @@ import subprocess
 import sys
 import time
 
-DOMAIN = int(os.environ['ROS_DOMAIN_ID'])  # conftest.py: this run's own
 PATIENCE = 30.0  # s; a bound that only a broken test reaches
 ENVIRONMENT = {
     'PYTHONPATH': os.pathsep.join(filter(None, sys.path)),

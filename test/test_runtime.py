@@ -14,7 +14,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
-from running_programs import DOMAIN, Program
+from running_programs import Program
 from std_msgs.msg import String
 
 from amr_description.errors import ParameterError, UsageError
@@ -83,7 +83,7 @@ say('asked by', stop.signum.name)
 
 @pytest.fixture
 def context():
-    rclpy.init(args=[], domain_id=DOMAIN)
+    rclpy.init(args=[])
     yield
     rclpy.try_shutdown()
 

@@ -7,7 +7,7 @@ import signal
 
 import pytest
 import rclpy
-from running_programs import DOMAIN, Program
+from running_programs import Program
 from std_msgs.msg import String
 
 from amr_description.nodes.listener import MinimalSubscriber
@@ -16,7 +16,7 @@ from amr_description.nodes.talker import MinimalPublisher
 
 @pytest.fixture
 def context():
-    rclpy.init(args=[], domain_id=DOMAIN)
+    rclpy.init(args=[])
     yield
     rclpy.try_shutdown()
 

@@ -12,7 +12,7 @@ from rcl_interfaces.srv import SetParameters
 import rclpy
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from running_programs import DOMAIN, Program
+from running_programs import Program
 
 from amr_description.nodes.clients import call, wait_until
 
@@ -62,7 +62,7 @@ class Robot(Node):
 
 @pytest.fixture
 def robot():
-    rclpy.init(args=[], domain_id=DOMAIN)
+    rclpy.init(args=[])
     node = Robot()
     yield node
     node.destroy_node()
