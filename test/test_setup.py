@@ -63,7 +63,7 @@ def made(checkout, monkeypatch):
         checkout.build.mkdir(parents=True, exist_ok=True)
         link = checkout.build / 'amr_description'
         link.unlink(missing_ok=True)
-        link.symlink_to(checkout.root)
+        link.symlink_to(checkout.root / 'amr_description')
         (checkout.install / 'lib').mkdir(parents=True, exist_ok=True)
 
     monkeypatch.setattr(virtual_environment, 'create', create)
@@ -127,6 +127,20 @@ def test_a_deleted_result_is_made_again(made, checkout, folder):
     (checkout.root / folder).rename(checkout.root / 'gone')
     assert made() != []
     assert made() == []
+
+
+def test_a_build_that_copies_or_is_of_another_place_is_not_complete(checkout, tmp_path):
+    link = checkout.build / 'amr_description'
+    link.parent.mkdir(parents=True)
+    (checkout.install / 'lib').mkdir(parents=True)
+    link.symlink_to(checkout.root / 'amr_description')
+    assert workspace.is_complete(checkout)
+    link.unlink()
+    link.symlink_to(tmp_path / 'where it was' / 'amr_description')
+    assert not workspace.is_complete(checkout)
+    link.unlink()
+    link.mkdir()
+    assert not workspace.is_complete(checkout)
 
 
 def test_a_python_that_is_gone_is_noticed(made, checkout):

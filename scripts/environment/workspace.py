@@ -38,11 +38,14 @@ def key(checkout: Checkout) -> str:
 
 def is_complete(checkout: Checkout) -> bool:
     """
-    Say whether a linked build is there.
+    Say whether a build is there that is linked to these sources.
 
-    One may have deleted ``build/`` alone, or have run a plain ``colcon build``, which copies.
+    One may have moved the checkout, deleted ``build/`` alone, or have run a plain ``colcon
+    build``, which copies.
     """
-    return (checkout.build / PACKAGE).is_symlink() and (checkout.install / 'lib').is_dir()
+    link, modules = checkout.build / PACKAGE, checkout.root / PACKAGE
+    linked = link.is_symlink() and link.resolve() == modules.resolve()
+    return linked and (checkout.install / 'lib').is_dir()
 
 
 def build(checkout: Checkout, environment: Mapping[str, str]) -> None:
