@@ -9,6 +9,7 @@ from pathlib import Path
 from ament_index_python import get_package_prefix, get_packages_with_prefixes
 from ament_index_python.packages import PackageNotFoundError
 
+from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
 
 _VARIABLE = 'AMENT_PREFIX_PATH'
@@ -25,13 +26,13 @@ def prefix_of(package: str) -> Path:
     """Return the prefix of a package. Raises AmrError."""
     if not os.environ.get(_VARIABLE):
         raise AmrError(
-            f"Package '{package}' not found: {_VARIABLE} is not set; source scripts/activate, or "
-            'the setup.bash of the workspace, first'
+            f"Package '{excerpt(package)}' not found: {_VARIABLE} is not set; source "
+            'scripts/activate, or the setup.bash of the workspace, first'
         )
     try:
         return Path(get_package_prefix(package))
     except (PackageNotFoundError, ValueError) as error:
-        raise AmrError(f"Package '{package}' not found") from error
+        raise AmrError(f"Package '{excerpt(package)}' not found") from error
 
 
 def executables_of(package: str) -> list[Path]:

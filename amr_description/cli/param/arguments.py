@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the verbs of ``ros2 param`` read in common."""
 
-from argparse import ArgumentParser, ArgumentTypeError
+from argparse import ArgumentParser
 
 from amr_description.cli.arguments import add_graph_arguments, nonnegative_float
 
@@ -21,12 +21,3 @@ def add_node_arguments(parser: ArgumentParser, *, optional: bool = False) -> Non
         default=1.0,
         help='Wait for N seconds until node becomes available (default: 1)',
     )
-
-
-def unicode_text(text: str) -> str:
-    """Read a name that ROS can send."""
-    try:
-        text.encode()
-    except UnicodeEncodeError as error:
-        raise ArgumentTypeError(f'not valid UTF-8: {text!a}') from error
-    return text

@@ -4,7 +4,8 @@
 
 from argparse import ArgumentParser, Namespace
 
-from amr_description.cli.param.arguments import add_node_arguments, unicode_text
+from amr_description.cli.arguments import unicode_text
+from amr_description.cli.param.arguments import add_node_arguments
 from amr_description.errors import AmrError
 
 

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import sys
 from typing import TYPE_CHECKING
 
-from amr_description.cli.param.arguments import add_node_arguments, unicode_text
+from amr_description.cli.arguments import unicode_text
+from amr_description.cli.param.arguments import add_node_arguments
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor

@@ -8,7 +8,8 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
-from amr_description.cli.param.arguments import add_node_arguments, unicode_text
+from amr_description.cli.arguments import unicode_text
+from amr_description.cli.param.arguments import add_node_arguments
 
 if TYPE_CHECKING:
     from amr_description.cli.session import Session

@@ -123,7 +123,10 @@ class RemoteParameters:
 
 def no_answer(node: str) -> str:
     """Say that a node's parameter services do not answer."""
-    return f'Wait for service timed out waiting for parameter services for node {node}'
+    return (
+        f'Wait for service timed out waiting for parameter services for node {node}: it has none, '
+        'or is busy'
+    )
 
 
 def _instead(name: str, known: Sequence[str]) -> str:

@@ -4,12 +4,14 @@
 Set parameter.
 
 The value is YAML: 5 is an integer and 5.0 a double, which are not the same to a node; on, off,
-true and false are booleans; '"5"' is a string, '[1.0, 2.0]' an array.
+true and false are booleans; '"5"' is a string, '[1.0, 2.0]' an array. Before a value that begins
+with a dash and is not a plain number stands '--': ros2 param set /node limit -- -.inf
 """
 
 from argparse import ArgumentParser, Namespace
 
-from amr_description.cli.param.arguments import add_node_arguments, unicode_text
+from amr_description.cli.arguments import unicode_text
+from amr_description.cli.param.arguments import add_node_arguments
 from amr_description.errors import AmrError
 
 

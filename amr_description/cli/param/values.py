@@ -46,7 +46,7 @@ def typed(text: str) -> Value:
     except AmrError as error:
         if isinstance(error.__cause__, yaml.parser.ParserError):
             return text  # '[left' may be meant, and the genuine command takes it
-        quoting = f'; for a string write {_quoted(text)}' if text.isprintable() else ''
+        quoting = f'; for a string write {_quoted(text)}' if excerpt(text) == text else ''
         raise AmrError(f'{error}{quoting}') from error
     return value if has_type(value) else text
 
