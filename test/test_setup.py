@@ -58,8 +58,8 @@ def made(checkout, monkeypatch):
         (venv / 'lib/python3.12/site-packages').mkdir(parents=True)
         (venv / 'pyvenv.cfg').write_text(f'command = {venv}')
 
-    def build(checkout, _environment):
-        calls.append('workspace')
+    def build(checkout, _environment, on_top):
+        calls.append('workspace, on top' if on_top else 'workspace')
         checkout.build.mkdir(parents=True, exist_ok=True)
         link = checkout.build / 'amr_description'
         link.unlink(missing_ok=True)
@@ -79,6 +79,10 @@ def made(checkout, monkeypatch):
     return set_up
 
 
+def interrupt(*_, **_options):
+    raise KeyboardInterrupt
+
+
 def test_all_is_made_once(made, checkout):
     assert made() == ['environment', 'interfaces', 'workspace']
     assert made() == []
@@ -90,16 +94,16 @@ def test_edits_of_data_need_nothing_but_new_files_a_build(made, checkout):
     (checkout.root / 'config/controllers.yaml').write_text('changed: true')
     assert made() == []
     (checkout.root / 'config/more.yaml').touch()
-    assert made() == ['workspace']
+    assert made() == ['workspace, on top']
     (checkout.root / 'config/more.yaml').unlink()
-    assert made() == ['workspace']
+    assert made() == ['workspace, on top']
 
 
 @pytest.mark.parametrize('name', ['setup.py', 'setup.cfg', 'package.xml'])
 def test_another_manifest_needs_a_build(made, checkout, name):
     made()
     (checkout.root / name).write_text('changed')
-    assert made() == ['workspace']
+    assert made() == ['workspace, on top']
 
 
 def test_another_interface_needs_the_wheel_alone(made, checkout):
@@ -111,7 +115,7 @@ def test_another_interface_needs_the_wheel_alone(made, checkout):
 def test_another_lock_needs_all(made, checkout):
     made()
     checkout.requirements.write_text('setuptools==79.0.1\n')
-    assert made() == ['environment', 'interfaces', 'workspace']
+    assert made() == ['environment', 'interfaces', 'workspace, on top']
 
 
 def test_a_moved_checkout_needs_all(made, checkout, monkeypatch):
@@ -161,9 +165,6 @@ def test_a_python_that_is_gone_is_noticed(made, checkout):
     ],
 )
 def test_an_interruption_leaves_that_step_to_do(made, monkeypatch, module, step, left):
-    def interrupt(*_):
-        raise KeyboardInterrupt
-
     with monkeypatch.context() as patch:
         patch.setattr(module, step, interrupt)
         with pytest.raises(KeyboardInterrupt):
@@ -176,7 +177,7 @@ def test_an_interrupted_rebuild_is_noticed_though_all_files_are_there(made, chec
     made()
     (checkout.root / 'setup.py').write_text('changed')
     with monkeypatch.context() as patch:
-        patch.setattr(workspace, 'build', lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+        patch.setattr(workspace, 'build', interrupt)
         with pytest.raises(KeyboardInterrupt):
             made()
     (checkout.root / 'setup.py').write_text('')

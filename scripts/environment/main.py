@@ -72,10 +72,11 @@ def update_workspace(checkout: Checkout, environment: Mapping[str, str]) -> bool
     """Build the package if what the build looks at changed, or what it made is gone."""
     key = workspace.key(checkout)
     built = stamp(workspace.stamp_folder(checkout), 'workspace')
-    if built.holds(key) and workspace.is_complete(checkout):
+    finished = built.exists() and workspace.is_complete(checkout)
+    if finished and built.holds(key):
         return False
     built.remove()
-    workspace.build(checkout, environment)
+    workspace.build(checkout, environment, on_top=finished)
     built.write(key)
     return True
 

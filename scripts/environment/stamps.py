@@ -51,6 +51,10 @@ class Stamp:
         except FileNotFoundError:
             return False
 
+    def exists(self) -> bool:
+        """Say whether the thing was made to its end, of whatever."""
+        return self.file.exists()
+
     def remove(self) -> None:
         """Declare the thing unfinished; to be called before changing it."""
         self.file.unlink(missing_ok=True)

@@ -48,18 +48,18 @@ def is_complete(checkout: Checkout) -> bool:
     return linked and (checkout.install / 'lib').is_dir()
 
 
-def build(checkout: Checkout, environment: Mapping[str, str]) -> None:
+def build(checkout: Checkout, environment: Mapping[str, str], on_top: bool) -> None:
     """
-    Build anew.
+    Build: from nothing, or on top of a finished earlier build.
 
-    colcon leaves links to files, and executables, that are gone: those folders are emptied
-    first. The link to the modules stays, for the sake of running programs.
+    On top, the link to the modules stays, for the sake of running programs. colcon would leave
+    links to files, and executables, that are gone: those folders are emptied first.
     """
     say('building the package with colcon ...')
-    stale = [checkout.install / 'share' / PACKAGE, checkout.install / 'lib' / PACKAGE]
-    stale += [checkout.build / folder for folder in DATA_FOLDERS]
-    if not is_complete(checkout):
-        stale = [checkout.build, checkout.install]
+    stale = [checkout.build, checkout.install]
+    if on_top:
+        stale = [checkout.install / 'share' / PACKAGE, checkout.install / 'lib' / PACKAGE]
+        stale += [checkout.build / folder for folder in DATA_FOLDERS]
     for folder in stale:
         shutil.rmtree(folder, ignore_errors=True)
     run(
