@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """``ros2 topic`` beyond the recordings: what goes on, what ends, and who is not reached."""
 
-import os
 import signal
 
 from fixtures.cli.commands import ros2, running_node, shell, started
@@ -10,11 +9,9 @@ import pytest
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.cli.mismatch import mismatches
-from amr_description.cli.quick_discovery import quick_discovery
 
 COMMAND = '/diff_drive_controller/cmd_vel'
 STAMPED = 'geometry_msgs/msg/TwistStamped'
-PROFILE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 
 
 @pytest.fixture(scope='module')
@@ -124,20 +121,3 @@ def test_hz_waits_for_the_topic_and_measures(fixture_node):
             rate = program.expect(r'average rate: ([\d.]+)\n\tmin: [\d.]+s max: [\d.]+s std dev')
             assert float(rate[1]) == pytest.approx(20.0, rel=0.5)
         assert program.end(signal.SIGINT) == 2
-
-
-def test_the_profile_is_handed_over_and_taken_back(monkeypatch):
-    monkeypatch.delenv(PROFILE, raising=False)
-    with quick_discovery():
-        path = os.environ[PROFILE]
-        with open(path) as file:
-            assert '<throughputController>' in file.read()
-    assert PROFILE not in os.environ
-    assert not os.path.exists(path)
-
-
-def test_a_profile_of_the_users_stays(monkeypatch):
-    monkeypatch.setenv(PROFILE, '/their/profile.xml')
-    with quick_discovery():
-        assert os.environ[PROFILE] == '/their/profile.xml'
-    assert os.environ[PROFILE] == '/their/profile.xml'

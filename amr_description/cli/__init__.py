@@ -26,16 +26,16 @@ excerpt.py            what was typed, as an error line may repeat it
 message_fields.py     a mapping -> the fields of a message; ``auto`` and ``now``
 message_text.py       a message -> YAML or CSV
 session.py            a hidden node while a verb runs; waiting and stopping
-quick_discovery.py    why ``ros2 topic list`` is complete after half a second
 local_participants.py how many others run on this host, from the UDP ports in use
 graph.py              who is there: topics, types, nodes
 services.py           who is there: services with their types
+actions.py            who is there: actions with their types, clients and servers
 names.py              names of topics, services and actions, as they are typed
 message_types.py      message, service and action classes by their names
 qos.py                QoS from flags, and matched to the publishers there are
 mismatch.py           tells who is there, but with another type
 message_filter.py     ``--filter``
-*_meter.py, spread.py  rates, bandwidths and delays of messages that arrive
+*_meter.py, spread.py rates, bandwidths and delays of messages that arrive
 service_calls.py      requests and their responses
 ===================== =========================================================================
 

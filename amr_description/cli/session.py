@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 import os
+import threading
 import time
 
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -13,8 +14,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.cli import streams
-from amr_description.cli.quick_discovery import quick_discovery
 from amr_description.nodes.runtime import argument_errors, ros
+from amr_description.nodes.stop_requests import StopRequested, StopRequests
 
 _POLL = 0.02  # s
 _IDLE = 0.5  # s; callbacks, signals and time-outs end the wait at once
@@ -26,6 +27,7 @@ class Session:
 
     node: Node
     executor: Executor
+    stop: StopRequests
 
     def spin(
         self, until: Callable[[], bool], timeout: float | None = None, *, poll: float = _POLL
@@ -49,6 +51,26 @@ class Session:
         """Serve callbacks, one of which makes ``done()`` true, at most for ``timeout`` s."""
         self.spin(done, timeout, poll=_IDLE)
 
+    @contextmanager
+    def finishing(self) -> Iterator[Callable[[], bool]]:
+        """
+        Leave it to the block how it ends when a signal asks for it; only a second interrupts it.
+
+        Yields what tells whether it is asked to. Nothing is served after the block.
+
+        :raises StopRequested: After the block, if it was asked to end.
+        """
+        asked = threading.Event()
+
+        def ask() -> None:
+            asked.set()
+            self.executor.wake()
+
+        with self.stop.on_stop(ask):
+            yield asked.is_set
+        if self.stop.signum is not None:
+            raise StopRequested(self.stop.signum)
+
 
 @contextmanager
 def open_session(
@@ -69,12 +91,12 @@ def open_session(
     """
     streams.keep_libraries_off_stdout()
     with ros(['--ros-args', *ros_args] if ros_args else []) as stop:
-        with argument_errors(), quick_discovery():
+        with argument_errors():
             node = _make_node(name or f'_ros2cli_{os.getpid()}', use_sim_time)
         serving = executor()
         serving.add_node(node)
         try:
-            yield Session(node, serving)
+            yield Session(node, serving, stop)
         finally:
             stop.leave()
             serving.shutdown()

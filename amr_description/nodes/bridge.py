@@ -11,8 +11,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from rcl_interfaces.msg import (
-    FloatingPointRange,
-    IntegerRange,
     ParameterDescriptor,
     SetParametersResult,
 )
@@ -27,14 +25,9 @@ from amr_description.errors import ParameterError
 from amr_description.model.robot import Robot
 from amr_description.nodes.message_types import message_type
 from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.node_parameters import declare, values
 from amr_description.nodes.outgoing import Outgoing, SIM_TIME
-from amr_description.parameters import build, Spec, specs
 from amr_description.registry import resolve
-
-_ARRAYS = {
-    'string_array': Parameter.Type.STRING_ARRAY,
-    'double_array': Parameter.Type.DOUBLE_ARRAY,
-}
 
 
 class ControllerNode:
@@ -92,8 +85,7 @@ class ControllerNode:
 
     def parameters(self) -> Any:
         """Read the node's parameters into the controller's table. Raises ParameterError."""
-        values = {name: self.node.get_parameter(name).value for name in self._specs}
-        return build(self._table, values)
+        return values(self.node, self._table)
 
     def connect(self) -> None:
         """Make the topics that the configured controller declares, in place of earlier ones."""
@@ -121,9 +113,7 @@ class ControllerNode:
     # --- parameters ---------------------------------------------------------------------------
 
     def _declare(self, manager_rate: int) -> None:
-        self._specs = {spec.name: spec for spec in specs(self._table)}
-        for spec in self._specs.values():
-            declare(self.node, spec)
+        declare(self.node, self._table)
         self.node.declare_parameter(
             'update_rate',
             manager_rate,
@@ -133,13 +123,10 @@ class ControllerNode:
 
     def _check(self, parameters: list[Parameter]) -> SetParametersResult:
         """Refuse what the table refuses; what is accepted counts at the next configure."""
-        for parameter in parameters:
-            spec = self._specs.get(parameter.name)
-            try:
-                if spec is not None:
-                    spec.check(parameter.value)
-            except ParameterError as error:
-                return SetParametersResult(successful=False, reason=str(error))
+        try:
+            values(self.node, self._table, parameters)
+        except ParameterError as error:
+            return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
     def _update_rate(self, manager_rate: int) -> int:
@@ -172,28 +159,6 @@ class ControllerNode:
         send = self._outgoing.send
         port.sink = lambda sample: send(fill, sample, message, publisher)
         return publisher
-
-
-def declare(node: Node, spec: Spec) -> None:
-    """Declare one row of a table, with its meaning, unit and bounds in the descriptor."""
-    unit = f' [{spec.unit}]' if spec.unit else ''
-    descriptor = ParameterDescriptor(description=spec.doc + unit, read_only=spec.read_only)
-    low, high = spec.bounds.minimum, spec.bounds.maximum
-    if low is not None and high is not None:
-        if spec.type == 'integer':
-            descriptor.integer_range = [IntegerRange(from_value=int(low), to_value=int(high))]
-        else:
-            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
-    array_type = _ARRAYS.get(spec.type)
-    if array_type is None:
-        node.declare_parameter(spec.name, spec.default, descriptor)
-        return
-    # An empty list has no type of its own in rclpy: the type is declared, then the value is set.
-    declared = node.declare_parameter(spec.name, array_type)
-    if declared.type_ == Parameter.Type.NOT_SET:
-        node.set_parameters([Parameter(spec.name, array_type, list(spec.default))])
-    descriptor.type = array_type.value
-    node.set_descriptor(spec.name, descriptor)
 
 
 def qos(wanted: Qos) -> QoSProfile:

@@ -19,16 +19,15 @@ from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
 from amr_description.errors import AmrError, SimulationError, SpawnError
 from amr_description.model.frames import rotate
-from amr_description.nodes.bridge import declare
 from amr_description.nodes.converters import (
     fill_pose,
     fill_stamp,
     fill_velocity,
     transform_of,
 )
+from amr_description.nodes.node_parameters import declare
 from amr_description.nodes.runtime import argument_errors, program, ros, spin
 from amr_description.nodes.simulation import Simulation, SimulationParameters
-from amr_description.parameters import build, specs
 from amr_description.sim.resources import resolve_uri
 from amr_description.sim.spawning import free_name, read_description, SpawnCode
 
@@ -43,11 +42,7 @@ class MujocoSim:
         """Make the node and the world. Raises SimulationError, ParameterError."""
         self.node = Node('mujoco_sim')
         try:
-            rows = list(specs(SimulationParameters))
-            for spec in rows:
-                declare(self.node, spec)
-            values = {spec.name: self.node.get_parameter(spec.name).value for spec in rows}
-            parameters = build(SimulationParameters, values)
+            parameters = declare(self.node, SimulationParameters)
             self.simulation = Simulation(self.node, executor, parameters, inherited(args))
         except Exception:
             self.node.destroy_node()

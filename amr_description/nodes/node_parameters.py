@@ -4,11 +4,16 @@
 
 from collections.abc import Iterable
 
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.parameters import build, specs
+from amr_description.parameters import build, Spec, specs
+
+_ARRAYS = {
+    'string_array': Parameter.Type.STRING_ARRAY,
+    'double_array': Parameter.Type.DOUBLE_ARRAY,
+}
 
 
 def declare[Table](node: Node, table: type[Table]) -> Table:
@@ -19,10 +24,7 @@ def declare[Table](node: Node, table: type[Table]) -> Table:
     :raises rclpy.exceptions.InvalidParameterTypeException: A value is of another type.
     """
     for spec in specs(table):
-        default = list(spec.default) if isinstance(spec.default, tuple) else spec.default
-        description = f'{spec.doc} ({spec.unit})' if spec.unit else spec.doc
-        descriptor = ParameterDescriptor(description=description, read_only=spec.read_only)
-        node.declare_parameter(spec.name, default, descriptor)
+        _declare(node, spec)
     return values(node, table)
 
 
@@ -34,3 +36,29 @@ def values[Table](node: Node, table: type[Table], changed: Iterable[Parameter] =
     """
     found = {spec.name: node.get_parameter(spec.name).value for spec in specs(table)}
     return build(table, found | {parameter.name: parameter.value for parameter in changed})
+
+
+def _declare(node: Node, spec: Spec) -> None:
+    array_type = _ARRAYS.get(spec.type)
+    if array_type is None:
+        node.declare_parameter(spec.name, spec.default, _descriptor(spec))
+        return
+    # An empty list has no type of its own in rclpy: the type is declared, then the value is set.
+    if node.declare_parameter(spec.name, array_type).type_ == Parameter.Type.NOT_SET:
+        node.set_parameters([Parameter(spec.name, array_type, list(spec.default))])
+    descriptor = _descriptor(spec)
+    descriptor.type = array_type.value
+    node.set_descriptor(spec.name, descriptor)
+
+
+def _descriptor(spec: Spec) -> ParameterDescriptor:
+    """Meaning, unit and range of one row."""
+    unit = f' [{spec.unit}]' if spec.unit else ''
+    descriptor = ParameterDescriptor(description=spec.doc + unit, read_only=spec.read_only)
+    low, high = spec.bounds.minimum, spec.bounds.maximum
+    if low is not None and high is not None:
+        if spec.type == 'integer':
+            descriptor.integer_range = [IntegerRange(from_value=int(low), to_value=int(high))]
+        elif spec.type == 'double':
+            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    return descriptor
