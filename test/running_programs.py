@@ -115,7 +115,10 @@ class Program:
             deadline = time.monotonic() + PATIENCE
             while self._read(deadline):
                 pass
-        return self.process.wait(PATIENCE)
+        code = self.process.wait(PATIENCE)
+        while self._master is not None and self._read(time.monotonic()):
+            pass  # a terminal keeps what was written to it
+        return code
 
     def _read(self, deadline):
         """Take some output; return whether there was any before the end or the deadline."""

@@ -9,6 +9,7 @@ from amr_description.cli import streams
 from amr_description.cli.program import LazyParser, run
 
 COMMANDS = {
+    'action': 'amr_description.cli.action',
     'control': 'amr_description.cli.control',
     'daemon': 'amr_description.cli.daemon',
     'interface': 'amr_description.cli.interface',

@@ -1,0 +1,45 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who is there: actions with their types, their clients and their servers."""
+
+from collections.abc import Callable
+
+from rclpy.action import (
+    get_action_client_names_and_types_by_node,
+    get_action_names_and_types,
+    get_action_server_names_and_types_by_node,
+)
+from rclpy.node import Node
+
+from amr_description.cli import graph
+
+Ends = list[tuple[str, list[str]]]
+"""Full names of nodes, each with the types under which it uses an action."""
+
+
+def actions(node: Node) -> list[tuple[str, list[str]]]:
+    """Return name and types of each action, sorted."""
+    return sorted(get_action_names_and_types(node))
+
+
+def types_of_action(node: Node, action: str) -> list[str]:
+    """Return the types under which an action, given by its absolute name, is used."""
+    return dict(get_action_names_and_types(node)).get(action, [])
+
+
+def clients_of(node: Node, action: str) -> Ends:
+    """Return the clients of an action, given by its absolute name."""
+    return _ends(node, action, get_action_client_names_and_types_by_node)
+
+
+def servers_of(node: Node, action: str) -> Ends:
+    """Return the servers of an action, given by its absolute name."""
+    return _ends(node, action, get_action_server_names_and_types_by_node)
+
+
+def _ends(node: Node, action: str, of_node: Callable[..., list[tuple[str, list[str]]]]) -> Ends:
+    found = (
+        (other.full_name, dict(of_node(node, other.name, other.namespace)).get(action))
+        for other in graph.nodes(node, hidden=True)
+    )
+    return [(name, types) for name, types in found if types]
