@@ -22,7 +22,7 @@ MANIFEST = '''\
 
 @pytest.fixture(scope='module')
 def prefix(tmp_path_factory):
-    """A prefix with the packages ``toys``, ``broken``, whose manifest is, and ``bare``, without."""
+    """A prefix with ``toys``, ``broken``, whose manifest is, and ``bare``, which has none."""
     folder = tmp_path_factory.mktemp('prefix')
     index = folder / 'share/ament_index/resource_index/packages'
     index.mkdir(parents=True)
