@@ -51,6 +51,7 @@ def test_delay_is_the_age_of_the_stamps():
     ):
         found = program.expect(r'average delay: (\d+)\.\d+\n.*window: 3\n')
         assert int(found[1]) > 1_700_000_000  # since 1970
+        program.expect("are not by this computer's clock: for simulation time use --use-sim-time")
 
 
 def test_delay_says_when_nothing_new_came(fixture_node):

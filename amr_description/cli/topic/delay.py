@@ -9,12 +9,14 @@ It is the time between the stamp of a message and its arrival here, both by the 
 
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
+import sys
 from typing import Any
 
 from amr_description.cli.arguments import add_node_arguments, positive_int
 from amr_description.errors import AmrError
 
 _WINDOW = 10000
+_AGES = 1e8  # s; no message takes three years, but simulation time begins in 1970
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -45,16 +47,31 @@ def main(args: Namespace) -> int:
             if not meter.add(clock.now().nanoseconds, stamp_of(message)):
                 print('time has reset, resetting counters')
 
+        told = False
+
         def report() -> None:
+            nonlocal told
             delay = meter.report()
             if delay is not None:
                 print(delay)
+                if abs(delay.mean) > _AGES and not told:
+                    told = True
+                    print(_other_clock(topic.name, args.use_sim_time), file=sys.stderr)
             elif meter.started:
                 print('no new messages')
 
         topic.subscribe(receive)
         topic.every_second(report)
     return 0
+
+
+def _other_clock(topic: str, use_sim_time: bool) -> str:
+    ours, hint = (
+        ('simulation time', 'leave --use-sim-time out')
+        if use_sim_time
+        else ("this computer's clock", 'for simulation time use --use-sim-time')
+    )
+    return f'WARNING: the stamps of {topic} are not by {ours}: {hint}'
 
 
 def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
