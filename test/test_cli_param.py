@@ -157,6 +157,20 @@ def test_a_file_of_100_kb_is_loaded(hand, tmp_path):
     assert param('get', HAND, 'gains.p') == (0, 'Double value is: 2.0\n', '')
 
 
+def test_what_dump_wrote_can_be_loaded(hand, tmp_path):
+    path = tmp_path / 'hand.yaml'
+    path.write_text(param('dump', HAND)[1])
+    code, text, error = param('load', HAND, str(path))
+    refused = 'Set parameter start_type_description_service failed: Trying to set a read-only'
+    assert code == 0
+    assert 'Set parameter bytes successful\n' in text
+    assert (error.startswith(refused), error.count('\n')) == (True, 1)
+    path.write_text(path.read_text().replace('_service: true', '_service: false'))
+    code, _, error = param('load', HAND, str(path))
+    assert code == 1
+    assert error.startswith(refused)
+
+
 def test_a_node_that_does_not_answer_is_told(arm, silent):
     def impatient(*args):
         return python('-c', IMPATIENT, 'param', *args)

@@ -67,6 +67,8 @@ STRING_ARRAY = ParameterType.PARAMETER_STRING_ARRAY
         ('[1, 2]', [1, 2], INTEGER_ARRAY),
         ('[1.0, .inf]', [1.0, math.inf], DOUBLE_ARRAY),
         ('[a, "5"]', ['a', '5'], STRING_ARRAY),
+        ('[!!binary YQ==, !!binary /w==]', [b'a', b'\xff'], BYTE_ARRAY),
+        ('[!!binary YWI=]', '[!!binary YWI=]', STRING),
     ],
 )
 def test_what_is_typed_has_the_type_of_yaml(text, value, kind):
@@ -150,7 +152,9 @@ def test_what_is_advised_has_the_type_that_is_wanted(text, wanted):
         assert to_message(typed(instead.strip("'")), wanted).type == wanted
 
 
-@pytest.mark.parametrize('value', [True, 5, -0.5, 'x: y', '5', '', [1.0, 2.0], ['a', '5'], []])
+@pytest.mark.parametrize(
+    'value', [True, 5, -0.5, 'x: y', '5', '', [1.0, 2.0], ['a', '5'], [b'a'], []]
+)
 def test_a_value_as_text_is_the_same_when_typed(value):
     assert typed(as_text(value)) == value
 

@@ -60,8 +60,10 @@ def _has(parameters: 'RemoteParameters', values: Mapping[str, 'Value']) -> bool:
     """Tell whether a node has the values that it refused: what ``dump`` wrote may be read-only."""
     from rclpy.parameter import parameter_value_to_python
 
+    from amr_description.cli.param.values import as_text
+
     found = parameters.values(list(values))
     return all(
-        name in found and parameter_value_to_python(found[name]) == value
+        name in found and as_text(parameter_value_to_python(found[name])) == as_text(value)
         for name, value in values.items()
     )

@@ -55,6 +55,8 @@ def has_type(value: Any) -> bool:
     """Tell whether a parameter can have a value that YAML gave."""
     elements = value if isinstance(value, list) else [value]
     kinds = {type(element) for element in elements}
+    if kinds == {bytes}:  # what dump writes of a byte array
+        return isinstance(value, list) and all(len(element) == 1 for element in value)
     return len(kinds) <= 1 and kinds.issubset(_SCALARS)
 
 
