@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 import rclpy
+from rclpy.client import Client
 from rclpy.node import Node
 
 from amr_description.errors import AmrError
@@ -43,6 +44,30 @@ def wait_until[Result](
             say()
         rclpy.spin_once(node, timeout_sec=_POLL)
     return result
+
+
+def ask_until_answered(
+    node: Node, client: Client, request: Any, *, timeout: float = 10.0
+) -> Any:
+    """
+    Send a request that changes nothing, again every second until it is answered.
+
+    Fast DDS finds the endpoints of two participants in either direction by itself, one perhaps a
+    second after the other. A server that does not know the client's yet does what it is asked for
+    and throws its response away. Once it has answered, other requests need to be sent only once.
+    Raises NoAnswerError.
+    """
+    pending = [client.call_async(request)]
+    response = wait_until(
+        node,
+        lambda: next((future.result() for future in pending if future.done()), None),
+        lambda: pending.append(client.call_async(request)),
+        every=1.0,
+        timeout=timeout,
+    )
+    if response is None:
+        raise NoAnswerError(f'service {client.srv_name} has not answered within {timeout:g} s')
+    return response
 
 
 def call(

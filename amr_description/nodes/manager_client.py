@@ -17,7 +17,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
-from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.clients import ask_until_answered, call, wait_until
 
 _ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -38,7 +38,7 @@ class ManagerClient:
         Wait until the manager is there; ``manager``: its node, relative to the namespace.
 
         ``timeout``: s, 0 for ever. ``silent``: for so long, s, waiting is not worth a line.
-        Raises ControllerError when it does not come.
+        Raises ControllerError when it does not come, NoAnswerError when it does not answer.
         """
         self._node = node
         self._call_timeout = call_timeout
@@ -46,34 +46,33 @@ class ManagerClient:
         self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
         service = f'{self.name}/list_controllers'
+        self._list = node.create_client(srv.ListControllers, service)
 
         def say() -> None:
             node.get_logger().warning(f'Could not contact service {service}')
             node.get_logger().info(f'waiting for service {service} to become available...')
 
-        client = node.create_client(srv.ListControllers, service)
-
         def ready() -> bool | None:
-            return True if client.service_is_ready() else None
+            return True if self._list.service_is_ready() else None
 
-        try:
-            found = None
-            if silent:
-                found = wait_until(node, ready, lambda: None, every=10.0, timeout=silent)
-            if not found:
-                node.get_logger().info(f'waiting for service {service} to become available...')
-                found = wait_until(node, ready, say, every=10.0, timeout=timeout)
-        finally:
-            node.destroy_client(client)
+        found = None
+        if silent:
+            found = wait_until(node, ready, lambda: None, every=10.0, timeout=silent)
+        if not found:
+            node.get_logger().info(f'waiting for service {service} to become available...')
+            found = wait_until(node, ready, say, every=10.0, timeout=timeout)
         if not found:
             raise ControllerError(
                 f'Could not contact service {service} within {timeout:g} s: the controller '
                 'manager comes up when a robot with a <ros2_control> block is spawned'
             )
+        self.states()
 
     def states(self) -> dict[str, str]:
         """Name → state of every loaded controller."""
-        response = self._call(srv.ListControllers, 'list_controllers')
+        response = ask_until_answered(
+            self._node, self._list, srv.ListControllers.Request(), timeout=self._call_timeout
+        )
         return {controller.name: controller.state for controller in response.controller}
 
     def load(self, name: str) -> bool:
@@ -157,26 +156,28 @@ class ManagerClient:
 
     def reasons(self, controller: str) -> str:
         """
-        Say why the last request failed; the services only say that it did.
+        Say why the last load failed; the services only say that it did.
 
-        A missing type is found by asking; the rest is what manager and controller have logged as
-        errors since that request, taken from the latched ``/rosout``.
+        A missing type is found by asking; the rest is :meth:`logged`.
         """
         asked = self._asked
-        missing = self._missing_type(controller)
-        if missing:
-            return missing
-        loggers = {self.name, f'{self.namespace.rstrip("/")}/{controller}'}
-        loggers = {name.strip('/').replace('/', '.') for name in loggers}
+        return self._missing_type(controller) or self.logged(controller, since=asked)
+
+    def logged(self, *nodes: str, since: float | None = None) -> str:
+        """
+        Return what the manager, and nodes beside it, have logged as errors; empty: nothing.
+
+        Taken from the latched ``/rosout``. ``since``: s, Unix time; None: the last request.
+        """
+        since = self._asked if since is None else since
+        inside = self.namespace.rstrip('/')
+        names = {self.name, *(f'{inside}/{node}' for node in nodes)}
+        loggers = {name.strip('/').replace('/', '.') for name in names}
         lines: list[str] = []
 
         def hear(message: Log) -> None:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
-            if (
-                message.level >= Log.ERROR
-                and message.name in loggers
-                and stamp >= asked
-            ):
+            if message.level >= Log.ERROR and message.name in loggers and stamp >= since:
                 lines.append(message.msg)
 
         subscription = self._node.create_subscription(Log, '/rosout', hear, _ROSOUT)
@@ -193,7 +194,7 @@ class ManagerClient:
         typed = sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
         return (
             f"no type is set for it; the parameters of {self.name} hold one for: "
-            f'{", ".join(typed) or "none"}; another file is given with -p FILE'
+            f'{", ".join(typed) or "none"}; a parameter file given here may name another'
         )
 
     def _call(self, service_type: Any, service: str, **fields: Any) -> Any:

@@ -25,7 +25,7 @@ from rclpy.utilities import remove_ros_args
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.nodes.manager_client import ManagerClient
 from amr_description.nodes.runtime import argument_errors, program, ros
-from amr_description.nodes.spawner_files import find_controller
+from amr_description.nodes.spawner_files import manager_parameters
 
 _MANAGER = 'controller_manager'
 
@@ -160,12 +160,7 @@ class Spawner:
         parameters: dict[str, str | list[str]] = {}
         if options.ros_args:
             parameters['node_options_args'] = list(options.ros_args)
-        if options.files:
-            entry = find_controller(name, options.files, self._manager.namespace)
-            parameters['params_file'] = list(options.files)
-            for key in ('type', 'fallback_controllers'):
-                if key in entry:
-                    parameters[key] = entry[key]
+        parameters |= manager_parameters(name, options.files, self._manager.namespace)
         for key, value in parameters.items():
             self._log.info(f'Setting controller param "{key}" to "{value}" for {name}')
         self._manager.set_parameters(name, parameters)

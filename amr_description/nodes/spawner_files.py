@@ -35,6 +35,22 @@ def find_controller(name: str, files: Sequence[str], namespace: str) -> dict[str
     )
 
 
+def manager_parameters(
+    name: str, files: Sequence[str], namespace: str
+) -> dict[str, str | list[str]]:
+    """
+    Return what to set at the manager before it loads a controller, below the controller's name.
+
+    ``files``: absolute paths; the first that speaks of the controller may name its type. Raises
+    ParameterError as :func:`find_controller`.
+    """
+    if not files:
+        return {}
+    entry = find_controller(name, files, namespace)
+    named = {key: entry[key] for key in ('type', 'fallback_controllers') if key in entry}
+    return {'params_file': list(files), **named}
+
+
 def parameters_of(
     name: str, content: Mapping[str, Any], namespace: str
 ) -> dict[str, Any] | None:

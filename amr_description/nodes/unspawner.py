@@ -52,7 +52,7 @@ def unload(
         elif manager.unload(name):
             log.info('Unloaded controller')
         else:
-            failures.append(f'{name}: {manager.reasons(name) or "see the log of the manager"}')
+            failures.append(f'{name}: {manager.logged(name) or "see the log of the manager"}')
     if failures:
         raise ControllerError(f'Failed to unload controller {"; ".join(failures)}')
 
