@@ -60,6 +60,15 @@ def nonnegative_float(text: str) -> float:
     return 0.0 if _number(float, text) == 0.0 else positive_float(text)
 
 
+def unicode_text(text: str) -> str:
+    """Read a name that ROS can send."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise ArgumentTypeError(f'not valid UTF-8: {text!a}') from error
+    return text
+
+
 def _number[T: (int, float)](kind: type[T], text: str) -> T | None:
     try:
         return kind(text)

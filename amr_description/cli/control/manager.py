@@ -3,11 +3,20 @@
 """What the verbs of ``ros2 control`` share: which controller manager, and how to ask it."""
 
 from argparse import ArgumentParser, Namespace, REMAINDER
-from typing import Any
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, TYPE_CHECKING
 
-from amr_description.cli.arguments import add_node_arguments
+from amr_description.cli.arguments import add_node_arguments, unicode_text
+from amr_description.errors import AmrError
+
+if TYPE_CHECKING:
+    from amr_description.cli.session import Session
+    from amr_description.nodes.manager_client import ManagerClient
 
 _DEFAULT = 'controller_manager'
+_CALL_TIMEOUT = 30.0  # s; once, as a change that is asked for twice is made twice
+_SILENT = 1.0  # s; usual discovery is not worth a line
 
 
 def add_manager_arguments(parser: ArgumentParser) -> None:
@@ -16,6 +25,7 @@ def add_manager_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         '-c',
         '--controller-manager',
+        type=unicode_text,
         default=_DEFAULT,
         help=f'Name of the controller manager ROS node (default: {_DEFAULT})',
     )
@@ -30,6 +40,13 @@ def add_manager_arguments(parser: ArgumentParser) -> None:
     )
 
 
+def add_controller_argument(parser: ArgumentParser, purpose: str) -> None:
+    """Add the name of a controller; ``purpose``: what is to happen to it."""
+    parser.add_argument(
+        'controller_name', type=unicode_text, help=f'Name of the controller {purpose}'
+    )
+
+
 def ask(args: Namespace, service: str, service_type: Any, request: Any) -> Any:
     """
     Return the response of a service of the controller manager.
@@ -40,6 +57,30 @@ def ask(args: Namespace, service: str, service_type: Any, request: Any) -> Any:
     from amr_description.cli.service_calls import call
     from amr_description.cli.session import open_session
 
-    manager = '/' + args.controller_manager.strip('/')
     with open_session(use_sim_time=args.use_sim_time, ros_args=args.ros_args) as session:
-        return call(session, f'{manager}/{service}', service_type, request)
+        return call(session, f'{_name(session, args)}/{service}', service_type, request)
+
+
+@contextmanager
+def open_manager(
+    args: Namespace, *, call_timeout: float = _CALL_TIMEOUT
+) -> 'Iterator[ManagerClient]':
+    """Yield the controller manager once it is there; ``call_timeout``: s for each answer."""
+    from amr_description.cli.session import open_session
+    from amr_description.nodes.manager_client import ManagerClient
+
+    with open_session(use_sim_time=args.use_sim_time, ros_args=args.ros_args) as session:
+        name = _name(session, args)
+        yield ManagerClient(session.node, name, call_timeout=call_timeout, silent=_SILENT)
+
+
+def failure(text: str, reason: str) -> AmrError:
+    """Return the error to raise; the services only say that they failed, so say why."""
+    return AmrError(f'{text}: {reason}' if reason else text)
+
+
+def _name(session: 'Session', args: Namespace) -> str:
+    from amr_description.cli.names import full_name
+
+    name = args.controller_manager.rstrip('/')
+    return full_name(session.node, name, 'the name of a controller manager')

@@ -1,0 +1,30 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Unload a controller in a controller manager."""
+
+from argparse import ArgumentParser, Namespace
+
+from amr_description.cli.colors import BLUE, colored
+from amr_description.cli.control.manager import (
+    add_controller_argument,
+    add_manager_arguments,
+    failure,
+    open_manager,
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the verb."""
+    add_manager_arguments(parser)
+    add_controller_argument(parser, 'to be unloaded')
+
+
+def main(args: Namespace) -> int:
+    """Do so; 0."""
+    name = args.controller_name
+    with open_manager(args) as manager:
+        if not manager.unload(name):
+            text = f'Error unloading controller {name}, check controller_manager logs'
+            raise failure(text, manager.logged(name))
+    print(colored(f'Successfully unloaded controller {name}', BLUE))
+    return 0

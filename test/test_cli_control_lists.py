@@ -1,0 +1,194 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The verbs of ``ros2 control`` that look, against outputs of the genuine one."""
+
+from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
+from controller_manager_msgs.srv import ListHardwareInterfaces
+from fixtures.cli.commands import ros2
+from lifecycle_msgs.msg import State
+from manager_host import ros_in_this_process, running_host
+import pytest
+
+from amr_description.cli.control.chains import dot, tree
+from amr_description.cli.control.list_hardware_components import lines as component_lines
+from amr_description.cli.control.list_hardware_interfaces import lines as interface_lines
+
+FRONT, BACK = 'joint_wheel_front_left', 'joint_wheel_back_left'
+
+
+@pytest.fixture(scope='module')
+def host(tmp_path_factory):
+    with ros_in_this_process(), running_host(tmp_path_factory.mktemp('host')) as host:
+        host.activate('joint_state_broadcaster', 'diff_drive_controller')
+        yield host
+
+
+@pytest.fixture
+def no_colors(monkeypatch):
+    monkeypatch.setenv('RCUTILS_COLORIZED_OUTPUT', '0')
+
+
+@pytest.fixture
+def colors(monkeypatch):
+    monkeypatch.setenv('RCUTILS_COLORIZED_OUTPUT', '1')
+
+
+def interface(name, available=True, claimed=False):
+    return HardwareInterface(
+        name=name, data_type='double', is_available=available, is_claimed=claimed
+    )
+
+
+INTERFACES = ListHardwareInterfaces.Response(
+    command_interfaces=[
+        interface(f'{FRONT}/velocity', claimed=True),
+        interface(f'{BACK}/velocity', claimed=True),
+        interface('diff_drive_controller/linear/velocity'),
+        interface('z/effort', available=False),
+    ],
+    state_interfaces=[interface(f'{FRONT}/position'), interface(f'{BACK}/position')],
+)
+COMPONENT = HardwareComponentState(
+    name='AmrSystem',
+    type='system',
+    plugin_name='mock_components/GenericSystem',
+    state=State(id=3, label='active'),
+    rw_rate=100,
+    command_interfaces=[
+        interface(f'{BACK}/velocity', claimed=True),
+        interface(f'{FRONT}/velocity', available=False),
+    ],
+    state_interfaces=[interface(f'{BACK}/position')],
+)
+
+
+def test_interfaces_stand_in_order(no_colors):
+    assert list(interface_lines(INTERFACES, verbose=False)) == [
+        'command interfaces',
+        '\tdiff_drive_controller/linear/velocity [available] [unclaimed]',
+        '\tjoint_wheel_back_left/velocity [available] [claimed]',
+        '\tjoint_wheel_front_left/velocity [available] [claimed]',
+        '\tz/effort [unavailable] [unclaimed]',
+        'state interfaces',
+        '\tjoint_wheel_back_left/position',
+        '\tjoint_wheel_front_left/position',
+    ]
+    verbose = list(interface_lines(INTERFACES, verbose=True))
+    assert verbose[2] == '\tjoint_wheel_back_left/velocity [double] [available] [claimed]'
+    assert verbose[-1] == '\tjoint_wheel_front_left/position [double]'
+
+
+def test_interfaces_are_coloured_by_what_may_be_done_with_them(colors):
+    lines = list(interface_lines(INTERFACES, verbose=False))
+    starts = [line.partition('m')[0] for line in lines if line.startswith('\t\033')]
+    assert starts == ['\t\033[96', '\t\033[94', '\t\033[94', '\t\033[93']
+
+
+def test_a_component_is_told_as_the_genuine_one_does(no_colors):
+    short = [
+        'Hardware Component 1',
+        '\tname: AmrSystem',
+        '\ttype: system',
+        '\tplugin name: mock_components/GenericSystem',
+        '\tstate: id=3 label=active',
+        '\tread/write rate: 100 Hz',
+        '\tis_async: False',
+        '\tcommand interfaces',
+        '\t\tjoint_wheel_back_left/velocity [available] [claimed]',
+        '\t\tjoint_wheel_front_left/velocity [unavailable] [unclaimed]',
+    ]
+    assert list(component_lines(1, COMPONENT, verbose=False)) == short
+    verbose = list(component_lines(1, COMPONENT, verbose=True))
+    assert verbose[8] == '\t\tjoint_wheel_back_left/velocity [double] [available] [claimed]'
+    assert verbose[-2:] == [
+        '\tstate interfaces',
+        '\t\tjoint_wheel_back_left/position [double] [available]',
+    ]
+
+
+@pytest.mark.parametrize(
+    ('label', 'number'),
+    [('active', 92), ('inactive', 95), ('unconfigured', 93), ('finalized', 91)],
+)
+def test_the_colour_of_a_component_is_its_state(colors, label, number):
+    component = HardwareComponentState(name='arm', state=State(label=label))
+    text = '\n'.join(component_lines(1, component, verbose=False))
+    assert f'name: \033[{number}marm\033[0m\n' in text
+    assert f'label=\033[{number}m{label}\033[0m\n' in text
+    assert 'plugin name: \033[93mplugin name missing!\033[0m\n' in text
+
+
+CHAIN = [
+    ControllerState(
+        name='drive',
+        type='a/Drive',
+        state='active',
+        required_command_interfaces=['left/velocity', 'right/velocity', 'arm/effort'],
+    ),
+    ControllerState(
+        name='left',
+        type='b/"Pid"',
+        state='inactive',
+        reference_interfaces=['velocity'],
+        required_command_interfaces=['wheel/effort'],
+        required_state_interfaces=['wheel/velocity'],
+    ),
+    ControllerState(name='alone', type='c/Alone', state='active'),
+]
+
+
+def test_chains_lead_down_to_the_hardware():
+    assert list(tree(CHAIN)) == [
+        'drive [active]',
+        '    -> left [inactive]: left/velocity',
+        '        -> hardware: wheel/effort',
+        '    -> hardware: right/velocity, arm/effort',
+        'alone [active]',
+    ]
+
+
+def test_a_chain_that_leads_back_ends():
+    ring = [
+        ControllerState(
+            name=name,
+            state='active',
+            reference_interfaces=['x'],
+            required_command_interfaces=[f'{other}/x'],
+        )
+        for name, other in (('a', 'b'), ('b', 'c'), ('c', 'b'))
+    ]
+    assert list(tree(ring)) == [
+        'a [active]',
+        '    -> b [active]: b/x',
+        '        -> c [active]: c/x',
+        '            -> b [active]: b/x',
+    ]
+
+
+def test_the_graph_has_every_controller_and_edge_once():
+    lines = list(dot(CHAIN))
+    assert (lines[0], lines[-1]) == ('digraph controllers {', '}')
+    assert r'    "left" [label="left\nb/\"Pid\"\ninactive", style=dashed];' in lines
+    assert [line for line in lines if '->' in line] == [
+        '    "drive" -> "left" [label="left/velocity"];',
+        r'    "drive" -> "hardware" [label="right/velocity\narm/effort"];',
+        '    "left" -> "hardware" [label="wheel/effort"];',
+        '    "hardware" -> "left" [label="wheel/velocity"];',
+    ]
+
+
+def test_the_manager_is_asked(host):
+    def control(verb):
+        result = ros2('control', verb)
+        assert result.returncode == 0, result.stderr
+        return result.stdout.splitlines()
+
+    assert control('list_controller_types') == [
+        f'{"diff_drive_controller/DiffDriveController":71}'
+        'controller_interface::ChainableControllerInterface',
+        f'{"joint_state_broadcaster/JointStateBroadcaster":71}'
+        'controller_interface::ControllerInterface',
+    ]
+    assert control('list_hardware_interfaces')[1].endswith('/velocity [available] [claimed]')
+    assert control('list_hardware_components')[:2] == ['Hardware Component 1', '\tname: hardware']
+    assert control('view_controller_chains')[0] == 'diff_drive_controller [active]'
