@@ -19,14 +19,24 @@ def table(*ports):
 def test_the_port_tells_domain_and_participant(domain):
     discovery, user, multicast = (7400 + 250 * domain + offset for offset in (10, 11, 0))
     lines = table(discovery, user, discovery + 4, user + 4, multicast, 53)
-    assert list(participant_ids(lines, domain)) == [0, 2]
-    assert list(participant_ids(lines, domain + 1)) == []
+    assert participant_ids(lines, domain) == {0, 2}
+    assert participant_ids(lines, domain + 1) == set()
 
 
-def test_a_port_in_use_counts():
+def test_a_lone_port_is_not_a_participant():
+    discovery = 7400 + 250 * 101 + 10
+    assert participant_ids(table(discovery + 8, discovery + 21), 101) == set()
+
+
+def test_ports_in_use_count():
     domain = 99
     before = count_local_participants(domain)
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as participant:
-        participant.bind(('127.0.0.1', 7400 + 250 * domain + 10 + 2 * 77))
+    first = 7400 + 250 * domain + 10 + 2 * 77
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as discovery,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as user,
+    ):
+        discovery.bind(('127.0.0.1', first))
+        user.bind(('127.0.0.1', first + 1))
         assert count_local_participants(domain) == before + 1
     assert count_local_participants(domain) == before

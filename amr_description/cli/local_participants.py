@@ -16,23 +16,25 @@ _PORT_BASE = 7400
 _DOMAIN_GAIN = 250
 _PARTICIPANT_GAIN = 2
 _UNICAST_OFFSET = 10
-_MOST_PARTICIPANTS = 120
+_PARTICIPANTS = range(120)
 
 
 def count_local_participants(domain: int) -> int:
     """Return how many participants of a domain run on this host, ours included."""
-    return len(set(participant_ids(_lines(), domain)))
+    return len(participant_ids(_lines(), domain))
 
 
-def participant_ids(table: Iterable[str], domain: int) -> Iterable[int]:
-    """Yield the participants of a domain, from the lines of ``/proc/net/udp``."""
+def participant_ids(table: Iterable[str], domain: int) -> set[int]:
+    """
+    Return the participants of a domain, from the lines of ``/proc/net/udp``.
+
+    A participant has the port after that too, for its data; a lone port is some other program's:
+    the ports of the highest domains lie among those that Linux gives to any socket.
+    """
+    ports = {int(line.split()[1].rpartition(':')[2], 16) for line in table}
     first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
-    for line in table:
-        _slot, local_address, *_ = line.split()
-        port = int(local_address.rpartition(':')[2], 16)
-        participant, odd = divmod(port - first, _PARTICIPANT_GAIN)
-        if 0 <= participant < _MOST_PARTICIPANTS and not odd:
-            yield participant
+    own = ((participant, first + _PARTICIPANT_GAIN * participant) for participant in _PARTICIPANTS)
+    return {participant for participant, port in own if port in ports and port + 1 in ports}
 
 
 def _lines() -> Iterable[str]:

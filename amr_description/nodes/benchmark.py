@@ -24,6 +24,7 @@ from simulation_interfaces.srv import GetEntityState
 
 from amr_description.errors import BringupError
 from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.command_benchmark import command_figures
 from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.startup_stages import stages_of, table
 from amr_description.sim.bare_loop import bare_real_time_factor
@@ -117,7 +118,7 @@ def parser() -> argparse.ArgumentParser:
         '--seconds', type=float, default=5.0, help='how long each speed is measured (5)'
     )
     options.add_argument(
-        '--domain-id', type=int, default=101, help='ROS domain in which it happens (101)'
+        '--domain-id', type=int, default=77, help='ROS domain in which it happens (77)'
     )
     return options
 
@@ -137,6 +138,8 @@ def benchmark(options: argparse.Namespace) -> int:
         print('in real time ...', flush=True)
         with bring_up(1) as run:
             stages = stages_of(run.lines)
+            print('the ros2 command ...', flush=True)
+            commands = command_figures(node, options.seconds)
         after = bare_real_time_factor(urdf, options.seconds / 2)
         node.destroy_node()
     bare = (before + after) / 2
@@ -146,7 +149,9 @@ def benchmark(options: argparse.Namespace) -> int:
 real-time factor                        at factor 0
 mj_step alone, before and after      {before:8.1f} {after:8.1f}
 full stack                           {full:8.1f}
-full stack / mj_step alone           {full / bare:8.3f}""")
+full stack / mj_step alone           {full / bare:8.3f}
+
+{commands}""")
     return 0
 
 

@@ -1,0 +1,108 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""How quick the ``ros2`` command is: its start, a look at the graph, what it keeps up with."""
+
+from array import array
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+import re
+import signal
+import statistics
+import subprocess
+import threading
+import time
+
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+
+_RUNS = 5
+_RATE_LINE = re.compile(r'average rate: ([\d.]+)')
+_JOINTS = ('joint_wheel_back_left', 'joint_wheel_back_right', 'front_left', 'front_right')
+
+
+def command_figures(node: Node, seconds: float) -> str:
+    """
+    Measure, and return a table; a stack should be running, and be left alone.
+
+    ``seconds``: wall time of each measurement of a stream.
+    """
+    rows = [
+        ('ros2 --help', f'{_median_time(["ros2", "--help"]):8.2f} s', '0.15 s'),
+        ('ros2 topic list', f'{_median_time(["ros2", "topic", "list"]):8.2f} s', '1.2 s'),
+        ('ros2 topic hz at 1000 Hz', f'{_hz(node, 1000.0, seconds):8.1f} Hz', ''),
+        ('ros2 topic echo of JointState at 500 Hz', f'{_echo(node, 500.0, seconds):8.1f} Hz', ''),
+    ]
+    lines = [
+        f'{name:<42}{value}{f"   (at most {most})" if most else ""}' for name, value, most in rows
+    ]
+    return '\n'.join(('the ros2 command', *lines))
+
+
+def _median_time(command: Sequence[str]) -> float:
+    """Wall time of a command, s: the median of some runs."""
+    times = []
+    for _ in range(_RUNS):
+        start = time.monotonic()
+        subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        times.append(time.monotonic() - start)
+    return statistics.median(times)
+
+
+def _hz(node: Node, rate: float, seconds: float) -> float:
+    """The rate that ``ros2 topic hz`` shows in the end, Hz."""
+    topic = '/benchmark/hz'
+    with _stream(node, topic, rate):
+        text = _output_of(['ros2', 'topic', 'hz', topic], seconds)
+    shown = _RATE_LINE.findall(text)
+    return float(shown[-1]) if shown else 0.0
+
+
+def _echo(node: Node, rate: float, seconds: float) -> float:
+    """The messages that ``ros2 topic echo`` prints per second of its printing, Hz."""
+    topic = '/benchmark/echo'
+    with _stream(node, topic, rate):
+        text = _output_of(['ros2', 'topic', 'echo', topic], seconds)
+    stamps = re.findall(r'sec: (\d+)\n +nanosec: (\d+)', text)
+    if len(stamps) < 2:
+        return 0.0
+    first, last = (int(sec) + int(nanosec) * 1e-9 for sec, nanosec in (stamps[0], stamps[-1]))
+    return (len(stamps) - 1) / (last - first)
+
+
+def _output_of(command: Sequence[str], seconds: float) -> str:
+    """What a command prints until it is interrupted after ``seconds``."""
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
+    timer = threading.Timer(seconds, process.send_signal, [signal.SIGINT])
+    timer.start()
+    try:
+        return process.communicate()[0]
+    finally:
+        timer.cancel()
+
+
+@contextmanager
+def _stream(node: Node, topic: str, rate: float) -> Iterator[None]:
+    """Publish joint states of four joints at ``rate`` Hz, stamped with the wall clock."""
+    publisher = node.create_publisher(JointState, topic, 10)
+    done = threading.Event()
+
+    def publish() -> None:
+        zeros = array('d', [0.0] * len(_JOINTS))
+        message = JointState(name=_JOINTS, position=zeros, velocity=zeros, effort=zeros)
+        due = time.monotonic()
+        while not done.wait(max(0.0, due - time.monotonic())):
+            due += 1.0 / rate
+            stamp = message.header.stamp
+            stamp.sec, stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+            publisher.publish(message)
+
+    thread = threading.Thread(target=publish, name='stream')
+    thread.start()
+    try:
+        yield
+    finally:
+        done.set()
+        thread.join()
+        node.destroy_publisher(publisher)
