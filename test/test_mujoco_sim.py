@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator as a process: what it takes in, what it refuses, and how create and spawner end."""
+"""The simulator as a process: what it takes in, what it refuses, how create and spawner end."""
 
 from pathlib import Path
 import signal
@@ -99,6 +99,37 @@ def test_hardware_that_nobody_knows_leaves_no_robot_behind(sim, node):
     assert "hardware plugin 'acme/Motor' is not known" in result.error_message
     assert state(node, 'amr').result.result == Result.RESULT_NOT_FOUND
     assert 'controller_manager' not in node.get_node_names()
+
+
+@pytest.mark.parametrize(
+    ('fields', 'code', 'message'),
+    [
+        ({'entity_namespace': 'my robot'}, SpawnCode.NAMESPACE_INVALID, "'my robot'"),
+        (
+            {'resource_string': URDF.replace('amr_description/MujocoSystem', 'builtins/int')},
+            SpawnCode.OPERATION_FAILED,
+            'TypeError: int()',
+        ),
+    ],
+)
+def test_what_only_others_refuse_leaves_the_simulator_running(sim, node, fields, code, message):
+    result = spawn(node, **{'name': 'amr', 'resource_string': URDF} | fields).result
+    assert result.result == code
+    assert message in result.error_message
+    assert '\n' not in result.error_message
+    assert state(node, 'amr').result.result == Result.RESULT_NOT_FOUND
+    assert spawn(node, name='amr', resource_string=URDF).result.result == Result.RESULT_OK
+
+
+def test_a_refused_update_rate_leaves_no_node_behind(tmp_path, node):
+    path = tmp_path / 'controllers.yaml'
+    path.write_text(YAML.replace('update_rate: 100', 'update_rate: 0'))
+    with running(
+        'mujoco_sim', '--ros-args', '-p', f'controllers:={path}', until='waiting for robots'
+    ):
+        result = spawn(node, name='amr', resource_string=URDF).result
+        assert "parameter 'update_rate'" in result.error_message
+        assert 'controller_manager' not in node.get_node_names()
 
 
 @pytest.mark.parametrize(

@@ -69,19 +69,26 @@ class ControllerManagerNode:
         )
         outgoing.own_clock_of(self.node)
         self.log: Log = logs.log_of(self.node.get_logger())
-        self.parameters = ManagerParameters(self.node, arguments)
+        try:
+            self.parameters = ManagerParameters(self.node, arguments)
+        except Exception:
+            self.destroy()
+            raise
 
-    def start(self, resources: ResourceManager, period: int) -> ControllerManager:
+    def make_manager(self, resources: ResourceManager, period: int) -> ControllerManager:
         """
-        Make the manager and its services; ``period``: of its tick, ns.
+        Make the manager, for the owner's loop; ``period``: of its tick, ns.
 
-        The caller hands the manager to the owner's loop.
+        On the owner's thread, or before the owner starts.
         """
         self.manager = ControllerManager(
             resources, self.parameters.update_rate, self.log, period=period
         )
-        ManagerServices(self)
         return self.manager
+
+    def start(self) -> None:
+        """Make the services, once there is a manager."""
+        ManagerServices(self)
 
     def nodes(self) -> list[Node]:
         """This node and those of its controllers."""
@@ -120,7 +127,7 @@ class ControllerManagerNode:
                 )
             try:
                 await self._owner.submit(lambda: self.manager.load(bridge.controller, type_name))
-            except AmrError:
+            except Exception:
                 bridge.destroy()
                 raise
             self._controllers[name] = bridge

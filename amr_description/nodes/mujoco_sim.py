@@ -10,13 +10,17 @@ their controller managers. ``~/get_entity_state`` tells where a robot truly is.
 from collections.abc import Sequence
 from itertools import pairwise
 import sys
+import traceback
 
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.exceptions import InvalidNamespaceException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.validate_namespace import validate_namespace
 from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
+from amr_description.control.foreign_errors import describe
 from amr_description.errors import AmrError, SimulationError, SpawnError
 from amr_description.model.frames import rotate
 from amr_description.nodes.converters import (
@@ -29,7 +33,7 @@ from amr_description.nodes.node_parameters import declare
 from amr_description.nodes.runtime import argument_errors, program, ros, spin
 from amr_description.nodes.simulation import Simulation, SimulationParameters
 from amr_description.sim.resources import resolve_uri
-from amr_description.sim.spawning import free_name, read_description, SpawnCode
+from amr_description.sim.spawning import read_description, SpawnCode
 
 WORLD_FRAME = 'world'
 """The frame of every pose that the simulator takes or gives."""
@@ -76,6 +80,9 @@ class MujocoSim:
             code = error.code if isinstance(error, SpawnError) else SpawnCode.OPERATION_FAILED
             _refuse(response.result, code, error)
             self.node.get_logger().error(f'{error}')
+        except Exception as error:  # a stranger's component may raise anything; others go on
+            _refuse(response.result, SpawnCode.OPERATION_FAILED, error)
+            self.node.get_logger().error(traceback.format_exc())
         return response
 
     async def _spawn(self, request: SpawnEntity.Request) -> str:
@@ -83,8 +90,6 @@ class MujocoSim:
         source = request.uri or request.name or 'robot_description'
         robot = read_description(text, source, self.simulation.log)
         name = request.name or robot.name
-        if request.allow_renaming:
-            name = free_name(name, self.simulation.world.names)
         frame = request.initial_pose.header.frame_id
         if frame not in ('', WORLD_FRAME):
             raise SpawnError(
@@ -92,8 +97,13 @@ class MujocoSim:
                 SpawnCode.INVALID_POSE,
             )
         pose = transform_of(request.initial_pose.pose)
-        await self.simulation.spawn(name, robot, pose, request.entity_namespace)
-        return name
+        return await self.simulation.spawn(
+            name,
+            robot,
+            pose,
+            _checked_namespace(request.entity_namespace),
+            allow_renaming=request.allow_renaming,
+        )
 
     async def _get_entity_state(
         self, request: GetEntityState.Request, response: GetEntityState.Response
@@ -147,9 +157,23 @@ def _read(uri: str) -> str:
         raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
 
 
-def _refuse(result: Result, code: int, error: AmrError) -> None:
+def _checked_namespace(namespace: str) -> str:
+    """Return the namespace, absolute. Raises SpawnError."""
+    absolute = f'/{namespace.removeprefix("/")}'
+    try:
+        validate_namespace(absolute)
+    except InvalidNamespaceException as error:
+        raise SpawnError(
+            f"the entity's namespace is '{namespace}', which ROS does not allow: "
+            f'{" ".join(str(error).split())}',
+            SpawnCode.NAMESPACE_INVALID,
+        ) from error
+    return absolute
+
+
+def _refuse(result: Result, code: int, error: Exception) -> None:
     result.result = code
-    result.error_message = str(error)
+    result.error_message = ' '.join(describe(error).split())
 
 
 def simulate(args: list[str] | None) -> int:

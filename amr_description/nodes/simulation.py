@@ -28,8 +28,10 @@ from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.outgoing import Outgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 from amr_description.nodes.parameter_files import read_parameter_file
+from amr_description.nodes.runtime import argument_errors
 from amr_description.parameters import parameter
 from amr_description.sim.resources import package_share
+from amr_description.sim.spawning import free_name
 from amr_description.sim.stepping import physics_stepping, steps_in
 from amr_description.sim.world import MujocoWorld
 
@@ -118,54 +120,73 @@ class Simulation:
             manager.destroy()
         self.logs.stop()
 
-    async def spawn(self, name: str, robot: Robot, pose: Transform, namespace: str) -> None:
+    async def spawn(
+        self,
+        name: str,
+        robot: Robot,
+        pose: Transform,
+        namespace: str,
+        *,
+        allow_renaming: bool = False,
+    ) -> str:
         """
         Put a robot into the world and, if it asks for control, start its controller manager.
 
-        Raises SpawnError, DescriptionError, HardwareError or ParameterError; nothing is then
-        left of the robot.
+        Return its name: another than ``name`` where that is taken and ``allow_renaming``. Raises
+        SpawnError, DescriptionError, HardwareError, ParameterError, or whatever the constructor
+        of a foreign component raises; nothing is then left of the robot.
         """
         node = self._manager_node(robot, namespace) if hardware_of(robot) else None
+
+        def insert() -> str:
+            given = free_name(name, self.world.names) if allow_renaming else name
+            self._insert(given, robot, pose, node)
+            return given
+
         try:
-            resources = await self.owner.submit(lambda: self._insert(name, robot, pose, node))
+            given = await self.owner.submit(insert)
         except Exception:
             if node is not None:
                 node.destroy()
             raise
         if node is not None:
-            self._managers[name] = node
+            self._managers[given] = node
             self._executor.add_node(node.node)
-            manager = node.start(resources, self._period(node.parameters.update_rate))
-            await self.owner.submit(lambda: self.owner.loop.managers.append(manager))
+            node.start()
+        return given
 
     def _insert(
         self, name: str, robot: Robot, pose: Transform, node: ControllerManagerNode | None
-    ) -> ResourceManager | None:
-        """On the owner's thread: robot, components, all of them active."""
+    ) -> None:
+        """On the owner's thread, in one go: robot, components, all of them active, manager."""
         if node is not None and not self.owner.loop.managers:
             self.world.timestep = physics_stepping(_period_of(node.parameters.update_rate)).step
         view = self.world.spawn(name, robot, pose)
         if node is None:
-            return None
+            return
         resources = ResourceManager(node.log)
         try:
             for info in hardware_of(robot):
                 resources.add(HARDWARE.find(info.plugin)(info, node.log, view))
                 resources.set_state(info.name, LifecycleState.ACTIVE)
         except Exception:
+            resources.shut_down()
             self.world.remove(name)
             raise
-        return resources
+        period = self._period(node.parameters.update_rate)
+        self.owner.loop.managers.append(node.make_manager(resources, period))
 
     def _manager_node(self, robot: Robot, namespace: str) -> ControllerManagerNode:
-        return ControllerManagerNode(
-            self.owner,
-            self._outgoing,
-            self.logs,
-            namespace=namespace,
-            robot=robot,
-            arguments=[*self._ros_args, *self._parameter_files(robot)],
-        )
+        arguments = [*self._ros_args, *self._parameter_files(robot)]
+        with argument_errors():
+            return ControllerManagerNode(
+                self.owner,
+                self._outgoing,
+                self.logs,
+                namespace=namespace,
+                robot=robot,
+                arguments=arguments,
+            )
 
     def _parameter_files(self, robot: Robot) -> Sequence[str]:
         """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""
