@@ -12,11 +12,17 @@ from manager_host import Host, PERIOD, ros_in_this_process, running_host
 import pytest
 from rcl_interfaces.srv import DescribeParameters
 import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from std_msgs.msg import String
 
+from amr_description.control.loop import Loop
 from amr_description.errors import ParameterError
 from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.owner import Mailbox, Owner
 
 FIXTURES = Path(__file__).parent / 'fixtures' / 'nodes'
 
@@ -208,6 +214,60 @@ def test_a_failing_turn_of_the_loop_ends_the_owner_with_the_motors_stopped(host,
     assert host.owner.failed
     assert set(host.hardware.written.values()) == {0.0}
     assert host.hardware.count('deactivate') == 1
+
+
+def test_converters_that_fail_end_nothing(host, capfd):
+    host.client.set_parameters('babbler', {'type': 'strangers/Babbler'})
+    host.activate('babbler')
+    publisher = host.client_node.create_publisher(String, '/babbler/heard', 1)
+
+    def complained():
+        publisher.publish(String())
+        errors = capfd.readouterr().err
+        lines.extend(line for line in errors.splitlines() if 'TypeError' in line)
+        said = '\n'.join(lines)
+        return "on '/babbler/said'" in said and "on '~/heard'" in said or None
+
+    lines = []
+    assert wait_until(host.client_node, complained, lambda: None, every=1.0, timeout=5.0)
+    assert not host.owner.failed
+    assert host.client.states() == {'babbler': 'active'}
+
+
+def test_a_controller_whose_topics_cannot_be_made_is_not_configured(host):
+    host.client.set_parameters('lost', {'type': 'strangers/Lost'})
+    assert host.client.load('lost')
+    assert not host.client.configure('lost')
+    assert 'no_such_msgs' in host.client.reasons('lost')
+    assert host.client.states() == {'lost': 'unconfigured'}
+
+
+def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
+    def break_down(*_):
+        raise ZeroDivisionError('a stranger')
+
+    monkeypatch.setattr(host.manager_node.manager, 'switch', break_down)
+    assert host.client.switch(activate=['any']) == 'ZeroDivisionError: a stranger'
+
+
+def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
+    node = Node('speaker')
+    outgoing = Outgoing(node)
+    gone, there = (node.create_publisher(String, name, 1) for name in ('gone', 'there'))
+    filled = []
+    for publisher in (gone, there):
+        outgoing.send(lambda sample, _: filled.append(sample), 'word', String(), publisher)
+    node.destroy_publisher(gone)
+    outgoing.publish(0)
+    assert filled == ['word', 'word']
+    node.destroy_node()
+
+
+def test_an_owner_that_was_never_started_stops_at_once(ros):
+    mailbox = Mailbox()
+    owner = Owner(Loop(None, None, mailbox, None, PERIOD), mailbox, SingleThreadedExecutor())
+    owner.stop()
+    assert not owner.failed
 
 
 @pytest.mark.parametrize('rate', ['0', '-5', '99.5', 'fast'])

@@ -21,6 +21,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from rclpy.subscription import Subscription
 
 from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Qos
+from amr_description.control.foreign_errors import describe
 from amr_description.errors import ParameterError
 from amr_description.model.robot import Robot
 from amr_description.nodes.message_types import message_type
@@ -143,7 +144,15 @@ class ControllerNode:
         convert = resolve(port.port.convert)
 
         def receive(message: Any) -> None:
-            if not port.put(convert(message)):
+            try:
+                sample = convert(message)
+            except Exception as error:  # a stranger's converter; the robot must go on
+                self.node.get_logger().error(
+                    f"Cannot accept a message on '{port.port.name}': {describe(error)}",
+                    throttle_duration_sec=1.0,
+                )
+                return
+            if not port.put(sample):
                 self.node.get_logger().warning(
                     "Can't accept new commands. subscriber is inactive", throttle_duration_sec=1.0
                 )

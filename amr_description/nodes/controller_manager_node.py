@@ -56,7 +56,6 @@ class ControllerManagerNode:
         self._logs = logs
         self._robot = robot
         self._controllers: dict[str, ControllerNode] = {}
-        self._loading: set[str] = set()
         self._modules: set[str] = set()
         self.node = Node(
             NODE_NAME,
@@ -105,35 +104,32 @@ class ControllerManagerNode:
 
     async def load(self, name: str) -> None:
         """Make the controller and its node here, and let the owner take it in."""
-        if name in self._controllers or name in self._loading:
+        if name in self._controllers:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
             )
         type_name = self.parameters.type_of(name)
         controller_class = CONTROLLERS.find(type_name)
         self._modules.add(controller_class.__module__)
-        self._loading.add(name)
+        with argument_errors():
+            bridge = ControllerNode(
+                name,
+                controller_class,
+                self.parameters.arguments_of(name),
+                namespace=self.node.get_namespace(),
+                update_rate=self.parameters.update_rate,
+                robot=self._robot,
+                outgoing=self._outgoing,
+                logs=self._logs,
+            )
+        # Before the owner is asked: others may see the controller in the list at once.
+        self._controllers[name] = bridge
+        self.node.executor.add_node(bridge.node)
         try:
-            with argument_errors():
-                bridge = ControllerNode(
-                    name,
-                    controller_class,
-                    self.parameters.arguments_of(name),
-                    namespace=self.node.get_namespace(),
-                    update_rate=self.parameters.update_rate,
-                    robot=self._robot,
-                    outgoing=self._outgoing,
-                    logs=self._logs,
-                )
-            try:
-                await self._owner.submit(lambda: self.manager.load(bridge.controller, type_name))
-            except Exception:
-                bridge.destroy()
-                raise
-            self._controllers[name] = bridge
-            self.node.executor.add_node(bridge.node)
-        finally:
-            self._loading.discard(name)
+            await self._owner.submit(lambda: self.manager.load(bridge.controller, type_name))
+        except Exception:
+            self._forget(name)
+            raise
 
     async def configure(self, name: str) -> None:
         """Configure a controller and make its topics. Raises ControllerError, ParameterError."""
@@ -151,19 +147,25 @@ class ControllerManagerNode:
             if states.get(name) is LifecycleState.UNCONFIGURED:
                 bridge.disconnect()
             raise
-        bridge.connect()
+        if self._controllers.get(name) is not bridge:
+            return  # it was unloaded since
+        try:
+            with argument_errors():
+                bridge.connect()
+        except Exception:
+            await self.cleanup(name)
+            raise
 
     async def cleanup(self, name: str) -> None:
         """Bring a controller back to unconfigured, without topics. Raises ControllerError."""
         await self._owner.submit(lambda: self.manager.cleanup(name))
-        self._controllers[name].disconnect()
+        if name in self._controllers:  # and was not unloaded since
+            self._controllers[name].disconnect()
 
     async def unload(self, name: str) -> None:
         """Remove a controller and its node. Raises ControllerError."""
         await self._owner.submit(lambda: self.manager.unload(name))
-        bridge = self._controllers.pop(name)
-        self.node.executor.remove_node(bridge.node)
-        bridge.destroy()
+        self._forget(name)
 
     async def reload_libraries(self, *, force: bool) -> None:
         """Unload every controller, and import anew what they were made of."""
@@ -195,3 +197,9 @@ class ControllerManagerNode:
         await self._owner.submit(
             lambda: self.manager.set_component_state(name, state, self._owner.loop.time)
         )
+
+    def _forget(self, name: str) -> None:
+        """Remove the node of a controller that the manager does not know, or no longer."""
+        bridge = self._controllers.pop(name)
+        self.node.executor.remove_node(bridge.node)
+        bridge.destroy()

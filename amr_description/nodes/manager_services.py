@@ -15,6 +15,7 @@ from controller_manager_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.qos import HistoryPolicy, QoSProfile
 
+from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError
@@ -142,6 +143,9 @@ class ManagerServices:
         except AmrError as error:
             self._node.get_logger().error(str(error))
             response.message = str(error)
+        except Exception as error:  # a stranger's class may raise anything; the robot must go on
+            self._node.get_logger().error(traceback.format_exc())
+            response.message = describe(error)
         return response
 
     async def _set_hardware_component_state(

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.clock import ROSClock
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
@@ -18,6 +19,7 @@ from rclpy.qos import QoSProfile
 from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
+from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import NANOSECONDS
 
 CLOCK_QOS = QoSProfile(depth=10)
@@ -34,6 +36,7 @@ class Outgoing:
         self._clocks: list[ROSClock] = []
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
         self._message = Clock()
+        self._logger = node.get_logger()
         self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
 
     def own_clock_of(self, node: Node) -> None:
@@ -70,6 +73,14 @@ class Outgoing:
         clock.sec, clock.nanosec = divmod(time, NANOSECONDS)
         self._publisher.publish(self._message)
         for fill, sample, message, publisher in self._outbox:
-            fill(sample, message)
-            publisher.publish(message)
+            try:
+                fill(sample, message)
+                publisher.publish(message)
+            except InvalidHandle:  # the topic went with a cleanup since it was said
+                continue
+            except Exception as error:  # a stranger's converter; the robot must go on
+                self._logger.error(
+                    f"Could not publish on '{publisher.topic_name}': {describe(error)}",
+                    throttle_duration_sec=1.0,
+                )
         self._outbox.clear()

@@ -108,9 +108,10 @@ class Owner:
         self._thread.start()
 
     def stop(self) -> None:
-        """End the loop after the turn that it is in, and wait for that."""
+        """End the loop after the turn that it is in, if it has begun, and wait for that."""
         self._mailbox.put(self.loop.stop)
-        self._thread.join()
+        if self._thread.ident is not None:
+            self._thread.join()
 
     def submit[Result](self, call: Callable[[], Result]) -> Future:
         """
