@@ -64,7 +64,7 @@ class Host:
         self.logs = LogThread()
         outgoing = Outgoing(self.node)
         mailbox = Mailbox()
-        loop = Loop(Clockwork(), WallPacer(1.0), mailbox, outgoing, PERIOD)
+        loop = Loop(Clockwork(), WallPacer(1.0, mailbox), mailbox, outgoing, PERIOD)
         self.owner = Owner(loop, mailbox, self.executor)
         try:
             self.manager_node = ControllerManagerNode(

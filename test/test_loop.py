@@ -22,6 +22,8 @@ class Outside:
         self.time = 0
         self.lateness = lambda: 0
         self.queue = []
+        self.while_pacing = []
+        """What others ask for before the instant is due, one list each time."""
         self.while_paused = []
         """What other threads ask for, one list a wait."""
 
@@ -33,6 +35,10 @@ class Outside:
 
     def pace(self, time):
         self.diary.append(('pace', time))
+        if not self.while_pacing:
+            return True
+        self.queue += self.while_pacing.pop(0)
+        return False
 
     def resume(self, time):
         self.diary.append(('resume', time))
@@ -236,6 +242,21 @@ def test_commands_behind_a_stop_are_still_made(outside, loop):
     outside.queue += [loop.stop, lambda: made.append(1)]
     loop.run()
     assert made == [1]
+
+
+def test_a_command_that_arrives_while_pacing_is_made_at_once_and_the_pace_goes_on(outside, loop):
+    outside.while_pacing = [[lambda: outside.diary.append(('command', loop.time))]]
+    turn(loop, 1)
+    at = 10 * MS
+    assert outside.diary[-3:] == [('pace', at), ('command', at), ('pace', at)]
+
+
+@pytest.mark.parametrize('request_', ['stop', 'pause'])
+def test_a_stop_and_a_pause_end_the_pacing(outside, loop, request_):
+    outside.while_pacing = [[getattr(loop, request_)]]
+    turn(loop, 1)
+    assert outside.diary[-1] == ('pace', 10 * MS)
+    assert outside.times('pace') == [10 * MS]
 
 
 # --- pause, resume -------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ SECOND = 1_000_000_000
 
 
 class WallClock:
-    """The ``time`` module as the pacer uses it, without waiting."""
+    """``time`` and an empty mailbox as the pacer uses them, without waiting."""
 
     def __init__(self):
         self.now = 100.0
@@ -21,15 +21,16 @@ class WallClock:
     def monotonic(self):
         return self.now
 
-    def sleep(self, delay):
+    def wait(self, delay):
         self.slept.append(delay)
         self.now += delay
+        return False
 
 
 def paced(monkeypatch, factor):
     clock = WallClock()
     monkeypatch.setattr(owner, 'time', clock)
-    pacer = WallPacer(factor)
+    pacer = WallPacer(factor, clock)
     pacer.resume(0)
     return clock, pacer
 
@@ -83,9 +84,17 @@ def test_a_late_turn_is_made_good_but_a_stop_of_the_machine_is_not(monkeypatch):
 
 
 def test_as_fast_as_possible_still_yields_now_and_then():
-    pacer = WallPacer(0.0)
+    pacer = WallPacer(0.0, Mailbox())
     pacer.resume(0)
     begin = time.monotonic()
     for tick in range(1000):
         pacer.pace(tick * SECOND)
     assert time.monotonic() - begin < 1000.0  # a thousand simulated seconds, not waited for
+
+
+def test_a_call_ends_the_sleep_of_slow_motion():
+    box = Mailbox()
+    pacer = WallPacer(1e-9, box)
+    pacer.resume(0)
+    box.put(print)
+    assert pacer.pace(SECOND) is False

@@ -14,7 +14,7 @@ One turn, at simulated time t::
     tick the managers due at t # read, update, write
     publish /clock, then what the controllers said at t
     step the world to the next instant at which something is due
-    pace
+    pace                       # what the queue brings meanwhile is done at once
 """
 
 from collections.abc import Callable, Iterable
@@ -37,8 +37,12 @@ class Stepper(Protocol):
 class Pacer(Protocol):
     """Whatever holds the loop back."""
 
-    def pace(self, time: int) -> None:
-        """Return when the instant ``time`` (ns) is due; at once when it is over."""
+    def pace(self, time: int) -> bool:
+        """
+        Wait until the instant ``time`` (ns) is due, not at all when it is over; return True.
+
+        False: it is not due yet, but a command has come.
+        """
 
     def resume(self, time: int) -> None:
         """Time begins, or goes on after a pause or a jump, at ``time`` (ns)."""
@@ -106,8 +110,7 @@ class Loop:
 
     def turn(self) -> None:
         """Do one turn; while paused, only what the queue asks."""
-        for command in self._commands.take():
-            command()
+        self._obey()
         if self._is_stopped:
             return
         if not self._is_running:
@@ -116,7 +119,12 @@ class Loop:
             self._commands.wait()
             return
         self.tick()
-        self._pacer.pace(self._stepper.advance(self._until_next(self.time)))
+        self._stepper.advance(self._until_next(self.time))
+        # In slow motion the next instant may be far off; nobody has to wait for it to be heard.
+        while not self._pacer.pace(self.time):
+            self._obey()
+            if self._is_stopped or not self._is_running:
+                return
 
     def tick(self) -> None:
         """Tick the managers due now, and publish."""
@@ -148,6 +156,10 @@ class Loop:
         for manager in self.managers:
             manager.reset(time)
         self._pacer.resume(time)
+
+    def _obey(self) -> None:
+        for command in self._commands.take():
+            command()
 
     def _until_next(self, time: int) -> int:
         """Time to the next instant at which a manager or ``/clock`` is due, ns; above 0."""

@@ -44,9 +44,9 @@ class Mailbox:
         self._arrived.clear()  # before the calls are taken: what comes in between wakes again
         return [self._calls.popleft() for _ in range(len(self._calls))]
 
-    def wait(self) -> None:
-        """Block until something arrives."""
-        self._arrived.wait()
+    def wait(self, timeout: float | None = None) -> bool:
+        """Block until something arrives, at most ``timeout`` s; tell whether something has."""
+        return self._arrived.wait(timeout)
 
 
 class WallPacer:
@@ -54,11 +54,12 @@ class WallPacer:
     Keeps simulated time at ``factor`` times the wall clock; 0: as fast as possible.
 
     Deadlines are absolute, so that the error of one sleep does not add up. Being late costs
-    real-time factor, never results.
+    real-time factor, never results. A call that arrives in ``mailbox`` ends a sleep.
     """
 
-    def __init__(self, factor: float) -> None:
+    def __init__(self, factor: float, mailbox: Mailbox) -> None:
         self._factor = factor
+        self._mailbox = mailbox
         self._wall_start = self._start = 0.0
         self._yielded = 0.0
 
@@ -67,17 +68,18 @@ class WallPacer:
         self._wall_start = time.monotonic()
         self._start = time_now / NANOSECONDS
 
-    def pace(self, time_due: int) -> None:
-        """Sleep until the instant ``time_due`` (ns) is due."""
+    def pace(self, time_due: int) -> bool:
+        """Sleep until the instant ``time_due`` (ns) is due; False: a call came before."""
         if self._factor == 0.0:
             self._yield()
-            return
+            return True
         due = self._wall_start + (time_due / NANOSECONDS - self._start) / self._factor
         delay = due - time.monotonic()
         if delay > 0.0:
-            time.sleep(delay)
-        elif delay < -_HOPELESSLY_LATE:
+            return not self._mailbox.wait(delay)
+        if delay < -_HOPELESSLY_LATE:
             self.resume(time_due)
+        return True
 
     def _yield(self) -> None:
         """Let the ROS thread have the interpreter's lock now and then; each time costs."""

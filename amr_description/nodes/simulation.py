@@ -99,7 +99,7 @@ class Simulation:
             mailbox = Mailbox()
             loop = Loop(
                 WorldStepper(self.world),
-                WallPacer(parameters.real_time_factor),
+                WallPacer(parameters.real_time_factor, mailbox),
                 mailbox,
                 self._outgoing,
                 CLOCK_PERIOD,
