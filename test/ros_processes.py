@@ -14,15 +14,10 @@ ROOT = Path(__file__).parents[1]
 PATIENCE = 30.0
 """s: how long a test waits for what should take a second, on a busy machine."""
 
-_START = (
-    'import sys; from importlib import import_module; sys.argv[0] = sys.argv[1].rpartition(".")[2];'
-    'module = import_module(sys.argv.pop(1)); sys.exit(module.main())'
-)
-
 
 def command(executable: str, *arguments: str) -> list[str]:
     """The command line of a node of this source tree."""
-    return [sys.executable, '-c', _START, f'amr_description.nodes.{executable}', *arguments]
+    return [sys.executable, '-m', f'amr_description.nodes.{executable}', *arguments]
 
 
 def run(executable: str, *arguments: str) -> subprocess.CompletedProcess:

@@ -82,6 +82,11 @@ def test_what_cannot_be_spawned_is_refused_with_its_code(sim, node):
         result = spawn(node, **fields).result
         assert (result.result, bool(result.error_message)) == (code, True), fields['name']
         assert '\n' not in result.error_message
+    second = spawn(node, name='second', resource_string=URDF).result
+    assert second.result == SpawnCode.NAMESPACE_INVALID
+    assert "the namespace '/' has a controller manager already" in second.error_message
+    apart = spawn(node, name='second', resource_string=URDF, entity_namespace='second')
+    assert apart.result.result == Result.RESULT_OK
     renamed = spawn(
         node,
         name='amr',

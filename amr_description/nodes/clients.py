@@ -76,19 +76,24 @@ def call(
     """Call a service that is there, once; return the response. Raises NoAnswerError."""
     client = node.create_client(service_type, name)
     try:
-        deadline = time.monotonic() + timeout
-        while not client.service_is_ready():
-            if time.monotonic() >= deadline:
-                raise NoAnswerError(
-                    f'service {name} is not there after {timeout:g} s; is its node running?'
-                )
-            rclpy.spin_once(node, timeout_sec=_POLL)
-        future = client.call_async(request)
-        rclpy.spin_until_future_complete(
-            node, future, timeout_sec=max(0.0, deadline - time.monotonic())
-        )
-        if not future.done():
-            raise NoAnswerError(f'service {name} has not answered within {timeout:g} s')
-        return future.result()
+        return call_with(node, client, request, timeout=timeout)
     finally:
         node.destroy_client(client)
+
+
+def call_with(node: Node, client: Client, request: Any, *, timeout: float = 10.0) -> Any:
+    """As :func:`call`, with a client that is there already."""
+    name, deadline = client.srv_name, time.monotonic() + timeout
+    while not client.service_is_ready():
+        if time.monotonic() >= deadline:
+            raise NoAnswerError(
+                f'service {name} is not there after {timeout:g} s; is its node running?'
+            )
+        rclpy.spin_once(node, timeout_sec=_POLL)
+    future = client.call_async(request)
+    rclpy.spin_until_future_complete(
+        node, future, timeout_sec=max(0.0, deadline - time.monotonic())
+    )
+    if not future.done():
+        raise NoAnswerError(f'service {name} has not answered within {timeout:g} s')
+    return future.result()

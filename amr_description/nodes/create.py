@@ -14,12 +14,12 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.utilities import remove_ros_args
 from simulation_interfaces.msg import Result
-from simulation_interfaces.srv import SpawnEntity
+from simulation_interfaces.srv import GetEntityState, SpawnEntity
 from std_msgs.msg import String
 
 from amr_description.errors import AmrError, UsageError
 from amr_description.model.frames import Transform
-from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.clients import ask_until_answered, call_with, wait_until
 from amr_description.nodes.converters import fill_pose
 from amr_description.nodes.runtime import argument_errors, program, ros
 from amr_description.sim.resources import resolve_uri
@@ -77,8 +77,7 @@ def create(args: list[str] | None) -> int:
                 (options.x, options.y, options.z), (options.R, options.P, options.Y)
             )
             fill_pose(pose, request.initial_pose.pose)
-            service = _find_simulator(node, options.world)
-            result = call(node, SpawnEntity, service, request, timeout=60.0).result
+            result = _spawn(node, _find_simulator(node, options.world), request)
             if result.result != Result.RESULT_OK:
                 node.get_logger().error(f'Entity creation failed. {result.error_message}')
                 return 1
@@ -86,6 +85,21 @@ def create(args: list[str] | None) -> int:
             return 0
         finally:
             node.destroy_node()
+
+
+def _spawn(node: Node, service: str, request: SpawnEntity.Request) -> Result:
+    """
+    Send the request once, for it must not be done twice.
+
+    A simulator that has not found this program's endpoints yet would throw its response away; so
+    it is asked something harmless first, where it offers that, by a client that is newer.
+    """
+    client = node.create_client(SpawnEntity, service)
+    probe = f'{service.rpartition("/")[0]}/get_entity_state'
+    if probe in dict(node.get_service_names_and_types()):
+        harmless = node.create_client(GetEntityState, probe)
+        ask_until_answered(node, harmless, GetEntityState.Request(), timeout=60.0)
+    return call_with(node, client, request, timeout=60.0).result
 
 
 def _description(node: Node, options: argparse.Namespace) -> str:
@@ -167,3 +181,7 @@ def main(args: list[str] | None = None) -> int:
     return program(lambda: create(args))
 
 
+
+
+if __name__ == '__main__':
+    sys.exit(main())

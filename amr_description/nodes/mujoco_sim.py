@@ -204,3 +204,7 @@ def simulate(args: list[str] | None) -> int:
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
     return program(lambda: simulate(args), stopped=0)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -16,6 +16,7 @@ import traceback
 from rclpy.executors import Executor
 from rclpy.task import Future
 
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
 
@@ -147,4 +148,12 @@ class Owner:
             self.on_failure()
         finally:
             for manager in self.loop.managers:
-                manager.shut_down(self.loop.time)
+                self._shut_down(manager)
+
+    def _shut_down(self, manager: ControllerManager) -> None:
+        """Stop one robot; whatever it raises, the next one has to be stopped too."""
+        try:
+            manager.shut_down(self.loop.time)
+        except Exception:
+            traceback.print_exc()
+            self.failed = True

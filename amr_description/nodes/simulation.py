@@ -18,6 +18,7 @@ from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
 from amr_description.control.loop import Loop
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.errors import SpawnError
 from amr_description.hardware import HARDWARE
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_tag import gazebo_plugins_of
@@ -31,7 +32,7 @@ from amr_description.nodes.parameter_files import read_parameter_file
 from amr_description.nodes.runtime import argument_errors
 from amr_description.parameters import parameter
 from amr_description.sim.resources import package_share
-from amr_description.sim.spawning import free_name
+from amr_description.sim.spawning import check_name, free_name, SpawnCode
 from amr_description.sim.stepping import physics_stepping, steps_in
 from amr_description.sim.world import MujocoWorld
 
@@ -140,6 +141,9 @@ class Simulation:
 
         def insert() -> str:
             given = free_name(name, self.world.names) if allow_renaming else name
+            check_name(given, self.world.names)
+            if node is not None:
+                self._check_namespace(node.node.get_namespace())
             self._insert(given, robot, pose, node)
             return given
 
@@ -150,10 +154,19 @@ class Simulation:
                 node.destroy()
             raise
         if node is not None:
-            self._managers[given] = node
             self._executor.add_node(node.node)
             node.start()
         return given
+
+    def _check_namespace(self, namespace: str) -> None:
+        """Refuse a second controller manager of one name: nobody could tell the two apart."""
+        taken = {each.node.get_namespace() for each in self._managers.values()}
+        if namespace in taken:
+            raise SpawnError(
+                f"the namespace '{namespace}' has a controller manager already; give the robot "
+                'one of its own (entity_namespace; create: --ros-args -r __ns:=/other)',
+                SpawnCode.NAMESPACE_INVALID,
+            )
 
     def _insert(
         self, name: str, robot: Robot, pose: Transform, node: ControllerManagerNode | None
@@ -175,6 +188,7 @@ class Simulation:
             raise
         period = self._period(node.parameters.update_rate)
         self.owner.loop.managers.append(node.make_manager(resources, period))
+        self._managers[name] = node
 
     def _manager_node(self, robot: Robot, namespace: str) -> ControllerManagerNode:
         arguments = [*self._ros_args, *self._parameter_files(robot)]

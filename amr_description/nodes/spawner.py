@@ -224,3 +224,7 @@ def _green(text: str) -> str:
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
     return program(lambda: spawn(args))
+
+
+if __name__ == '__main__':
+    sys.exit(main())
