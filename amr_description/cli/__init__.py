@@ -12,6 +12,7 @@ line in the table ``VERBS`` of ``<command>/__init__.py``; to add a command, writ
 ===================== =========================================================================
 main.py               the way in: standard streams, errors -> exit codes, Ctrl-C
 program.py            a command line read by tables; nothing is imported before it is needed
+completion.py         what may come next, for Tab in bash and zsh; from completers/
 ros2.py               the commands of ``ros2``
 topic/ node/ ...      a command each, its verbs in files of their own
 run.py launch.py      commands without verbs

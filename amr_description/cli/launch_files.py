@@ -4,6 +4,7 @@
 
 import ast
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from amr_description.bringup.arguments import suggestion
@@ -32,6 +33,17 @@ def find_launch_file(
         what = f"'{package}' is a stack" if package in STACKS else f"which one of '{package}'?"
         raise UsageError(f'{what}; {_known_stacks()}')
     return _of_package(package, file), list(arguments)
+
+
+def stacks_of(package: str) -> list[str]:
+    """Return what may be launched of a package: names of stacks, or files. Raises AmrError."""
+    share = prefix_of(package) / 'share' / package
+    files = []
+    for path in share.rglob('*.py'):
+        with suppress(AmrError):
+            if path.stem in _functions(path):
+                files.append(path.name)
+    return [*(STACKS if package == _OURS else ()), *sorted(files)]
 
 
 def _is_path(word: str) -> bool:
@@ -82,16 +94,22 @@ def _stack_file(path: Path) -> str:
         raise AmrError(f"there is no launch file '{path}'; {_known_stacks()}")
     if path.suffix != '.py':
         raise _foreign(path)
-    try:
-        tree = ast.parse(path.read_bytes(), str(path))
-    except (SyntaxError, ValueError) as error:
-        line = f', line {error.lineno}' if isinstance(error, SyntaxError) else ''
-        reason = error.msg if isinstance(error, SyntaxError) else error
-        raise AmrError(f"'{path}'{line}: is not Python: {reason}") from error
-    functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    functions = _functions(path)
     if path.stem not in functions and 'generate_launch_description' in functions:
         raise _foreign(path)
     return str(path)
+
+
+def _functions(path: Path) -> set[str]:
+    """Return the names of the functions of a Python file. Raises AmrError."""
+    try:
+        tree = ast.parse(path.read_bytes(), str(path))
+    except SyntaxError as error:
+        line = f', line {error.lineno}' if error.lineno else ''
+        raise AmrError(f"'{path}'{line}: is not Python: {error.msg}") from error
+    except (ValueError, OSError) as error:
+        raise AmrError(f"'{path}': is not Python: {error}") from error
+    return {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
 
 
 def _foreign(path: Path) -> AmrError:

@@ -13,9 +13,10 @@ It is imported when a command line reaches it, or when its line of help is print
 """
 
 import argparse
+from argparse import _SubParsersAction
 from collections.abc import Mapping, Sequence
 import importlib
-from itertools import takewhile
+from itertools import dropwhile, takewhile
 from types import ModuleType
 from typing import Any
 
@@ -33,7 +34,7 @@ class LazyParser(argparse.ArgumentParser):
         super().__init__(*args, **kwargs)
         self._module = module
         self._table: Mapping[str, str] = {}
-        self._mixing = False
+        self._mixes = True
 
     def parse_known_args(
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
@@ -43,13 +44,29 @@ class LazyParser(argparse.ArgumentParser):
             self._learn(importlib.import_module(self._module))
         if self._table:
             self._add_table(args or ())
-        if self._mixing or not self._can_mix(args or ()):
+        if not (self._mixes and self._can_mix(args or ())):
             return super().parse_known_args(args, namespace)
-        self._mixing = True  # it calls this method, for options and for positional words
+        self._mixes = False  # it calls this method, for options and for positional words
         try:
             return self.parse_known_intermixed_args(args, namespace)
         finally:
-            self._mixing = False
+            self._mixes = True
+
+    def expand(self, words: Sequence[str]) -> 'list[LazyParser]':
+        """
+        Learn what these words of a command line need, for one who looks at parsers from outside.
+
+        Returns the parsers that the words lead to, this one first. They read words in order.
+        """
+        self._mixes = False
+        if self._module:
+            self._learn(importlib.import_module(self._module))
+        if not self._table:
+            return [self]
+        table = self._table
+        subparsers = self._add_table(words, with_help=True)
+        rest = list(dropwhile(lambda word: word not in table, words))
+        return [self, *(subparsers.choices[rest[0]].expand(rest[1:]) if rest else [])]
 
     def _can_mix(self, args: Sequence[str]) -> bool:
         """Tell whether ``argparse`` can do it: no ``--``, open end, or alternative to a word."""
@@ -73,7 +90,9 @@ class LazyParser(argparse.ArgumentParser):
         else:
             self.set_defaults(main=module.main)
 
-    def _add_table(self, args: Sequence[str]) -> None:
+    def _add_table(
+        self, args: Sequence[str], *, with_help: bool = False
+    ) -> '_SubParsersAction[LazyParser]':
         """Add the names of the table; with their lines of help only if those are to be seen."""
         table, self._table = self._table, {}
         self.set_defaults(main=lambda _args: self.print_help() or 0)
@@ -86,7 +105,9 @@ class LazyParser(argparse.ArgumentParser):
             parser_class=LazyParser,
         )
         for name, module in table.items():
-            subparsers.add_parser(name, module=module)
+            about = {'help': _description(importlib.import_module(module))} if with_help else {}
+            subparsers.add_parser(name, module=module, **about)
+        return subparsers
 
 
 def run(parser: LazyParser, argv: Sequence[str]) -> int:

@@ -4,6 +4,7 @@
 
 import argparse
 from collections.abc import Sequence
+import os
 
 from amr_description.cli import streams
 from amr_description.cli.program import LazyParser, run
@@ -36,6 +37,10 @@ def main(argv: Sequence[str]) -> int:
         'stdout is interactive or not',
     )
     parser.read_table(COMMANDS)
+    if '_ARGCOMPLETE' in os.environ:  # a shell asks what may come next
+        from amr_description.cli.completion import complete
+
+        complete(parser)
     return run(parser, argv)
 
 

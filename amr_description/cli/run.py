@@ -26,7 +26,7 @@ _OURS = 'amr_description'
 
 # (package, executable) -> the executable of ours that takes its part where the package is not
 # installed, with what makes it the same to others; that comes last, so what the user says wins.
-_STAND_INS = {
+STAND_INS = {
     ('controller_manager', 'spawner'): 'spawner',
     ('controller_manager', 'unspawner'): 'unspawner',
     ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',
@@ -80,9 +80,9 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     from amr_description.cli.packages import executables_of, packages
 
     known = packages()
-    if package in known or (package, name) not in _STAND_INS or _OURS not in known:
+    if package in known or (package, name) not in STAND_INS or _OURS not in known:
         return _only_one(executables_of(package), package, name), ()
-    stand_in, *words = _STAND_INS[package, name].split()
+    stand_in, *words = STAND_INS[package, name].split()
     ours = executables_of(_OURS)
     if stand_in not in {path.name for path in ours}:
         raise AmrError(f"Package '{package}' not found, and {_OURS} has no '{stand_in}' yet")

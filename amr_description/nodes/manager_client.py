@@ -75,25 +75,30 @@ class ManagerClient:
         )
         return {controller.name: controller.state for controller in response.controller}
 
+    def typed_controllers(self) -> list[str]:
+        """Names of the controllers that the manager's parameters hold a type for."""
+        listed = self.call(ListParameters, 'list_parameters').result.names
+        return sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
+
     def load(self, name: str) -> bool:
         """Load a controller."""
-        return self._call(srv.LoadController, 'load_controller', name=name).ok
+        return self.call(srv.LoadController, 'load_controller', name=name).ok
 
     def configure(self, name: str) -> bool:
         """Configure a controller."""
-        return self._call(srv.ConfigureController, 'configure_controller', name=name).ok
+        return self.call(srv.ConfigureController, 'configure_controller', name=name).ok
 
     def unload(self, name: str) -> bool:
         """Unload a controller."""
-        return self._call(srv.UnloadController, 'unload_controller', name=name).ok
+        return self.call(srv.UnloadController, 'unload_controller', name=name).ok
 
     def cleanup(self, name: str) -> bool:
         """Bring an inactive controller back to unconfigured."""
-        return self._call(srv.CleanupController, 'cleanup_controller', name=name).ok
+        return self.call(srv.CleanupController, 'cleanup_controller', name=name).ok
 
     def reload_libraries(self, *, force_kill: bool) -> bool:
         """Unload all controllers, and import what they are made of anew."""
-        return self._call(
+        return self.call(
             srv.ReloadControllerLibraries, 'reload_controller_libraries', force_kill=force_kill
         ).ok
 
@@ -101,7 +106,7 @@ class ManagerClient:
         self, name: str, state: State
     ) -> srv.SetHardwareComponentState.Response:
         """Bring a hardware component to a state; the response has the state that it is in."""
-        return self._call(
+        return self.call(
             srv.SetHardwareComponentState,
             'set_hardware_component_state',
             name=name,
@@ -132,7 +137,7 @@ class ManagerClient:
         activate_asap: bool = True,
     ) -> srv.SwitchController.Response:
         """Switch; ``strictness``: as in the request, 0 for the manager's default."""
-        return self._call(
+        return self.call(
             srv.SwitchController,
             'switch_controller',
             activate_controllers=list(activate),
@@ -147,7 +152,7 @@ class ManagerClient:
         if not parameters:
             return
         rows = [Parameter(f'{controller}.{k}', value=v) for k, v in parameters.items()]
-        response = self._call(
+        response = self.call(
             SetParameters, 'set_parameters', parameters=[row.to_parameter_msg() for row in rows]
         )
         for row, result in zip(rows, response.results, strict=True):
@@ -187,17 +192,17 @@ class ManagerClient:
 
     def _missing_type(self, controller: str) -> str:
         """Say which controllers have a type, if this one has none."""
-        response = self._call(GetParameters, 'get_parameters', names=[f'{controller}.type'])
+        response = self.call(GetParameters, 'get_parameters', names=[f'{controller}.type'])
         if response.values and response.values[0].string_value:
             return ''
-        listed = self._call(ListParameters, 'list_parameters').result.names
-        typed = sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
+        typed = self.typed_controllers()
         return (
             f"no type is set for it; the parameters of {self.name} hold one for: "
             f'{", ".join(typed) or "none"}; a parameter file given here may name another'
         )
 
-    def _call(self, service_type: Any, service: str, **fields: Any) -> Any:
+    def call(self, service_type: Any, service: str, **fields: Any) -> Any:
+        """Call a service, by its name below that of the manager; return the response."""
         request = service_type.Request(**fields)
         self._asked = time.time()
         return call(

@@ -1,0 +1,56 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the controller manager of the line has."""
+
+from argparse import Namespace
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+
+from controller_manager_msgs.srv import ListHardwareComponents
+
+from amr_description.cli.names import full_name
+from amr_description.cli.session import open_session
+from amr_description.nodes.manager_client import ManagerClient
+
+_TIMEOUT = 2.0  # s; a person waits
+
+
+@contextmanager
+def _manager(args: Namespace) -> Iterator[ManagerClient]:
+    with open_session() as session:
+        name = full_name(session.node, args.controller_manager, 'a controller manager')
+        yield ManagerClient(session.node, name, timeout=_TIMEOUT, call_timeout=_TIMEOUT)
+
+
+def controllers(args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return the loaded controllers."""
+    with _manager(args) as manager:
+        return manager.states()
+
+
+def active_controllers(args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return the controllers that can be deactivated."""
+    return _in_state(args, 'active')
+
+
+def inactive_controllers(args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return the controllers that can be activated."""
+    return _in_state(args, 'inactive')
+
+
+def loadable_controllers(args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return the controllers that the manager has a type for and has not loaded."""
+    with _manager(args) as manager:
+        return set(manager.typed_controllers()) - manager.states().keys()
+
+
+def hardware_components(args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return the hardware components."""
+    with _manager(args) as manager:
+        response = manager.call(ListHardwareComponents, 'list_hardware_components')
+        return [component.name for component in response.component]
+
+
+def _in_state(args: Namespace, wanted: str) -> Iterable[str]:
+    with _manager(args) as manager:
+        return [name for name, state in manager.states().items() if state == wanted]
