@@ -74,3 +74,7 @@ def unspawn(args: list[str] | None) -> None:
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
     return program(lambda: unspawn(args))
+
+
+if __name__ == '__main__':
+    sys.exit(main())
