@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """
 The tutorial as an executable document: its shell lines typed into terminals, as in the README.
+And as the tutorial itself prints them, where the packages that it names are not installed.
 
 Each terminal is a bash of its own on a pseudo-terminal. What a line must show stands beside it.
 """
@@ -18,20 +19,40 @@ README = (ROOT / 'README.md').read_text(encoding='utf-8')
 PROMPT = 'amr-test> '
 COLOUR = re.compile(r'\x1b\[\d*m')
 CTRL_C = '\x03'
-TELEOP = (
-    'ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true '
-    '-r /cmd_vel:=/diff_drive_controller/cmd_vel'
-)
-PUB = (
-    'ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped '
-    '"{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}"'
-)
+TUTORIAL = r"""
+source install/setup.bash
+
+ros2 run py_pubsub talker
+ros2 run py_pubsub listener
+
+ros2 topic list          # see 'topic' in the list
+ros2 topic echo /topic   # watch the raw messages fly by
+
+check_urdf amr.urdf
+
+ros2 control list_controllers
+
+ros2 run teleop_twist_keyboard teleop_twist_keyboard \
+  --ros-args -p stamped:=true -r /cmd_vel:=/diff_drive_controller/cmd_vel
+
+ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \
+  "{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}"
+"""
+BOOKS = pytest.mark.parametrize('book', [README, TUTORIAL], ids=['README', 'tutorial'])
+
+
+def line_of(book, beginning):
+    """The line of a book that begins so, letter for letter; it may go on below."""
+    found = re.search(rf'^{re.escape(beginning)}(.*\\\n)*.*$', book, re.MULTILINE)
+    assert found, f'not in the book: {beginning}'
+    return found[0]
 
 
 class Shell:
     """A shell in a terminal; the person types a line and looks at what it prints."""
 
-    def __init__(self, program):
+    def __init__(self, program, book):
+        self.book = book
         self._program = program
         self._seen = 0
 
@@ -50,74 +71,87 @@ class Shell:
         self._seen = found.end()
         return found
 
-    def run(self, line, code=0):
-        """Type a line and wait until it has ended; return what it printed."""
-        assert_in_readme(line)
-        self.type(f'{line}; echo "exit=$?"')
+    def run(self, beginning, code=0):
+        """Type the line of the book that begins so; return what it printed, once it has ended."""
+        self.type(f'{line_of(self.book, beginning)}\necho "exit=$?"')
         begin = self._program.expect(re.escape('echo "exit=$?"') + r'\r?\n', self._seen).end()
         end = self._program.expect(r'exit=(\d+)\r?\n' + re.escape(PROMPT), begin)
         printed = COLOUR.sub('', self._program.output[begin : end.start()].replace('\r\n', '\n'))
         assert int(end[1]) == code, printed
-        return printed
+        return printed.replace(PROMPT, '')
 
+    def start(self, beginning):
+        """Type the line of the book that begins so; it goes on until Ctrl-C."""
+        self.type(line_of(self.book, beginning))
 
-def assert_in_readme(line):
-    """A line that is typed here stands in the README, letter for letter."""
-    assert re.search(rf'^{re.escape(line)}$', README, re.MULTILINE), f'not in the README: {line}'
+    def interrupt(self):
+        """Press Ctrl-C and wait for the prompt."""
+        self.press(CTRL_C)
+        assert 'Traceback' not in self.see(re.escape(PROMPT)).string
 
 
 @contextmanager
-def shell(activated=True):
+def terminal(book=README, *, activated=True, folder=ROOT):
+    """A new terminal for one who reads the book."""
     environment = {'PS1': PROMPT, 'TERM': 'dumb', 'COLUMNS': '200', 'HISTFILE': ''}
     bash = ['bash', '--norc', '--noprofile', '--noediting', '-i']
     with Program(*bash, terminal=True, env=environment, cwd=ROOT) as program:
         program.expect(re.escape(PROMPT))
-        terminal = Shell(program)
+        shell = Shell(program, book)
         if activated:
-            terminal.run('source scripts/activate')
-        yield terminal
+            shell.run('source scripts/activate' if book is README else 'source install/setup.bash')
+        shell.type(f'cd {folder}')
+        shell.see(re.escape(PROMPT))
+        yield shell
 
 
 @pytest.fixture(scope='module')
 def stack():
     """Terminal 1: the robot."""
-    with shell(activated=False) as terminal:
-        assert_in_readme_command('scripts/run')
-        terminal.type('scripts/run')
-        terminal.see(r'ready in \d+\.\d s: drive with')
-        terminal.see(re.escape('Ctrl-C stops all.'))
-        yield terminal
-        terminal.press(CTRL_C)
-        terminal.see(re.escape(PROMPT))
-        terminal.type('jobs; echo "left: $(jobs | wc -l)"')
-        terminal.see(r'left: 0')
+    with terminal(activated=False) as shell:
+        assert line_of(README, 'scripts/run ')
+        shell.type('scripts/run')
+        shell.see(r'ready in \d+\.\d s: drive with')
+        shell.see(re.escape('Ctrl-C stops all.'))
+        yield shell
+        shell.press(CTRL_C)
+        shell.see(re.escape(PROMPT))
+        shell.type('jobs; echo "left: $(jobs | wc -l)"')
+        shell.see(r'left: 0')
 
 
-def assert_in_readme_command(command):
-    assert re.search(rf'^{re.escape(command)} ', README, re.MULTILINE)
-
-
-def test_talker_and_listener():
-    with shell() as first, shell() as second:
-        for terminal, line in (
-            (first, 'ros2 run amr_description talker'),
-            (second, 'ros2 run amr_description listener'),
-        ):
-            assert_in_readme(line)
-            terminal.type(line)
+@pytest.mark.parametrize(
+    ('book', 'package'),
+    [(README, 'amr_description'), (TUTORIAL, 'py_pubsub')],
+    ids=['README', 'tutorial'],
+)
+def test_talker_and_listener(book, package):
+    with terminal(book) as first, terminal(book) as second:
+        first.start(f'ros2 run {package} talker')
+        second.start(f'ros2 run {package} listener')
+        if book is TUTORIAL:
+            second.see("package 'py_pubsub' is not installed: running 'listener' of amr_desc")
         first.see(r'\[INFO\] \[[\d.]+\] \[minimal_publisher\]: Publishing: "Hello World: \d+"')
         heard = second.see(r'\[minimal_subscriber\]: I heard: "Hello World: (\d+)"')
         again = second.see(r'\[minimal_subscriber\]: I heard: "Hello World: (\d+)"')
         assert int(again[1]) == int(heard[1]) + 1
-        for terminal in (first, second):
-            terminal.press(CTRL_C)
-            printed = terminal.see(re.escape(PROMPT)).string
-            assert 'Traceback' not in printed
+        second.interrupt()
+        if book is TUTORIAL:
+            assert '/topic' in second.run('ros2 topic list').split()
+            second.start('ros2 topic echo /topic')
+            second.see(r"data: 'Hello World: \d+'\r?\n---\r?\n")
+            second.interrupt()
+        first.interrupt()
 
 
-def test_check_urdf_prints_the_tree():
-    with shell() as terminal:
-        assert terminal.run('check_urdf urdf/amr.urdf') == (
+@pytest.mark.parametrize(
+    ('book', 'folder', 'line'),
+    [(README, ROOT, 'check_urdf urdf/amr.urdf'), (TUTORIAL, ROOT / 'urdf', 'check_urdf amr.urdf')],
+    ids=['README', 'tutorial'],
+)
+def test_check_urdf_prints_the_tree(book, folder, line):
+    with terminal(book, folder=folder) as shell:
+        assert shell.run(line) == (
             'robot name is: amr\n'
             '---------- Successfully Parsed XML ---------------\n'
             'root Link: base_footprint has 1 child(ren)\n'
@@ -130,8 +164,8 @@ def test_check_urdf_prints_the_tree():
 
 
 def test_the_topics_are_there(stack):
-    with shell() as terminal:
-        topics = terminal.run('ros2 topic list').split()
+    with terminal() as shell:
+        topics = shell.run('ros2 topic list').split()
     assert topics == sorted(topics)
     assert set(topics) >= {
         '/clock',
@@ -144,40 +178,45 @@ def test_the_topics_are_there(stack):
     }
 
 
-def test_both_controllers_are_active(stack):
-    with shell() as terminal:
-        assert terminal.run('ros2 control list_controllers').splitlines() == [
+@BOOKS
+def test_both_controllers_are_active(stack, book):
+    with terminal(book) as shell:
+        assert shell.run('ros2 control list_controllers').splitlines() == [
             'diff_drive_controller   diff_drive_controller/DiffDriveController      active',
             'joint_state_broadcaster joint_state_broadcaster/JointStateBroadcaster  active',
         ]
 
 
-def test_one_command_moves_the_robot_forward(stack):
-    with shell() as terminal:
-        before = odometry_x(terminal)
-        printed = terminal.run(PUB)
+@BOOKS
+def test_one_command_moves_the_robot_forward(stack, book):
+    with terminal() as watcher, terminal(book) as shell:
+        before = odometry_x(watcher)
+        printed = shell.run('ros2 topic pub --once /diff_drive_controller/cmd_vel ')
         assert 'publisher: beginning loop\n' in printed
         assert 'publishing #1: geometry_msgs.msg.TwistStamped(header=' in printed
-        assert odometry_x(terminal) > before + 0.1
+        assert odometry_x(watcher) > before + 0.1
 
 
-def test_the_keyboard_drives(stack):
-    with shell() as keyboard, shell() as terminal:
-        assert_in_readme(TELEOP)
-        before = odometry_x(terminal)
-        keyboard.type(TELEOP)
+@pytest.mark.parametrize(
+    ('book', 'package'),
+    [(README, 'amr_description'), (TUTORIAL, 'teleop_twist_keyboard')],
+    ids=['README', 'tutorial'],
+)
+def test_the_keyboard_drives(stack, book, package):
+    with terminal(book) as keyboard, terminal() as watcher:
+        before = odometry_x(watcher)
+        keyboard.start(f'ros2 run {package} teleop_twist_keyboard ')
         keyboard.see(r'currently:\s+speed 0\.5\s+turn 1\.0')
         keyboard.press('i')
-        while odometry_x(terminal) < before + 0.1:
+        while odometry_x(watcher) < before + 0.1:
             keyboard.press('i')
         keyboard.press('k')
-        keyboard.press(CTRL_C)
-        keyboard.see(re.escape(PROMPT))
+        keyboard.interrupt()
 
 
-def odometry_x(terminal):
+def odometry_x(shell):
     """The robot's x on /odom, m, by the line of the README."""
-    printed = terminal.run('ros2 topic echo /odom --once')
+    printed = shell.run('ros2 topic echo /odom --once')
     assert 'frame_id: odom\n' in printed
     assert 'child_frame_id: base_footprint\n' in printed
     assert printed.endswith('---\n')
