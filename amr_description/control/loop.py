@@ -30,8 +30,8 @@ class Stepper(Protocol):
     def time(self) -> int:
         """Present time, ns."""
 
-    def advance(self, period: int) -> int:
-        """Advance by ``period`` (ns), as nearly as its steps allow; return the time then, ns."""
+    def advance(self, period: int) -> None:
+        """Advance by ``period`` (ns), as nearly as its steps allow."""
 
 
 class Pacer(Protocol):

@@ -23,7 +23,6 @@ from amr_description.control.loop import Loop
 _HOPELESSLY_LATE = 0.1
 """s: beyond it the pacer starts anew, instead of making good what was missed in a burst."""
 
-
 _SHARE = 0.005
 """s: how long the owner keeps going, as fast as possible, before it yields."""
 

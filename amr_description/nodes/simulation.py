@@ -4,7 +4,7 @@
 The simulation in a process: the world, its owner, and the robots with their managers.
 
 A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of its own, in its
-namespace; removing the robot removes it.
+namespace.
 """
 
 from collections.abc import Sequence
@@ -22,6 +22,7 @@ from amr_description.errors import SpawnError
 from amr_description.hardware import HARDWARE
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_tag import gazebo_plugins_of
+from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.nodes.controller_manager_node import ControllerManagerNode
@@ -70,10 +71,9 @@ class WorldStepper:
         """Simulated time, ns."""
         return self._world.time
 
-    def advance(self, period: int) -> int:
+    def advance(self, period: int) -> None:
         """Step the physics by ``period`` (ns), rounded to its steps, by one at least."""
         self._world.step(max(1, round(period / self._world.timestep)))
-        return self._world.time
 
 
 class Simulation:
@@ -137,14 +137,15 @@ class Simulation:
         SpawnError, DescriptionError, HardwareError, ParameterError, or whatever the constructor
         of a foreign component raises; nothing is then left of the robot.
         """
-        node = self._manager_node(robot, namespace) if hardware_of(robot) else None
+        hardware = hardware_of(robot)
+        node = self._manager_node(robot, namespace) if hardware else None
 
         def insert() -> str:
             given = free_name(name, self.world.names) if allow_renaming else name
             check_name(given, self.world.names)
             if node is not None:
                 self._check_namespace(node.node.get_namespace())
-            self._insert(given, robot, pose, node)
+            self._insert(given, robot, pose, hardware, node)
             return given
 
         try:
@@ -169,7 +170,12 @@ class Simulation:
             )
 
     def _insert(
-        self, name: str, robot: Robot, pose: Transform, node: ControllerManagerNode | None
+        self,
+        name: str,
+        robot: Robot,
+        pose: Transform,
+        hardware: Sequence[HardwareInfo],
+        node: ControllerManagerNode | None,
     ) -> None:
         """On the owner's thread, in one go: robot, components, all of them active, manager."""
         if node is not None and not self.owner.loop.managers:
@@ -179,7 +185,7 @@ class Simulation:
             return
         resources = ResourceManager(node.log)
         try:
-            for info in hardware_of(robot):
+            for info in hardware:
                 resources.add(HARDWARE.find(info.plugin)(info, node.log, view))
                 resources.set_state(info.name, LifecycleState.ACTIVE)
         except Exception:

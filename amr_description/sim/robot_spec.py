@@ -43,11 +43,6 @@ class RobotSpec:
     treads: tuple[str, ...]
     """The geoms that touch the ground as wheels."""
 
-    @property
-    def is_fixed(self) -> bool:
-        """Whether the robot's root is the world."""
-        return self.robot.root.name == WORLD_LINK
-
 
 def root_joint(robot: Robot) -> str:
     """The name of the free joint of a robot that does not stand fixed."""
