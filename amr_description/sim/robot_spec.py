@@ -38,7 +38,6 @@ _COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'fals
 class RobotSpec:
     """One robot, ready to be attached to a world."""
 
-    robot: Robot
     spec: mujoco.MjSpec
     treads: tuple[str, ...]
     """The geoms that touch the ground as wheels."""
@@ -71,7 +70,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
             f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
-    return RobotSpec(robot, spec, treads)
+    return RobotSpec(spec, treads)
 
 
 def _prepared_xml(robot: Robot, log: Log) -> str:
