@@ -181,7 +181,5 @@ def main(args: list[str] | None = None) -> int:
     return program(lambda: create(args))
 
 
-
-
 if __name__ == '__main__':
     sys.exit(main())
