@@ -105,8 +105,11 @@ class FakeHardware(Faulty, HardwareComponent):
     def cleanup(self):
         self.meet('cleanup')
 
-    def switch_command_mode(self, start, stop):
-        self.meet('switch_command_mode', tuple(start), tuple(stop))
+    def prepare_command_mode_switch(self, start, stop):
+        self.meet('prepare', tuple(start), tuple(stop))
+
+    def perform_command_mode_switch(self, start, stop):
+        self.meet('perform', tuple(start), tuple(stop))
 
     def read(self, time, period):
         self.meet('read')

@@ -242,7 +242,7 @@ def test_a_controller_that_fails_is_deactivated_and_the_others_go_on(error):
     assert hardware.written == {'a': 0.0, 'b': 4.0}
     assert bad.count('update') == 3
     assert len(good.updates) == 4
-    assert hardware.calls.count(('switch_command_mode', (), ('a/velocity',))) == 1
+    assert hardware.calls.count(('perform', (), ('a/velocity',))) == 1
     texts = log.texts(Severity.ERROR)
     assert "'bad': no, thanks" in texts[0]
     assert ('Caught exception of type : ZeroDivisionError' in texts[0]) == (error is ERRORS[1])
@@ -260,7 +260,7 @@ def test_a_deactivation_that_fails_still_ends_the_claims(error):
     manager.switch([], ['fake'], Strictness.STRICT, 0)
     assert states_of(manager) == {'fake': 'inactive'}
     assert manager.resources.claims == {}
-    assert hardware.calls[-1] == ('switch_command_mode', (), ('j/velocity',))
+    assert hardware.calls[-1] == ('perform', (), ('j/velocity',))
     assert "Failed to deactivate 'fake' cleanly" in log.texts(Severity.ERROR)[0]
 
 

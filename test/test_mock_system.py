@@ -110,7 +110,7 @@ def test_infinite_command_fails(bad):
 
 def test_velocity_is_integrated():
     rig = Rig(calculate_dynamics='true')
-    rig.system.switch_command_mode(['ja/velocity'], [])
+    rig.system.perform_command_mode_switch(['ja/velocity'], [])
     rig.command('ja/velocity', 2.0)
     # The command acts from the next cycle on: period 0.1 s.
     assert rig.read(*JA) == pytest.approx([0.5, 2.0, 20.0])
@@ -121,7 +121,7 @@ def test_velocity_is_integrated():
 
 def test_acceleration_is_integrated_twice():
     rig = Rig(calculate_dynamics='true')
-    rig.system.switch_command_mode(['ja/acceleration'], [])
+    rig.system.perform_command_mode_switch(['ja/acceleration'], [])
     rig.command('ja/acceleration', 10.0)
     assert rig.read(*JA) == pytest.approx([0.5, 0.0, 10.0])
     assert rig.read(*JA) == pytest.approx([0.5, 1.0, 10.0])
@@ -130,7 +130,7 @@ def test_acceleration_is_integrated_twice():
 
 def test_position_is_differentiated():
     rig = Rig(calculate_dynamics='true')
-    rig.system.switch_command_mode(['ja/position'], [])
+    rig.system.perform_command_mode_switch(['ja/position'], [])
     rig.command('ja/position', 1.0)
     assert rig.read(*JA) == pytest.approx([1.0, 5.0, 50.0])
     assert rig.read(*JA) == pytest.approx([1.0, 0.0, -50.0])
@@ -138,19 +138,19 @@ def test_position_is_differentiated():
 
 def test_released_joint_stands_still():
     rig = Rig(calculate_dynamics='true')
-    rig.system.switch_command_mode(['ja/velocity'], [])
+    rig.system.perform_command_mode_switch(['ja/velocity'], [])
     rig.command('ja/velocity', 2.0)
     rig.read()
     rig.command('ja/velocity', math.nan)
-    rig.system.switch_command_mode([], ['ja/velocity'])
+    rig.system.perform_command_mode_switch([], ['ja/velocity'])
     assert rig.read(*JA) == rig.read(*JA) == [0.5, 0.0, 0.0]
 
 
 def test_two_modes_at_once_are_refused():
     rig = Rig(calculate_dynamics='true')
     with pytest.raises(HardwareError, match="joint 'ja' is to be commanded by position and velo"):
-        rig.system.switch_command_mode(['ja/position', 'ja/velocity'], [])
-    Rig().system.switch_command_mode(['ja/position', 'ja/velocity'], [])
+        rig.system.prepare_command_mode_switch(['ja/position', 'ja/velocity'], [])
+    Rig().system.prepare_command_mode_switch(['ja/position', 'ja/velocity'], [])
 
 
 def test_offset_between_command_and_state():

@@ -148,7 +148,7 @@ def test_released_joint_is_held_and_the_others_go_on(system, world):
     for command in system.command_interfaces():
         command.value = 5.0
     system.write(0, PERIOD)
-    system.switch_command_mode([], ['jb/velocity'])
+    system.perform_command_mode_switch([], ['jb/velocity'])
     system.write(0, PERIOD)
     assert world.commands == {'jb': 0.0, 'ja': 5.0}
 

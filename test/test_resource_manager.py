@@ -218,27 +218,28 @@ def test_requests_are_resolved_to_names():
 def test_each_component_hears_of_its_own_commands_only():
     left, right = FakeHardware(['a'], 'left'), FakeHardware(['b'], 'right')
     resources = bring_up(left, right)
-    resources.switch_command_mode(['a/velocity', 'lent/velocity'], [])
-    assert left.calls[-1] == ('switch_command_mode', ('a/velocity',), ())
-    assert right.count('switch_command_mode') == 0
+    resources.perform_command_mode_switch(['a/velocity', 'lent/velocity'], [])
+    assert left.calls[-1] == ('perform', ('a/velocity',), ())
+    assert right.count('perform') == 0
 
 
 @pytest.mark.parametrize('error', [HardwareError('not now'), KeyError('not now')])
-def test_when_one_refuses_those_that_agreed_are_told_the_reverse(error):
+def test_when_one_refuses_nobody_has_switched(error):
     left, right = FakeHardware(['a'], 'left'), FakeHardware(['b'], 'right')
     resources = bring_up(left, right)
-    right.faults['switch_command_mode'] = error
+    right.faults['prepare'] = error
     with pytest.raises(HardwareError, match=r"'right' refuses the command mode: .*not now"):
-        resources.switch_command_mode(['a/velocity'], ['b/velocity'])
-    assert left.calls[-1] == ('switch_command_mode', (), ('a/velocity',))
+        resources.prepare_command_mode_switch(['a/velocity'], ['b/velocity'])
+    assert left.calls[-1] == ('prepare', ('a/velocity',), ())
+    assert left.count('perform') == right.count('perform') == 0
 
 
 def test_a_component_that_is_down_is_not_bothered():
     hardware = FakeHardware(['a'])
     resources = bring_up(hardware)
     resources.set_state('hardware', UNCONFIGURED)
-    resources.switch_command_mode((), ['a/velocity'])
-    assert hardware.count('switch_command_mode') == 0
+    resources.perform_command_mode_switch((), ['a/velocity'])
+    assert hardware.count('perform') == 0
 
 
 # --- handles -------------------------------------------------------------------------------------

@@ -95,7 +95,7 @@ def test_claims_are_conserved_whatever_is_switched_and_whatever_fails(seed):
                 if dice.random() < 0.05
             }
         bench.hardware.faults = (
-            {'switch_command_mode': HardwareError('no')} if dice.random() < 0.05 else {}
+            {'prepare': HardwareError('no')} if dice.random() < 0.05 else {}
         )
         action = dice.random()
         try:
@@ -175,8 +175,8 @@ def test_an_interface_is_handed_over_within_one_request(bench, strictness):
     bench.switch('A')
     bench.switch('A2', 'A', strictness)
     assert bench.claims == {'a/velocity': 'A2'}
-    calls = [call for call in bench.hardware.calls if call[0] == 'switch_command_mode']
-    assert calls[-1] == ('switch_command_mode', ('a/velocity',), ('a/velocity',))
+    calls = [call for call in bench.hardware.calls if call[0] == 'perform']
+    assert calls[-1] == ('perform', ('a/velocity',), ('a/velocity',))
 
 
 @BOTH
@@ -321,7 +321,7 @@ def test_hardware_that_is_not_active_offers_no_commands(bench, strictness):
 @pytest.mark.parametrize('error', [HardwareError('not now'), TypeError('not now')])
 def test_hardware_that_refuses_the_mode(bench, strictness, error):
     bench.switch('A')
-    bench.hardware.faults['switch_command_mode'] = error
+    bench.hardware.faults['prepare'] = error
     message = (
         r'^Could not switch controllers since prepare command mode switch was rejected\. .*not now'
     )
@@ -345,7 +345,8 @@ def test_an_activation_that_fails(bench, strictness, left, error):
     bench.check_claims()
     assert any("Failed to activate 'A'" in text for text in bench.log.texts(Severity.ERROR))
     begun, ended = set(), set()
-    for _, start_names, stop_names in bench.hardware.calls[2:]:
+    performed = [call for call in bench.hardware.calls if call[0] == 'perform']
+    for _, start_names, stop_names in performed:
         begun |= set(start_names)
         ended |= set(stop_names)
     assert begun - ended == {f'{name.lower()}/velocity' for name in left - {'S'}}

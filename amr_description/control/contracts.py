@@ -181,11 +181,13 @@ class Controller(ABC):
     """The frozen dataclass of its parameters, see :mod:`amr_description.parameters`."""
 
     is_chainable: ClassVar[bool] = False
-    """True when it has :meth:`references`."""
+    """True when others may stand before it: it has :meth:`references` or :meth:`exported_states`."""
 
     def __init__(self, context: ControllerContext) -> None:
         self.context = context
         self.log = context.log
+        self.is_chained = False
+        """True while a preceding controller commands its references; the manager sets it."""
 
     @abstractmethod
     def configure(self, parameters: Any) -> None:
@@ -203,9 +205,25 @@ class Controller(ABC):
 
     def references(self) -> tuple[CommandInterface, ...]:
         """
-        What a preceding controller may command in chained mode; not empty makes it chainable.
+        What a preceding controller may command in chained mode, named
+        ``<controller>/<reference>``; asked after ``configure``.
         """
         return ()
+
+    def exported_states(self) -> tuple[StateInterface, ...]:
+        """
+        What other controllers may read of it, named ``<controller>/<state>``; asked after
+        ``configure``.
+        """
+        return ()
+
+    def set_chained_mode(self, is_chained: bool) -> None:
+        """
+        Take commands from the references (``True``) or from the topics; while inactive.
+
+        Raises ControllerError to refuse.
+        """
+        self.is_chained = is_chained
 
     def inputs(self) -> tuple[Input[Any], ...]:
         """The topics it hears; asked after ``configure``, opened by ``activate``."""
@@ -308,7 +326,8 @@ class HardwareComponent(ABC):
     Life as a controller's. ``read`` is called while inactive or active, ``write`` only while
     active. Neither may block: a component that owns a device lets a thread of its own do the I/O
     and exchanges snapshots with it. When one of them raises, the component is brought down
-    (``deactivate``, ``cleanup``), so that nothing goes on moving by itself.
+    (``deactivate``, ``cleanup``), so that nothing goes on moving by itself; a ``write`` that
+    raises :class:`~amr_description.errors.HardwareDeactivation` only makes it inactive.
     """
 
     def __init__(self, info: 'HardwareInfo', log: Log, world: World | None) -> None:
@@ -340,11 +359,24 @@ class HardwareComponent(ABC):
     def cleanup(self) -> None:
         """Close the device."""
 
-    def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
+    def shutdown(self) -> None:
+        """The very last call, when it is finalized; it is unconfigured by then."""
+
+    def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """
-        These of its command interfaces are about to be claimed and released. Raises HardwareError
-        to refuse; in vain where ``start`` is empty because their controller has failed.
+        These of its command interfaces are to be claimed and released. Raises HardwareError to
+        refuse; changes nothing yet, as another component may refuse.
         """
+
+    def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """
+        These of its command interfaces are now claimed and released.
+
+        Not always announced: where ``start`` is empty their controller may have failed.
+        """
+
+    def reset(self, time: int) -> None:
+        """Time went back (or jumped) to ``time``, ns, while inactive or active."""
 
     @abstractmethod
     def read(self, time: int, period: int) -> None:

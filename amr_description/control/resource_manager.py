@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which hardware component owns which interface, and which controller has claimed it."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity
@@ -48,6 +49,8 @@ class ResourceManager:
     components: dict[str, OwnedComponent] = field(default_factory=dict)
     claims: dict[str, str] = field(default_factory=dict)
     """Command interface → the controller that holds it."""
+    _references: dict[str, dict[str, CommandInterface]] = field(default_factory=dict)
+    _exported_states: dict[str, dict[str, StateInterface]] = field(default_factory=dict)
 
     # --- components ---------------------------------------------------------------------------
 
@@ -138,14 +141,16 @@ class ResourceManager:
     # --- interfaces ---------------------------------------------------------------------------
 
     def available_commands(self) -> dict[str, CommandInterface]:
-        """Every command interface of an active component, by name."""
+        """Every command interface of an active component or controller, by name."""
         active = (o for o in self.components.values() if o.state is LifecycleState.ACTIVE)
-        return {name: handle for owned in active for name, handle in owned.commands.items()}
+        sources = chain((owned.commands for owned in active), self._references.values())
+        return {name: handle for source in sources for name, handle in source.items()}
 
     def available_states(self) -> dict[str, StateInterface]:
-        """Every state interface of a configured component, by name, in the components' order."""
+        """Every state interface that can be read, by name: components in their order first."""
         available = (owned for owned in self.components.values() if owned.is_available)
-        return {name: handle for owned in available for name, handle in owned.states.items()}
+        sources = chain((owned.states for owned in available), self._exported_states.values())
+        return {name: handle for source in sources for name, handle in source.items()}
 
     @staticmethod
     def names(request: InterfaceRequest, available: Iterable[str]) -> tuple[str, ...]:
@@ -178,28 +183,54 @@ class ResourceManager:
         """Take all claims of a controller back."""
         self.claims = {name: by for name, by in self.claims.items() if by != controller}
 
-    def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """
-        Tell each component which of its commands begin and end.
-
-        Raises HardwareError when one refuses; those that had agreed are then told the reverse.
-        """
-        agreed: list[tuple[HardwareComponent, list[str], list[str]]] = []
-        for owned in self.components.values():
-            begin = [name for name in start if name in owned.commands]
-            end = [name for name in stop if name in owned.commands]
-            if not owned.is_available or not (begin or end):
-                continue
+    def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """Ask each component about those of its commands that begin and end. Raises HardwareError."""
+        for owned, begin, end in self._concerned(start, stop):
             try:
-                owned.component.switch_command_mode(begin, end)
+                owned.component.prepare_command_mode_switch(begin, end)
             except Exception as error:  # a foreign component may raise anything
-                for component, begun, ended in reversed(agreed):
-                    component.switch_command_mode(ended, begun)
                 raise HardwareError(
                     f"Hardware component '{owned.info.name}' refuses the command mode: "
                     f'{describe(error)}'
                 ) from error
-            agreed.append((owned.component, begin, end))
+
+    def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """Tell each component which of its commands begin and end now. Raises HardwareError."""
+        for owned, begin, end in self._concerned(start, stop):
+            try:
+                owned.component.perform_command_mode_switch(begin, end)
+            except Exception as error:
+                raise HardwareError(
+                    f"Hardware component '{owned.info.name}' failed to switch its command mode: "
+                    f'{describe(error)}'
+                ) from error
+
+    def _concerned(
+        self, start: Sequence[str], stop: Sequence[str]
+    ) -> Iterator[tuple[OwnedComponent, list[str], list[str]]]:
+        """The available components that own some of these, each with its own."""
+        for owned in self.components.values():
+            begin = [name for name in start if name in owned.commands]
+            end = [name for name in stop if name in owned.commands]
+            if owned.is_available and (begin or end):
+                yield owned, begin, end
+
+    # --- what controllers offer ---------------------------------------------------------------
+
+    def offer(
+        self,
+        controller: str,
+        references: Iterable[CommandInterface],
+        states: Iterable[StateInterface],
+    ) -> None:
+        """Make an active controller's references and exported states available to others."""
+        self._references[controller] = _by_name(references, controller)
+        self._exported_states[controller] = _by_name(states, controller)
+
+    def withdraw(self, controller: str) -> None:
+        """Take what a controller offered back."""
+        self._references.pop(controller, None)
+        self._exported_states.pop(controller, None)
 
 
 def _transition(owned: OwnedComponent, target: LifecycleState, upwards: bool) -> None:
@@ -213,13 +244,13 @@ def _transition(owned: OwnedComponent, target: LifecycleState, upwards: bool) ->
     transition()
 
 
-def _by_name[H: Handle](handles: Sequence[H], component: str) -> dict[str, H]:
-    """Raises HardwareError where the component exports one name twice."""
+def _by_name[H: Handle](handles: Iterable[H], owner: str) -> dict[str, H]:
+    """Raises HardwareError where the owner exports one name twice."""
     by_name: dict[str, H] = {}
     for handle in handles:
         if handle.name in by_name:
             raise HardwareError(
-                f"Hardware component '{component}' exports the interface '{handle.name}' twice"
+                f"'{owner}' exports the interface '{handle.name}' twice"
             )
         by_name[handle.name] = handle
     return by_name

@@ -31,8 +31,11 @@ class SwitchExecution:
         Raises ControllerError when the hardware refuses (nothing has then changed) and when a
         controller cannot be activated: STRICT then deactivates the plan's others again.
         """
-        self._switch_command_mode(plan)
+        start = [name for c in plan.activate for name in c.wanted(self._resources)[0]]
+        stop = [name for c in plan.deactivate for name in c.required_commands]
+        self._prepare(start, stop)
         self._deactivate(plan.deactivate, time)
+        self._perform(start, stop)
         failed = [c for c in plan.activate if not self._activate(c, time)]
         if not failed:
             return
@@ -49,22 +52,26 @@ class SwitchExecution:
         self._deactivate(controllers, time)
         self._release_commands(controllers)
 
-    def _switch_command_mode(self, plan: SwitchPlan) -> None:
-        start = [name for c in plan.activate for name in c.wanted(self._resources)[0]]
-        stop = [name for c in plan.deactivate for name in c.required_commands]
+    def _prepare(self, start: Sequence[str], stop: Sequence[str]) -> None:
         try:
-            self._resources.switch_command_mode(start, stop)
+            self._resources.prepare_command_mode_switch(start, stop)
         except HardwareError as error:
             raise ControllerError(
                 'Could not switch controllers since prepare command mode switch was rejected. '
                 f'{error}'
             ) from error
 
+    def _perform(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        try:
+            self._resources.perform_command_mode_switch(start, stop)
+        except HardwareError as error:
+            raise ControllerError(f'Error while performing mode switch. {error}') from error
+
     def _release_commands(self, controllers: Iterable[LoadedController]) -> None:
         """Tell the hardware that nobody commands these any more."""
         stop = [name for c in controllers for name in c.required_commands]
         try:
-            self._resources.switch_command_mode((), stop)
+            self._resources.perform_command_mode_switch((), stop)
         except HardwareError as error:
             self._log(Severity.ERROR, str(error))
 

@@ -80,10 +80,9 @@ class MockSystem(HardwareComponent):
         for joint in self._joints.values():
             joint.stop()
 
-    def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Integrate from what is claimed; two modes on one joint are refused."""
-        wanted = [name.rsplit('/', 1) for name in start]
-        modes = [(j, mode) for j, mode in wanted if j in self._joints and mode in _MODES]
+    def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """With dynamics, two modes on one joint are refused."""
+        modes = self._modes(start)
         for joint, mode in modes:
             others = [other for name, other in modes if name == joint and other != mode]
             if self._with_dynamics and others:
@@ -92,12 +91,20 @@ class MockSystem(HardwareComponent):
                     f'by {mode} and {others[0]} at once; with calculate_dynamics one of them will '
                     'do'
                 )
+
+    def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """Integrate from what is claimed; what is released stands still."""
         for name in stop:
             joint, _ = name.rsplit('/', 1)
             if joint in self._joints:
                 self._joints[joint].stop()
-        for joint, mode in modes:
+        for joint, mode in self._modes(start):
             self._joints[joint].mode = mode
+
+    def _modes(self, names: Sequence[str]) -> list[tuple[str, str]]:
+        """Joint and mode of each command that has one."""
+        wanted = [name.rsplit('/', 1) for name in names]
+        return [(j, mode) for j, mode in wanted if j in self._joints and mode in _MODES]
 
     def read(self, time: int, period: int) -> None:
         """Let the states follow. Raises HardwareError for an infinite command."""

@@ -110,7 +110,7 @@ class MujocoSystem(HardwareComponent):
         """Hold still."""
         self._stop()
 
-    def switch_command_mode(self, start: Sequence[str], stop: Sequence[str]) -> None:
+    def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """Joints that are released, or change hands, hold still until the first command."""
         for index, command in enumerate(self._commands):
             if command.name in start or command.name in stop:
