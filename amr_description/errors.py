@@ -12,7 +12,7 @@ Every error that this package raises on purpose.
     │   ├── InterfaceError   an interface is unknown, unavailable or claimed
     │   ├── ControllerError  a controller is unknown, in the wrong state, or failed
     │   └── HardwareError    a hardware component failed
-    │       └── HardwareDeactivation  it asks, out of write(), to be made inactive
+    │       └── HardwareDeactivationError  it asks, out of write(), to be made inactive
     ├── SimulationError      the simulated world cannot do what was asked
     │   └── SpawnError       an entity cannot be spawned; carries simulation_interfaces' code
     ├── BringupError         a stack is malformed, or one of its steps failed
@@ -54,8 +54,8 @@ class HardwareError(ControlError):
     """A hardware component failed in a transition, a read or a write."""
 
 
-class HardwareDeactivation(HardwareError):
-    """A hardware component asks, out of ``write``, to be made inactive instead of brought down."""
+class HardwareDeactivationError(HardwareError):
+    """A hardware component asks in ``write`` to be made inactive instead of brought down."""
 
 
 class SimulationError(AmrError):

@@ -181,7 +181,7 @@ class Controller(ABC):
     """The frozen dataclass of its parameters, see :mod:`amr_description.parameters`."""
 
     is_chainable: ClassVar[bool] = False
-    """True when others may stand before it: it has :meth:`references` or :meth:`exported_states`."""
+    """True when others may stand before it, by :meth:`references` or :meth:`exported_states`."""
 
     def __init__(self, context: ControllerContext) -> None:
         self.context = context
@@ -327,7 +327,7 @@ class HardwareComponent(ABC):
     active. Neither may block: a component that owns a device lets a thread of its own do the I/O
     and exchanges snapshots with it. When one of them raises, the component is brought down
     (``deactivate``, ``cleanup``), so that nothing goes on moving by itself; a ``write`` that
-    raises :class:`~amr_description.errors.HardwareDeactivation` only makes it inactive.
+    raises a :class:`~amr_description.errors.HardwareDeactivationError` only makes it inactive.
     """
 
     def __init__(self, info: 'HardwareInfo', log: Log, world: World | None) -> None:

@@ -184,7 +184,7 @@ class ResourceManager:
         self.claims = {name: by for name, by in self.claims.items() if by != controller}
 
     def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Ask each component about those of its commands that begin and end. Raises HardwareError."""
+        """Ask each component about its commands that begin and end. Raises HardwareError."""
         for owned, begin, end in self._concerned(start, stop):
             try:
                 owned.component.prepare_command_mode_switch(begin, end)
