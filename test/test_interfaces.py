@@ -22,8 +22,11 @@ from rclpy.serialization import deserialize_message, serialize_message
 INTERFACES = Path(__file__).parents[1] / 'interfaces'
 FIXTURES = Path(__file__).parent / 'fixtures' / 'interfaces'
 # The originals' hashes: control_msgs, simulation_interfaces and TFMessage as published by their
-# packages, the rest as built by CMake and by this build alike.
+# packages, the rest as built by CMake and by this build alike; pal_statistics_msgs by this build.
 HASHES = json.loads((FIXTURES / 'type_hashes.json').read_text())
+# Of a message or a part of a service or action: its constants, and the defaults of its fields,
+# which no hash tells.
+CONSTANTS = json.loads((FIXTURES / 'constants.json').read_text())
 PACKAGES = sorted(path.parent.name for path in INTERFACES.glob('*/package.xml'))
 SOURCES = sorted(
     f'{path.parent.parent.name}/{path.parent.name}/{path.stem}'
@@ -60,6 +63,15 @@ def test_type_support_loads(name):
     interface = python_type(name)
     interface.__class__.__import_type_support__()
     assert interface.__class__._TYPE_SUPPORT is not None
+
+
+@pytest.mark.parametrize('name', CONSTANTS)
+def test_constants_and_defaults_are_those_of_the_originals(name):
+    interface, _, part = name.partition('.')
+    message = python_type(interface)
+    message = getattr(message, part)() if part else message()
+    values = CONSTANTS[name]
+    assert {field: getattr(message, field) for field in values} == values
 
 
 def test_index_lists_packages_and_interfaces():
