@@ -79,8 +79,11 @@ class FakeHardware(Faulty, HardwareComponent):
     follows it.
     """
 
-    def __init__(self, joints=WHEELS, name='hardware', log=None):
-        super().__init__(HardwareInfo(name, HardwareType.SYSTEM, 'a/Fake'), log or FakeLog(), None)
+    def __init__(
+        self, joints=WHEELS, name='hardware', log=None, type=HardwareType.SYSTEM, **attributes
+    ):
+        info = HardwareInfo(name, type, 'a/Fake', **attributes)
+        super().__init__(info, log or FakeLog(), None)
         self.faults, self.calls = {}, []
         self.commands = {j: CommandInterface(j, 'velocity') for j in joints}
         self.positions = {j: StateInterface(j, 'position', 0.0) for j in joints}
@@ -104,6 +107,12 @@ class FakeHardware(Faulty, HardwareComponent):
 
     def cleanup(self):
         self.meet('cleanup')
+
+    def shutdown(self):
+        self.meet('shutdown')
+
+    def reset(self, time):
+        self.meet('reset', time)
 
     def prepare_command_mode_switch(self, start, stop):
         self.meet('prepare', tuple(start), tuple(stop))

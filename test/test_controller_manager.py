@@ -332,7 +332,8 @@ def test_shut_down_leaves_the_actuators_at_rest_and_the_hardware_closed():
     hardware.calls.clear()
     manager.shut_down(3 * PERIOD)
     assert hardware.written == {'j': 0.0}
-    assert [call[0] for call in hardware.calls][-3:] == ['write', 'deactivate', 'cleanup']
+    last = ['write', 'deactivate', 'cleanup', 'shutdown']
+    assert [call[0] for call in hardware.calls][-4:] == last
     assert states_of(manager) == {'fake': 'inactive'}
 
 

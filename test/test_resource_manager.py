@@ -13,12 +13,14 @@ from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
     LifecycleState,
+    NANOSECONDS,
     NO_INTERFACES,
 )
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.errors import HardwareError, InterfaceError
+from amr_description.errors import HardwareDeactivationError, HardwareError, InterfaceError
+from amr_description.model.hardware_info import HardwareInfo, HardwareType
 
-UNCONFIGURED, INACTIVE, ACTIVE = (LifecycleState(number) for number in (1, 2, 3))
+UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = (LifecycleState(number) for number in range(1, 5))
 
 
 def states_of(resources):
@@ -87,10 +89,65 @@ def test_an_unknown_component_is_told_with_those_there_are():
         resources.set_state('arm', ACTIVE)
 
 
-@pytest.mark.parametrize('target', [LifecycleState.FINALIZED, LifecycleState.UNKNOWN])
-def test_a_state_off_the_path_is_refused(target):
-    with pytest.raises(HardwareError, match=f'cannot go from active to {target.label}'):
-        bring_up(FakeHardware(['j'])).set_state('hardware', target)
+def test_a_state_off_the_path_is_refused():
+    with pytest.raises(HardwareError, match='cannot go from active to unknown'):
+        bring_up(FakeHardware(['j'])).set_state('hardware', LifecycleState.UNKNOWN)
+
+
+def test_finalized_is_final():
+    hardware = FakeHardware(['j'])
+    resources = bring_up(hardware)
+    hardware.calls.clear()
+    resources.set_state('hardware', FINALIZED)
+    assert [call[0] for call in hardware.calls] == ['deactivate', 'cleanup', 'shutdown']
+    assert not resources.available_states()
+    for target in (UNCONFIGURED, INACTIVE, ACTIVE):
+        message = f"'hardware' is in finalized state and can be only destroyed; {target.label} was"
+        with pytest.raises(HardwareError, match=message):
+            resources.set_state('hardware', target)
+    resources.set_state('hardware', FINALIZED)
+    resources.shut_down()
+    assert len(hardware.calls) == 3
+
+
+def test_every_transition_is_told_as_ros2_control_does():
+    resources = bring_up(FakeHardware(['j'], 'AmrSystem'))
+    resources.shut_down()
+    words = ['configure', 'activate', 'deactivate', 'cleanup', 'shutdown']
+    assert resources.log.texts() == [
+        text
+        for word in words
+        for text in (
+            f"'{word}' hardware 'AmrSystem' ",
+            f"Successful '{word}' of hardware 'AmrSystem'",
+        )
+    ]
+
+
+def test_a_component_is_made_by_the_class_of_its_plugin():
+    made = []
+
+    def make(info, log, world):
+        made.append((log, world))
+        return FakeHardware(['j'], info.name)
+
+    resources = ResourceManager(FakeLog())
+    info = HardwareInfo('AmrSystem', HardwareType.SYSTEM, 'a/Plugin')
+    resources.load(info, {'a/Plugin': make}.__getitem__, None)
+    assert made == [(resources.log, None)]
+    assert states_of(resources) == {'AmrSystem': UNCONFIGURED}
+    assert resources.log.texts() == [
+        "Loading hardware 'AmrSystem' ",
+        "Loaded hardware 'AmrSystem' from plugin 'a/Plugin'",
+        "Initialize hardware 'AmrSystem' ",
+        "Successful initialization of hardware 'AmrSystem'",
+    ]
+
+
+def test_async_is_said_to_run_in_the_loop():
+    resources = bring_up(FakeHardware(['j'], is_async=True))
+    (text,) = resources.log.texts(Severity.WARN)
+    assert "'hardware' has is_async=\"true\": it is read and written in the control loop" in text
 
 
 @pytest.mark.parametrize(
@@ -155,13 +212,95 @@ def test_a_component_that_failed_can_be_brought_back():
     assert resources.read(0, MS) == []
 
 
-def test_shut_down_stops_and_closes_all_of_them():
+def test_shut_down_stops_closes_and_finalizes_all_of_them():
     components = [FakeHardware(['a'], 'one'), FakeHardware(['b'], 'two')]
     resources = bring_up(*components)
     components[0].faults['deactivate'] = OSError('gone')
     resources.shut_down()
-    assert states_of(resources) == {'one': UNCONFIGURED, 'two': UNCONFIGURED}
+    assert states_of(resources) == {'one': FINALIZED, 'two': FINALIZED}
     assert [component.count('cleanup') for component in components] == [1, 1]
+    assert [component.count('shutdown') for component in components] == [1, 1]
+
+
+@pytest.mark.parametrize('action', ['read', 'write'])
+def test_a_group_fails_together(action):
+    parts = [FakeHardware([name], name, group='arm') for name in 'abc']
+    other = FakeHardware(['d'], 'd')
+    resources = bring_up(*parts, other)
+    parts[1].faults[action] = OSError('no power')
+    assert getattr(resources, action)(0, MS) == ['b', 'a', 'c']
+    assert states_of(resources) == dict.fromkeys('abc', UNCONFIGURED) | {'d': ACTIVE}
+    assert [part.count(action) for part in (*parts, other)] == [1, 1, 0, 1]
+    _, first, second = resources.log.texts(Severity.ERROR)
+    assert "'a' is brought down with 'b': both are of the group 'arm'" in first
+    assert "'c' is brought down with 'b'" in second
+
+
+def test_a_component_may_ask_out_of_write_to_be_made_inactive():
+    asking, other = (FakeHardware([n], n, group='arm') for n in 'ab')
+    resources = bring_up(asking, other)
+    asking.faults['write'] = HardwareDeactivationError('pressed')
+    assert resources.write(0, MS) == ['a']
+    assert states_of(resources) == {'a': INACTIVE, 'b': ACTIVE}
+    assert asking.calls[-1] == ('deactivate',)
+    (text,) = resources.log.texts(Severity.ERROR)
+    assert text == "write of hardware component 'a' failed: pressed"
+    assert resources.write(0, MS) == []
+    asking.faults['read'] = HardwareDeactivationError('pressed')
+    assert resources.read(0, MS) == ['a', 'b'], 'out of read it is an error like any other'
+    assert states_of(resources) == {'a': UNCONFIGURED, 'b': UNCONFIGURED}
+
+
+# --- rates ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ('rate', 'period', 'every'),
+    [(0, 10, 1), (100, 10, 1), (50, 20, 2), (30, 40, 4), (25, 40, 4), (1000, 10, 1)],
+)
+def test_a_slow_component_is_read_and_written_with_its_true_period(rate, period, every):
+    hardware = FakeHardware(['j'], rw_rate=rate)
+    resources = bring_up(hardware)
+    given = {'read': [], 'write': []}
+    hardware.read = lambda time, period: given['read'].append((time, period))
+    hardware.write = lambda time, period: given['write'].append((time, period))
+    for tick in range(12):
+        resources.read(tick * 10 * MS, 10 * MS)
+        resources.write(tick * 10 * MS, 10 * MS)
+    assert [time for time, _ in given['read']] == [t * 10 * MS for t in range(0, 12, every)]
+    assert {p for _, p in given['read'][1:]} == {period * MS}
+    assert given['read'] == given['write']
+    first = max(10 * MS, NANOSECONDS // rate) if rate else 10 * MS
+    assert given['read'][0][1] == first
+
+
+def test_a_sensor_is_not_written():
+    hardware = FakeHardware(['j'], type=HardwareType.SENSOR)
+    resources = bring_up(hardware)
+    resources.read(0, MS)
+    resources.write(0, MS)
+    assert (hardware.count('read'), hardware.count('write')) == (1, 0)
+
+
+def test_after_time_went_back_a_slow_component_is_due_at_once():
+    hardware = FakeHardware(['j'], rw_rate=1)
+    down = FakeHardware(['k'], 'down')
+    resources = bring_up(hardware, down)
+    resources.set_state('down', UNCONFIGURED)
+    resources.read(10 * NANOSECONDS, MS)
+    assert resources.reset(0) == []
+    assert hardware.calls[-1] == ('reset', 0)
+    assert down.count('reset') == 0, 'it has nothing to forget'
+    resources.read(0, MS)
+    assert hardware.count('read') == 2
+
+
+def test_a_component_that_cannot_begin_anew_is_brought_down():
+    hardware = FakeHardware(['j'])
+    resources = bring_up(hardware)
+    hardware.faults['reset'] = OSError('stuck')
+    assert resources.reset(0) == ['hardware']
+    assert states_of(resources) == {'hardware': UNCONFIGURED}
 
 
 # --- claims --------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ ros2_control's heart. Knows no ROS, no simulator, no clock; one thread, the owne
 ``interfaces.py``           the words: interface names, handles, lifecycle states
 ``samples.py``              what goes through the ports of the shipped controllers
 
+``owned_component.py``      one hardware component inside the manager: lifecycle, read, write
 ``resource_manager.py``     which component owns which interface; claims
 ``loaded_controller.py``    one controller inside the manager: state, interfaces, when it is due
 ``switching.py``            whether controllers may be switched as asked

@@ -2,141 +2,148 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which hardware component owns which interface, and which controller has claimed it."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.contracts import HardwareComponent, Log, Severity, World
 from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import (
     Claim,
     CommandInterface,
-    Handle,
     InterfaceRequest,
     LifecycleState,
     StateInterface,
 )
-from amr_description.errors import HardwareError, InterfaceError
+from amr_description.control.owned_component import by_name, OwnedComponent
+from amr_description.errors import HardwareDeactivationError, HardwareError, InterfaceError
 
 if TYPE_CHECKING:
     from amr_description.model.ros2_control_tag import HardwareInfo
 
-_PATH = (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE, LifecycleState.ACTIVE)
-
-
-@dataclass(slots=True)
-class OwnedComponent:
-    """A component, with what the manager knows of it; interfaces are available once configured."""
-
-    info: 'HardwareInfo'
-    component: HardwareComponent
-    states: Mapping[str, StateInterface]
-    commands: Mapping[str, CommandInterface]
-    state: LifecycleState = LifecycleState.UNCONFIGURED
-
-    @property
-    def is_available(self) -> bool:
-        """True when its interfaces may be used."""
-        return self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
-
-
-@dataclass
 class ResourceManager:
     """All components of one robot, their interfaces and the claims on them."""
 
-    log: Log
-    components: dict[str, OwnedComponent] = field(default_factory=dict)
-    claims: dict[str, str] = field(default_factory=dict)
-    """Command interface → the controller that holds it."""
-    _references: dict[str, dict[str, CommandInterface]] = field(default_factory=dict)
-    _exported_states: dict[str, dict[str, StateInterface]] = field(default_factory=dict)
+    def __init__(self, log: Log) -> None:
+        self.log = log
+        self.components: dict[str, OwnedComponent] = {}
+        self.claims: dict[str, str] = {}
+        """Command interface → the controller that holds it."""
+        self._references: dict[str, dict[str, CommandInterface]] = {}
+        self._exported_states: dict[str, dict[str, StateInterface]] = {}
 
     # --- components ---------------------------------------------------------------------------
 
+    def load(
+        self,
+        info: 'HardwareInfo',
+        find: Callable[[str], Callable[..., HardwareComponent]],
+        world: World | None,
+    ) -> None:
+        """
+        Make a component of the class that ``find`` knows by the name of its plugin, and take it.
+
+        Raises HardwareError, or whatever the constructor of a foreign component raises.
+        """
+        self.log(Severity.INFO, f"Loading hardware '{info.name}' ")
+        make = find(info.plugin)
+        self.log(Severity.INFO, f"Loaded hardware '{info.name}' from plugin '{info.plugin}'")
+        self.log(Severity.INFO, f"Initialize hardware '{info.name}' ")
+        self.add(make(info, self.log, world))
+        self.log(Severity.INFO, f"Successful initialization of hardware '{info.name}'")
+
     def add(self, component: HardwareComponent) -> None:
         """Take a component and its interfaces. Raises HardwareError where a name is taken."""
-        info = component.info
-        if info.name in self.components:
-            raise HardwareError(f"Hardware component '{info.name}' is there twice")
-        states = _by_name(component.state_interfaces(), info.name)
-        commands = _by_name(component.command_interfaces(), info.name)
+        owned = OwnedComponent(component, self.log)
+        name = owned.info.name
+        if name in self.components:
+            raise HardwareError(f"Hardware component '{name}' is there twice")
         for other in self.components.values():
-            twice = states.keys() & other.states.keys() | commands.keys() & other.commands.keys()
+            twice = (
+                owned.states.keys() & other.states.keys()
+                | owned.commands.keys() & other.commands.keys()
+            )
             if twice:
                 raise HardwareError(
                     f"Interface '{min(twice)}' is exported by the hardware components "
-                    f"'{other.info.name}' and '{info.name}'; one of them must leave it out"
+                    f"'{other.info.name}' and '{name}'; one of them must leave it out"
                 )
-        self.components[info.name] = OwnedComponent(info, component, states, commands)
+        if owned.info.is_async:
+            self.log(
+                Severity.WARN,
+                f"Hardware component '{name}' has is_async=\"true\": it is read and written in "
+                'the control loop all the same; its own thread must do what takes long',
+            )
+        self.components[name] = owned
 
     def set_state(self, name: str, target: LifecycleState) -> None:
         """
-        Bring a component to ``target``, one transition after the other.
+        Bring a component to ``target``, one transition after the other; finalized is final.
 
-        Raises HardwareError: unknown component, or a transition failed; it is then left in the
-        state that it reached.
+        Raises HardwareError: unknown component, no such way, or a transition failed; it is then
+        left in the state that it reached.
         """
         owned = self.components.get(name)
         if owned is None:
             raise HardwareError(
                 f"Hardware component '{name}' does not exist. Known: {_listed(self.components)}"
             )
-        if target not in _PATH or owned.state not in _PATH:
-            raise HardwareError(
-                f"Hardware component '{name}' cannot go from {owned.state.label} to {target.label}"
-            )
-        while owned.state != target:
-            upwards = owned.state < target
-            following = LifecycleState(owned.state + (1 if upwards else -1))
-            try:
-                _transition(owned, following, upwards)
-            except Exception as error:  # a foreign component may raise anything
-                raise HardwareError(
-                    f"Hardware component '{name}' failed on its way from {owned.state.label} to "
-                    f'{following.label}: {describe(error)}'
-                ) from error
-            owned.state = following
+        owned.go_to(target)
 
     def shut_down(self) -> None:
-        """Stop and close every component, as far as it still can."""
+        """Stop, close and finalize every component, as far as it still can."""
         for owned in self.components.values():
-            self._bring_down(owned)
+            owned.bring_down(LifecycleState.FINALIZED)
+
+    def reset(self, time: int) -> list[str]:
+        """Time went back (or jumped) to ``time``, ns; return the components that failed."""
+        return self._each('reset', lambda owned: owned.reset(time))
 
     def read(self, time: int, period: int) -> list[str]:
-        """Read every available component; return the names of those that failed."""
-        available = [owned for owned in self.components.values() if owned.is_available]
-        return [o.info.name for o in available if not self._io(o, 'read', time, period)]
+        """
+        Read every available component that is due; return the names of those that failed.
+
+        They are brought down, with their group.
+        """
+        return self._each('read', lambda owned: owned.read(time, period))
 
     def write(self, time: int, period: int) -> list[str]:
-        """Write every active component; return the names of those that failed."""
-        active = [o for o in self.components.values() if o.state is LifecycleState.ACTIVE]
-        return [o.info.name for o in active if not self._io(o, 'write', time, period)]
+        """
+        Write every active component that is due; return the names of those that are no longer
+        active.
 
-    def _io(self, owned: OwnedComponent, action: str, time: int, period: int) -> bool:
-        try:
-            getattr(owned.component, action)(time, period)
-        except Exception as error:  # a foreign component may raise anything; the others go on
-            self._report(owned, action, error)
-            self._bring_down(owned)
-            return False
-        return True
+        They are brought down, with their group; one that asked for it is only inactive.
+        """
+        return self._each('write', lambda owned: owned.write(time, period))
 
-    def _bring_down(self, owned: OwnedComponent) -> None:
-        """Stop its actuators, which nobody may command any more, and close it; never raises."""
-        while owned.state > LifecycleState.UNCONFIGURED:
-            following = LifecycleState(owned.state - 1)
+    def _each(self, action: str, do: Callable[[OwnedComponent], None]) -> list[str]:
+        lost: list[str] = []
+        for owned in self.components.values():
             try:
-                _transition(owned, following, upwards=False)
-            except Exception as error:
-                self._report(owned, f'transition to {following.label}', error)
-            owned.state = following
+                do(owned)
+            except Exception as error:  # a foreign component may raise anything; others go on
+                lost += self._lose(owned, action, error)
+        return lost
 
-    def _report(self, owned: OwnedComponent, action: str, error: Exception) -> None:
-        self.log(
-            Severity.ERROR,
-            f"{action} of hardware component '{owned.info.name}' failed: {describe(error)}",
-        )
+    def _lose(self, failed: OwnedComponent, action: str, error: Exception) -> list[str]:
+        """Deactivate a component that asked for it; else bring it and its group down."""
+        failed.report(action, error)
+        name, group = failed.info.name, failed.info.group
+        if action == 'write' and isinstance(error, HardwareDeactivationError):
+            failed.bring_down(LifecycleState.INACTIVE)
+            return [name]
+        failed.bring_down()
+        lost = [name]
+        for other in self.components.values():
+            if group and other.info.group == group and other.is_available:
+                self.log(
+                    Severity.ERROR,
+                    f"Hardware component '{other.info.name}' is brought down with '{name}': both "
+                    f"are of the group '{group}'",
+                )
+                other.bring_down()
+                lost.append(other.info.name)
+        return lost
 
     # --- interfaces ---------------------------------------------------------------------------
 
@@ -224,36 +231,13 @@ class ResourceManager:
         states: Iterable[StateInterface],
     ) -> None:
         """Make an active controller's references and exported states available to others."""
-        self._references[controller] = _by_name(references, controller)
-        self._exported_states[controller] = _by_name(states, controller)
+        self._references[controller] = by_name(references, controller)
+        self._exported_states[controller] = by_name(states, controller)
 
     def withdraw(self, controller: str) -> None:
         """Take what a controller offered back."""
         self._references.pop(controller, None)
         self._exported_states.pop(controller, None)
-
-
-def _transition(owned: OwnedComponent, target: LifecycleState, upwards: bool) -> None:
-    component = owned.component
-    transition = {
-        (LifecycleState.INACTIVE, True): component.configure,
-        (LifecycleState.ACTIVE, True): component.activate,
-        (LifecycleState.INACTIVE, False): component.deactivate,
-        (LifecycleState.UNCONFIGURED, False): component.cleanup,
-    }[target, upwards]
-    transition()
-
-
-def _by_name[H: Handle](handles: Iterable[H], owner: str) -> dict[str, H]:
-    """Raises HardwareError where the owner exports one name twice."""
-    by_name: dict[str, H] = {}
-    for handle in handles:
-        if handle.name in by_name:
-            raise HardwareError(
-                f"'{owner}' exports the interface '{handle.name}' twice"
-            )
-        by_name[handle.name] = handle
-    return by_name
 
 
 def _listed(names: Iterable[str]) -> str:

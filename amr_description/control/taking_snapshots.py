@@ -6,7 +6,8 @@ from collections.abc import Container, Mapping
 
 from amr_description.control.interfaces import Handle, LifecycleState
 from amr_description.control.loaded_controller import LoadedController
-from amr_description.control.resource_manager import OwnedComponent, ResourceManager
+from amr_description.control.owned_component import OwnedComponent
+from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshots import (
     ComponentSnapshot,
     ControllerSnapshot,
@@ -57,7 +58,7 @@ def _component(owned: OwnedComponent, resources: ResourceManager, rate: int) -> 
         type=owned.info.type,
         plugin=owned.info.plugin,
         state=owned.state,
-        rate=rate,
+        rate=min(owned.info.rw_rate or rate, rate),
         commands=interfaces(owned.commands, resources.claims),
         states=interfaces(owned.states, ()),
     )
