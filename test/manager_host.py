@@ -11,13 +11,12 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-from amr_description.control.interfaces import LifecycleState
 from amr_description.control.loop import Loop
-from amr_description.control.resource_manager import ResourceManager
+from amr_description.model.hardware_info import HardwareInfo, HardwareType
 from amr_description.nodes.controller_manager_node import ControllerManagerNode
 from amr_description.nodes.manager_client import ManagerClient
 from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.outgoing import SimulatedOutgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 
 PERIOD = 10_000_000
@@ -29,11 +28,15 @@ controller_manager:
     diff_drive_controller:
       type: diff_drive_controller/DiffDriveController
       node_options_args: ["-r", "~/odom:=/odom"]
+    bystander_1: {{type: joint_state_broadcaster/JointStateBroadcaster}}
+    bystander_2: {{type: joint_state_broadcaster/JointStateBroadcaster}}
+    rival_1: {{type: diff_drive_controller/DiffDriveController}}
+    rival_2: {{type: diff_drive_controller/DiffDriveController}}
     wrong_number: {{type: diff_drive_controller/DiffDriveController}}
     slow: {{type: strangers/Slow}}
     broken: {{type: strangers/Broken}}
     nowhere: {{type: no_such_package/Nothing}}
-diff_drive_controller:
+/**:
   ros__parameters:
     left_wheel_names: [{WHEELS[0]}, {WHEELS[1]}]
     right_wheel_names: [{WHEELS[2]}, {WHEELS[3]}]
@@ -54,6 +57,16 @@ class Clockwork:
         return self.time
 
 
+class HostHardware(FakeHardware):
+    """Fake wheels, made as every component is."""
+
+    newest = None
+
+    def __init__(self, info, log, world):
+        super().__init__(name=info.name, log=log)
+        HostHardware.newest = self
+
+
 class Host:
     """A process with one manager over fake wheels, and a client that knows only ROS."""
 
@@ -62,7 +75,7 @@ class Host:
         self.node = Node('host')
         self.executor = SingleThreadedExecutor()
         self.logs = LogThread()
-        outgoing = Outgoing(self.node)
+        outgoing = SimulatedOutgoing(self.node)
         mailbox = Mailbox()
         loop = Loop(Clockwork(), WallPacer(1.0, mailbox), mailbox, outgoing, PERIOD)
         self.owner = Owner(loop, mailbox, self.executor)
@@ -72,17 +85,15 @@ class Host:
                 outgoing,
                 self.logs,
                 namespace='/',
-                robot=None,
                 arguments=['--params-file', str(parameter_file)],
             )
         except Exception:
             self.logs.stop()
             raise
-        self.hardware = FakeHardware()
-        resources = ResourceManager(self.manager_node.log)
-        resources.add(self.hardware)
-        resources.set_state('hardware', LifecycleState.ACTIVE)
-        loop.managers.append(self.manager_node.make_manager(resources, PERIOD))
+        info = HardwareInfo('hardware', HardwareType.SYSTEM, 'manager_host/HostHardware')
+        self.manager_node.prepare(None, [info])
+        loop.managers.append(self.manager_node.bring_up(None, PERIOD))
+        self.hardware = HostHardware.newest
         self.manager_node.start()
         self.executor.add_node(self.node)
         self.executor.add_node(self.manager_node.node)

@@ -27,7 +27,7 @@ from amr_description.model.robot import Robot
 from amr_description.nodes.message_types import message_type
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.node_parameters import declare, values
-from amr_description.nodes.outgoing import Outgoing, SIM_TIME
+from amr_description.nodes.outgoing import Outgoing
 from amr_description.registry import resolve
 
 
@@ -63,9 +63,9 @@ class ControllerNode:
             namespace=namespace,
             use_global_arguments=False,
             cli_args=['--ros-args', *arguments],
-            parameter_overrides=[SIM_TIME],
+            parameter_overrides=outgoing.parameter_overrides,
         )
-        outgoing.own_clock_of(self.node)
+        outgoing.adopt(self.node)
         try:
             self._table = controller_class.parameters_type
             self._declare(update_rate)
@@ -108,7 +108,7 @@ class ControllerNode:
     def destroy(self) -> None:
         """Remove the node."""
         self.disconnect()
-        self._outgoing.release_clock_of(self.node)
+        self._outgoing.release(self.node)
         self.node.destroy_node()
 
     # --- parameters ---------------------------------------------------------------------------

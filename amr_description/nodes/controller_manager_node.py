@@ -11,20 +11,22 @@ from collections.abc import Sequence
 
 from rclpy.node import Node
 
-from amr_description.control.contracts import Log
+from amr_description.control.contracts import Log, World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import Strictness
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError, ControllerError
+from amr_description.hardware import HARDWARE
+from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.nodes.bridge import ControllerNode
 from amr_description.nodes.controller_libraries import reload_modules
 from amr_description.nodes.manager_parameters import ManagerParameters
 from amr_description.nodes.manager_services import ManagerServices
 from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.outgoing import Outgoing, SIM_TIME
+from amr_description.nodes.outgoing import Outgoing
 from amr_description.nodes.owner import Owner
 from amr_description.nodes.runtime import argument_errors
 
@@ -36,7 +38,8 @@ class ControllerManagerNode:
     Node, parameters and services of one manager.
 
     ``arguments`` are ROS arguments (remaps, ``--params-file``) for the node and for every
-    controller that it loads. :meth:`start` makes the services: whoever waits for them finds a
+    controller that it loads. It has no robot at first: :meth:`prepare`, :meth:`bring_up` on the
+    owner's thread, :meth:`start`, which makes the services. Whoever waits for those finds a
     manager whose hardware is ready.
     """
 
@@ -47,14 +50,14 @@ class ControllerManagerNode:
         logs: LogThread,
         *,
         namespace: str,
-        robot: Robot,
         arguments: Sequence[str],
     ) -> None:
         """Make the node. Raises ParameterError: ``update_rate`` is not a positive integer."""
         self._owner = owner
         self._outgoing = outgoing
         self._logs = logs
-        self._robot = robot
+        self._robot: Robot | None = None
+        self._hardware: Sequence[HardwareInfo] = ()
         self._controllers: dict[str, ControllerNode] = {}
         self._modules: set[str] = set()
         self.node = Node(
@@ -62,11 +65,11 @@ class ControllerManagerNode:
             namespace=namespace,
             use_global_arguments=False,
             cli_args=['--ros-args', *arguments],
-            parameter_overrides=[SIM_TIME],
+            parameter_overrides=outgoing.parameter_overrides,
             allow_undeclared_parameters=True,
             automatically_declare_parameters_from_overrides=True,
         )
-        outgoing.own_clock_of(self.node)
+        outgoing.adopt(self.node)
         self.log: Log = logs.log_of(self.node.get_logger())
         try:
             self.parameters = ManagerParameters(self.node, arguments)
@@ -74,12 +77,25 @@ class ControllerManagerNode:
             self.destroy()
             raise
 
-    def make_manager(self, resources: ResourceManager, period: int) -> ControllerManager:
-        """
-        Make the manager, for the owner's loop; ``period``: of its tick, ns.
+    def prepare(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
+        """Take over what it is to control; on the ROS thread, again after a failure."""
+        self._robot, self._hardware = robot, hardware
 
-        On the owner's thread, or before the owner starts.
+    def bring_up(self, world: World | None, period: int) -> ControllerManager:
         """
+        Make components and manager and start the hardware; return it, for the owner's loop.
+
+        On the owner's thread. ``world``: as components see it; ``period``: of the tick, ns. Raises
+        HardwareError, or what a foreign component raises; the hardware is then down again.
+        """
+        resources = ResourceManager(self.log)
+        try:
+            for info in self._hardware:
+                resources.add(HARDWARE.find(info.plugin)(info, self.log, world))
+                resources.set_state(info.name, LifecycleState.ACTIVE)
+        except Exception:
+            resources.shut_down()
+            raise
         self.manager = ControllerManager(
             resources, self.parameters.update_rate, self.log, period=period
         )
@@ -97,7 +113,7 @@ class ControllerManagerNode:
         """Remove all nodes; the owner must have stopped, or dropped the manager, before."""
         for controller in self._controllers.values():
             controller.destroy()
-        self._outgoing.release_clock_of(self.node)
+        self._outgoing.release(self.node)
         self.node.destroy_node()
 
     # --- what the services do; coroutines of the ROS thread --------------------------------------

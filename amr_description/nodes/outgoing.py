@@ -1,13 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What leaves the owner's turn: ``/clock`` first, then what the controllers said at that instant.
+What leaves the owner's turn: what the controllers said at that instant; before it, where this
+process owns the time, ``/clock``.
 
 Nodes in the process that owns the time do not subscribe to ``/clock``: at 100 Hz that costs 14 %
 of a core for three nodes. Their clocks are set here, before anything is published.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy.clock import ROSClock
@@ -25,35 +26,28 @@ from amr_description.control.interfaces import NANOSECONDS
 CLOCK_QOS = QoSProfile(depth=10)
 """Reliable, as ros_gz_bridge publishes it; time sources that subscribe best effort match too."""
 
-SIM_TIME = Parameter('use_sim_time', value=True)
-"""The parameter override of every node in the process that owns the time."""
-
 
 class Outgoing:
-    """The ``Publisher`` port of the loop; ``node`` publishes ``/clock``."""
+    """
+    The ``Publisher`` port of the loop, and who sets the clocks of the nodes in this process.
+
+    Here nobody does: they go by the machine, or by the ``/clock`` of another process where
+    ``use_sim_time`` says so. :class:`SimulatedOutgoing` is for the process that owns the time.
+    """
+
+    parameter_overrides: Sequence[Parameter] = ()
+    """What every node that is adopted has to be made with."""
 
     def __init__(self, node: Node) -> None:
-        self._clocks: list[ROSClock] = []
+        """``node`` lends its logger."""
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
-        self._message = Clock()
         self._logger = node.get_logger()
-        self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
 
-    def own_clock_of(self, node: Node) -> None:
-        """
-        Set the node's clock from now on; it keeps saying ``use_sim_time: true``.
+    def adopt(self, node: Node) -> None:
+        """Take in a node; on the thread that made it, after its constructor."""
 
-        Call it on the thread that made the node, after its constructor.
-        """
-        source = node._time_source
-        source.ros_time_is_active = True
-        node.destroy_subscription(source._clock_sub)
-        source._clock_sub = None
-        self._clocks = [*self._clocks, node.get_clock()]
-
-    def release_clock_of(self, node: Node) -> None:
-        """Forget the node's clock, before the node is destroyed."""
-        self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
+    def release(self, node: Node) -> None:
+        """Let a node go, before it is destroyed."""
 
     def send(
         self, fill: Callable[[Any, Any], None], sample: Any, message: Any, publisher: Publisher
@@ -62,16 +56,10 @@ class Outgoing:
         self._outbox.append((fill, sample, message, publisher))
 
     def set_clocks(self, time: int) -> None:
-        """Set every clock of the process to ``time``, ns."""
-        now = Time(nanoseconds=time, clock_type=ClockType.ROS_TIME)
-        for clock in self._clocks:
-            clock.set_ros_time_override(now)
+        """Set the clock of every node in this process to ``time``, ns."""
 
     def publish(self, time: int) -> None:
-        """Publish ``/clock``, and then what waits."""
-        clock = self._message.clock
-        clock.sec, clock.nanosec = divmod(time, NANOSECONDS)
-        self._publisher.publish(self._message)
+        """Publish what waits; ``time``: of this turn, ns."""
         for fill, sample, message, publisher in self._outbox:
             try:
                 fill(sample, message)
@@ -84,3 +72,45 @@ class Outgoing:
                     throttle_duration_sec=1.0,
                 )
         self._outbox.clear()
+
+
+class SimulatedOutgoing(Outgoing):
+    """Of the process that owns the time: ``/clock`` goes first, and every clock shows it."""
+
+    parameter_overrides = (Parameter('use_sim_time', value=True),)
+
+    def __init__(self, node: Node) -> None:
+        """``node`` publishes ``/clock`` and lends its logger."""
+        super().__init__(node)
+        self._clocks: list[ROSClock] = []
+        self._message = Clock()
+        self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
+
+    def adopt(self, node: Node) -> None:
+        """
+        Set the node's clock from now on; it keeps saying ``use_sim_time: true``.
+
+        Call it on the thread that made the node, after its constructor.
+        """
+        source = node._time_source
+        source.ros_time_is_active = True
+        node.destroy_subscription(source._clock_sub)
+        source._clock_sub = None
+        self._clocks = [*self._clocks, node.get_clock()]
+
+    def release(self, node: Node) -> None:
+        """Forget the node's clock."""
+        self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
+
+    def set_clocks(self, time: int) -> None:
+        """Set every clock to ``time``, ns."""
+        now = Time(nanoseconds=time, clock_type=ClockType.ROS_TIME)
+        for clock in self._clocks:
+            clock.set_ros_time_override(now)
+
+    def publish(self, time: int) -> None:
+        """Publish ``/clock``, and then what waits."""
+        clock = self._message.clock
+        clock.sec, clock.nanosec = divmod(time, NANOSECONDS)
+        self._publisher.publish(self._message)
+        super().publish(time)

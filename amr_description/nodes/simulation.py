@@ -15,19 +15,18 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 
 from amr_description.control.contracts import Severity
-from amr_description.control.interfaces import LifecycleState, NANOSECONDS
+from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
-from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import SpawnError
-from amr_description.hardware import HARDWARE
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_tag import gazebo_plugins_of
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.nodes.controller_manager_node import ControllerManagerNode
+from amr_description.nodes.description_source import DescriptionSource
 from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.outgoing import SimulatedOutgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 from amr_description.nodes.parameter_files import read_parameter_file
 from amr_description.nodes.runtime import argument_errors
@@ -94,8 +93,8 @@ class Simulation:
             self._ros_args = ros_args
             self._executor = executor
             self._managers: dict[str, ControllerManagerNode] = {}
-            self._outgoing = Outgoing(node)
-            self._outgoing.own_clock_of(node)
+            self._outgoing = SimulatedOutgoing(node)
+            self._outgoing.adopt(node)
             self.world = MujocoWorld(parameters.world, log=self.log)
             mailbox = Mailbox()
             loop = Loop(
@@ -138,14 +137,14 @@ class Simulation:
         of a foreign component raises; nothing is then left of the robot.
         """
         hardware = hardware_of(robot)
-        node = self._manager_node(robot, namespace) if hardware else None
+        node = self._manager_node(robot, hardware, namespace) if hardware else None
 
         def insert() -> str:
             given = free_name(name, self.world.names) if allow_renaming else name
             check_name(given, self.world.names)
             if node is not None:
                 self._check_namespace(node.node.get_namespace())
-            self._insert(given, robot, pose, hardware, node)
+            self._insert(given, robot, pose, node)
             return given
 
         try:
@@ -156,6 +155,7 @@ class Simulation:
             raise
         if node is not None:
             self._executor.add_node(node.node)
+            DescriptionSource(node.node, robot=robot)
             node.start()
         return given
 
@@ -174,7 +174,6 @@ class Simulation:
         name: str,
         robot: Robot,
         pose: Transform,
-        hardware: Sequence[HardwareInfo],
         node: ControllerManagerNode | None,
     ) -> None:
         """On the owner's thread, in one go: robot, components, all of them active, manager."""
@@ -183,30 +182,28 @@ class Simulation:
         view = self.world.spawn(name, robot, pose)
         if node is None:
             return
-        resources = ResourceManager(node.log)
         try:
-            for info in hardware:
-                resources.add(HARDWARE.find(info.plugin)(info, node.log, view))
-                resources.set_state(info.name, LifecycleState.ACTIVE)
+            manager = node.bring_up(view, self._period(node.parameters.update_rate))
         except Exception:
-            resources.shut_down()
             self.world.remove(name)
             raise
-        period = self._period(node.parameters.update_rate)
-        self.owner.loop.managers.append(node.make_manager(resources, period))
+        self.owner.loop.managers.append(manager)
         self._managers[name] = node
 
-    def _manager_node(self, robot: Robot, namespace: str) -> ControllerManagerNode:
+    def _manager_node(
+        self, robot: Robot, hardware: Sequence[HardwareInfo], namespace: str
+    ) -> ControllerManagerNode:
         arguments = [*self._ros_args, *self._parameter_files(robot)]
         with argument_errors():
-            return ControllerManagerNode(
+            node = ControllerManagerNode(
                 self.owner,
                 self._outgoing,
                 self.logs,
                 namespace=namespace,
-                robot=robot,
                 arguments=arguments,
             )
+        node.prepare(robot, hardware)
+        return node
 
     def _parameter_files(self, robot: Robot) -> Sequence[str]:
         """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""

@@ -1,0 +1,96 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a manager makes of what it hears on robot_description."""
+
+from manager_host import ros_in_this_process
+import pytest
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+
+from amr_description.errors import HardwareError
+from amr_description.model.urdf import parse
+from amr_description.nodes.description_source import DescriptionSource
+
+GOOD = """<robot name="cart"><link name="base"/><ros2_control name="Cart" type="system"><hardware>
+<plugin>mock_components/GenericSystem</plugin></hardware></ros2_control></robot>"""
+IGNORED = 'ResourceManager has already loaded a urdf and is initialized. Ignoring attempt'
+FAILED = 'Could not load and initialize hardware. Please check previous output for more details.'
+
+
+class Wire:
+    """A node that hears descriptions, one that says them, and what the first one logs."""
+
+    def __init__(self):
+        self.node, self.speaker = Node('controller_manager', namespace='amr'), Node('speaker')
+        qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.publisher = self.speaker.create_publisher(String, '/amr/robot_description', qos)
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.node)
+        self.taken = []
+        self.refusals = []
+
+    async def take(self, robot, hardware):
+        if self.refusals:
+            raise self.refusals.pop(0)
+        self.taken.append((robot.name, [info.name for info in hardware]))
+
+    def said(self, capfd, *texts):
+        """Spin until each of the texts has been logged; return all that was."""
+        lines = ''
+        while not all(text in lines for text in texts):
+            self.executor.spin_once(timeout_sec=5.0)
+            lines += capfd.readouterr().err
+        return lines
+
+
+@pytest.fixture
+def wire():
+    with ros_in_this_process():
+        wire = Wire()
+        yield wire
+        wire.executor.shutdown()
+        wire.node.destroy_node()
+        wire.speaker.destroy_node()
+
+
+def test_it_says_what_it_waits_for_until_a_description_comes(wire, capfd):
+    DescriptionSource(wire.node, wire.take)
+    waiting = "Waiting for data on 'robot_description' topic to finish initialization"
+    lines = wire.said(capfd, waiting)
+    assert "Subscribing to '/amr/robot_description' topic for robot description." in lines
+    wire.publisher.publish(String(data=GOOD))
+    wire.said(capfd, 'Received robot description from topic.')
+    assert wire.taken == [('cart', ['Cart'])]
+    (subscription,) = wire.speaker.get_subscriptions_info_by_topic('/amr/robot_description')
+    assert subscription.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+
+
+def test_what_cannot_be_used_is_refused_and_the_next_one_is_taken(wire, capfd):
+    source = DescriptionSource(wire.node, wire.take)
+    wire.refusals = [HardwareError('no such device'), ValueError('a stranger')]
+    for text, reason in (
+        ('<robot', 'robot_description:1'),
+        ('<robot name="cart"><link name="base"/></robot>', 'has no <ros2_control> block'),
+        (GOOD, 'no such device'),
+        (GOOD, 'ValueError: a stranger'),
+    ):
+        wire.publisher.publish(String(data=text))
+        wire.said(capfd, reason, FAILED)
+        assert source.robot is None
+    wire.publisher.publish(String(data=GOOD))
+    wire.said(capfd, 'Received robot description')
+    assert wire.taken == [('cart', ['Cart'])]
+    wire.publisher.publish(String(data=GOOD))
+    wire.said(capfd, IGNORED)
+    assert wire.taken == [('cart', ['Cart'])]
+
+
+def test_a_spawned_robot_is_only_contradicted_by_another_description(wire, capfd):
+    DescriptionSource(wire.node, robot=parse(GOOD))
+    wire.publisher.publish(String(data=GOOD + '\n'))
+    wire.executor.spin_once(timeout_sec=5.0)
+    assert capfd.readouterr().err == ''
+    wire.publisher.publish(String(data=GOOD.replace('cart', 'other')))
+    wire.said(capfd, IGNORED)
