@@ -4,6 +4,7 @@
 
 import math
 import re
+import threading
 
 from control_fakes import (
     collect,
@@ -200,6 +201,59 @@ def test_a_configure_that_fails_leaves_it_unconfigured(error):
     with pytest.raises(ControllerError, match="Failed to configure controller 'fake': .*no, than"):
         manager.configure('fake', None)
     assert states_of(manager) == {'fake': 'unconfigured'}
+
+
+def test_a_long_configure_on_another_thread_stops_no_tick():
+    """The worker is inside `configure` while the owner ticks; events, not time, order the two."""
+    manager = make_manager(FakeHardware(['j']))
+    driving = start(manager, FakeController('driving', ['j/velocity']))
+    slow, entered, leave = FakeController('slow'), threading.Event(), threading.Event()
+
+    def configure(parameters):
+        entered.set()
+        assert leave.wait(10.0)
+
+    slow.configure = configure
+    manager.load(slow, 'a/Type')
+    configuring = manager.begin_configure('slow')
+    worker = threading.Thread(target=configuring.run, args=(None,))
+    worker.start()
+    assert entered.wait(10.0)
+    run(manager, 5)
+    assert len(driving.updates) == 5
+    assert states_of(manager) == {'driving': 'active', 'slow': 'unconfigured'}
+    leave.set()
+    worker.join()
+    assert manager.finish_configure(configuring) is slow
+    assert states_of(manager) == {'driving': 'active', 'slow': 'inactive'}
+
+
+def test_a_controller_that_is_being_configured_is_left_alone():
+    manager = loaded(FakeController())
+    configuring = manager.begin_configure('fake')
+    for verb in ('configure', 'cleanup', 'unload'):
+        arguments = ('fake', None) if verb == 'configure' else ('fake',)
+        message = f"Could not {verb} controller with name 'fake' because it is being configured"
+        with pytest.raises(ControllerError, match=message):
+            getattr(manager, verb)(*arguments)
+    message = "^Controller with name 'fake' is being configured; it can be activated when that has"
+    with pytest.raises(ControllerError, match=message):
+        manager.switch(['fake'], [], Strictness.STRICT, 0)
+    manager.reset(0)
+    manager.tick(0)
+    configuring.run(None)
+    manager.finish_configure(configuring)
+    manager.unload('fake')
+    assert configuring.loaded.controller.calls == [('configure', None), ('cleanup',)]
+
+
+def test_a_configuration_that_was_not_run_did_not_happen():
+    manager = loaded(FakeController())
+    configuring = manager.begin_configure('fake')
+    with pytest.raises(ControllerError, match="'fake': it was not configured"):
+        manager.finish_configure(configuring)
+    assert states_of(manager) == {'fake': 'unconfigured'}
+    manager.configure('fake', None)
 
 
 @pytest.mark.parametrize('kind', ['command', 'state'])

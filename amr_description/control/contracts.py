@@ -3,9 +3,9 @@
 """
 The page to read before writing a controller, a hardware component or a simulated world.
 
-Nothing here knows ROS, MuJoCo or a clock. One thread, **the owner**, calls every method below;
-what comes from other threads arrives through :class:`Input`. Times and periods are integer
-nanoseconds. All physical values are SI.
+Nothing here knows ROS, MuJoCo or a clock. One thread, **the owner**, calls every method below but
+:meth:`Controller.configure`; what comes from other threads arrives through :class:`Input`. Times
+and periods are integer nanoseconds. All physical values are SI.
 
 A transition or an update that cannot be done raises (:mod:`amr_description.errors`); nothing
 returns a flag.
@@ -193,6 +193,10 @@ class Controller(ABC):
     def configure(self, parameters: Any) -> None:
         """
         Take over checked parameters (an instance of ``parameters_type``). Raises ControllerError.
+
+        May take its time: it alone of all methods runs on a worker thread, while the owner's loop
+        goes on. Nobody else touches the controller meanwhile; what it shares with others is its
+        own affair.
         """
 
     def command_interfaces(self) -> InterfaceRequest:

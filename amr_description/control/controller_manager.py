@@ -13,7 +13,11 @@ from typing import Any
 from amr_description.control.contracts import Controller, Log, Severity
 from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
-from amr_description.control.loaded_controller import LoadedController, stride_of
+from amr_description.control.loaded_controller import (
+    Configuring,
+    LoadedController,
+    stride_of,
+)
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshots import ManagerSnapshot
 from amr_description.control.switch_execution import names_of, SwitchExecution
@@ -150,17 +154,42 @@ class ControllerManager:
 
     def configure(self, name: str, parameters: Any) -> Controller:
         """Configure, from inactive again; return the controller. Raises ControllerError."""
+        configuring = self.begin_configure(name)
+        configuring.run(parameters)
+        return self.finish_configure(configuring)
+
+    def begin_configure(self, name: str) -> Configuring:
+        """
+        Check, clean up what is inactive, and set the controller aside. Raises ControllerError.
+
+        Until :meth:`finish_configure` nothing else can be asked of it, so that any thread may
+        ``run`` what this returns.
+        """
         loaded = self._find(name, 'configure')
         if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
             raise ControllerError(
                 f"Controller '{name}' can not be configured from '{loaded.state.label}' state."
             )
+        self._clean_up(loaded)
+        loaded.is_busy = True
+        self.refresh()
+        return Configuring(loaded)
+
+    def finish_configure(self, configuring: Configuring) -> Controller:
+        """
+        Take the controller in again: inactive, or unconfigured where its ``configure`` raised.
+
+        Raises ControllerError.
+        """
+        loaded = configuring.loaded
+        loaded.is_busy = False
         try:
-            self._clean_up(loaded)
-            loaded.configure(parameters, self.resources)
+            if configuring.failure is not None:
+                raise configuring.failure
+            loaded.settle(self.resources)
         except Exception as error:  # a foreign controller may raise anything
             raise ControllerError(
-                f"Failed to configure controller '{name}': {describe(error)}"
+                f"Failed to configure controller '{loaded.name}': {describe(error)}"
             ) from error
         finally:
             self.refresh()
@@ -254,5 +283,10 @@ class ControllerManager:
             raise ControllerError(
                 f"Could not {verb} controller with name '{name}' because no controller with this "
                 'name exists'
+            )
+        if loaded.is_busy:
+            raise ControllerError(
+                f"Could not {verb} controller with name '{name}' because it is being configured; "
+                'ask again when that has ended'
             )
         return loaded

@@ -25,6 +25,8 @@ class LoadedController:
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands: tuple[str, ...] = ()
         self.required_states: tuple[str, ...] = ()
+        self.is_busy = False
+        """True while its ``configure`` may be running, on whatever thread."""
         self._last_update: int | None = None
         self._ticks = 0
 
@@ -38,9 +40,8 @@ class LoadedController:
         """True while it is updated."""
         return self.state is LifecycleState.ACTIVE
 
-    def configure(self, parameters: Any, resources: ResourceManager) -> None:
-        """Unconfigured → inactive. Raises what the controller raises; it stays unconfigured."""
-        self.controller.configure(parameters)
+    def settle(self, resources: ResourceManager) -> None:
+        """Configured → inactive. Raises ControllerError; it is then cleaned up again."""
         try:
             self.required_commands, self.required_states = self.wanted(resources)
             self._check_unique('command', self.required_commands)
@@ -117,6 +118,32 @@ class LoadedController:
                 f"The {kind} interfaces of the controller '{self.name}' are not unique. Please "
                 f'make sure that the {kind} interfaces are unique : \'{" ".join(twice)}\'.'
             )
+
+
+class Configuring:
+    """
+    The configuration of one controller, under way.
+
+    The owner begins it and finishes it (:class:`ControllerManager`); in between any one thread
+    calls :meth:`run`, once, while the loop goes on: a long configure stops no robot.
+    """
+
+    def __init__(self, loaded: LoadedController) -> None:
+        self.loaded = loaded
+        self.failure: Exception | None = ControllerError('it was not configured')
+
+    def run(self, parameters: Any) -> None:
+        """
+        Call the controller's ``configure``; what it raises is kept for the finish.
+
+        A controller that is being configured is touched by nobody else.
+        """
+        try:
+            self.loaded.controller.configure(parameters)
+        except Exception as error:  # a foreign controller may raise anything
+            self.failure = error
+        else:
+            self.failure = None
 
 
 def stride_of(controller: Controller, manager_rate: int, log: Log) -> int:

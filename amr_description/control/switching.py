@@ -111,6 +111,11 @@ class Switching:
     @staticmethod
     def _objection_to_activation(controller: LoadedController) -> str:
         name, state = controller.name, controller.state
+        if controller.is_busy:
+            return (
+                f"Controller with name '{name}' is being configured; it can be activated when "
+                'that has ended.'
+            )
         if state is LifecycleState.INACTIVE:
             return ''
         if state is LifecycleState.ACTIVE:
