@@ -173,6 +173,59 @@ def test_a_transition_that_fails_leaves_it_where_it_was(transition, target, reac
     assert states_of(resources) == {'hardware': reached}
 
 
+# --- first states --------------------------------------------------------------------------------
+
+
+def loaded(*components):
+    """A resource manager with these components, unconfigured."""
+    resources = ResourceManager(FakeLog())
+    for component in components:
+        resources.add(component)
+    return resources
+
+
+def test_all_components_become_active_but_those_that_are_named():
+    resources = loaded(*(FakeHardware([name], name) for name in 'abcd'))
+    resources.start_components(unconfigured=['c', ''], inactive=['a'])
+    assert states_of(resources) == {
+        'a': INACTIVE, 'b': ACTIVE, 'c': UNCONFIGURED, 'd': ACTIVE
+    }  # fmt: skip
+    assert resources.log.texts(Severity.WARN) == []
+    texts = resources.log.texts()
+    assert "Activating component 'b'." in texts
+    assert "Setting component 'a' to 'inactive' state." in texts
+    assert "Setting component 'c' to 'unconfigured' state." in texts
+
+
+def test_a_first_state_for_an_unknown_component_is_warned_of():
+    resources = loaded(FakeHardware(['a'], 'a'), FakeHardware(['b'], 'b'))
+    resources.start_components(unconfigured=['a'], inactive=['a', 'wheels'])
+    assert states_of(resources) == {'a': UNCONFIGURED, 'b': ACTIVE}
+    assert resources.log.texts(Severity.WARN) == [
+        f"Hardware component '{name}' is unknown, therefore not set in 'inactive' state. Known "
+        'and not yet set: b'
+        for name in ('a', 'wheels')
+    ]
+
+
+def test_a_component_that_does_not_get_to_its_first_state_ends_the_start():
+    broken = FakeHardware(['a'], 'a')
+    broken.faults['activate'] = OSError('no power')
+    message = r'Failed to set the initial state of the component : a to active\. .*no power'
+    with pytest.raises(HardwareError, match=message):
+        loaded(broken).start_components()
+
+
+def test_it_may_be_left_where_it_got_to():
+    broken = FakeHardware(['a'], 'a')
+    broken.faults['activate'] = OSError('no power')
+    resources = loaded(broken, FakeHardware(['b'], 'b'))
+    resources.start_components(shutdown_on_failure=False)
+    assert states_of(resources) == {'a': INACTIVE, 'b': ACTIVE}
+    (text,) = resources.log.texts(Severity.ERROR)
+    assert 'Failed to set the initial state of the component : a to active' in text
+
+
 # --- faults --------------------------------------------------------------------------------------
 
 

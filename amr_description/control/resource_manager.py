@@ -90,6 +90,49 @@ class ResourceManager:
             )
         owned.go_to(target)
 
+    def start_components(
+        self,
+        unconfigured: Sequence[str] = (),
+        inactive: Sequence[str] = (),
+        shutdown_on_failure: bool = True,
+    ) -> None:
+        """
+        Bring the components to their first states: active, but for those that are named.
+
+        The arguments are the parameters ``hardware_components_initial_state.…``; a name that no
+        component has is warned of. Raises HardwareError where a component does not get there and
+        ``shutdown_on_failure``; without that it stays where it got to, which is logged.
+        """
+        targets = dict.fromkeys(self.components, LifecycleState.ACTIVE)
+        named = {LifecycleState.UNCONFIGURED: unconfigured, LifecycleState.INACTIVE: inactive}
+        for state, name in ((state, name) for state, names in named.items() for name in names):
+            if targets.get(name) is LifecycleState.ACTIVE:
+                targets[name] = state
+            elif name:  # an empty name stands for an empty list
+                self.log(
+                    Severity.WARN,
+                    f"Hardware component '{name}' is unknown, therefore not set in "
+                    f"'{state.label}' state. Known and not yet set: "
+                    f'{_listed(n for n, to in targets.items() if to is LifecycleState.ACTIVE)}',
+                )
+        for name, target in sorted(targets.items(), key=lambda pair: pair[1]):
+            self._start(name, target, shutdown_on_failure)
+
+    def _start(self, name: str, target: LifecycleState, shutdown_on_failure: bool) -> None:
+        activate = target is LifecycleState.ACTIVE
+        setting = f"Setting component '{name}' to '{target.label}' state."
+        self.log(Severity.INFO, f"Activating component '{name}'." if activate else setting)
+        try:
+            self.set_state(name, target)
+        except HardwareError as error:
+            text = (
+                f'Failed to set the initial state of the component : {name} to {target.label}. '
+                f'{error}'
+            )
+            if shutdown_on_failure:
+                raise HardwareError(text) from error
+            self.log(Severity.ERROR, text)
+
     def shut_down(self) -> None:
         """Stop, close and finalize every component, as far as it still can."""
         for owned in self.components.values():
