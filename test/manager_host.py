@@ -78,7 +78,8 @@ class Host:
         outgoing = SimulatedOutgoing(self.node)
         mailbox = Mailbox()
         loop = Loop(Clockwork(), WallPacer(1.0, mailbox), mailbox, outgoing, PERIOD)
-        self.owner = Owner(loop, mailbox, self.executor)
+        self.owner = Owner(mailbox, self.executor)
+        self.owner.loop = loop
         try:
             self.manager_node = ControllerManagerNode(
                 self.owner,

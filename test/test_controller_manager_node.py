@@ -18,7 +18,6 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from std_msgs.msg import String
 
-from amr_description.control.loop import Loop
 from amr_description.errors import ParameterError
 from amr_description.nodes.clients import call, wait_until
 from amr_description.nodes.outgoing import Outgoing
@@ -252,7 +251,7 @@ def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
 
 def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
     node = Node('speaker')
-    outgoing = Outgoing(node)
+    outgoing = Outgoing(node.get_logger())
     gone, there = (node.create_publisher(String, name, 1) for name in ('gone', 'there'))
     filled = []
     for publisher in (gone, there):
@@ -264,8 +263,7 @@ def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
 
 
 def test_an_owner_that_was_never_started_stops_at_once(ros):
-    mailbox = Mailbox()
-    owner = Owner(Loop(None, None, mailbox, None, PERIOD), mailbox, SingleThreadedExecutor())
+    owner = Owner(Mailbox(), SingleThreadedExecutor())
     owner.stop()
     assert not owner.failed
 

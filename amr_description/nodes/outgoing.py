@@ -13,6 +13,7 @@ from typing import Any
 
 from rclpy.clock import ROSClock
 from rclpy.exceptions import InvalidHandle
+from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
@@ -38,10 +39,9 @@ class Outgoing:
     parameter_overrides: Sequence[Parameter] = ()
     """What every node that is adopted has to be made with."""
 
-    def __init__(self, node: Node) -> None:
-        """``node`` lends its logger."""
+    def __init__(self, logger: RcutilsLogger) -> None:
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
-        self._logger = node.get_logger()
+        self._logger = logger
 
     def adopt(self, node: Node) -> None:
         """Take in a node; on the thread that made it, after its constructor."""
@@ -81,7 +81,7 @@ class SimulatedOutgoing(Outgoing):
 
     def __init__(self, node: Node) -> None:
         """``node`` publishes ``/clock`` and lends its logger."""
-        super().__init__(node)
+        super().__init__(node.get_logger())
         self._clocks: list[ROSClock] = []
         self._message = Clock()
         self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)

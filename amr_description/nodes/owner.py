@@ -101,8 +101,10 @@ class Owner:
     ``on_failure`` is called, so that the process ends instead of standing still.
     """
 
-    def __init__(self, loop: Loop, mailbox: Mailbox, executor: Executor) -> None:
-        self.loop = loop
+    loop: Loop
+    """Set before :meth:`start`: what paces it may depend on parameters of a node that needs us."""
+
+    def __init__(self, mailbox: Mailbox, executor: Executor) -> None:
         self.failed = False
         self.on_failure: Callable[[], None] = executor.wake
         self._mailbox = mailbox
@@ -115,8 +117,8 @@ class Owner:
 
     def stop(self) -> None:
         """End the loop after the turn that it is in, if it has begun, and wait for that."""
-        self._mailbox.put(self.loop.stop)
         if self._thread.ident is not None:
+            self._mailbox.put(self.loop.stop)
             self._thread.join()
 
     def submit[Result](self, call: Callable[[], Result]) -> Future:

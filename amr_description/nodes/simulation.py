@@ -97,14 +97,14 @@ class Simulation:
             self._outgoing.adopt(node)
             self.world = MujocoWorld(parameters.world, log=self.log)
             mailbox = Mailbox()
-            loop = Loop(
+            self.owner = Owner(mailbox, executor)
+            self.owner.loop = Loop(
                 WorldStepper(self.world),
                 WallPacer(parameters.real_time_factor, mailbox),
                 mailbox,
                 self._outgoing,
                 CLOCK_PERIOD,
             )
-            self.owner = Owner(loop, mailbox, executor)
         except Exception:
             self.logs.stop()
             raise
