@@ -91,8 +91,8 @@ class ControllerManagerNode:
         resources = ResourceManager(self.log)
         try:
             for info in self._hardware:
-                resources.add(HARDWARE.find(info.plugin)(info, self.log, world))
-                resources.set_state(info.name, LifecycleState.ACTIVE)
+                resources.load(info, HARDWARE.find, world)
+            resources.start_components()
         except Exception:
             resources.shut_down()
             raise
