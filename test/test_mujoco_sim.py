@@ -14,7 +14,6 @@ from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
 from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.mujoco_sim import inherited
 from amr_description.sim.spawning import SpawnCode
 
 URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
@@ -223,11 +222,6 @@ def test_a_world_that_is_not_there_ends_the_simulator():
     assert ended.returncode == 1
     assert "world 'atlantis'" in ended.stderr
     assert 'Traceback' not in ended.stderr
-
-
-def test_remaps_go_on_to_controllers_but_names_and_parameters_do_not():
-    args = '--ros-args -r __node:=sim -r /tf:=tf --remap __ns:=/a -p world:=x --log-level debug'
-    assert inherited(args.split()) == ['-r', '/tf:=tf', '--log-level', 'debug']
 
 
 @pytest.mark.parametrize('library', ['librcl.so', 'librmw_fastrtps_cpp.so', 'libmujoco.so'])

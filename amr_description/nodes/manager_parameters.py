@@ -10,6 +10,7 @@ from rclpy.parameter import Parameter
 
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.nodes.ros_arguments import inherited
 
 
 class ManagerParameters:
@@ -42,7 +43,7 @@ class ManagerParameters:
         files = [files] if isinstance(files, str) else files
         options = self._get(f'{name}.node_options_args') or []
         return [
-            *self._arguments,
+            *inherited(self._arguments),
             *(argument for path in files for argument in ('--params-file', path)),
             *(option for option in options if option != '--ros-args'),
         ]

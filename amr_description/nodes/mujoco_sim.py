@@ -8,7 +8,6 @@ their controller managers. ``~/get_entity_state`` tells where a robot truly is.
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 import sys
 import traceback
 
@@ -30,6 +29,7 @@ from amr_description.nodes.converters import (
     transform_of,
 )
 from amr_description.nodes.node_parameters import declare
+from amr_description.nodes.ros_arguments import inherited, ros_arguments
 from amr_description.nodes.runtime import argument_errors, program, ros, spin
 from amr_description.nodes.simulation import Simulation, SimulationParameters
 from amr_description.sim.resources import resolve_uri
@@ -47,7 +47,8 @@ class MujocoSim:
         self.node = Node('mujoco_sim')
         try:
             parameters = declare(self.node, SimulationParameters)
-            self.simulation = Simulation(self.node, executor, parameters, inherited(args))
+            going_on = inherited(ros_arguments(args), with_parameters=False)
+            self.simulation = Simulation(self.node, executor, parameters, going_on)
         except Exception:
             self.node.destroy_node()
             raise
@@ -127,21 +128,6 @@ class MujocoSim:
         fill_velocity(rotate(pose.rotation, linear), rotate(pose.rotation, angular), state.twist)
         response.result.result = Result.RESULT_OK
         return response
-
-
-def inherited(args: Sequence[str]) -> list[str]:
-    """
-    Return the ROS arguments that go on to managers and controllers: remaps and log levels.
-
-    Not the name and namespace of this node, and not its parameters.
-    """
-    own = ('__node:=', '__name:=', '__ns:=')
-    kept: list[str] = []
-    for flag, value in pairwise(args):
-        is_remap = flag in ('-r', '--remap') and not value.startswith(own)
-        if is_remap or flag == '--log-level':
-            kept += [flag, value]
-    return kept
 
 
 def _read(uri: str) -> str:
