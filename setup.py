@@ -42,9 +42,11 @@ setup(
         'console_scripts': [
             'bringup = amr_description.bringup.main:main',
             'create = amr_description.nodes.create:main',
+            'hardware_spawner = amr_description.nodes.hardware_spawner:main',
             'listener = amr_description.nodes.listener:main',
             'mujoco_sim = amr_description.nodes.mujoco_sim:main',
             'robot_state_publisher = amr_description.nodes.robot_state_publisher:main',
+            'ros2_control_node = amr_description.nodes.ros2_control_node:main',
             'spawner = amr_description.nodes.spawner:main',
             'talker = amr_description.nodes.talker:main',
             'teleop_twist_keyboard = amr_description.nodes.teleop_twist_keyboard:main',

@@ -107,6 +107,8 @@ class Owner:
     def __init__(self, mailbox: Mailbox, executor: Executor) -> None:
         self.failed = False
         self.on_failure: Callable[[], None] = executor.wake
+        self.on_start: Callable[[], None] = lambda: None
+        """Called in the owner's thread, before the first turn."""
         self._mailbox = mailbox
         self._executor = executor
         self._thread = threading.Thread(target=self._run, name='owner')
@@ -146,6 +148,7 @@ class Owner:
         gc.collect()
         gc.freeze()
         try:
+            self.on_start()
             self.loop.run()
         except Exception:
             traceback.print_exc()

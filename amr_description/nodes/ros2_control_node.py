@@ -1,0 +1,170 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``ros2_control_node``: a controller manager by itself, for real or mock hardware.
+
+The loop is the simulator's, paced by the machine's clock, or with ``use_sim_time`` by the
+``/clock`` of another process. The robot is what the topic ``robot_description`` says. Parameters
+beside those of the manager, as in controller_manager 4.x:
+
+============================ ====================================================================
+``overruns.manage``          leave out cycles that were missed, instead of hurrying after (true)
+``thread_priority``          of the loop, by SCHED_FIFO, where Linux allows it (50)
+``cpu_affinity``             cores that the loop may run on; none: all (an integer, or a list)
+``lock_memory``              keep the process in RAM (false)
+============================ ====================================================================
+"""
+
+from collections.abc import Sequence
+import sys
+from typing import Any
+
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import get_logger
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+
+from amr_description.control.interfaces import NANOSECONDS
+from amr_description.control.loop import Loop
+from amr_description.errors import ParameterError
+from amr_description.model.hardware_info import HardwareInfo
+from amr_description.model.robot import Robot
+from amr_description.nodes.controller_manager_node import ControllerManagerNode, NODE_NAME
+from amr_description.nodes.description_source import DescriptionSource
+from amr_description.nodes.heard_clock import HeardClock
+from amr_description.nodes.machine_clock import MachineClock
+from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.owner import Mailbox, Owner
+from amr_description.nodes.realtime import ask_for_cores, ask_for_priority, lock_memory
+from amr_description.nodes.ros_arguments import ros_arguments
+from amr_description.nodes.runtime import argument_errors, program, ros, spin
+
+_CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+class StandAlone:
+    """One manager, its loop and what paces it."""
+
+    def __init__(self, executor: SingleThreadedExecutor, arguments: Sequence[str]) -> None:
+        """``arguments``: ROS arguments of the process. Raises ParameterError."""
+        self._mailbox = Mailbox()
+        self.logs = LogThread()
+        self._outgoing = Outgoing(get_logger(NODE_NAME))
+        self.owner = Owner(self._mailbox, executor)
+        try:
+            self._manager = ControllerManagerNode(
+                self.owner, self._outgoing, self.logs, namespace='/', arguments=arguments
+            )
+        except Exception:
+            self.logs.stop()
+            raise
+        self.node, self._log = self._manager.node, self._manager.log
+        try:
+            self._read_options()
+            self._period = round(NANOSECONDS / self._manager.parameters.update_rate)
+            self.owner.loop = self._make_loop()
+        except Exception:
+            self.close()
+            raise
+        self.owner.on_start = self._ask_linux
+        executor.add_node(self.node)
+
+    def start(self) -> None:
+        """Wait for a robot, and let time begin."""
+        DescriptionSource(self.node, self._bring_up)
+        self.owner.start()
+
+    def close(self) -> None:
+        """Stop the motors, then remove the nodes."""
+        self.owner.stop()
+        self._manager.destroy()
+        self.logs.stop()
+
+    def _read_options(self) -> None:
+        self._manages_overruns = option(self.node, 'overruns.manage', True, bool)
+        self._priority = option(self.node, 'thread_priority', 50, int)
+        self._locks_memory = option(self.node, 'lock_memory', False, bool)
+        cores = option(self.node, 'cpu_affinity', (), int, list, tuple)
+        self._cores = [cores] if isinstance(cores, int) else cores
+
+    def _make_loop(self) -> Loop:
+        rate = self._manager.parameters.update_rate
+        self.node.get_logger().info(f'update rate is {rate} Hz')
+        if self.node.get_parameter('use_sim_time').value:
+            clock = HeardClock(self._mailbox)
+        else:
+            manages = self._manages_overruns
+            clock = MachineClock(self._mailbox, self._log, rate, manages_overruns=manages)
+            self.node.get_logger().info(
+                f'Overruns handling is : {"enabled" if manages else "disabled"}'
+            )
+        loop = Loop(clock, clock, self._mailbox, self._outgoing, self._period)
+        clock.on_step = loop.reset
+        if isinstance(clock, HeardClock):
+            loop.pause()
+            clock.on_start = loop.resume
+            self.node.create_subscription(
+                Clock, '/clock', lambda m: clock.hear(_nanoseconds(m)), _CLOCK_QOS
+            )
+        return loop
+
+    async def _bring_up(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
+        self._manager.prepare(robot, hardware)
+        manager = await self.owner.submit(lambda: self._manager.bring_up(None, self._period))
+        await self.owner.submit(lambda: self.owner.loop.managers.append(manager))
+        self._manager.start()
+
+    def _ask_linux(self) -> None:
+        """On the owner's thread, before its first turn."""
+        ask_for_priority(self._priority, self._log)
+        ask_for_cores(self._cores, self._log)
+        if self._locks_memory:
+            lock_memory(self._log)
+
+
+def _nanoseconds(message: Clock) -> int:
+    return message.clock.sec * NANOSECONDS + message.clock.nanosec
+
+
+def option(node: Node, name: str, default: Any, *kinds: type) -> Any:
+    """Return a parameter that the node need not have. Raises ParameterError: its type."""
+    value = node.get_parameter_or(name, Parameter(name, value=default)).value
+    if type(value) not in kinds:
+        wanted = ' or '.join(kind.__name__ for kind in kinds)
+        raise ParameterError(f"parameter '{name}' must be of type {wanted}, found {value!r}")
+    return value
+
+
+def serve(args: list[str] | None) -> int:
+    """Run until asked to stop; 1 when the owner's thread failed."""
+    with ros(args) as stop:
+        executor = SingleThreadedExecutor()
+        with argument_errors():
+            robot = StandAlone(executor, ros_arguments(sys.argv[1:] if args is None else args))
+        is_stopping = False
+
+        def wake() -> None:
+            nonlocal is_stopping
+            is_stopping = True
+            executor.wake()
+
+        try:
+            with stop.on_stop(wake):
+                robot.start()
+                spin(executor, lambda: is_stopping or robot.owner.failed)
+        finally:
+            robot.close()
+            executor.shutdown()
+    return 1 if robot.owner.failed else 0
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the executable; return its exit code."""
+    return program(lambda: serve(args), stopped=0)
+
+
+if __name__ == '__main__':
+    sys.exit(main())
