@@ -66,6 +66,8 @@ def test_departs_from_the_tutorial_where_it_must_and_nowhere_else():
     their_manager, their_drive = load('test/fixtures/tutorial/controllers.yaml')
     remap = manager['diff_drive_controller'].pop('node_options_args')
     assert remap == ['-r', '~/odom:=/odom']
+    # The simulator says so to all of its nodes; without it the file serves a real robot too.
+    assert their_manager.pop('use_sim_time') is True
     assert manager == their_manager
     assert drive.pop('wheel_separation_multiplier') > 1.0
     assert (drive.pop('base_frame_id'), their_drive.pop('base_frame_id')) == (
