@@ -15,10 +15,17 @@ from amr_description.control.interfaces import (
     LifecycleState,
     NANOSECONDS,
     NO_INTERFACES,
+    StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import HardwareDeactivationError, HardwareError, InterfaceError
-from amr_description.model.hardware_info import HardwareInfo, HardwareType
+from amr_description.model.hardware_info import (
+    ComponentInfo,
+    ComponentType,
+    HardwareInfo,
+    HardwareType,
+    InterfaceInfo,
+)
 
 UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = (LifecycleState(number) for number in range(1, 5))
 
@@ -442,3 +449,41 @@ def test_a_command_is_nan_until_it_is_written():
     assert math.isnan(handle.value)
     assert handle.name == 'wheel/velocity'
     assert repr(handle) == "CommandInterface('wheel/velocity', value=nan)"
+
+
+@pytest.mark.parametrize(
+    ('data_type', 'first'),
+    [
+        ('double', math.nan),
+        ('float32', math.nan),
+        ('bool', False),
+        ('int8', 127),
+        ('uint8', 255),
+        ('int16', 32767),
+        ('uint16', 65535),
+        ('int32', 2147483647),
+        ('uint32', 4294967295),
+    ],
+)
+def test_a_cell_holds_the_value_of_its_type_until_it_is_written(data_type, first):
+    handle = CommandInterface('relay', 'coil', data_type=data_type)
+    assert handle.value is first or handle.value == first or math.isnan(first)
+    assert type(handle.value) is type(first)
+    assert handle.is_set == (data_type == 'bool'), 'a truth value has none that means nothing'
+    handle.value = 1
+    assert handle.is_set
+
+
+def test_a_cell_begins_with_the_initial_value_of_its_declaration():
+    relay = ComponentInfo('relay', ComponentType.GPIO)
+    for data_type, value in (('double', 1.0), ('bool', True), ('uint8', 1)):
+        handle = StateInterface.of(relay, InterfaceInfo('coil', data_type, initial_value=1.0))
+        assert (handle.name, handle.value, handle.data_type) == ('relay/coil', value, data_type)
+        assert type(handle.value) is type(value)
+    assert math.isnan(StateInterface.of(relay, InterfaceInfo('coil')).value)
+
+
+def test_a_type_that_does_not_exist_is_told_with_those_there_are():
+    message = r"'relay/coil' has the data type 'word'; there are: double, float32, bool, int8"
+    with pytest.raises(InterfaceError, match=message):
+        CommandInterface('relay', 'coil', data_type='word')

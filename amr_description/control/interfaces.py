@@ -12,10 +12,16 @@ Units are SI: position rad or m, velocity rad/s or m/s, acceleration rad/s² or 
 N.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 import enum
 import math
+from typing import Self, TYPE_CHECKING
+
+from amr_description.errors import InterfaceError
+
+if TYPE_CHECKING:
+    from amr_description.model.hardware_info import ComponentInfo, InterfaceInfo
 
 POSITION = 'position'
 VELOCITY = 'velocity'
@@ -43,23 +49,50 @@ class LifecycleState(enum.IntEnum):
         return self.name.lower()
 
 
+DATA_TYPES: Mapping[str, float | int | bool] = {
+    'double': math.nan,
+    'float32': math.nan,
+    'bool': False,
+    **{f'int{bits}': 2 ** (bits - 1) - 1 for bits in (8, 16, 32)},
+    **{f'uint{bits}': 2**bits - 1 for bits in (8, 16, 32)},
+}
+"""The data types of a cell, as ``<ros2_control>`` names them → its value before any write."""
+_ALWAYS_SET = ('double', 'float32', 'bool')
+
+
 class Handle:
     """
     One cell that a hardware component and a controller share.
 
-    ``value`` is NaN until it is first written. The cell is read and written on the owner's thread
-    only.
+    ``value`` is that of :data:`DATA_TYPES` (NaN for a number with a point) until it is first
+    written. The cell is read and written on the owner's thread only.
     """
 
     __slots__ = ('prefix', 'interface', 'data_type', 'value')
 
     def __init__(
-        self, prefix: str, interface: str, value: float = math.nan, data_type: str = 'double'
+        self,
+        prefix: str,
+        interface: str,
+        value: float | None = None,
+        data_type: str = 'double',
     ) -> None:
+        """``value``: the first, where it is not that of the type. Raises InterfaceError."""
+        if data_type not in DATA_TYPES:
+            raise InterfaceError(
+                f"interface '{prefix}/{interface}' has the data type '{data_type}'; there are: "
+                f'{", ".join(DATA_TYPES)}'
+            )
         self.prefix = prefix
         self.interface = interface
         self.data_type = data_type
-        self.value = value
+        first = DATA_TYPES[data_type]
+        self.value = first if value is None else type(first)(value)
+
+    @classmethod
+    def of(cls, component: 'ComponentInfo', interface: 'InterfaceInfo') -> Self:
+        """Make the cell that a joint, sensor or GPIO declares, with its initial value."""
+        return cls(component.name, interface.name, interface.initial_value, interface.data_type)
 
     @property
     def name(self) -> str:
@@ -67,6 +100,13 @@ class Handle:
         ``<prefix>/<interface>``; the prefix is the joint, sensor, GPIO or chained controller.
         """
         return f'{self.prefix}/{self.interface}'
+
+    @property
+    def is_set(self) -> bool:
+        """False while it holds what it held before any write: a command then is no command."""
+        if self.value != self.value:  # NaN
+            return False
+        return self.data_type in _ALWAYS_SET or self.value != DATA_TYPES[self.data_type]
 
     def __repr__(self) -> str:
         return f'{type(self).__name__}({self.name!r}, value={self.value})'
