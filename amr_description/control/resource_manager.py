@@ -39,17 +39,19 @@ class ResourceManager:
         info: 'HardwareInfo',
         find: Callable[[str], Callable[..., HardwareComponent]],
         world: World | None,
+        log: Log | None = None,
     ) -> None:
         """
         Make a component of the class that ``find`` knows by the name of its plugin, and take it.
 
-        Raises HardwareError, or whatever the constructor of a foreign component raises.
+        ``log``: the component's own, where it has one. Raises HardwareError, or whatever the
+        constructor of a foreign component raises.
         """
         self.log(Severity.INFO, f"Loading hardware '{info.name}' ")
         make = find(info.plugin)
         self.log(Severity.INFO, f"Loaded hardware '{info.name}' from plugin '{info.plugin}'")
         self.log(Severity.INFO, f"Initialize hardware '{info.name}' ")
-        self.add(make(info, self.log, world))
+        self.add(make(info, log or self.log, world))
         self.log(Severity.INFO, f"Successful initialization of hardware '{info.name}'")
 
     def add(self, component: HardwareComponent) -> None:
