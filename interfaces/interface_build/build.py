@@ -31,7 +31,7 @@ def build(source: Path, target: Path, work: Path, log: Callable[[str], None] = p
 
     start = time.monotonic()
     workers = len(os.sched_getaffinity(0))
-    with ProcessPoolExecutor(workers, initializer=_silence_output) as pool:
+    with ProcessPoolExecutor(workers, initializer=_begin_work) as pool:
         _finish(pool.submit(generators.write_idl, package) for package in generated)
         for number, package in enumerate(generated):
             _finish([pool.submit(generators.write_type_descriptions, package, generated[:number])])
@@ -56,13 +56,14 @@ def build(source: Path, target: Path, work: Path, log: Callable[[str], None] = p
     return [package.name for package in found]
 
 
-def _silence_output() -> None:
+def _begin_work() -> None:
     """
-    Send a worker's output nowhere: the generators tell every file they read.
+    Prepare a worker; its output goes nowhere, as the generators tell every file they read.
 
     By descriptor, as EmPy 3 does not stand ``sys.stdout`` being replaced. Errors still show.
     """
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    generators.parse_each_file_once()
 
 
 def _finish(futures: Iterable) -> None:

@@ -9,6 +9,7 @@ the packages they refer to. The code generators are independent of each other.
 """
 
 from dataclasses import dataclass
+import functools
 import json
 from pathlib import Path
 
@@ -67,6 +68,17 @@ class GeneratedPackage:
         file = self.build / f'{generator}__arguments.json'
         file.write_text(json.dumps(arguments, indent=1))
         return str(file)
+
+
+def parse_each_file_once() -> None:
+    """
+    Remember in this process what was parsed: each generator reads the same ``.idl`` files.
+
+    Their grammar is slow: 99 interfaces take 62 s of processor time in all without, 44 s with it.
+    """
+    from rosidl_parser import parser
+
+    parser.get_ast_from_idl_string = functools.cache(parser.get_ast_from_idl_string)
 
 
 def write_idl(package: GeneratedPackage) -> None:

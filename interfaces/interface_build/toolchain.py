@@ -22,7 +22,9 @@ import tempfile
 
 from interface_build import BuildError, CompilerError
 
-FLAGS = ('-O2', '-DNDEBUG', '-fPIC')  # of CMake's release builds
+# Those of CMake's release builds, but for its -O2: it takes 1.6 times as long to compile, and no
+# message is serialised any faster.
+FLAGS = ('-O1', '-DNDEBUG', '-fPIC')
 PROBE = {
     'probe.c': '#include <stdint.h>\nint32_t one(void) { return 1; }\n',
     'probe.cpp': '#include <string>\nstd::string two() { return std::string("2"); }\n',
