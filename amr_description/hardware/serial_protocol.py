@@ -1,0 +1,165 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The line protocol between a robot computer (the host) and a motor board with two sides, version 1.
+
+All that a firmware has to know stands here; :mod:`amr_description.hardware.serial_lines` reads
+and writes it. **A line** is ASCII, at most 80 bytes with the line feed that ends it::
+
+    $<word>,<field>,…*<CRC>
+
+The CRC is CRC-16/CCITT-FALSE (polynomial 0x1021, start 0xFFFF; ``123456789`` gives ``29B1``) of
+all between ``$`` and ``*``, as four upper-case hexadecimal digits. A line that departs from this
+in anything is refused whole; an empty line says nothing. Whatever went wrong, the next line feed
+puts things right, so the host sends one before its first word.
+
+==========================================  =======================================================
+from the host                               the board
+==========================================  =======================================================
+``HELLO,<version>,<number>``                answers ``BOARD``, in every mode
+``GET``                                     answers ``STATE``
+``ARM,<watchdog>``                          but in FAULT powers the motors at 0 rad/s and goes to
+                                            ARMED; answers ``STATE``. ``watchdog``: 20 to 5000 ms
+``SET,<left>,<right>``                      ARMED or TIMEOUT: follows these target velocities, goes
+                                            to ARMED, answers ``STATE``; else ``ERROR,NOT_ARMED``
+``DISARM``                                  brakes and goes to IDLE, from FAULT if the fault is
+                                            over; answers ``STATE``
+==========================================  =======================================================
+
+==========================================  =======================================================
+from the board                              meaning
+==========================================  =======================================================
+``BOARD,<version>,<number>,<name>,``        who it is. ``number`` is that of the ``HELLO``, so that
+``<ticks>,<velocity>``                      no old answer is taken for a new one; ``ticks``: of the
+                                            encoder, per turn of the motor shaft; ``velocity``: the
+                                            greatest that ``SET`` may ask for, rad/s
+``STATE,<uptime>,<left ticks>,``            ``uptime``: ms since its start; the encoder counts,
+``<right ticks>,<left>,<right>,<mode>``     growing as the motor turns forward; the measured
+                                            velocities, rad/s; the mode
+``ERROR,<reason>``                          the last line was refused, and nothing was changed
+==========================================  =======================================================
+
+The board says nothing by itself. Every good line has exactly one answer, so what the host reads is
+as old as its question, and a host that asks in its own rhythm gets samples in that rhythm.
+
+**The watchdog.** When the board is ARMED and for ``watchdog`` ms no ``SET`` came that it could
+follow, it brakes and goes to TIMEOUT. The next good ``SET`` makes it go on. Nothing else feeds it:
+a host whose program hangs stops, even if its driver still asks for states.
+
+Fields: velocities are of the motor shafts, rad/s, with four digits after the point (``-12.5000``).
+``uptime`` is an unsigned, a tick count a signed 32-bit number; both wrap around. ``version`` and
+``number`` have 16 bits. A name has 1 to 16 letters, digits, ``-`` or ``_``. Modes and reasons:
+:class:`Mode`, :class:`Reason`. A board that is of another version answers ``HELLO`` all the same,
+with its own version.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+VERSION = 1
+LONGEST_LINE = 80
+"""bytes, with the line feed."""
+SHORTEST_WATCHDOG, LONGEST_WATCHDOG = 20, 5000
+"""ms."""
+GREATEST_VELOCITY = 10_000.0
+"""rad/s: no line carries more."""
+
+
+class Mode(StrEnum):
+    """What the motors of a board do."""
+
+    IDLE = 'IDLE'
+    """Without power, as after its start."""
+    ARMED = 'ARMED'
+    """They follow ``SET``."""
+    TIMEOUT = 'TIMEOUT'
+    """The watchdog has stopped them."""
+    FAULT = 'FAULT'
+    """The board has stopped them: over-current, over-temperature, an encoder that is missing."""
+
+
+class Reason(StrEnum):
+    """Why a line was refused."""
+
+    CHECKSUM = 'CHECKSUM'
+    """Not a line, too long a line, or a wrong CRC: noise, or the wrong baud rate."""
+    MESSAGE = 'MESSAGE'
+    """An unknown word, or fields that do not belong to it."""
+    RANGE = 'RANGE'
+    """A number beyond its limits."""
+    NOT_ARMED = 'NOT_ARMED'
+    """``SET`` in IDLE or FAULT."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hello:
+    """``HELLO``."""
+
+    version: int
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Get:
+    """``GET``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arm:
+    """``ARM``; ``watchdog`` in ms."""
+
+    watchdog: int
+
+
+@dataclass(frozen=True, slots=True)
+class Set:
+    """``SET``; rad/s."""
+
+    left: float
+    right: float
+
+
+@dataclass(frozen=True, slots=True)
+class Disarm:
+    """``DISARM``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Board:
+    """``BOARD``; ``ticks`` per turn, ``velocity`` in rad/s."""
+
+    version: int
+    number: int
+    name: str
+    ticks: int
+    velocity: float
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """``STATE``; ``uptime`` in ms, velocities in rad/s."""
+
+    uptime: int
+    left_ticks: int
+    right_ticks: int
+    left: float
+    right: float
+    mode: Mode
+
+
+@dataclass(frozen=True, slots=True)
+class Error:
+    """``ERROR``."""
+
+    reason: Reason
+
+
+type Message = Hello | Get | Arm | Set | Disarm | Board | State | Error
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A line that is none, without its line feed; of one that is too long, the beginning."""
+
+    line: bytes
+    reason: Reason
