@@ -1,0 +1,169 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A motor board without the metal: what its firmware answers, and how its two motors turn.
+
+Bytes in, bytes out, and time as an argument; :mod:`amr_description.nodes.motor_board` gives it a
+pseudo-terminal and a clock.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+
+from amr_description.hardware.serial_lines import encode, LineReader
+from amr_description.hardware.serial_protocol import (
+    Arm,
+    Board,
+    Disarm,
+    Error,
+    Get,
+    Hello,
+    LONGEST_WATCHDOG,
+    Message,
+    Mode,
+    Reason,
+    Refused,
+    Set,
+    SHORTEST_WATCHDOG,
+    State,
+    VERSION,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class MotorConstants:
+    """
+    A motor with its speed controller, and the encoder on its shaft.
+
+    The speed follows its target as dω/dt = (target − ω) / ``time_constant``, its size not above
+    ``acceleration``.
+    """
+
+    time_constant: float = 0.05
+    """s."""
+    acceleration: float = 50.0
+    """rad/s²."""
+    velocity: float = 30.0
+    """rad/s: the greatest target."""
+    ticks: int = 4096
+    """Of the encoder, per turn of the shaft."""
+
+
+class Motor:
+    """One side: it turns towards ``target`` (rad/s)."""
+
+    def __init__(self, constants: MotorConstants) -> None:
+        self._constants = constants
+        self.target = self.velocity = self.position = 0.0
+        """rad/s, rad/s and rad since the start."""
+
+    def advance(self, dt: float) -> None:
+        """Turn for ``dt`` s; exact for a target that is near, whatever ``dt``."""
+        limits = self._constants
+        change = (self.target - self.velocity) * -math.expm1(-dt / limits.time_constant)
+        most = limits.acceleration * dt
+        before = self.velocity
+        self.velocity += min(most, max(-most, change))
+        self.position += (before + self.velocity) / 2.0 * dt
+
+    @property
+    def ticks(self) -> int:
+        """What the encoder has counted, as a signed number of 32 bits."""
+        count = math.floor(self.position / math.tau * self._constants.ticks)
+        return (count + 2**31) % 2**32 - 2**31
+
+
+class SimulatedMotorBoard:
+    """
+    The device of :mod:`amr_description.hardware.serial_protocol`.
+
+    ``say`` is told in one line what a bystander would see: armed, stopped by the watchdog, …
+    """
+
+    def __init__(
+        self,
+        say: Callable[[str], None] = lambda line: None,
+        constants: MotorConstants = MotorConstants(),
+        name: str = 'simulated',
+    ) -> None:
+        self.mode = Mode.IDLE
+        self.left, self.right = Motor(constants), Motor(constants)
+        self._say = say
+        self._constants = constants
+        self._name = name
+        self._lines = LineReader()
+        self._uptime = self._last_set = 0.0
+        self._watchdog = 0
+
+    def break_down(self) -> None:
+        """Go to FAULT, as when a motor takes too much current."""
+        self._enter(Mode.FAULT, 'a fault: the motors stop')
+
+    def advance(self, dt: float) -> None:
+        """Let ``dt`` s pass: the watchdog looks, the motors turn."""
+        self._uptime += dt
+        if self.mode is Mode.ARMED and (self._uptime - self._last_set) * 1e3 > self._watchdog:
+            self._enter(Mode.TIMEOUT, f'no SET for {self._watchdog} ms: the motors stop')
+        for motor in (self.left, self.right):
+            motor.advance(dt)
+
+    def hear(self, data: bytes) -> bytes:
+        """Take what came in on the line; return what goes out."""
+        return b''.join(encode(self._answer(message)) for message in self._lines.feed(data))
+
+    def _answer(self, message: Message | Refused) -> Message:
+        match message:
+            case Refused(reason=reason):
+                return Error(reason)
+            case Hello(number=number):
+                limits = self._constants
+                return Board(VERSION, number, self._name, limits.ticks, limits.velocity)
+            case Get():
+                return self._state()
+            case Arm(watchdog):
+                return self._arm(watchdog)
+            case Set(left, right):
+                return self._set(left, right)
+            case Disarm():
+                self._enter(Mode.IDLE, 'disarmed')
+                return self._state()
+        return Error(Reason.MESSAGE)  # a word of the board itself: a host that echoes
+
+    def _arm(self, watchdog: int) -> Message:
+        if not SHORTEST_WATCHDOG <= watchdog <= LONGEST_WATCHDOG:
+            return Error(Reason.RANGE)
+        if self.mode is not Mode.FAULT:
+            self._watchdog = watchdog
+            self._last_set = self._uptime
+            self._enter(Mode.ARMED, f'armed; the watchdog waits {watchdog} ms')
+        return self._state()
+
+    def _set(self, left: float, right: float) -> Message:
+        if self.mode not in (Mode.ARMED, Mode.TIMEOUT):
+            return Error(Reason.NOT_ARMED)
+        if max(abs(left), abs(right)) > self._constants.velocity:
+            return Error(Reason.RANGE)
+        if self.mode is Mode.TIMEOUT:
+            self._enter(Mode.ARMED, 'a SET came: the motors go on')
+        self._last_set = self._uptime
+        self.left.target, self.right.target = left, right
+        return self._state()
+
+    def _enter(self, mode: Mode, line: str) -> None:
+        """Change the mode, which stops the motors: whatever turns them says so afterwards."""
+        if mode is not self.mode:
+            self._say(line)
+        self.mode = mode
+        self.left.target = self.right.target = 0.0
+
+    def _state(self) -> State:
+        left, right = self.left, self.right
+        return State(
+            round(self._uptime * 1e3) % 2**32,
+            left.ticks,
+            right.ticks,
+            left.velocity,
+            right.velocity,
+            self.mode,
+        )
