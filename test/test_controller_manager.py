@@ -477,13 +477,16 @@ def test_the_snapshot_says_what_the_services_ask_for():
     assert drive.claimed == drive.required_commands == commands
     assert drive.required_states == tuple(f'{wheel}/position' for wheel in WHEELS)
     assert drive.is_chainable
-    assert drive.references == ('linear/velocity', 'angular/velocity')
+    references = ('drive/angular/velocity', 'drive/linear/velocity')
+    assert tuple(sorted(i.name for i in drive.references)) == references
+    assert all(i.is_available and not i.is_claimed for i in drive.references)
     assert not broadcaster.is_chainable
     assert len(broadcaster.required_states) == 8
     (component,) = manager.snapshot.components
     assert (component.type, component.plugin, component.rate) == ('system', 'a/Fake', 100)
-    assert [i.name for i in manager.snapshot.commands] == sorted(commands)
-    assert all(i.is_claimed and i.is_available for i in manager.snapshot.commands)
+    assert [i.name for i in manager.snapshot.commands] == sorted(commands + references)
+    assert all(i.is_available for i in manager.snapshot.commands)
+    assert {i.name for i in manager.snapshot.commands if i.is_claimed} == set(commands)
     assert not any(i.is_claimed for i in manager.snapshot.states)
 
 
@@ -492,6 +495,8 @@ def test_an_unconfigured_controller_requires_nothing_and_an_inactive_one_claims_
     manager.switch([], ['drive'], Strictness.STRICT, 0)
     drive = manager.snapshot.controllers[0]
     assert (drive.claimed, len(drive.required_commands)) == ((), 4)
+    assert len(drive.references) == 2
+    assert not any(i.is_available for i in drive.references)
     manager.cleanup('drive')
     drive = manager.snapshot.controllers[0]
     assert drive.required_commands == drive.required_states == drive.references == ()

@@ -7,44 +7,56 @@ Every method runs on the owner's thread. Other threads read :attr:`ControllerMan
 immutable object that is replaced as a whole.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
+import math
 from typing import Any
 
+from amr_description.control.configuring import Configuring
 from amr_description.control.contracts import Controller, Log, Severity
+from amr_description.control.controller_list import ControllerList
+from amr_description.control.faults import Faults
 from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
-from amr_description.control.loaded_controller import (
-    Configuring,
-    LoadedController,
-    stride_of,
-)
+from amr_description.control.loaded_controller import LoadedController
+from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshots import ManagerSnapshot
 from amr_description.control.switch_execution import names_of, SwitchExecution
 from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness, Switching
 from amr_description.control.taking_snapshots import take_snapshot
-from amr_description.errors import AmrError, ControllerError
+from amr_description.control.update_stride import stride_of
+from amr_description.errors import ControllerError
 
 
 class ControllerManager:
     """Runs the controllers of one robot at ``update_rate`` Hz."""
 
     def __init__(
-        self, resources: ResourceManager, update_rate: int, log: Log, period: int | None = None
+        self,
+        resources: ResourceManager,
+        update_rate: int,
+        log: Log,
+        period: int | None = None,
+        defaults: ManagerDefaults | None = None,
     ) -> None:
         """
         ``update_rate``: Hz, as parameters and services give it. ``period``: ns, where the world's
         steps do not divide that of the rate exactly.
         """
+        self._defaults = defaults = defaults or ManagerDefaults()
         self.resources = resources
+        resources.lends_commands_of_inactive = (
+            defaults.allow_controller_activation_with_inactive_hardware
+        )
         self.update_rate = update_rate
         self.period = period or round(NANOSECONDS / update_rate)
         """Nominal time between two ticks, ns."""
         self.next_tick = 0
         """The instant of the next tick, ns: a multiple of the period, if nothing came late."""
         self._log = log
-        self._execution = SwitchExecution(resources, log)
-        self._controllers: dict[str, LoadedController] = {}
+        self._controllers = ControllerList()
+        self._execution = SwitchExecution(self._controllers, resources, log)
+        self._faults = Faults(self._controllers, resources, self._execution, log)
         self._last_tick: int | None = None
         self.snapshot = ManagerSnapshot()
         self.refresh()
@@ -61,95 +73,67 @@ class ControllerManager:
         last, self._last_tick = self._last_tick, time
         period = self.period if last is None else time - last
         self._abandon(self.resources.read(time, period), time)
+        survives, nominal = self._faults.survives, self.period
         failed = [
             controller
-            for controller in self._active()
-            if not self._survives('updating', controller, controller.update, time, self.period)
+            for controller in self._controllers.active
+            if not survives('updating', controller, controller.update, time, nominal)
         ]
         if failed:
-            self._log(
-                Severity.ERROR,
-                f'Deactivating controllers : [ {names_of(failed)} ] as their update resulted in '
-                'an error!',
-            )
-            self._drop(failed, time)
-        self._abandon(self.resources.write(time, period), time)
+            self._faults.replace(failed, 'update', time)
+            self.refresh()
+        gone = self.resources.write(time, period)
+        if gone and not self._defaults.deactivate_controllers_on_hardware_self_deactivate:
+            states = {name: self.resources.components[name].state for name in gone}
+            gone = [name for name in gone if states[name] is not LifecycleState.INACTIVE]
+        self._abandon(gone, time)
 
     def reset(self, time: int) -> None:
         """Time went back to ``time`` (ns): controllers stay as they are and begin anew."""
         self._last_tick = None
         self.next_tick = time
-        failed = [
-            controller
-            for controller in self._controllers.values()
-            if not self._survives('resetting', controller, controller.reset, time)
-        ]
-        self._drop([controller for controller in failed if controller.is_active], time)
+        survives = self._faults.survives
+        failed = [c for c in self._controllers if not survives('resetting', c, c.reset, time)]
+        if failed:
+            self._faults.replace([c for c in failed if c.is_active], 'reset', time)
+            self.refresh()
 
     def shut_down(self, time: int) -> None:
         """End: deactivate the controllers, write once more, then stop and close the hardware."""
-        self._execution.drop(self._active(), time)
+        self._execution.drop(self._controllers.active, time)
         self.resources.write(time, self.period)
         self.resources.shut_down()
         self.refresh()
 
-    def _active(self) -> list[LoadedController]:
-        return [controller for controller in self._controllers.values() if controller.is_active]
-
-    def _survives(
-        self, doing: str, controller: LoadedController, method: Callable[..., None], *args: int
-    ) -> bool:
-        """Call a controller; the others must go on whatever it raises, which is logged."""
-        try:
-            method(*args)
-        except AmrError as error:
-            self._log(Severity.ERROR, f"Controller '{controller.name}': {error}")
-        except Exception as error:
-            self._log(
-                Severity.ERROR,
-                f'Caught exception of type : {type(error).__name__} while {doing} controller '
-                f"'{controller.name}': {error}",
-            )
-        else:
-            return True
-        return False
-
-    def _drop(self, controllers: Sequence[LoadedController], time: int) -> None:
-        self._execution.drop(controllers, time)
-        self.refresh()
-
     def _abandon(self, components: Sequence[str], time: int) -> None:
-        """Deactivate every controller that used a component which has just gone."""
-        if not components:
-            return
-        # A command and a state often have the same name: each kind is looked up by itself.
-        commands = self.resources.available_commands().keys()
-        states = self.resources.available_states().keys()
-        orphans = [
-            controller
-            for controller in self._active()
-            if not commands >= set(controller.required_commands)
-            or not states >= set(controller.required_states)
-        ]
-        if orphans:
-            self._log(
-                Severity.ERROR,
-                f'Deactivating controllers : [ {names_of(orphans)} ] as the hardware components '
-                f'[ {" ".join(components)} ] are no longer active',
-            )
-        self._drop(orphans, time)
+        """Deactivate what used components that have just gone."""
+        if components:
+            self._faults.abandon(components, time)
+            self.refresh()
 
     # --- load, configure, unload --------------------------------------------------------------
 
-    def load(self, controller: Controller, type_name: str) -> None:
-        """Take a controller that was made elsewhere. Raises ControllerError: name or rate."""
+    def load(
+        self, controller: Controller, type_name: str, fallbacks: Iterable[str] = ()
+    ) -> None:
+        """
+        Take a controller that was made elsewhere.
+
+        ``fallbacks``: the controllers to start when it fails. Raises ControllerError: name, rate
+        or fallbacks.
+        """
         name = controller.context.name
         if name in self._controllers:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
             )
+        fallbacks = tuple(fallbacks)
+        if name in fallbacks:
+            raise ControllerError(
+                f"Controller '{name}' cannot be a fallback controller for itself."
+            )
         stride = stride_of(controller, self.update_rate, self._log)
-        self._controllers[name] = LoadedController(controller, type_name, stride)
+        self._controllers.add(LoadedController(controller, type_name, stride, fallbacks))
         self.refresh()
 
     def configure(self, name: str, parameters: Any) -> Controller:
@@ -186,7 +170,7 @@ class ControllerManager:
         try:
             if configuring.failure is not None:
                 raise configuring.failure
-            loaded.settle(self.resources)
+            self._settle(loaded)
         except Exception as error:  # a foreign controller may raise anything
             raise ControllerError(
                 f"Failed to configure controller '{loaded.name}': {describe(error)}"
@@ -194,6 +178,14 @@ class ControllerManager:
         finally:
             self.refresh()
         return loaded.controller
+
+    def _settle(self, loaded: LoadedController) -> None:
+        loaded.settle(self.resources)
+        try:
+            self._controllers.link()
+        except ControllerError:
+            loaded.cleanup()
+            raise
 
     def cleanup(self, name: str) -> None:
         """Bring an inactive controller back to unconfigured. Raises ControllerError."""
@@ -214,13 +206,14 @@ class ControllerManager:
             )
         self._clean_up(loaded)
         loaded.state = LifecycleState.FINALIZED
-        del self._controllers[name]
+        self._controllers.remove(name)
         self.refresh()
 
     def _clean_up(self, controller: LoadedController) -> None:
         """Inactive → unconfigured, which it is whatever its ``cleanup`` raises."""
         if controller.state is LifecycleState.INACTIVE:
-            self._survives('cleaning up', controller, controller.cleanup)
+            self._faults.survives('cleaning up', controller, controller.cleanup)
+            self._controllers.link()
 
     # --- switch -------------------------------------------------------------------------------
 
@@ -228,26 +221,37 @@ class ControllerManager:
         self,
         activate: Sequence[str],
         deactivate: Sequence[str],
-        strictness: Strictness,
+        strictness: int,
         time: int,
+        timeout: int | None = None,
     ) -> str:
         """
         Activate and deactivate in one go; return the message of success.
 
-        Needs no tick, so that it works while the simulation is paused. Raises ControllerError.
+        ``strictness``: as in the request; 0 leaves it open. ``timeout``: ns, as in the request.
+        A switch here is one call between two ticks. It waits for nothing, so that it works while
+        the simulation is paused, no time-out can pass, and ``activate_asap`` of the request makes
+        no difference: it is always as soon as possible. Raises ControllerError.
         """
+        chosen = self._defaults.choose_strictness(strictness, self._log)
+        if timeout == 0:
+            self._log(
+                Severity.INFO,
+                'Switch controller timeout is set to 0, using default 1s!',
+                throttle=math.inf,
+            )
         for verb, names in (('Activating', activate), ('Deactivating', deactivate)):
             if names:
                 self._log(Severity.INFO, f'{verb} controllers: [ {" ".join(names)} ]')
-        switching = Switching(self._controllers, self.resources, strictness, self._log)
+        switching = Switching(self._controllers, self.resources, chosen, self._log)
         plan = switching.plan(activate, deactivate)
         if not plan.activate and not plan.deactivate:
             return NOTHING_TO_SWITCH
         try:
-            self._execution.carry_out(plan, strictness, time)
+            self._execution.carry_out(plan, chosen, time)
         finally:
             self.refresh()
-        if strictness is Strictness.STRICT:
+        if chosen is Strictness.STRICT:
             return 'Successfully switched controllers!'
         return (
             'Successfully switched controllers! '

@@ -2,11 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """One controller inside the manager: its state, its interfaces and when it is due."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Collection, Iterable, Sequence
 
-from amr_description.control.contracts import Controller, Log, Severity
-from amr_description.control.interfaces import LifecycleState
+from amr_description.control.chains import Ends
+from amr_description.control.contracts import Controller
+from amr_description.control.interfaces import (
+    Claim,
+    CommandInterface,
+    InterfaceRequest,
+    LifecycleState,
+    StateInterface,
+)
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import ControllerError
 
@@ -15,16 +21,28 @@ class LoadedController:
     """
     A controller with its lifecycle; the manager is the only one to move it.
 
-    ``stride``: it is updated at every so manieth tick of the manager.
+    ``stride``: it is updated at every so manieth tick of the manager. ``fallbacks``: the names of
+    the controllers that are started when it fails.
     """
 
-    def __init__(self, controller: Controller, type_name: str, stride: int) -> None:
+    def __init__(
+        self,
+        controller: Controller,
+        type_name: str,
+        stride: int,
+        fallbacks: Iterable[str] = (),
+    ) -> None:
+        self.fallbacks = tuple(fallbacks)
         self.controller = controller
         self.type = type_name
         self.stride = stride
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands: tuple[str, ...] = ()
         self.required_states: tuple[str, ...] = ()
+        self.references: tuple[CommandInterface, ...] = ()
+        self.exported_states: tuple[StateInterface, ...] = ()
+        self.ends = Ends()
+        """What links it to other controllers, once configured."""
         self.is_busy = False
         """True while its ``configure`` may be running, on whatever thread."""
         self._last_update: int | None = None
@@ -40,47 +58,91 @@ class LoadedController:
         """True while it is updated."""
         return self.state is LifecycleState.ACTIVE
 
+    @property
+    def is_configured(self) -> bool:
+        """True while it is inactive or active."""
+        return self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
+
     def settle(self, resources: ResourceManager) -> None:
         """Configured → inactive. Raises ControllerError; it is then cleaned up again."""
         try:
-            self.required_commands, self.required_states = self.wanted(resources)
-            self._check_unique('command', self.required_commands)
-            self._check_unique('state', self.required_states)
+            self._ask_for_interfaces(resources)
         except Exception:
             self.cleanup()
             raise
         self.state = LifecycleState.INACTIVE
 
-    def wanted(self, resources: ResourceManager) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    def _ask_for_interfaces(self, resources: ResourceManager) -> None:
+        controller = self.controller
+        commands, states = controller.command_interfaces(), controller.state_interfaces()
+        if controller.is_chainable:
+            self.references = tuple(controller.references())
+            self.exported_states = tuple(controller.exported_states())
+        self.ends = Ends(
+            _listed(commands),
+            _listed(states),
+            tuple(handle.name for handle in self.references),
+            tuple(handle.name for handle in self.exported_states),
+        )
+        available = resources.available_commands(), resources.available_states()
+        self.required_commands, self.required_states = self.wanted(*available)
+        self._check_unique('command', self.required_commands)
+        self._check_unique('state', self.required_states)
+        self._check_offer('reference', self.ends.references, available[0])
+        self._check_offer('exported state', self.ends.exported_states, available[1])
+
+    def wanted(
+        self, commands: Iterable[str], states: Iterable[str]
+    ) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """
-        Ask which command and which state interfaces it wants: 'all' depends on the hardware that
-        is there.
+        Which command and which state interfaces it wants when these are available.
+
+        That makes a difference to a controller that wants all; its own are not among them.
         """
-        commands = self.controller.command_interfaces()
-        states = self.controller.state_interfaces()
+        ends, names = self.ends, ResourceManager.names
         return (
-            resources.names(commands, resources.available_commands()),
-            resources.names(states, resources.available_states()),
+            names(
+                self.controller.command_interfaces(),
+                (name for name in commands if name not in ends.references),
+            ),
+            names(
+                self.controller.state_interfaces(),
+                (name for name in states if name not in ends.exported_states),
+            ),
         )
 
-    def activate(self, resources: ResourceManager, time: int) -> None:
-        """Inactive → active. Raises; all claims are then given back, and it stays inactive."""
+    def activate(self, resources: ResourceManager, time: int, *, chained: bool = False) -> None:
+        """
+        Inactive → active, and what it offers becomes available to others.
+
+        Raises; all claims are then given back, and it stays inactive.
+        """
         try:
-            self.required_commands, self.required_states = self.wanted(resources)
+            self._set_chained_mode(chained)
+            self.required_commands, self.required_states = self.wanted(
+                resources.available_commands(), resources.available_states()
+            )
             commands = resources.claim(self.name, self.required_commands)
             states = resources.lend_states(self.required_states)
             self.controller.activate(commands, states, time)
         except Exception:
             resources.release(self.name)
+            self._set_chained_mode(False)
             raise
         self._last_update = None
         self._ticks = 0
         for port in self.controller.inputs():
             port.open()
+        resources.offer(self.name, self.references, self.exported_states)
         self.state = LifecycleState.ACTIVE
 
     def update(self, time: int, nominal_period: int) -> None:
-        """Update it if it is due at this tick; ``nominal_period`` of the manager, ns."""
+        """
+        Update it if it is due at this tick; ``nominal_period`` of the manager, ns.
+
+        Whoever measures how often and for how long controllers run does it here, around the one
+        call of ``Controller.update``.
+        """
         is_due = self._ticks % self.stride == 0
         self._ticks += 1
         if not is_due:
@@ -90,25 +152,34 @@ class LoadedController:
         self.controller.update(time, period)
 
     def deactivate(self, resources: ResourceManager, time: int) -> None:
-        """Active → inactive: actuators safe, claims given back, inputs closed."""
+        """Active → inactive: actuators safe, claims and offers taken back, inputs closed."""
         for port in self.controller.inputs():
             port.close()
         try:
             self.controller.deactivate(time)
         finally:
             resources.release(self.name)
+            resources.withdraw(self.name)
             self.state = LifecycleState.INACTIVE
+            self._set_chained_mode(False)
+
+    def _set_chained_mode(self, chained: bool) -> None:
+        if self.controller.is_chained != chained:
+            self.controller.set_chained_mode(chained)
+            self.controller.is_chained = chained  # also where an override forgets to
 
     def cleanup(self) -> None:
         """Inactive → unconfigured."""
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands = self.required_states = ()
+        self.references = self.exported_states = ()
+        self.ends = Ends()
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:
         """Time went back to ``time``, ns: what an inactive one remembers is wrong as well."""
         self._last_update = None
-        if self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE):
+        if self.is_configured:
             self.controller.reset(time)
 
     def _check_unique(self, kind: str, names: Sequence[str]) -> None:
@@ -119,56 +190,21 @@ class LoadedController:
                 f'make sure that the {kind} interfaces are unique : \'{" ".join(twice)}\'.'
             )
 
-
-class Configuring:
-    """
-    The configuration of one controller, under way.
-
-    The owner begins it and finishes it (:class:`ControllerManager`); in between any one thread
-    calls :meth:`run`, once, while the loop goes on: a long configure stops no robot.
-    """
-
-    def __init__(self, loaded: LoadedController) -> None:
-        self.loaded = loaded
-        self.failure: Exception | None = ControllerError('it was not configured')
-
-    def run(self, parameters: Any) -> None:
-        """
-        Call the controller's ``configure``; what it raises is kept for the finish.
-
-        A controller that is being configured is touched by nobody else.
-        """
-        try:
-            self.loaded.controller.configure(parameters)
-        except Exception as error:  # a foreign controller may raise anything
-            self.failure = error
-        else:
-            self.failure = None
+    def _check_offer(self, kind: str, names: Sequence[str], available: Collection[str]) -> None:
+        """What it offers must be its own, once, and nobody else's."""
+        self._check_unique(kind, names)
+        for name in names:
+            if not name.startswith(f'{self.name}/'):
+                raise ControllerError(
+                    f"The {kind} interface '{name}' of the controller '{self.name}' must be named "
+                    f"'{self.name}/...'"
+                )
+            if name in available:
+                raise ControllerError(
+                    f"The {kind} interface '{name}' of the controller '{self.name}' is there "
+                    'already: another component exports it'
+                )
 
 
-def stride_of(controller: Controller, manager_rate: int, log: Log) -> int:
-    """
-    Return the ticks of the manager (``manager_rate``, Hz) for each update of the controller.
-
-    What cannot be had exactly is warned of. Raises ControllerError: its rate is not positive.
-    """
-    name, rate = controller.context.name, controller.context.update_rate
-    if rate <= 0:
-        raise ControllerError(
-            f"The update rate of controller '{name}' must be above 0 Hz, found {rate}"
-        )
-    if rate > manager_rate:
-        log(
-            Severity.WARN,
-            f"The update rate of controller '{name}', {rate} Hz, is above that of the controller "
-            f'manager, {manager_rate} Hz, and is set to it',
-        )
-        return 1
-    stride = (2 * manager_rate + rate) // (2 * rate)  # half away from zero, as C++ rounds
-    if manager_rate % rate:
-        log(
-            Severity.WARN,
-            f"The update rate of controller '{name}', {rate} Hz, is not achievable with a "
-            f'controller manager at {manager_rate} Hz; it runs at {manager_rate / stride:g} Hz',
-        )
-    return stride
+def _listed(request: InterfaceRequest) -> tuple[str, ...]:
+    return request.names if request.claim is Claim.INDIVIDUAL else ()

@@ -7,7 +7,9 @@ Fields follow ``controller_manager_msgs``: ControllerState, HardwareComponentSta
 HardwareInterface.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain
 
 from amr_description.control.interfaces import LifecycleState
 
@@ -34,8 +36,14 @@ class ControllerSnapshot:
     required_commands: tuple[str, ...]
     required_states: tuple[str, ...]
     is_chainable: bool
-    references: tuple[str, ...]
-    """Names of its reference interfaces without its own name, once configured."""
+    is_chained: bool = False
+    """True in chained mode: others command it, not its topics."""
+    references: tuple[InterfaceSnapshot, ...] = ()
+    """What others may command of it, once configured; available while it is active."""
+    exported_states: tuple[InterfaceSnapshot, ...] = ()
+    """What others may read of it, likewise."""
+    chain_connections: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    """The controllers that it commands, each with the full names of those references."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +62,10 @@ class ComponentSnapshot:
 
 @dataclass(frozen=True, slots=True)
 class ManagerSnapshot:
-    """All of one manager: controllers by name, components in the order of the description."""
+    """
+    All of one manager: controllers in the order of their updates, components in that of the
+    description.
+    """
 
     controllers: tuple[ControllerSnapshot, ...] = ()
     components: tuple[ComponentSnapshot, ...] = ()
@@ -66,12 +77,20 @@ class ManagerSnapshot:
 
     @property
     def commands(self) -> tuple[InterfaceSnapshot, ...]:
-        """Every command interface, by name."""
-        every = (interface for component in self.components for interface in component.commands)
-        return tuple(sorted(every, key=lambda interface: interface.name))
+        """Every command interface of hardware and, as references, of controllers, by name."""
+        return _by_name(
+            *(component.commands for component in self.components),
+            *(controller.references for controller in self.controllers),
+        )
 
     @property
     def states(self) -> tuple[InterfaceSnapshot, ...]:
-        """Every state interface, by name."""
-        every = (interface for component in self.components for interface in component.states)
-        return tuple(sorted(every, key=lambda interface: interface.name))
+        """Every state interface of hardware, and what controllers export, by name."""
+        return _by_name(
+            *(component.states for component in self.components),
+            *(controller.exported_states for controller in self.controllers),
+        )
+
+
+def _by_name(*groups: Iterable[InterfaceSnapshot]) -> tuple[InterfaceSnapshot, ...]:
+    return tuple(sorted(chain(*groups), key=lambda interface: interface.name))

@@ -10,6 +10,7 @@ logged, and the others go on.
 from collections.abc import Iterable, Sequence
 
 from amr_description.control.contracts import Log, Severity
+from amr_description.control.controller_list import ControllerList
 from amr_description.control.foreign_errors import describe
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.resource_manager import ResourceManager
@@ -20,7 +21,8 @@ from amr_description.errors import ControllerError, HardwareError
 class SwitchExecution:
     """Moves controllers between inactive and active, and tells the hardware."""
 
-    def __init__(self, resources: ResourceManager, log: Log) -> None:
+    def __init__(self, controllers: ControllerList, resources: ResourceManager, log: Log) -> None:
+        self._controllers = controllers
         self._resources = resources
         self._log = log
 
@@ -29,19 +31,21 @@ class SwitchExecution:
         Deactivate, then activate.
 
         Raises ControllerError when the hardware refuses (nothing has then changed) and when a
-        controller cannot be activated: STRICT then deactivates the plan's others again.
+        controller cannot be activated: STRICT then deactivates the plan's others again. Those
+        that the request did not name, and which only were to change their mode, go on.
         """
-        start = [name for c in plan.activate for name in c.wanted(self._resources)[0]]
         stop = [name for c in plan.deactivate for name in c.required_commands]
-        self._prepare(start, stop)
+        self._prepare(plan.start, stop)
         self._deactivate(plan.deactivate, time)
-        self._perform(start, stop)
-        failed = [c for c in plan.activate if not self._activate(c, time)]
+        self._perform(plan.start, stop)
+        failed = [c for c in plan.activate if not self._activate(c, time, c.name in plan.chained)]
         if not failed:
             return
         if strictness is Strictness.STRICT:
-            self.drop([c for c in plan.activate if c.is_active], time)
+            named = (c for c in reversed(plan.activate) if c.name not in plan.restarted)
+            self.drop([c for c in named if c.is_active], time)
         self._release_commands(failed)
+        self._mend(time)
         raise ControllerError(
             'Failed switching controllers.... '
             f'Unable to activate controllers: [ {names_of(failed)} ]'
@@ -49,8 +53,26 @@ class SwitchExecution:
 
     def drop(self, controllers: Sequence[LoadedController], time: int) -> None:
         """Deactivate controllers that cannot go on; nobody is asked."""
-        self._deactivate(controllers, time)
-        self._release_commands(controllers)
+        if controllers:
+            self._deactivate(controllers, time)
+            self._release_commands(controllers)
+
+    def _mend(self, time: int) -> None:
+        """
+        Leave, after a failure, no controller active without those that it needs, and none in
+        chained mode without one that commands it.
+        """
+        for c in self._controllers.activation_order(self._controllers.active):
+            if not all(needed.is_active for needed in self._controllers.needed(c)):
+                self.drop([c], time)
+        for c in self._controllers.active:
+            is_commanded = any(each.is_active for each in self._controllers.commanding(c))
+            if c.controller.is_chained and not is_commanded:
+                self._deactivate([c], time)
+                if not self._activate(c, time, chained=False):
+                    self._release_commands([c])
+                    self._mend(time)
+                    return
 
     def _prepare(self, start: Sequence[str], stop: Sequence[str]) -> None:
         try:
@@ -75,9 +97,9 @@ class SwitchExecution:
         except HardwareError as error:
             self._log(Severity.ERROR, str(error))
 
-    def _activate(self, controller: LoadedController, time: int) -> bool:
+    def _activate(self, controller: LoadedController, time: int, chained: bool) -> bool:
         try:
-            controller.activate(self._resources, time)
+            controller.activate(self._resources, time, chained=chained)
         except Exception as error:
             self._log(
                 Severity.ERROR, f"Failed to activate '{controller.name}': {describe(error)}"

@@ -1,19 +1,21 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Whether controllers may be switched as asked: the checks of ``switch_controller``, word for word.
+From the request of ``switch_controller`` to a plan of what is done.
 
-Nothing is changed here; :mod:`amr_description.control.controller_manager` carries the plan out.
+Nothing is changed here; :mod:`amr_description.control.switch_execution` carries the plan out.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import enum
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.interfaces import LifecycleState
+from amr_description.control.controller_list import ControllerList
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.switch_checks import SwitchChecks
+from amr_description.control.switch_request import SwitchRequest
 from amr_description.errors import ControllerError
 
 NOTHING_TO_SWITCH = (
@@ -36,36 +38,45 @@ class SwitchPlan:
 
     deactivate: tuple[LoadedController, ...]
     activate: tuple[LoadedController, ...]
+    chained: frozenset[str]
+    """Those to activate whose references somebody commands."""
+    restarted: frozenset[str]
+    """Those in both lists only because that changes; the request did not name them."""
+    start: tuple[str, ...]
+    """The command interfaces that will be claimed."""
 
 
 class Switching:
-    """Checks one request against the controllers and interfaces there are."""
+    """Plans one switch."""
 
     def __init__(
         self,
-        controllers: Mapping[str, LoadedController],
+        controllers: ControllerList,
         resources: ResourceManager,
         strictness: Strictness,
         log: Log,
     ) -> None:
         self._controllers = controllers
-        self._resources = resources
+        self._request = SwitchRequest(controllers)
+        self._checks = SwitchChecks(self._request, resources)
         self._strict = strictness is Strictness.STRICT
         self._log = log
 
     def plan(self, activate: Sequence[str], deactivate: Sequence[str]) -> SwitchPlan:
         """Return what can be done. Raises ControllerError with the message of the response."""
-        leaving = self._known(deactivate, 'deactivate')
-        entering = self._known(activate, 'activate')
-        leaving = [c for c in leaving if self._passes(self._objection_to_deactivation(c))]
-        restarting = {c.name for c in leaving}
-        entering = [
-            c
-            for c in entering
-            if c.name in restarting or self._passes(self._objection_to_activation(c))
-        ]
-        self._check_interfaces(entering, leaving)
-        return SwitchPlan(tuple(leaving), tuple(entering))
+        request = self._request
+        request.leaving = self._known(deactivate, 'deactivate')
+        request.entering = self._known(activate, 'activate')
+        self._drop_what_may_not_be()
+        restarted = request.restart_what_changes_mode()
+        ordered = self._controllers.activation_order
+        return SwitchPlan(
+            deactivate=tuple(reversed(ordered(request.leaving))),
+            activate=tuple(ordered(request.entering)),
+            chained=frozenset(c.name for c in request.entering if request.will_be_chained(c)),
+            restarted=restarted,
+            start=tuple(self._checks.check_interfaces()),
+        )
 
     def _known(self, names: Sequence[str], verb: str) -> list[LoadedController]:
         known = []
@@ -84,78 +95,34 @@ class Switching:
                 )
                 raise ControllerError(message)
         if names and not known:
+            loaded = sorted(each.name for each in self._controllers)
             raise ControllerError(
                 f'None of the controllers to {verb} exists: [ {" ".join(names)} ]. Loaded: '
-                f'[ {" ".join(sorted(self._controllers))} ]'
+                f'[ {" ".join(loaded)} ]'
             )
         return known
 
-    def _passes(self, objection: str) -> bool:
-        if not objection:
-            return True
-        if self._strict:
-            self._log(Severity.ERROR, objection)
-            raise ControllerError(objection)
-        self._log(Severity.WARN, objection)
-        return False
-
-    @staticmethod
-    def _objection_to_deactivation(controller: LoadedController) -> str:
-        if controller.is_active:
-            return ''
-        return (
-            f"Controller with name '{controller.name}' can not be deactivated since it is not "
-            'active.'
-        )
-
-    @staticmethod
-    def _objection_to_activation(controller: LoadedController) -> str:
-        name, state = controller.name, controller.state
-        if controller.is_busy:
-            return (
-                f"Controller with name '{name}' is being configured; it can be activated when "
-                'that has ended.'
+    def _drop_what_may_not_be(self) -> None:
+        """Until nothing is objected to: what goes may have been the ground of something else."""
+        is_settled = False
+        while not is_settled:
+            is_settled = not (
+                self._drop(self._request.leaving, self._checks.objection_to_deactivation)
+                or self._drop(self._request.entering, self._checks.objection_to_activation)
             )
-        if state is LifecycleState.INACTIVE:
-            return ''
-        if state is LifecycleState.ACTIVE:
-            return f"Controller with name '{name}' is already active."
-        if state is LifecycleState.UNCONFIGURED:
-            return (
-                f"Controller with name '{name}' is in 'unconfigured' state. The controller needs "
-                "to be configured to be in 'inactive' state before it can be checked and "
-                'activated.'
-            )
-        return f"Controller with name '{name}' is not in 'inactive' state."
 
-    def _check_interfaces(
-        self, entering: Sequence[LoadedController], leaving: Sequence[LoadedController]
-    ) -> None:
-        """Every interface must be there, and free or freed by this very request."""
-        commands = self._resources.available_commands()
-        states = self._resources.available_states()
-        freed = {controller.name for controller in leaving}
-        promised: set[str] = set()
-        for controller in entering:
-            wanted_commands, wanted_states = controller.wanted(self._resources)
-            refusal = f"Unable to activate controller '{controller.name}' since the "
-            for name in wanted_commands:
-                holder = self._resources.claims.get(name)
-                if name not in commands:
-                    raise ControllerError(
-                        f"{refusal}command interface '{name}' is not available."
-                    )
-                if holder is not None and holder not in freed:
-                    raise ControllerError(
-                        f"{refusal}command interface '{name}' is currently claimed by another "
-                        'controller.'
-                    )
-                if name in promised:
-                    raise ControllerError(
-                        f"{refusal}command interface '{name}' will be used by another controller "
-                        'that is being activated.'
-                    )
-            promised.update(wanted_commands)
-            for name in wanted_states:
-                if name not in states:
-                    raise ControllerError(f"{refusal}state interface '{name}' is not available.")
+    def _drop(
+        self, asked: list[LoadedController], objection_to: Callable[[LoadedController], str]
+    ) -> bool:
+        """Take out what is objected to; tell whether anything was. Raises where that is strict."""
+        before = len(asked)
+        for controller in list(asked):
+            objection = objection_to(controller)
+            if not objection:
+                continue
+            if self._strict:
+                self._log(Severity.ERROR, objection)
+                raise ControllerError(objection)
+            self._log(Severity.WARN, objection)
+            asked.remove(controller)
+        return len(asked) < before

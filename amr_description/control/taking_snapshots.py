@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a snapshot is taken of the controllers and the resources of a manager."""
 
-from collections.abc import Container, Mapping
+from collections.abc import Container, Iterable, Mapping
 
-from amr_description.control.interfaces import Handle, LifecycleState
+from amr_description.control.controller_list import ControllerList
+from amr_description.control.interfaces import Handle
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.owned_component import OwnedComponent
 from amr_description.control.resource_manager import ResourceManager
@@ -17,20 +18,27 @@ from amr_description.control.snapshots import (
 
 
 def take_snapshot(
-    controllers: Mapping[str, LoadedController], resources: ResourceManager, rate: int
+    controllers: ControllerList, resources: ResourceManager, rate: int
 ) -> ManagerSnapshot:
     """Copy what readers may know; on the owner's thread. ``rate``: of the manager, Hz."""
+    chains, claims = controllers.chains, resources.claims
     return ManagerSnapshot(
-        controllers=tuple(_controller(controllers[name], rate) for name in sorted(controllers)),
+        controllers=tuple(
+            _controller(loaded, chains.commands(loaded.name), claims, rate)
+            for loaded in controllers
+        ),
         components=tuple(
-            _component(owned, resources, rate) for owned in resources.components.values()
+            _component(owned, claims, rate) for owned in resources.components.values()
         ),
     )
 
 
-def _controller(loaded: LoadedController, rate: int) -> ControllerSnapshot:
-    is_configured = loaded.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
-    references = loaded.controller.references()
+def _controller(
+    loaded: LoadedController,
+    connections: Mapping[str, tuple[str, ...]],
+    claims: Container[str],
+    rate: int,
+) -> ControllerSnapshot:
     return ControllerSnapshot(
         name=loaded.name,
         type=loaded.type,
@@ -40,25 +48,29 @@ def _controller(loaded: LoadedController, rate: int) -> ControllerSnapshot:
         required_commands=loaded.required_commands,
         required_states=loaded.required_states,
         is_chainable=loaded.controller.is_chainable,
-        references=tuple(r.interface for r in references) if is_configured else (),
+        is_chained=loaded.controller.is_chained,
+        references=_interfaces(loaded.references, claims, loaded.is_active),
+        exported_states=_interfaces(loaded.exported_states, (), loaded.is_active),
+        chain_connections=tuple(sorted(connections.items())),
     )
 
 
-def _component(owned: OwnedComponent, resources: ResourceManager, rate: int) -> ComponentSnapshot:
-    def interfaces(
-        handles: Mapping[str, Handle], claims: Container[str]
-    ) -> tuple[InterfaceSnapshot, ...]:
-        return tuple(
-            InterfaceSnapshot(name, handle.data_type, owned.is_available, name in claims)
-            for name, handle in handles.items()
-        )
-
+def _component(owned: OwnedComponent, claims: Container[str], rate: int) -> ComponentSnapshot:
     return ComponentSnapshot(
         name=owned.info.name,
         type=owned.info.type,
         plugin=owned.info.plugin,
         state=owned.state,
         rate=min(owned.info.rw_rate or rate, rate),
-        commands=interfaces(owned.commands, resources.claims),
-        states=interfaces(owned.states, ()),
+        commands=_interfaces(owned.commands.values(), claims, owned.is_available),
+        states=_interfaces(owned.states.values(), (), owned.is_available),
+    )
+
+
+def _interfaces(
+    handles: Iterable[Handle], claims: Container[str], is_available: bool
+) -> tuple[InterfaceSnapshot, ...]:
+    return tuple(
+        InterfaceSnapshot(handle.name, handle.data_type, is_available, handle.name in claims)
+        for handle in handles
     )

@@ -2,7 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Snapshots of a controller manager → ``controller_manager_msgs``."""
 
-from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
+from collections.abc import Iterable
+
+from controller_manager_msgs.msg import (
+    ChainConnection,
+    ControllerState,
+    HardwareComponentState,
+    HardwareInterface,
+)
 
 from amr_description.control.snapshots import (
     ComponentSnapshot,
@@ -22,8 +29,19 @@ def controller_message(controller: ControllerSnapshot) -> ControllerState:
         required_command_interfaces=controller.required_commands,
         required_state_interfaces=controller.required_states,
         is_chainable=controller.is_chainable,
-        reference_interfaces=controller.references,
+        is_chained=controller.is_chained,
+        exported_state_interfaces=_own(i.name for i in controller.exported_states),
+        reference_interfaces=_own(i.name for i in controller.references),
+        chain_connections=[
+            ChainConnection(name=following, reference_interfaces=_own(references))
+            for following, references in controller.chain_connections
+        ],
     )
+
+
+def _own(names: Iterable[str]) -> list[str]:
+    """Take the controller's own name, which stands in front, away."""
+    return [name.partition('/')[2] for name in names]
 
 
 def component_message(component: ComponentSnapshot) -> HardwareComponentState:

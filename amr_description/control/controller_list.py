@@ -1,0 +1,80 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The controllers of a manager, in the order in which they are updated."""
+
+from collections.abc import Collection, Iterable, Iterator
+
+from amr_description.control.chains import Chains
+from amr_description.control.loaded_controller import LoadedController
+
+
+class ControllerList:
+    """
+    The loaded controllers by name; iterated over in the order of their updates.
+
+    That order and the links between them stand in :attr:`chains`, which is made anew by
+    :meth:`link`.
+    """
+
+    def __init__(self) -> None:
+        self._by_name: dict[str, LoadedController] = {}
+        self._ordered: tuple[LoadedController, ...] = ()
+        self.chains = Chains({})
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._by_name
+
+    def __iter__(self) -> Iterator[LoadedController]:
+        return iter(self._ordered)
+
+    def __getitem__(self, name: str) -> LoadedController:
+        return self._by_name[name]
+
+    def get(self, name: str) -> LoadedController | None:
+        """Return the controller of that name, if there is one."""
+        return self._by_name.get(name)
+
+    def add(self, loaded: LoadedController) -> None:
+        """Take one in; its name is new."""
+        self._by_name[loaded.name] = loaded
+        self.link()
+
+    def remove(self, name: str) -> None:
+        """Forget one."""
+        del self._by_name[name]
+        self.link()
+
+    def link(self) -> None:
+        """
+        Find the chains, after a controller's interfaces have changed.
+
+        Raises ControllerError at a circle; nothing has then changed.
+        """
+        self.chains = Chains({name: loaded.ends for name, loaded in self._by_name.items()})
+        self._ordered = tuple(self._by_name[name] for name in self.chains.update_order)
+
+    @property
+    def active(self) -> list[LoadedController]:
+        """Those that are updated, in that order."""
+        return [loaded for loaded in self._ordered if loaded.is_active]
+
+    def activation_order(self, chosen: Collection[LoadedController]) -> list[LoadedController]:
+        """Those chosen: whoever is needed by another comes first."""
+        return [self[n] for n in self.chains.activation_order if self[n] in chosen]
+
+    def needed(self, loaded: LoadedController) -> list[LoadedController]:
+        """The controllers that must be active for it to be."""
+        return [self[name] for name in sorted(self.chains.needs(loaded.name))]
+
+    def needing(self, loaded: LoadedController) -> list[LoadedController]:
+        """The controllers that can be active only while it is."""
+        return [self[name] for name in self.chains.needed_by(loaded.name)]
+
+    def commanding(self, loaded: LoadedController) -> list[LoadedController]:
+        """The controllers that command it."""
+        return [self[name] for name in self.chains.commanded_by(loaded.name)]
+
+    def active_chains_of(self, chosen: Iterable[LoadedController]) -> list[LoadedController]:
+        """Those chosen and all that cannot go on without them, as far as they are active."""
+        names = self.chains.whole(loaded.name for loaded in chosen)
+        return [loaded for loaded in self.active if loaded.name in names]
