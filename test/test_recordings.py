@@ -1,17 +1,18 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The recordings of the C++ stack, replayed: the same commands at the same instants, the same
-wheels, joint states, limited commands and odometry; but for the estimated twist, the same bits.
+The recordings of the C++ stack, replayed through manager, controllers and mock hardware: the same
+commands at the same instants, the same wheels, joint states, limited commands and odometry; but
+for the estimated twist, the same bits.
 """
 
+from dataclasses import replace
 from itertools import pairwise
 import math
 from pathlib import Path
 
 from control_fakes import (
     collect,
-    FakeHardware,
     FakeLog,
     LEFT,
     load_trace,
@@ -31,6 +32,8 @@ from amr_description.controllers.joint_state_broadcaster import (
     BroadcasterParameters,
     JointStateBroadcaster,
 )
+from amr_description.hardware.mock_system import MockSystem
+from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import load
 from amr_description.parameters import build
 
@@ -47,12 +50,19 @@ LEAD = 60
 """Cycles before the recording begins: the time-out of no command at all has passed by then."""
 
 
+def mock_wheels():
+    """The robot's hardware with nothing but its plugin changed, as it was recorded."""
+    (info,) = hardware_of(URDF)
+    parameters = {'calculate_dynamics': 'true'}
+    return MockSystem(replace(info, parameters=parameters), FakeLog())
+
+
 class Replay:
     """One trace through the two controllers in a manager; every dictionary is by stamp."""
 
     def __init__(self, name, publish_rate):
         self.trace = load_trace(name)
-        self.hardware = FakeHardware()
+        self.hardware = mock_wheels()
         self.manager = make_manager(self.hardware)
         self.time = self.trace['joint_states'][0][0] - LEAD * PERIOD
         values = ROBOT | self.trace['params'] | {'publish_rate': publish_rate}
@@ -74,7 +84,8 @@ class Replay:
         commands = {row[0]: row for row in self.trace['cmd_in']}
         for _ in range(LEAD + len(self.trace['joint_states'])):
             self.manager.tick(self.time)
-            self.wheels[self.time] = self.hardware.written
+            cells = self.hardware.command_interfaces()
+            self.wheels[self.time] = {cell.prefix: cell.value for cell in cells}
             if self.time in commands:
                 _, stamp, linear, angular = commands[self.time]
                 sample = TwistSample(stamp, float(linear), float(angular))

@@ -82,6 +82,7 @@ class ControllerManager:
         if failed:
             self._faults.replace(failed, 'update', time)
             self.refresh()
+        self.resources.enforce_limits(period)
         gone = self.resources.write(time, period)
         if gone and not self._defaults.deactivate_controllers_on_hardware_self_deactivate:
             states = {name: self.resources.components[name].state for name in gone}
@@ -92,6 +93,7 @@ class ControllerManager:
         """Time went back to ``time`` (ns): controllers stay as they are and begin anew."""
         self._last_tick = None
         self.next_tick = time
+        self._abandon(self.resources.reset(time), time)
         survives = self._faults.survives
         failed = [c for c in self._controllers if not survives('resetting', c, c.reset, time)]
         if failed:
@@ -101,6 +103,7 @@ class ControllerManager:
     def shut_down(self, time: int) -> None:
         """End: deactivate the controllers, write once more, then stop and close the hardware."""
         self._execution.drop(self._controllers.active, time)
+        self.resources.enforce_limits(self.period)
         self.resources.write(time, self.period)
         self.resources.shut_down()
         self.refresh()

@@ -8,8 +8,8 @@ motor is told). Both are named ``<joint>/<interface>``, for instance
 ``joint_wheel_front_left/velocity``. The hardware component owns the cells; controllers are lent
 them for as long as they are active.
 
-Units are SI: position rad or m, velocity rad/s or m/s, acceleration rad/s² or m/s², effort N·m or
-N.
+Units are SI: position rad or m, velocity rad/s or m/s, acceleration rad/s² or m/s², jerk rad/s³ or
+m/s³, effort N·m or N.
 """
 
 from collections.abc import Iterable, Mapping
@@ -27,6 +27,7 @@ POSITION = 'position'
 VELOCITY = 'velocity'
 ACCELERATION = 'acceleration'
 EFFORT = 'effort'
+JERK = 'jerk'
 
 NANOSECONDS = 1_000_000_000
 """Nanoseconds in a second: every time and period in ``control`` is an integer of nanoseconds."""

@@ -1,0 +1,221 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The hardware components of one robot: made, brought from state to state, read and written."""
+
+from collections.abc import Callable, Iterable, Sequence
+from itertools import chain
+import math
+from typing import TYPE_CHECKING
+
+from amr_description.control.contracts import HardwareComponent, Log, Severity, World
+from amr_description.control.interfaces import CommandInterface, LifecycleState, NANOSECONDS
+from amr_description.control.limits import JointLimiter, limiters_of, stopped
+from amr_description.control.owned_component import OwnedComponent
+from amr_description.errors import HardwareDeactivationError, HardwareError
+
+if TYPE_CHECKING:
+    from amr_description.model.hardware_info import HardwareInfo
+    from amr_description.model.robot import Robot
+
+
+class HardwareComponents:
+    """All components of one robot, in the order of its description."""
+
+    def __init__(
+        self, log: Log, robot: 'Robot | None' = None, enforce_command_limits: bool = False
+    ) -> None:
+        """``robot``: where the limits of the joints are from; else only from parameters."""
+        self.log = log
+        self.components: dict[str, OwnedComponent] = {}
+        self._robot = robot
+        self._enforces_limits = enforce_command_limits
+        self._limiters: dict[str, list[JointLimiter]] = {}
+
+    def load(
+        self,
+        info: 'HardwareInfo',
+        find: Callable[[str], Callable[..., HardwareComponent]],
+        world: World | None,
+        log: Log | None = None,
+    ) -> None:
+        """
+        Make a component of the class that ``find`` knows by the name of its plugin, and take it.
+
+        ``log``: the component's own, where it has one. Raises HardwareError, or whatever the
+        constructor of a foreign component raises.
+        """
+        self.log(Severity.INFO, f"Loading hardware '{info.name}' ")
+        make = find(info.plugin)
+        self.log(Severity.INFO, f"Loaded hardware '{info.name}' from plugin '{info.plugin}'")
+        self.log(Severity.INFO, f"Initialize hardware '{info.name}' ")
+        self.add(make(info, log or self.log, world))
+        self.log(Severity.INFO, f"Successful initialization of hardware '{info.name}'")
+
+    def add(self, component: HardwareComponent) -> None:
+        """Take a component and its interfaces. Raises HardwareError where a name is taken."""
+        owned = OwnedComponent(component, self.log)
+        name = owned.info.name
+        if name in self.components:
+            raise HardwareError(f"Hardware component '{name}' is there twice")
+        for other in self.components.values():
+            twice = (
+                owned.states.keys() & other.states.keys()
+                | owned.commands.keys() & other.commands.keys()
+            )
+            if twice:
+                raise HardwareError(
+                    f"Interface '{min(twice)}' is exported by the hardware components "
+                    f"'{other.info.name}' and '{name}'; one of them must leave it out"
+                )
+        if owned.info.is_async:
+            self.log(
+                Severity.WARN,
+                f"Hardware component '{name}' has is_async=\"true\": it is read and written in "
+                'the control loop all the same; its own thread must do what takes long',
+            )
+        if self._enforces_limits:
+            self._limiters[name] = limiters_of(owned, self._robot, self.log)
+        self.components[name] = owned
+
+    def set_state(self, name: str, target: LifecycleState) -> None:
+        """
+        Bring a component to ``target``, one transition after the other; finalized is final.
+
+        Raises HardwareError: unknown component, no such way, or a transition failed; it is then
+        left in the state that it reached.
+        """
+        owned = self.components.get(name)
+        if owned is None:
+            raise HardwareError(
+                f"Hardware component '{name}' does not exist. Known: {_listed(self.components)}"
+            )
+        owned.go_to(target)
+
+    def start_components(
+        self,
+        unconfigured: Sequence[str] = (),
+        inactive: Sequence[str] = (),
+        shutdown_on_failure: bool = True,
+    ) -> None:
+        """
+        Bring the components to their first states: active, but for those that are named.
+
+        The arguments are the parameters ``hardware_components_initial_state.…``; a name that no
+        component has is warned of. Raises HardwareError where a component does not get there and
+        ``shutdown_on_failure``; without that it stays where it got to, which is logged.
+        """
+        targets = dict.fromkeys(self.components, LifecycleState.ACTIVE)
+        named = {LifecycleState.UNCONFIGURED: unconfigured, LifecycleState.INACTIVE: inactive}
+        for state, name in ((state, name) for state, names in named.items() for name in names):
+            if targets.get(name) is LifecycleState.ACTIVE:
+                targets[name] = state
+            elif name:  # an empty name stands for an empty list
+                self.log(
+                    Severity.WARN,
+                    f"Hardware component '{name}' is unknown, therefore not set in "
+                    f"'{state.label}' state. Known and not yet set: "
+                    f'{_listed(n for n, to in targets.items() if to is LifecycleState.ACTIVE)}',
+                )
+        for name, target in sorted(targets.items(), key=lambda pair: pair[1]):
+            self._start(name, target, shutdown_on_failure)
+
+    def _start(self, name: str, target: LifecycleState, shutdown_on_failure: bool) -> None:
+        activate = target is LifecycleState.ACTIVE
+        setting = f"Setting component '{name}' to '{target.label}' state."
+        self.log(Severity.INFO, f"Activating component '{name}'." if activate else setting)
+        try:
+            self.set_state(name, target)
+        except HardwareError as error:
+            text = (
+                f'Failed to set the initial state of the component : {name} to {target.label}. '
+                f'{error}'
+            )
+            if shutdown_on_failure:
+                raise HardwareError(text) from error
+            self.log(Severity.ERROR, text)
+
+    def shut_down(self) -> None:
+        """Stop, close and finalize every component, as far as it still can."""
+        for owned in self.components.values():
+            owned.bring_down(LifecycleState.FINALIZED)
+
+    def reset(self, time: int) -> list[str]:
+        """Time went back (or jumped) to ``time``, ns; return the components that failed."""
+        for limiter in chain.from_iterable(self._limiters.values()):
+            limiter.reset()
+        return self._each('reset', lambda owned: owned.reset(time))
+
+    def read(self, time: int, period: int) -> list[str]:
+        """
+        Read every available component that is due; return the names of those that failed.
+
+        They are brought down, with their group.
+        """
+        return self._each('read', lambda owned: owned.read(time, period))
+
+    def write(self, time: int, period: int) -> list[str]:
+        """
+        Write every active component that is due; return the names of those that are no longer
+        active.
+
+        They are brought down, with their group; one that asked for it is only inactive.
+        """
+        return self._each('write', lambda owned: owned.write(time, period))
+
+    def enforce_limits(self, period: int) -> None:
+        """
+        Bound what the controllers have written, for ``period`` ns; before every :meth:`write`.
+
+        With ``enforce_command_limits`` commands are kept within the limits of their joints. In any
+        case an infinite one stops its joint: no component is ever given one.
+        """
+        for name, owned in self.components.items():
+            if not owned.is_available:
+                continue
+            for limiter in self._limiters.get(name, ()):
+                limiter.enforce(period / NANOSECONDS)
+            for command in owned.commands.values():
+                if math.isinf(command.value):
+                    self._stop(command)
+
+    def _stop(self, command: CommandInterface) -> None:
+        self.log(
+            Severity.ERROR,
+            f"The command '{command.name}' is infinite, found {command.value}; a finite number is "
+            f'needed. It is set to {stopped(command)}',
+            throttle=1.0,
+        )
+        command.value = stopped(command)
+
+    def _each(self, action: str, do: Callable[[OwnedComponent], None]) -> list[str]:
+        lost: list[str] = []
+        for owned in self.components.values():
+            try:
+                do(owned)
+            except Exception as error:  # a foreign component may raise anything; others go on
+                lost += self._lose(owned, action, error)
+        return lost
+
+    def _lose(self, failed: OwnedComponent, action: str, error: Exception) -> list[str]:
+        """Deactivate a component that asked for it; else bring it and its group down."""
+        failed.report(action, error)
+        name, group = failed.info.name, failed.info.group
+        if action == 'write' and isinstance(error, HardwareDeactivationError):
+            failed.bring_down(LifecycleState.INACTIVE)
+            return [name]
+        failed.bring_down()
+        lost = [name]
+        for other in self.components.values():
+            if group and other.info.group == group and other.is_available:
+                self.log(
+                    Severity.ERROR,
+                    f"Hardware component '{other.info.name}' is brought down with '{name}': both "
+                    f"are of the group '{group}'",
+                )
+                other.bring_down()
+                lost.append(other.info.name)
+        return lost
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ', '.join(names) or 'none'
