@@ -95,9 +95,9 @@ class Host:
         self.manager_node.prepare(None, [info])
         loop.managers.append(self.manager_node.bring_up(None, PERIOD))
         self.hardware = HostHardware.newest
-        self.manager_node.start()
         self.executor.add_node(self.node)
         self.executor.add_node(self.manager_node.node)
+        self.manager_node.start()
         self.thread = threading.Thread(target=self.executor.spin)
 
     def start(self):

@@ -185,10 +185,10 @@ def test_types_interfaces_and_components_are_listed(host):
         '/controller_manager/list_hardware_interfaces',
         srv.ListHardwareInterfaces.Request(),
     )
-    assert [i.name for i in interfaces.command_interfaces] == sorted(
-        f'{w}/velocity' for w in WHEELS
-    )
-    assert all(i.is_available and i.is_claimed for i in interfaces.command_interfaces)
+    references = [f'diff_drive_controller/{axis}/velocity' for axis in ('angular', 'linear')]
+    wheels = sorted(f'{w}/velocity' for w in WHEELS)
+    assert [i.name for i in interfaces.command_interfaces] == references + wheels
+    assert [i.name for i in interfaces.command_interfaces if i.is_claimed] == wheels
     components = call(
         host.client_node,
         srv.ListHardwareComponents,
@@ -268,11 +268,19 @@ def test_an_owner_that_was_never_started_stops_at_once(ros):
     assert not owner.failed
 
 
-@pytest.mark.parametrize('rate', ['0', '-5', '99.5', 'fast'])
-def test_an_update_rate_that_cannot_be_is_refused(ros, tmp_path, rate):
+@pytest.mark.parametrize(
+    ('rate', 'reason'),
+    [
+        ('0', 'must be greater than 0, found 0 Hz'),
+        ('-5', 'must be greater than 0, found -5 Hz'),
+        ('99.5', "expecting type 'INTEGER'"),
+        ('fast', "expecting type 'INTEGER'"),
+    ],
+)
+def test_an_update_rate_that_cannot_be_is_refused(ros, tmp_path, rate, reason):
     path = tmp_path / 'rate.yaml'
     path.write_text(f'controller_manager: {{ros__parameters: {{update_rate: {rate}}}}}')
-    with pytest.raises(ParameterError, match="'update_rate' of controller_manager must be an int"):
+    with pytest.raises(ParameterError, match=f"'update_rate'.*{reason}"):
         Host(path)
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a manager makes of what it hears on robot_description."""
 
+from control_fakes import FakeLog
 from manager_host import ros_in_this_process
 import pytest
 from rclpy.executors import SingleThreadedExecutor
@@ -28,6 +29,7 @@ class Wire:
         self.publisher = self.speaker.create_publisher(String, '/amr/robot_description', qos)
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
+        self.log = FakeLog()
         self.taken = []
         self.refusals = []
 
@@ -36,12 +38,12 @@ class Wire:
             raise self.refusals.pop(0)
         self.taken.append((robot.name, [info.name for info in hardware]))
 
-    def said(self, capfd, *texts):
-        """Spin until each of the texts has been logged; return all that was."""
-        lines = ''
-        while not all(text in lines for text in texts):
+    def said(self, *texts):
+        """Spin until each of the texts has been logged; return all that was, and forget it."""
+        while not all(text in '\n'.join(self.log.texts()) for text in texts):
             self.executor.spin_once(timeout_sec=5.0)
-            lines += capfd.readouterr().err
+        lines = '\n'.join(self.log.texts())
+        self.log.lines.clear()
         return lines
 
 
@@ -55,20 +57,20 @@ def wire():
         wire.speaker.destroy_node()
 
 
-def test_it_says_what_it_waits_for_until_a_description_comes(wire, capfd):
-    DescriptionSource(wire.node, wire.take)
+def test_it_says_what_it_waits_for_until_a_description_comes(wire):
+    DescriptionSource(wire.node, wire.log, wire.take)
     waiting = "Waiting for data on 'robot_description' topic to finish initialization"
-    lines = wire.said(capfd, waiting)
+    lines = wire.said(waiting)
     assert "Subscribing to '/amr/robot_description' topic for robot description." in lines
     wire.publisher.publish(String(data=GOOD))
-    wire.said(capfd, 'Received robot description from topic.')
+    wire.said('Received robot description from topic.')
     assert wire.taken == [('cart', ['Cart'])]
     (subscription,) = wire.speaker.get_subscriptions_info_by_topic('/amr/robot_description')
     assert subscription.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
 
 
-def test_what_cannot_be_used_is_refused_and_the_next_one_is_taken(wire, capfd):
-    source = DescriptionSource(wire.node, wire.take)
+def test_what_cannot_be_used_is_refused_and_the_next_one_is_taken(wire):
+    source = DescriptionSource(wire.node, wire.log, wire.take)
     wire.refusals = [HardwareError('no such device'), ValueError('a stranger')]
     for text, reason in (
         ('<robot', 'robot_description:1'),
@@ -77,20 +79,20 @@ def test_what_cannot_be_used_is_refused_and_the_next_one_is_taken(wire, capfd):
         (GOOD, 'ValueError: a stranger'),
     ):
         wire.publisher.publish(String(data=text))
-        wire.said(capfd, reason, FAILED)
+        wire.said(reason, FAILED)
         assert source.robot is None
     wire.publisher.publish(String(data=GOOD))
-    wire.said(capfd, 'Received robot description')
+    wire.said('Received robot description')
     assert wire.taken == [('cart', ['Cart'])]
     wire.publisher.publish(String(data=GOOD))
-    wire.said(capfd, IGNORED)
+    wire.said(IGNORED)
     assert wire.taken == [('cart', ['Cart'])]
 
 
-def test_a_spawned_robot_is_only_contradicted_by_another_description(wire, capfd):
-    DescriptionSource(wire.node, robot=parse(GOOD))
+def test_a_spawned_robot_is_only_contradicted_by_another_description(wire):
+    DescriptionSource(wire.node, wire.log, robot=parse(GOOD))
     wire.publisher.publish(String(data=GOOD + '\n'))
     wire.executor.spin_once(timeout_sec=5.0)
-    assert capfd.readouterr().err == ''
+    assert wire.log.texts() == []
     wire.publisher.publish(String(data=GOOD.replace('cart', 'other')))
-    wire.said(capfd, IGNORED)
+    wire.said(IGNORED)

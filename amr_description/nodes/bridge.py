@@ -10,23 +10,25 @@ The ROS thread makes node, parameters and endpoints; the owner only sees finishe
 from collections.abc import Sequence
 from typing import Any
 
-from rcl_interfaces.msg import (
-    ParameterDescriptor,
-    SetParametersResult,
-)
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Qos
+from amr_description.control.contracts import (
+    Controller,
+    ControllerContext,
+    Input,
+    Output,
+    Qos,
+    Severity,
+)
 from amr_description.control.foreign_errors import describe
-from amr_description.errors import ParameterError
 from amr_description.model.robot import Robot
+from amr_description.nodes.manager_table import CommonParameters
 from amr_description.nodes.message_types import message_type
 from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.node_parameters import declare, values
+from amr_description.nodes.node_parameters import declare, refuse_what_the_table_refuses, values
 from amr_description.nodes.outgoing import Outgoing
 from amr_description.registry import resolve
 
@@ -58,25 +60,17 @@ class ControllerNode:
         """
         self._outgoing = outgoing
         self._endpoints: list[Publisher | Subscription] = []
-        self.node = Node(
-            name,
-            namespace=namespace,
-            use_global_arguments=False,
-            cli_args=['--ros-args', *arguments],
-            parameter_overrides=outgoing.parameter_overrides,
-        )
-        outgoing.adopt(self.node)
+        self.node: Node = outgoing.make_node(name, namespace, arguments)
         try:
             self._table = controller_class.parameters_type
-            self._declare(update_rate)
             self.log = logs.log_of(self.node.get_logger())
-            self.parameters()
+            common = self._declare(update_rate)
             self.controller = controller_class(
                 ControllerContext(
                     name=name,
                     log=self.log,
                     namespace=namespace,
-                    update_rate=self._update_rate(update_rate),
+                    update_rate=common.update_rate or update_rate,
                     robot=robot,
                 )
             )
@@ -108,35 +102,21 @@ class ControllerNode:
     def destroy(self) -> None:
         """Remove the node."""
         self.disconnect()
-        self._outgoing.release(self.node)
-        self.node.destroy_node()
+        self._outgoing.destroy_node(self.node)
 
     # --- parameters ---------------------------------------------------------------------------
 
-    def _declare(self, manager_rate: int) -> None:
+    def _declare(self, manager_rate: int) -> CommonParameters:
+        """Declare both tables; what is set later counts at the next configure."""
         declare(self.node, self._table)
-        self.node.declare_parameter(
-            'update_rate',
-            manager_rate,
-            ParameterDescriptor(description='Updates per s; default: those of the manager'),
-        )
-        self.node.add_on_set_parameters_callback(self._check)
-
-    def _check(self, parameters: list[Parameter]) -> SetParametersResult:
-        """Refuse what the table refuses; what is accepted counts at the next configure."""
-        try:
-            values(self.node, self._table, parameters)
-        except ParameterError as error:
-            return SetParametersResult(successful=False, reason=str(error))
-        return SetParametersResult(successful=True)
-
-    def _update_rate(self, manager_rate: int) -> int:
-        rate = self.node.get_parameter('update_rate').value
-        if rate < 0:
-            raise ParameterError(
-                f"parameter 'update_rate' must be at least 0 Hz (0: as the manager), found {rate}"
+        common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})
+        refuse_what_the_table_refuses(self.node, self._table, CommonParameters)
+        if common.is_async:
+            self.log(
+                Severity.WARN,
+                'is_async is true: the controller is updated in the control loop all the same',
             )
-        return rate or manager_rate
+        return common
 
     # --- ports --------------------------------------------------------------------------------
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from rclpy.node import Node
 
-from amr_description.control.contracts import Log, World
+from amr_description.control.contracts import Log, Severity, World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
@@ -22,13 +22,17 @@ from amr_description.hardware import HARDWARE
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.nodes.bridge import ControllerNode
+from amr_description.nodes.component_node import ComponentNode
 from amr_description.nodes.controller_libraries import reload_modules
 from amr_description.nodes.manager_parameters import ManagerParameters
 from amr_description.nodes.manager_services import ManagerServices
 from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.node_parameters import let_parameter_events_be_overridden
 from amr_description.nodes.outgoing import Outgoing
 from amr_description.nodes.owner import Owner
+from amr_description.nodes.ros_arguments import inherited
 from amr_description.nodes.runtime import argument_errors
+from amr_description.nodes.threads import run_in_thread
 
 NODE_NAME = 'controller_manager'
 
@@ -57,29 +61,42 @@ class ControllerManagerNode:
         self._outgoing = outgoing
         self._logs = logs
         self._robot: Robot | None = None
-        self._hardware: Sequence[HardwareInfo] = ()
+        self._hardware: Sequence[tuple[HardwareInfo, ComponentNode]] = ()
         self._controllers: dict[str, ControllerNode] = {}
         self._modules: set[str] = set()
-        self.node = Node(
-            NODE_NAME,
-            namespace=namespace,
-            use_global_arguments=False,
-            cli_args=['--ros-args', *arguments],
-            parameter_overrides=outgoing.parameter_overrides,
-            allow_undeclared_parameters=True,
-            automatically_declare_parameters_from_overrides=True,
+        self._arguments = arguments
+        self.node: Node = outgoing.make_node(
+            NODE_NAME, namespace, arguments, allow_undeclared_parameters=True
         )
-        outgoing.adopt(self.node)
         self.log: Log = logs.log_of(self.node.get_logger())
         try:
+            let_parameter_events_be_overridden(self.node)
             self.parameters = ManagerParameters(self.node, arguments)
         except Exception:
             self.destroy()
             raise
 
     def prepare(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
-        """Take over what it is to control; on the ROS thread, again after a failure."""
-        self._robot, self._hardware = robot, hardware
+        """
+        Take over what it is to control, and make a node for each component; on the ROS thread.
+
+        May be called again after a failure.
+        """
+        self.forget_hardware()
+        self._robot = robot
+        self._hardware = [
+            (
+                info,
+                ComponentNode(
+                    info.name,
+                    inherited(self._arguments),
+                    namespace=self.node.get_namespace(),
+                    outgoing=self._outgoing,
+                    logs=self._logs,
+                ),
+            )
+            for info in hardware
+        ]
 
     def bring_up(self, world: World | None, period: int) -> ControllerManager:
         """
@@ -88,11 +105,16 @@ class ControllerManagerNode:
         On the owner's thread. ``world``: as components see it; ``period``: of the tick, ns. Raises
         HardwareError, or what a foreign component raises; the hardware is then down again.
         """
+        initial = self.parameters.start.hardware_components_initial_state
         resources = ResourceManager(self.log)
         try:
-            for info in self._hardware:
-                resources.load(info, HARDWARE.find, world)
-            resources.start_components()
+            for info, node in self._hardware:
+                resources.load(info, HARDWARE.find, world, node.log)
+            resources.start_components(
+                initial.unconfigured,
+                initial.inactive,
+                initial.shutdown_on_initial_state_failure,
+            )
         except Exception:
             resources.shut_down()
             raise
@@ -102,19 +124,33 @@ class ControllerManagerNode:
         return self.manager
 
     def start(self) -> None:
-        """Make the services, once there is a manager."""
+        """Make the services, once there is a manager, and its node has an executor."""
+        for _, component in self._hardware:
+            self.node.executor.add_node(component.node)
+        self.log(
+            Severity.INFO,
+            'Resource Manager has been successfully initialized. Starting Controller Manager '
+            'services...',
+        )
         ManagerServices(self)
 
     def nodes(self) -> list[Node]:
-        """This node and those of its controllers."""
-        return [self.node, *(each.node for each in self._controllers.values())]
+        """This node and those of its components and controllers."""
+        others = [*(node for _, node in self._hardware), *self._controllers.values()]
+        return [self.node, *(each.node for each in others)]
+
+    def forget_hardware(self) -> None:
+        """Remove the nodes of components that could not be brought up."""
+        for _, component in self._hardware:
+            component.destroy()
+        self._hardware = ()
 
     def destroy(self) -> None:
         """Remove all nodes; the owner must have stopped, or dropped the manager, before."""
         for controller in self._controllers.values():
             controller.destroy()
-        self._outgoing.release(self.node)
-        self.node.destroy_node()
+        self.forget_hardware()
+        self._outgoing.destroy_node(self.node)
 
     # --- what the services do; coroutines of the ROS thread --------------------------------------
 
@@ -124,14 +160,20 @@ class ControllerManagerNode:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
             )
-        type_name = self.parameters.type_of(name)
-        controller_class = CONTROLLERS.find(type_name)
+        entry = self.parameters.entry_of(name)
+        self.log(Severity.INFO, f"Loading controller : '{name}' of type '{entry.type}'")
+        controller_class = CONTROLLERS.find(entry.type)
         self._modules.add(controller_class.__module__)
+        arguments = self.parameters.arguments_of(entry)
+        self.log(Severity.INFO, f"Loading controller '{name}'")
+        self.log(
+            Severity.INFO, f"Controller '{name}' node arguments: --ros-args {' '.join(arguments)} "
+        )
         with argument_errors():
             bridge = ControllerNode(
                 name,
                 controller_class,
-                self.parameters.arguments_of(name),
+                arguments,
                 namespace=self.node.get_namespace(),
                 update_rate=self.parameters.update_rate,
                 robot=self._robot,
@@ -142,22 +184,31 @@ class ControllerManagerNode:
         self._controllers[name] = bridge
         self.node.executor.add_node(bridge.node)
         try:
-            await self._owner.submit(lambda: self.manager.load(bridge.controller, type_name))
+            await self._owner.submit(lambda: self.manager.load(bridge.controller, entry.type))
         except Exception:
             self._forget(name)
             raise
 
     async def configure(self, name: str) -> None:
-        """Configure a controller and make its topics. Raises ControllerError, ParameterError."""
+        """
+        Configure a controller and make its topics. Raises ControllerError, ParameterError.
+
+        What takes long, the controller's own part, neither the owner nor this thread waits for.
+        """
         bridge = self._controllers.get(name)
         if bridge is None:
             raise ControllerError(
                 f"Could not configure controller with name '{name}' because no controller with "
                 'this name exists'
             )
+        self.log(Severity.INFO, f"Configuring controller: '{name}'")
         parameters = bridge.parameters()
         try:
-            await self._owner.submit(lambda: self.manager.configure(name, parameters))
+            configuring = await self._owner.submit(lambda: self.manager.begin_configure(name))
+            await run_in_thread(
+                lambda: configuring.run(parameters), self.node.executor, f'configure {name}'
+            )
+            await self._owner.submit(lambda: self.manager.finish_configure(configuring))
         except AmrError:
             states = {each.name: each.state for each in self.manager.snapshot.controllers}
             if states.get(name) is LifecycleState.UNCONFIGURED:

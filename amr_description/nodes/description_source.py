@@ -15,12 +15,13 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import ClockType
 from std_msgs.msg import String
 
-from amr_description.control.foreign_errors import describe
+from amr_description.control.contracts import Log, Severity
 from amr_description.errors import DescriptionError
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
+from amr_description.nodes.node_log import log_error
 
 TOPIC = 'robot_description'
 
@@ -39,14 +40,16 @@ class DescriptionSource:
     coroutines (SingleThreadedExecutor).
     """
 
-    def __init__(self, node: Node, take: Take | None = None, robot: Robot | None = None) -> None:
+    def __init__(
+        self, node: Node, log: Log, take: Take | None = None, robot: Robot | None = None
+    ) -> None:
         """
         Subscribe. ``take`` is awaited with the first description that can be read; when it raises,
         the next one is tried. Without it the manager has its ``robot`` from elsewhere.
         """
         self.robot = robot
         self._take = take
-        self._logger = node.get_logger()
+        self._log = log
         # A group of its own: bringing hardware up may take long, parameters go on being served.
         group = MutuallyExclusiveCallbackGroup()
         subscription = node.create_subscription(
@@ -54,8 +57,9 @@ class DescriptionSource:
         )
         self._timer = None
         if robot is None:
-            self._logger.info(
-                f"Subscribing to '{subscription.topic_name}' topic for robot description."
+            self._log(
+                Severity.INFO,
+                f"Subscribing to '{subscription.topic_name}' topic for robot description.",
             )
             # By the machine's clock: a simulated one may stand still until there is a robot.
             self._timer = node.create_timer(
@@ -70,12 +74,13 @@ class DescriptionSource:
         if self.robot is not None:
             # Whoever spawned the robot had it from here, as a rule: nothing to be warned of then.
             if self._take is not None or text.strip() != self.robot.text.strip():
-                self._logger.warning(
+                self._log(
+                    Severity.WARN,
                     'ResourceManager has already loaded a urdf and is initialized. Ignoring '
-                    'attempt to reload a robot description.'
+                    'attempt to reload a robot description.',
                 )
             return
-        self._logger.info('Received robot description from topic.')
+        self._log(Severity.INFO, 'Received robot description from topic.')
         try:
             robot = parse(text, TOPIC)
             hardware = hardware_of(robot)
@@ -86,11 +91,12 @@ class DescriptionSource:
                 )
             await self._take(robot, hardware)
         except Exception as error:  # a stranger's component may raise anything
-            self._logger.error(describe(error))
-            self._logger.error(
+            log_error(self._log, error)
+            self._log(
+                Severity.ERROR,
                 'Could not load and initialize hardware. Please check previous output for more '
                 'details. After you have corrected your URDF, try to publish robot description '
-                'again.'
+                'again.',
             )
             self._timer.reset()
             return
@@ -98,6 +104,4 @@ class DescriptionSource:
         self._timer.cancel()
 
     def _say_what_is_missing(self) -> None:
-        self._logger.warning(
-            f"Waiting for data on '{TOPIC}' topic to finish initialization"
-        )
+        self._log(Severity.WARN, f"Waiting for data on '{TOPIC}' topic to finish initialization")

@@ -9,49 +9,94 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.control.switching import Strictness
-from amr_description.errors import ControllerError, ParameterError
+from amr_description.errors import ControllerError
+from amr_description.nodes.manager_table import ControllerEntry, ManagerTable
+from amr_description.nodes.node_parameters import (
+    declare,
+    declare_missing,
+    declare_the_rest,
+    refuse_what_the_table_refuses,
+    values,
+)
 from amr_description.nodes.ros_arguments import inherited
+from amr_description.nodes.runtime import argument_errors
 
 
 class ManagerParameters:
     """
     Reads the node each time: ``ros2 param set`` before a load counts.
 
-    ``arguments`` are the manager's own ROS arguments, which every controller gets too.
+    ``arguments`` are the manager's own ROS arguments, which every controller gets too; ``start``
+    is what the table held at the start.
     """
 
     def __init__(self, node: Node, arguments: Sequence[str]) -> None:
-        """Raise ParameterError where ``update_rate`` is not a positive integer."""
+        """Declare the parameters. Raises ParameterError."""
         self._node = node
         self._arguments = list(arguments)
-        self.update_rate = self._read_update_rate()
+        uses_sim_time = node.get_parameter('use_sim_time').value
+        with argument_errors():
+            self.start = declare(
+                node, ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time}
+            )
+            declare_the_rest(node)
+        refuse_what_the_table_refuses(node, ManagerTable)
 
-    def type_of(self, name: str) -> str:
-        """Return the type of a controller. Raises ControllerError naming those that have one."""
-        type_name = self._get(f'{name}.type')
-        if not type_name:
+    @property
+    def update_rate(self) -> int:
+        """Hz."""
+        return self.start.update_rate
+
+    def now(self) -> ManagerTable:
+        """Return the present values."""
+        return values(self._node, ManagerTable)
+
+    def entry_of(self, name: str) -> ControllerEntry:
+        """
+        Return what is set for a controller; from then on all of it is declared.
+
+        Raises ControllerError that names the controllers that have a type; ParameterError.
+        """
+        if not self._get(f'{name}.type'):
             raise ControllerError(
                 f"The 'type' param was not defined for '{name}'. Controllers with a type in the "
                 f'parameters of {self._node.get_fully_qualified_name()}: '
                 f'{", ".join(self._typed_controllers()) or "none"}'
             )
-        return type_name
+        prefix = f'{name}.'
+        with argument_errors():
+            declare_missing(self._node, ControllerEntry, prefix=prefix)
+        file = self._get(f'{prefix}params_file')
+        lone = [Parameter(f'{prefix}params_file', value=[file])] if isinstance(file, str) else []
+        return values(self._node, ControllerEntry, lone, prefix=prefix)
 
-    def arguments_of(self, name: str) -> list[str]:
+    def arguments_of(self, entry: ControllerEntry) -> list[str]:
         """Return the manager's own arguments, then the controller's files and options."""
-        files = self._get(f'{name}.params_file') or []
-        files = [files] if isinstance(files, str) else files
-        options = self._get(f'{name}.node_options_args') or []
+        uses_sim_time = self._get('use_sim_time')
         return [
             *inherited(self._arguments),
-            *(argument for path in files for argument in ('--params-file', path)),
-            *(option for option in options if option != '--ros-args'),
+            *(argument for path in entry.params_file for argument in ('--params-file', path)),
+            *(['-p', 'use_sim_time:=true'] if uses_sim_time else []),
+            *(option for option in entry.node_options_args if option != '--ros-args'),
         ]
 
     def strictness(self, requested: int) -> Strictness:
         """Return the strictness of a request; 0 asks for the default."""
-        if requested == 0 and self._get('defaults.switch_controller.strictness') == 'strict':
-            return Strictness.STRICT
+        default = self._get('defaults.switch_controller.strictness')
+        if requested == 0:
+            self._node.get_logger().warning(
+                'Controller Manager: to switch controllers you need to specify a strictness level '
+                f'of controller_manager_msgs::SwitchController::STRICT ({Strictness.STRICT:d}) or '
+                f'::BEST_EFFORT ({Strictness.BEST_EFFORT:d}). When unspecified, the default is '
+                f'{default}',
+                once=True,
+            )
+            return Strictness[default.upper()]
+        if requested in (Strictness.AUTO, Strictness.FORCE_AUTO):
+            self._node.get_logger().warning(
+                f'{Strictness(requested).name} is not currently implemented. Defaulting to '
+                'BEST_EFFORT'
+            )
         return Strictness.STRICT if requested == Strictness.STRICT else Strictness.BEST_EFFORT
 
     def _get(self, name: str) -> Any:
@@ -63,13 +108,3 @@ class ManagerParameters:
             for name in self._node.get_parameters_by_prefix('')
             if name.endswith('.type')
         )
-
-    def _read_update_rate(self) -> int:
-        rate = self._get('update_rate')
-        rate = 100 if rate is None else rate
-        if type(rate) is not int or rate <= 0:
-            raise ParameterError(
-                f"parameter 'update_rate' of {self._node.get_name()} must be an integer above "
-                f'0 Hz, found {rate!r}'
-            )
-        return rate

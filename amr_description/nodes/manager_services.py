@@ -8,22 +8,20 @@ owner, so that nothing here ever blocks the executor: a slow configure delays no
 """
 
 from collections.abc import Awaitable
-import traceback
 from typing import Any, TYPE_CHECKING
 
 from controller_manager_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.qos import HistoryPolicy, QoSProfile
 
-from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState
 from amr_description.controllers import CONTROLLERS
-from amr_description.errors import AmrError
 from amr_description.nodes.manager_messages import (
     component_message,
     controller_message,
     interface_message,
 )
+from amr_description.nodes.node_log import log_error
 
 if TYPE_CHECKING:
     from amr_description.nodes.controller_manager_node import ControllerManagerNode
@@ -140,12 +138,8 @@ class ManagerServices:
                 request.activate_controllers, request.deactivate_controllers, request.strictness
             )
             response.ok = True
-        except AmrError as error:
-            self._node.get_logger().error(str(error))
-            response.message = str(error)
         except Exception as error:  # a stranger's class may raise anything; the robot must go on
-            self._node.get_logger().error(traceback.format_exc())
-            response.message = describe(error)
+            response.message = log_error(self._work.log, error)
         return response
 
     async def _set_hardware_component_state(
@@ -166,11 +160,8 @@ class ManagerServices:
         """Await the work; what it refuses is logged, as the services only answer ok or not."""
         try:
             await work
-        except AmrError as error:
-            self._node.get_logger().error(str(error))
-            return False
-        except Exception:  # a stranger's class may raise anything; the robot must go on
-            self._node.get_logger().error(traceback.format_exc())
+        except Exception as error:  # a stranger's class may raise anything; the robot must go on
+            log_error(self._work.log, error)
             return False
         return True
 

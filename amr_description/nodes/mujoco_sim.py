@@ -9,7 +9,6 @@ their controller managers. ``~/get_entity_state`` tells where a robot truly is.
 
 from collections.abc import Sequence
 import sys
-import traceback
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.exceptions import InvalidNamespaceException
@@ -20,7 +19,7 @@ from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
 from amr_description.control.foreign_errors import describe
-from amr_description.errors import AmrError, SimulationError, SpawnError
+from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import rotate
 from amr_description.nodes.converters import (
     fill_pose,
@@ -28,6 +27,7 @@ from amr_description.nodes.converters import (
     fill_velocity,
     transform_of,
 )
+from amr_description.nodes.node_log import log_error
 from amr_description.nodes.node_parameters import declare
 from amr_description.nodes.ros_arguments import inherited, ros_arguments
 from amr_description.nodes.runtime import argument_errors, program, ros, spin
@@ -77,13 +77,10 @@ class MujocoSim:
             response.entity_name = await self._spawn(request)
             response.result.result = Result.RESULT_OK
             self.node.get_logger().info(f"Spawned '{response.entity_name}'")
-        except AmrError as error:
+        except Exception as error:  # a stranger's component may raise anything; others go on
             code = error.code if isinstance(error, SpawnError) else SpawnCode.OPERATION_FAILED
             _refuse(response.result, code, error)
-            self.node.get_logger().error(f'{error}')
-        except Exception as error:  # a stranger's component may raise anything; others go on
-            _refuse(response.result, SpawnCode.OPERATION_FAILED, error)
-            self.node.get_logger().error(traceback.format_exc())
+            log_error(self.simulation.log, error)
         return response
 
     async def _spawn(self, request: SpawnEntity.Request) -> str:

@@ -10,10 +10,12 @@ import queue
 import re
 import threading
 import time
+import traceback
 
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
-from amr_description.control.contracts import Severity
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.foreign_errors import describe
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 
@@ -59,6 +61,14 @@ class NodeLog:
                 return
             self._last_said[key] = now
         self._lines.put((self._logger, severity, text))
+
+
+def log_error(log: Log, error: Exception) -> str:
+    """Say in one line what went wrong, and at DEBUG where; return the line."""
+    line = ' '.join(describe(error).split())
+    log(Severity.ERROR, line)
+    log(Severity.DEBUG, ''.join(traceback.format_exception(error)))
+    return line
 
 
 def _emit(logger: RcutilsLogger, severity: Severity, text: str) -> None:

@@ -2,40 +2,113 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of a ROS node from a table of :mod:`amr_description.parameters`."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from copy import copy
+import dataclasses
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    ParameterEvent,
+    SetParametersResult,
+)
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_parameter_events, QoSPolicyKind
+from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from amr_description.parameters import build, Spec, specs
+from amr_description.errors import ParameterError
+from amr_description.parameters import build, Spec, specs, Value
 
 _ARRAYS = {
     'string_array': Parameter.Type.STRING_ARRAY,
     'double_array': Parameter.Type.DOUBLE_ARRAY,
 }
+_NO_DEFAULTS: Mapping[str, Value] = {}
 
 
-def declare[Table](node: Node, table: type[Table]) -> Table:
+def declare[Table](
+    node: Node, table: type[Table], *, defaults: Mapping[str, Value] = _NO_DEFAULTS
+) -> Table:
     """
     Declare every row of ``table`` on ``node`` and return the values given to it.
+
+    ``defaults``: in place of the table's, by name.
 
     :raises ParameterError: A value is out of the table's bounds.
     :raises rclpy.exceptions.InvalidParameterTypeException: A value is of another type.
     """
-    for spec in specs(table):
-        _declare(node, spec)
+    declare_missing(node, table, defaults=defaults)
     return values(node, table)
 
 
-def values[Table](node: Node, table: type[Table], changed: Iterable[Parameter] = ()) -> Table:
+def declare_missing(
+    node: Node, table: type, *, prefix: str = '', defaults: Mapping[str, Value] = _NO_DEFAULTS
+) -> None:
+    """Declare the rows of ``table`` that are not yet; ``prefix``: of every name, with its dot."""
+    for spec in specs(table, prefix):
+        if not node.has_parameter(spec.name):
+            default = defaults.get(spec.name, spec.default)
+            _declare(node, dataclasses.replace(spec, default=default))
+
+
+def declare_the_rest(node: Node) -> None:
+    """
+    Declare what the node was given beyond its tables, for a node with undeclared parameters.
+
+    rclpy does so itself when it is asked to, and ends with a ValueError at an empty list.
+    """
+    for name, given in node._parameter_overrides.items():
+        if given.type_ != Parameter.Type.NOT_SET and not node.has_parameter(name):
+            node.declare_parameter(name, given.value)
+
+
+def values[Table](
+    node: Node, table: type[Table], changed: Iterable[Parameter] = (), *, prefix: str = ''
+) -> Table:
     """
     Return the node's present values, with those of ``changed`` in their place.
 
     :raises ParameterError: A value is not of the table's type or out of its bounds.
     """
-    found = {spec.name: node.get_parameter(spec.name).value for spec in specs(table)}
-    return build(table, found | {parameter.name: parameter.value for parameter in changed})
+    found = {spec.name: node.get_parameter(spec.name).value for spec in specs(table, prefix)}
+    return build(table, found | {each.name: each.value for each in changed}, prefix)
+
+
+def refuse_what_the_table_refuses(node: Node, *tables: type) -> None:
+    """Check every set of parameters against ``tables``; what is refused has a reason."""
+
+    def check(changed: list[Parameter]) -> SetParametersResult:
+        try:
+            for table in tables:
+                values(node, table, changed)
+        except ParameterError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    node.add_on_set_parameters_callback(check)
+
+
+def let_parameter_events_be_overridden(node: Node) -> None:
+    """
+    Let ``qos_overrides./parameter_events.publisher.…`` decide, as every plain node of rclcpp does.
+    """
+    publisher = node.create_publisher(
+        ParameterEvent,
+        '/parameter_events',
+        copy(qos_profile_parameter_events),
+        qos_overriding_options=QoSOverridingOptions(
+            (
+                QoSPolicyKind.DEPTH,
+                QoSPolicyKind.DURABILITY,
+                QoSPolicyKind.HISTORY,
+                QoSPolicyKind.RELIABILITY,
+            )
+        ),
+    )
+    node.destroy_publisher(node._parameter_event_publisher)
+    node._parameter_event_publisher = publisher
 
 
 def _declare(node: Node, spec: Spec) -> None:

@@ -36,12 +36,37 @@ class Outgoing:
     ``use_sim_time`` says so. :class:`SimulatedOutgoing` is for the process that owns the time.
     """
 
-    parameter_overrides: Sequence[Parameter] = ()
-    """What every node that is adopted has to be made with."""
+    _parameter_overrides: Sequence[Parameter] = ()
 
     def __init__(self, logger: RcutilsLogger) -> None:
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
         self._logger = logger
+
+    def make_node(
+        self, name: str, namespace: str, arguments: Sequence[str], **options: Any
+    ) -> Node:
+        """
+        Make a node beside the first one of the process, with a logger service.
+
+        ``arguments``: its ROS arguments, the global ones do not count. ``options``: further
+        keywords of :class:`rclpy.node.Node`.
+        """
+        node = Node(
+            name,
+            namespace=namespace,
+            use_global_arguments=False,
+            cli_args=['--ros-args', *arguments],
+            parameter_overrides=self._parameter_overrides,
+            enable_logger_service=True,
+            **options,
+        )
+        self.adopt(node)
+        return node
+
+    def destroy_node(self, node: Node) -> None:
+        """Remove a node that was adopted."""
+        self.release(node)
+        node.destroy_node()
 
     def adopt(self, node: Node) -> None:
         """Take in a node; on the thread that made it, after its constructor."""
@@ -77,7 +102,7 @@ class Outgoing:
 class SimulatedOutgoing(Outgoing):
     """Of the process that owns the time: ``/clock`` goes first, and every clock shows it."""
 
-    parameter_overrides = (Parameter('use_sim_time', value=True),)
+    _parameter_overrides = (Parameter('use_sim_time', value=True),)
 
     def __init__(self, node: Node) -> None:
         """``node`` publishes ``/clock`` and lends its logger."""

@@ -74,7 +74,7 @@ class StandAlone:
 
     def start(self) -> None:
         """Wait for a robot, and let time begin."""
-        DescriptionSource(self.node, self._bring_up)
+        DescriptionSource(self.node, self._log, self._bring_up)
         self.owner.start()
 
     def close(self) -> None:
@@ -113,7 +113,11 @@ class StandAlone:
 
     async def _bring_up(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
         self._manager.prepare(robot, hardware)
-        manager = await self.owner.submit(lambda: self._manager.bring_up(None, self._period))
+        try:
+            manager = await self.owner.submit(lambda: self._manager.bring_up(None, self._period))
+        except Exception:
+            self._manager.forget_hardware()
+            raise
         await self.owner.submit(lambda: self.owner.loop.managers.append(manager))
         self._manager.start()
 

@@ -155,7 +155,7 @@ class Simulation:
             raise
         if node is not None:
             self._executor.add_node(node.node)
-            DescriptionSource(node.node, robot=robot)
+            DescriptionSource(node.node, node.log, robot=robot)
             node.start()
         return given
 

@@ -1,0 +1,168 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of a ``controller_manager`` node, and those that it keeps for a controller."""
+
+from dataclasses import dataclass
+
+from amr_description.parameters import group, parameter
+
+
+@dataclass(frozen=True)
+class InitialStates:
+    """What becomes of the hardware at the start."""
+
+    unconfigured: tuple[str, ...] = parameter((), 'Components that are left unconfigured')
+    inactive: tuple[str, ...] = parameter((), 'Components that are configured, not activated')
+    shutdown_on_initial_state_failure: bool = parameter(
+        True, 'End when a component does not reach its first state', read_only=True
+    )
+
+
+@dataclass(frozen=True)
+class SwitchDefaults:
+    """What a request to switch leaves open."""
+
+    strictness: str = parameter(
+        'best_effort', 'Where a request names no strictness', choices=('best_effort', 'strict')
+    )
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """How controllers and hardware go together."""
+
+    allow_controller_activation_with_inactive_hardware: bool = parameter(
+        False, 'Let controllers claim commands of hardware that is not active', read_only=True
+    )
+    deactivate_controllers_on_hardware_self_deactivate: bool = parameter(
+        True, 'Deactivate the controllers of hardware that made itself inactive', read_only=True
+    )
+    switch_controller: SwitchDefaults = group('switch_controller', SwitchDefaults)
+
+
+@dataclass(frozen=True)
+class Overruns:
+    """Cycles that take too long."""
+
+    print_warnings: bool = parameter(True, 'Warn of them; default: unless use_sim_time')
+
+
+@dataclass(frozen=True)
+class RateLimits:
+    """Deviations of a rate."""
+
+    warn: float = parameter(5.0, 'Deviation to warn of', unit='Hz')
+    error: float = parameter(10.0, 'Deviation that is an error', unit='Hz')
+
+
+@dataclass(frozen=True)
+class TimeLimits:
+    """Mean times."""
+
+    warn: float = parameter(1000.0, 'Execution time to warn of', unit='µs')
+    error: float = parameter(2000.0, 'Execution time that is an error', unit='µs')
+
+
+@dataclass(frozen=True)
+class SpreadLimits:
+    """Standard deviations of times."""
+
+    warn: float = parameter(100.0, 'Deviation to warn of', unit='µs')
+    error: float = parameter(200.0, 'Deviation that is an error', unit='µs')
+
+
+@dataclass(frozen=True)
+class Periodicity:
+    """How regularly something runs."""
+
+    mean_error: RateLimits = group('mean_error', RateLimits)
+    standard_deviation: RateLimits = group('standard_deviation', RateLimits)
+
+
+@dataclass(frozen=True)
+class ExecutionTime:
+    """How long something takes."""
+
+    mean_error: TimeLimits = group('mean_error', TimeLimits)
+    standard_deviation: SpreadLimits = group('standard_deviation', SpreadLimits)
+
+
+@dataclass(frozen=True)
+class ManagerThresholds:
+    """Of the manager's own loop."""
+
+    periodicity: Periodicity = group('periodicity', Periodicity)
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """Of controllers, or of hardware components."""
+
+    periodicity: Periodicity = group('periodicity', Periodicity)
+    execution_time: ExecutionTime = group('execution_time', ExecutionTime)
+
+
+@dataclass(frozen=True)
+class Diagnostics:
+    """From where on ``/diagnostics`` speaks of a warning, and of an error."""
+
+    controller_manager: ManagerThresholds = group('controller_manager', ManagerThresholds)
+    controllers: Thresholds = group('controllers', Thresholds)
+    hardware_components: Thresholds = group('hardware_components', Thresholds)
+
+
+@dataclass(frozen=True)
+class DiagnosticUpdater:
+    """How ``/diagnostics`` is published."""
+
+    period: float = parameter(1.0, 'Time between two messages', unit='s')
+    use_fqn: bool = parameter(False, 'Name the node with its namespace')
+
+
+@dataclass(frozen=True)
+class ManagerTable:
+    """
+    The parameters of the manager.
+
+    ``update_rate`` may be set while it runs, as in the original, where only the start counts.
+    """
+
+    update_rate: int = parameter(100, 'Rate of the control loop', unit='Hz', above=0)
+    enforce_command_limits: bool = parameter(
+        False, 'Clamp commands to the limits of the URDF', read_only=True
+    )
+    handle_exceptions: bool = parameter(
+        True, 'Go on when a controller or a component raises', read_only=True
+    )
+    hardware_components_initial_state: InitialStates = group(
+        'hardware_components_initial_state', InitialStates
+    )
+    defaults: Defaults = group('defaults', Defaults)
+    overruns: Overruns = group('overruns', Overruns)
+    diagnostics: Diagnostics = group('diagnostics.threshold', Diagnostics)
+    diagnostic_updater: DiagnosticUpdater = group('diagnostic_updater', DiagnosticUpdater)
+
+
+@dataclass(frozen=True)
+class ControllerEntry:
+    """What the manager's parameters say of one controller, below its name."""
+
+    type: str = parameter('', 'Type of the controller', not_empty=True)
+    params_file: tuple[str, ...] = parameter((), 'Parameter files of the controller')
+    fallback_controllers: tuple[str, ...] = parameter(
+        (), 'Controllers to activate when this one fails'
+    )
+    node_options_args: tuple[str, ...] = parameter((), 'ROS arguments of its node')
+
+
+@dataclass(frozen=True)
+class CommonParameters:
+    """What every controller's node has besides the controller's own table."""
+
+    is_async: bool = parameter(
+        False, 'Update in a thread of its own: accepted, and updated in the control loop'
+    )
+    thread_priority: int = parameter(-100, 'Priority of that thread; not used')
+    update_rate: int = parameter(
+        100, "Updates per second; default, and 0: the manager's", unit='Hz', minimum=0
+    )
