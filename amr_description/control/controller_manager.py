@@ -43,7 +43,8 @@ class ControllerManager:
         ``update_rate``: Hz, as parameters and services give it. ``period``: ns, where the world's
         steps do not divide that of the rate exactly.
         """
-        self._defaults = defaults = defaults or ManagerDefaults()
+        self.defaults = defaults = defaults or ManagerDefaults()
+        """May be replaced while it runs, as a parameter is set."""
         self.resources = resources
         resources.lends_commands_of_inactive = (
             defaults.allow_controller_activation_with_inactive_hardware
@@ -84,15 +85,16 @@ class ControllerManager:
             self.refresh()
         self.resources.enforce_limits(period)
         gone = self.resources.write(time, period)
-        if gone and not self._defaults.deactivate_controllers_on_hardware_self_deactivate:
+        if gone and not self.defaults.deactivate_controllers_on_hardware_self_deactivate:
             states = {name: self.resources.components[name].state for name in gone}
             gone = [name for name in gone if states[name] is not LifecycleState.INACTIVE]
         self._abandon(gone, time)
 
     def reset(self, time: int) -> None:
-        """Time went back to ``time`` (ns): controllers stay as they are and begin anew."""
+        """Time went back to ``time`` (ns): all stays as it is and begins anew."""
         self._last_tick = None
         self.next_tick = time
+        self._abandon(self.resources.reset(time), time)
         self._abandon(self.resources.reset(time), time)
         survives = self._faults.survives
         failed = [c for c in self._controllers if not survives('resetting', c, c.reset, time)]
@@ -236,7 +238,7 @@ class ControllerManager:
         the simulation is paused, no time-out can pass, and ``activate_asap`` of the request makes
         no difference: it is always as soon as possible. Raises ControllerError.
         """
-        chosen = self._defaults.choose_strictness(strictness, self._log)
+        chosen = self.defaults.choose_strictness(strictness, self._log)
         if timeout == 0:
             self._log(
                 Severity.INFO,
