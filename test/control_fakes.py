@@ -177,6 +177,38 @@ class FakeController(Faulty, Controller):
         self.meet('reset', time)
 
 
+class FakeChainable(FakeController):
+    """Offers references and states; in chained mode its commands are the sum of its references."""
+
+    is_chainable = True
+
+    def __init__(self, name, commands=(), states=(), references=('x',), exports=(), **options):
+        super().__init__(name, commands, states, **options)
+        self.offers = (
+            tuple(CommandInterface(name, each) for each in references),
+            tuple(StateInterface(name, each) for each in exports),
+        )
+        self.modes = []
+        """Whether it was chained, at each update."""
+
+    def references(self):
+        return self.offers[0]
+
+    def exported_states(self):
+        return self.offers[1]
+
+    def set_chained_mode(self, is_chained):
+        self.meet('set_chained_mode', is_chained)
+        super().set_chained_mode(is_chained)
+
+    def update(self, time, period):
+        super().update(time, period)
+        self.modes.append(self.is_chained)
+        if self.is_chained:
+            for handle in self.handles:
+                handle.value = sum(r.value for r in self.references() if not math.isnan(r.value))
+
+
 def bring_up(*components):
     """A resource manager with these components, active."""
     resources = ResourceManager(FakeLog())

@@ -95,13 +95,16 @@ class SwitchChecks:
                     f"{refusal}its fallback controller : '{name}' need to be configured and be in "
                     'inactive/active state!'
                 )
-        commands, states = self._available([each for each in fallbacks if each is not None], ())
-        for fallback in filter(None, fallbacks):
+        there = [each for each in fallbacks if each is not None]
+        commands, states = self._available(
+            [*self._request.entering, *there], self._request.leaving
+        )
+        for fallback in there:
             wanted = fallback.wanted(commands, states)
-            for kind, names, there in zip(
+            for kind, names, available in zip(
                 ('command', 'state'), wanted, (commands, states), strict=True
             ):
-                missing = [name for name in names if name not in there]
+                missing = [name for name in names if name not in available]
                 if missing:
                     return (
                         f"{refusal}not all of its fallback controller's : '{fallback.name}' "
