@@ -95,7 +95,6 @@ class ControllerManager:
         self._last_tick = None
         self.next_tick = time
         self._abandon(self.resources.reset(time), time)
-        self._abandon(self.resources.reset(time), time)
         survives = self._faults.survives
         failed = [c for c in self._controllers if not survives('resetting', c, c.reset, time)]
         if failed:
