@@ -5,13 +5,23 @@
 import random
 import re
 
-from control_fakes import FakeController, FakeHardware, FakeLog, make_manager, MS, start
+from control_fakes import (
+    bring_up,
+    FakeController,
+    FakeHardware,
+    FakeLog,
+    make_manager,
+    MS,
+    start,
+)
 import pytest
 
 from amr_description.control.contracts import Input, Port, Severity
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
+from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness
-from amr_description.errors import ControllerError, HardwareError
+from amr_description.errors import ControllerError, HardwareDeactivationError, HardwareError
 
 STRICT, BEST_EFFORT = Strictness.STRICT, Strictness.BEST_EFFORT
 BOTH = pytest.mark.parametrize('strictness', [STRICT, BEST_EFFORT])
@@ -20,10 +30,10 @@ BOTH = pytest.mark.parametrize('strictness', [STRICT, BEST_EFFORT])
 class Bench:
     """Joints a and b; controllers A and A2 claim a, B claims b, AB both, S looks; U is raw."""
 
-    def __init__(self):
+    def __init__(self, defaults=None):
         self.log = FakeLog()
         self.hardware = FakeHardware(['a', 'b'])
-        self.manager = make_manager(self.hardware, log=self.log)
+        self.manager = ControllerManager(bring_up(self.hardware), 100, self.log, defaults=defaults)
         claims = {'A': 'a', 'A2': 'a', 'B': 'b', 'AB': 'ab', 'S': '', 'U': 'a'}
         self.controllers = {
             name: FakeController(name, [f'{joint}/velocity' for joint in joints])
@@ -219,6 +229,53 @@ def test_inputs_are_open_exactly_while_active():
     assert port.drain() == []
 
 
+# --- strictness and time-out ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize('default', [STRICT, BEST_EFFORT])
+def test_a_request_that_leaves_the_strictness_open_gets_the_default_and_a_warning(default):
+    bench = Bench(ManagerDefaults(strictness=default))
+    if default is STRICT:
+        assert bench.refuses('Could not activate', 'A nobody', '', 0)
+    else:
+        bench.switch('A nobody', '', 0)
+        assert bench.active == {'A'}
+    assert bench.log.texts(Severity.WARN)[0] == (
+        'Controller Manager: to switch controllers you need to specify a strictness level of '
+        'controller_manager_msgs::SwitchController::STRICT (2) or ::BEST_EFFORT (1). When '
+        f'unspecified, the default is {default.name.lower()}'
+    )
+
+
+@pytest.mark.parametrize(
+    ('strictness', 'name'),
+    [(Strictness.AUTO, 'AUTO'), (Strictness.FORCE_AUTO, 'FORCE_AUTO'), (7, '7'), (-1, '-1')],
+)
+def test_a_strictness_that_is_not_there_is_best_effort(bench, strictness, name):
+    assert bench.switch('A U', '', strictness).endswith('Activated controllers: [ A ]')
+    assert bench.log.texts(Severity.WARN)[0] == (
+        f'Controller Manager: strictness {name} is not implemented. Defaulting to BEST_EFFORT'
+    )
+
+
+@pytest.mark.parametrize(('timeout', 'said'), [(None, 0), (0, 1), (1, 0), (10**9, 0)])
+def test_no_time_out_can_pass(bench, timeout, said):
+    bench.manager.switch(['A'], [], STRICT, 0, timeout)
+    assert bench.active == {'A'}
+    texts = bench.log.texts(Severity.INFO)
+    assert texts.count('Switch controller timeout is set to 0, using default 1s!') == said
+
+
+def test_what_is_asked_is_said(bench):
+    bench.switch('A B')
+    bench.switch('A2', 'A')
+    assert bench.log.texts(Severity.INFO) == [
+        'Activating controllers: [ A B ]',
+        'Activating controllers: [ A2 ]',
+        'Deactivating controllers: [ A ]',
+    ]
+
+
 # --- refusals ------------------------------------------------------------------------------------
 
 NOBODY = "controller with name 'nobody' because no controller with this name exists"
@@ -314,7 +371,37 @@ def test_two_that_want_the_same(bench, strictness):
 @BOTH
 def test_hardware_that_is_not_active_offers_no_commands(bench, strictness):
     bench.manager.set_component_state('hardware', LifecycleState.INACTIVE, 0)
-    assert bench.refuses("'a/velocity' is not available", 'A', '', strictness)
+    message = (
+        r"since the command interface 'a/velocity' is not available\. Its hardware component "
+        r"'hardware' is inactive, not active\.$"
+    )
+    assert bench.refuses(message, 'A', '', strictness)
+
+
+def test_a_default_lends_the_commands_of_inactive_hardware_too():
+    defaults = ManagerDefaults(allow_controller_activation_with_inactive_hardware=True)
+    bench = Bench(defaults)
+    bench.manager.set_component_state('hardware', LifecycleState.INACTIVE, 0)
+    bench.switch('A')
+    bench.manager.tick(0)
+    assert bench.hardware.count('write') == 0
+    bench.manager.set_component_state('hardware', LifecycleState.ACTIVE, 0)
+    bench.manager.tick(10 * MS)
+    assert bench.hardware.written['a'] == 2.0
+    bench.manager.set_component_state('hardware', LifecycleState.UNCONFIGURED, 0)
+    assert bench.active == set()
+    assert bench.refuses("'a/velocity' is not available.*'hardware' is unconfigured", 'A')
+
+
+@pytest.mark.parametrize('goes_on', [True, False])
+def test_hardware_that_asks_to_be_inactive_stops_whoever_commands_it_unless_told_not_to(goes_on):
+    defaults = ManagerDefaults(deactivate_controllers_on_hardware_self_deactivate=not goes_on)
+    bench = Bench(defaults)
+    bench.switch('A S')
+    bench.hardware.faults['write'] = HardwareDeactivationError('emergency stop')
+    bench.manager.tick(0)
+    assert bench.manager.snapshot.components[0].state is LifecycleState.INACTIVE
+    assert bench.active == ({'A', 'S'} if goes_on else {'S'})
 
 
 @BOTH

@@ -85,10 +85,13 @@ class ControllerManager:
             self.refresh()
         self.resources.enforce_limits(period)
         gone = self.resources.write(time, period)
-        if gone and not self.defaults.deactivate_controllers_on_hardware_self_deactivate:
+        if self.defaults.deactivate_controllers_on_hardware_self_deactivate:
+            self._abandon(gone, time)
+        elif gone:
             states = {name: self.resources.components[name].state for name in gone}
-            gone = [name for name in gone if states[name] is not LifecycleState.INACTIVE]
-        self._abandon(gone, time)
+            failed = [name for name in gone if states[name] is not LifecycleState.INACTIVE]
+            self._faults.abandon(failed, time)
+            self.refresh()
 
     def reset(self, time: int) -> None:
         """Time went back to ``time`` (ns): all stays as it is and begins anew."""

@@ -150,6 +150,7 @@ class SwitchChecks:
                 if name not in commands:
                     raise ControllerError(
                         f"{refusal}command interface '{name}' is not available."
+                        f'{self._hint_at(name)}'
                     )
                 if holder is not None and holder not in freed:
                     raise ControllerError(
@@ -166,3 +167,10 @@ class SwitchChecks:
                 if name not in states:
                     raise ControllerError(f"{refusal}state interface '{name}' is not available.")
         return list(promised)
+
+    def _hint_at(self, command: str) -> str:
+        """Name the hardware component that has the command but does not lend it now."""
+        for name, owned in self._resources.components.items():
+            if command in owned.commands:
+                return f" Its hardware component '{name}' is {owned.state.label}, not active."
+        return ''
