@@ -90,7 +90,7 @@ def host(tmp_path_factory):
         ('ros2 interface show std_msgs/msg/Str', ['std_msgs/msg/String']),
         ('ros2 interface package std_s', ['std_srvs']),
         ('ros2 launch amr_d', ['amr_description', 'amr_description/']),
-        ('ros2 launch amr_description ', ['simulation']),
+        ('ros2 launch amr_description s', ['serial', 'simulation']),
         ('ros2 launch amr_description simulation rt', ['rtf:=']),
         ('ros2 launch amr_description nonsense ', []),
         ('ros2 topic pub /x std_msgs/msg/String "', ["data: ''"]),

@@ -3,6 +3,8 @@
 """The ready-made stacks; ``bringup`` without arguments lists them."""
 
 STACKS = {
+    'mock': 'amr_description.bringup.stacks.hardware:mock',
+    'serial': 'amr_description.bringup.stacks.hardware:serial',
     'simulation': 'amr_description.bringup.stacks.simulation:simulation',
 }
 """Name -> ``module:function``; the function's parameters are the arguments of the stack."""

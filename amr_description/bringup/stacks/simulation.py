@@ -59,12 +59,17 @@ def simulation(
             diff_drive_controller,
         ],
         ready_when=exited_cleanly(diff_drive_controller),
-        next_steps=f"""drive with, in another shell,
+        next_steps=how_to_drive(),
+    )
+
+
+def how_to_drive() -> str:
+    """What a person would type next."""
+    return f"""drive with, in another shell,
     {other_shell('amr_description', os.environ)}
     ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
         -r /cmd_vel:=/diff_drive_controller/cmd_vel
 or for one command
     ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \\
         "{{header: {{frame_id: base_link}}, twist: {{linear: {{x: 0.5}}, angular: {{z: 0.0}}}}}}"
-Ctrl-C stops all.""",
-    )
+Ctrl-C stops all."""

@@ -1,0 +1,85 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The stacks ``mock`` and ``serial``: the robot without the simulator, as on a real one.
+
+Against ``simulation`` only the hardware interface is swapped: the same URDF with another
+``<plugin>``, the same controllers with the same parameters, the same topics.
+"""
+
+from collections.abc import Sequence
+import os
+from pathlib import Path
+import tempfile
+from typing import Annotated
+
+from amr_description.bringup import exited_cleanly, Node, path_of, Stack
+from amr_description.bringup.stacks.simulation import how_to_drive
+from amr_description.model.hardware_swap import swap_hardware
+
+_URDF = 'package://amr_description/urdf/amr.urdf'
+_CONTROLLERS = 'package://amr_description/config/controllers.yaml'
+
+
+def mock(
+    urdf: Annotated[str, 'robot description'] = _URDF,
+    controllers: Annotated[str, 'parameters of the controllers'] = _CONTROLLERS,
+) -> Stack:
+    """The robot's controllers over mock hardware: no physics, wheels do as they are told."""
+    description = swap_hardware(
+        path_of(urdf).read_text('utf-8'),
+        'mock_components/GenericSystem',
+        {'calculate_dynamics': 'true'},
+    )
+    return _controlled(description, controllers)
+
+
+def serial(
+    urdf: Annotated[str, 'robot description'] = _URDF,
+    controllers: Annotated[str, 'parameters of the controllers'] = _CONTROLLERS,
+    port: Annotated[str, 'port of the motor board; empty: a simulated board is started'] = '',
+    left: Annotated[str, 'joints that the left motor turns'] = (
+        'joint_wheel_front_left joint_wheel_back_left'
+    ),
+    right: Annotated[str, 'joints that the right motor turns'] = (
+        'joint_wheel_front_right joint_wheel_back_right'
+    ),
+) -> Stack:
+    """The robot behind a serial port: a real motor board, or a simulated one."""
+    boards = []
+    if not port:
+        port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))
+        boards = [Node('motor_board', arguments=['--link', port], required=False)]
+    description = swap_hardware(
+        path_of(urdf).read_text('utf-8'),
+        'amr_description/SerialBaseSystem',
+        {'port': port, 'left_joints': left, 'right_joints': right},
+    )
+    return _controlled(description, controllers, boards)
+
+
+def _controlled(description: str, controllers: str, before: Sequence[Node] = ()) -> Stack:
+    """The manager by itself, the description, and the controllers one after the other."""
+    ros2_control_node = Node(
+        'ros2_control_node', parameters=[path_of(controllers)], on_exit='shutdown'
+    )
+    robot_state_publisher = Node(
+        'robot_state_publisher', parameters=[{'robot_description': description}]
+    )
+    joint_state_broadcaster = Node('spawner', arguments=['joint_state_broadcaster'])
+    diff_drive_controller = Node(
+        'spawner',
+        arguments=['diff_drive_controller'],
+        start_when=exited_cleanly(joint_state_broadcaster),
+    )
+    return Stack(
+        [
+            *before,
+            ros2_control_node,
+            robot_state_publisher,
+            joint_state_broadcaster,
+            diff_drive_controller,
+        ],
+        ready_when=exited_cleanly(diff_drive_controller),
+        next_steps=how_to_drive(),
+    )
