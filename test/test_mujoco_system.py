@@ -8,6 +8,7 @@ from fixtures.sim.driving import AMR, Lines
 import pytest
 
 from amr_description.control.contracts import Severity
+from amr_description.control.world import ImuReading
 from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.mujoco_system import MujocoSystem
@@ -41,6 +42,8 @@ URDF = """
 
 
 class FakeJoints:
+    """Each joint's last command, 'held' or 'free' is kept in the world's ``commands``."""
+
     def __init__(self, world, names):
         self.world, self.names = world, names
 
@@ -53,27 +56,45 @@ class FakeJoints:
     def efforts(self):
         return [self.world.state[name, 'effort'] for name in self.names]
 
-    def command_velocities(self, values):
+    def command(self, interface, values):
         if not all(map(math.isfinite, values)):
             raise SimulationError('not finite')
-        self.world.commands.update(zip(self.names, values, strict=True))
+        told = [(interface, value) for value in values]
+        self.world.commands.update(zip(self.names, told, strict=True))
+
+    def hold(self):
+        self.world.commands.update(dict.fromkeys(self.names, 'held'))
+
+    def release(self):
+        self.world.commands.update(dict.fromkeys(self.names, 'free'))
 
 
 class FakeWorld:
     """Three joints; what is commanded is remembered."""
 
     time = 0
+    reading = ImuReading((0.1, 0.2, 0.3, 0.9), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
 
-    def __init__(self):
+    def __init__(self, urdf=URDF):
         interfaces = ('position', 'velocity', 'effort')
+        self.description = parse(urdf)
         self.state = {(j, i): 0.0 for j in ('ja', 'jb', 'jc') for i in interfaces}
         self.commands = {}
+        self.imus = []
 
     def joints(self, names):
         for name in names:
             if (name, 'position') not in self.state:
                 raise SimulationError(f"there is no joint '{name}'")
         return FakeJoints(self, names)
+
+    def imu(self, link, place):
+        self.imus.append((link, place))
+        return self.reading
+
+
+def velocity(value):
+    return ('velocity', value)
 
 
 def info_of(urdf=URDF):
@@ -124,24 +145,30 @@ def test_read(system, world):
 def test_write_keeps_the_target_where_the_command_is_nan(system, world):
     jb, ja = system.command_interfaces()
     system.write(0, PERIOD)
-    assert world.commands == {'jb': 0.0, 'ja': 0.0}
+    assert world.commands == {'jb': 'held', 'ja': 'held'}
     jb.value = 5.0
     system.write(0, PERIOD)
+    assert world.commands == {'jb': velocity(5.0), 'ja': 'held'}
     jb.value = math.nan
     ja.value = -1.0
     system.write(0, PERIOD)
-    assert world.commands == {'jb': 5.0, 'ja': -1.0}
+    assert world.commands == {'jb': velocity(5.0), 'ja': velocity(-1.0)}
 
 
-@pytest.mark.parametrize('transition', ['deactivate', 'activate'])
+@pytest.mark.parametrize(
+    'transition',
+    [MujocoSystem.deactivate, MujocoSystem.activate, lambda system: system.reset(0)],
+    ids=['deactivate', 'activate', 'reset'],
+)
 def test_transitions_hold_still_and_forget_commands(system, world, transition):
     for command in system.command_interfaces():
         command.value = 5.0
     system.write(0, PERIOD)
-    getattr(system, transition)()
-    assert world.commands == {'jb': 0.0, 'ja': 0.0}
+    transition(system)
+    assert world.commands == {'jb': 'held', 'ja': 'held'}
+    assert all(math.isnan(command.value) for command in system.command_interfaces())
     system.write(0, PERIOD)
-    assert world.commands == {'jb': 0.0, 'ja': 0.0}
+    assert world.commands == {'jb': 'held', 'ja': 'held'}
 
 
 def test_released_joint_is_held_and_the_others_go_on(system, world):
@@ -150,7 +177,7 @@ def test_released_joint_is_held_and_the_others_go_on(system, world):
     system.write(0, PERIOD)
     system.perform_command_mode_switch([], ['jb/velocity'])
     system.write(0, PERIOD)
-    assert world.commands == {'jb': 0.0, 'ja': 5.0}
+    assert world.commands == {'jb': 'held', 'ja': velocity(5.0)}
 
 
 def test_infinite_command_stops_everything_and_fails(system, world):
@@ -160,7 +187,7 @@ def test_infinite_command_stops_everything_and_fails(system, world):
     ja.value = math.inf
     with pytest.raises(HardwareError, match="hardware component 'Cart': not finite"):
         system.write(0, PERIOD)
-    assert world.commands == {'jb': 0.0, 'ja': 0.0}
+    assert world.commands == {'jb': 'held', 'ja': 'held'}
 
 
 def test_needs_a_world():
@@ -174,7 +201,7 @@ def test_needs_a_world():
         (
             '<command_interface name="velocity"/>',
             '<command_interface name="acceleration"/>',
-            "joint 'jb': command interface 'acceleration' is asked; there are: velocity",
+            "joint 'jb': command interface 'acceleration' is asked; there are: position, v",
         ),
         (
             '<state_interface name="effort"/>',
@@ -194,17 +221,14 @@ def test_joint_that_the_world_does_not_have(world):
         MujocoSystem(info_of(), Lines(), world)
 
 
-def test_sensor_is_told_not_to_be_there(world):
-    imu = '<sensor name="imu"><state_interface name="orientation.x"/></sensor></ros2_control>'
+@pytest.mark.parametrize('kind', ['sensor', 'gpio'])
+def test_what_is_not_simulated_is_told(world, kind):
+    part = f'<{kind} name="it"><state_interface name="counts"/></{kind}></ros2_control>'
     log = Lines()
-    system = MujocoSystem(info_of(URDF.replace('</ros2_control>', imu)), log, world)
+    system = MujocoSystem(info_of(URDF.replace('</ros2_control>', part)), log, world)
     assert len(system.state_interfaces()) == 4
-    assert log.lines == [
-        (
-            Severity.WARN,
-            "hardware component 'Cart': sensor 'imu' is not simulated and has no interfaces",
-        )
-    ]
+    text = f"hardware component 'Cart': {kind} 'it' is not simulated and has no interfaces"
+    assert log.lines == [(Severity.WARN, text)]
 
 
 # --- the table of plugins ------------------------------------------------------------------------

@@ -94,7 +94,7 @@ def test_quaternion_of_any_length_is_taken_as_a_direction():
 def test_tutorial_robot_drives_backwards_as_its_text_says(world):
     robot = world.spawn('tutorial', TUTORIAL, Transform((0.0, 3.0, 0.0)))
     wheels = [joint.name for joint in robot.description.joints if joint.has_position]
-    robot.joints(wheels).command_velocities([5.0] * 4)
+    robot.joints(wheels).command('velocity', [5.0] * 4)
     world.step(500)
     assert robot.pose('base_footprint').translation[0] == pytest.approx(-0.49, abs=0.01)
 

@@ -7,7 +7,7 @@ import math
 from fixtures.sim.driving import AMR, Drive, LEFT, Lines, RIGHT, ROOT
 import pytest
 
-from amr_description.control.contracts import JointGroup, World
+from amr_description.control.world import JointGroup, World
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import link_poses, Transform
 from amr_description.sim.spawning import SpawnCode
@@ -28,7 +28,7 @@ def states(world, steps):
     wheels = robot.joints(WHEELS)
     log = []
     for tick in range(steps):
-        wheels.command_velocities([5.0, 5.0, 5.0 * math.sin(tick / 20), 1.0])
+        wheels.command('velocity', [5.0, 5.0, 5.0 * math.sin(tick / 20), 1.0])
         world.step(5)
         log.append((wheels.positions(), wheels.velocities(), robot.pose('wheel_front_left')))
     return log
@@ -127,7 +127,7 @@ def test_each_robot_takes_its_own_commands(world):
     names = ['a', 'b', 'c']
     robots = [world.spawn(n, AMR, Transform((0.0, 2.0 * i, 0.0))) for i, n in enumerate(names)]
     for robot, speed in zip(robots, (5.0, 0.0, -2.0), strict=True):
-        robot.joints(WHEELS).command_velocities([speed] * 4)
+        robot.joints(WHEELS).command('velocity', [speed] * 4)
     world.step(500)
     ahead = [robot.pose('base_footprint').translation[0] for robot in robots]
     assert ahead == pytest.approx([0.49, 0.0, -0.195], abs=0.01)
@@ -204,7 +204,7 @@ def test_same_commands_at_the_same_steps_give_the_same_bits():
         robot = world.spawn('amr', AMR, Transform((0.0, 0.0, 0.2)))
         wheels = robot.joints(WHEELS)
         for tick in range(200):
-            wheels.command_velocities([tick * 0.1, 3.0, -tick * 0.05, 2.0])
+            wheels.command('velocity', [tick * 0.1, 3.0, -tick * 0.05, 2.0])
             for steps in chunks:
                 world.step(steps)
         return wheels.positions(), wheels.velocities(), robot.pose('base_link')
@@ -217,7 +217,7 @@ def test_looking_at_the_truth_does_not_change_it():
         world = MujocoWorld('empty')
         robot = world.spawn('amr', AMR, Transform((0.0, 0.0, 0.2)))
         wheels = robot.joints(WHEELS)
-        wheels.command_velocities([5.0, 5.0, 1.0, 1.0])
+        wheels.command('velocity', [5.0, 5.0, 1.0, 1.0])
         for _ in range(300):
             world.step(1)
             if look:
@@ -235,14 +235,14 @@ def test_looking_at_the_truth_does_not_change_it():
 def test_joints_come_in_the_order_asked_for(world, order):
     robot = world.spawn('amr', AMR)
     commands = [1.0, 2.0, 3.0, 4.0]
-    robot.joints(WHEELS).command_velocities(commands)
+    robot.joints(WHEELS).command('velocity', commands)
     world.step(500)
     everything = robot.joints(WHEELS)
     some = robot.joints([WHEELS[i] for i in order])
     assert some.positions() == [everything.positions()[i] for i in order]
     assert some.velocities() == [everything.velocities()[i] for i in order]
     assert some.efforts() == [everything.efforts()[i] for i in order]
-    some.command_velocities([10.0 + i for i in order])
+    some.command('velocity', [10.0 + i for i in order])
     world.step(500)
     expected = [10.0 + i if i in order else commands[i] for i in range(4)]
     assert everything.velocities() == pytest.approx(expected, rel=0.01)
@@ -251,9 +251,9 @@ def test_joints_come_in_the_order_asked_for(world, order):
 @pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf])
 def test_command_that_is_no_number_is_refused(world, bad):
     wheels = world.spawn('amr', AMR).joints(WHEELS)
-    wheels.command_velocities([1.0] * 4)
+    wheels.command('velocity', [1.0] * 4)
     with pytest.raises(SimulationError, match=f"'{RIGHT[0]}': the velocity command is {bad}"):
-        wheels.command_velocities([2.0, 2.0, bad, 2.0])
+        wheels.command('velocity', [2.0, 2.0, bad, 2.0])
     world.step(500)
     assert wheels.velocities() == pytest.approx([1.0] * 4, rel=0.01)
 
@@ -264,9 +264,9 @@ def test_command_beyond_the_limit_is_clamped_and_told():
     log = Lines()
     world = MujocoWorld('empty', log=log)
     wheels = world.spawn('amr', limited).joints(WHEELS)
-    wheels.command_velocities([3.0] * 4)
+    wheels.command('velocity', [3.0] * 4)
     assert 'clamped' not in log.text
-    wheels.command_velocities([7.0] * 4)
+    wheels.command('velocity', [7.0] * 4)
     assert "WARN robot 'amr': joint 'joint_wheel_front_left': the velocity command 7" in log.text
     assert 'beyond its limit of 3' in log.text
     world.step(500)
@@ -279,4 +279,4 @@ def test_joint_without_a_command_interface_takes_no_command(world):
     wheels = world.spawn('amr', plain).joints(WHEELS)
     assert wheels.velocities() == [0.0] * 4
     with pytest.raises(SimulationError, match="'joint_wheel_front_left' takes no velocity comm"):
-        wheels.command_velocities([1.0] * 4)
+        wheels.command('velocity', [1.0] * 4)

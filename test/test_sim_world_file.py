@@ -47,10 +47,10 @@ def test_friction_of_the_ground_is_that_of_the_world(tmp_path):
     world = MujocoWorld(write(tmp_path / 'ice.xml', ground))
     robot = world.spawn('amr', AMR)
     wheels = robot.joints(WHEELS)
-    wheels.command_velocities([5.0] * 4)
+    wheels.command('velocity', [5.0] * 4)
     world.step(1500)
     before = robot.pose('base_footprint').translation[0]
-    wheels.command_velocities([0.0] * 4)
+    wheels.command('velocity', [0.0] * 4)
     world.step(1000)
     braking = robot.pose('base_footprint').translation[0] - before
     assert braking == pytest.approx(0.5**2 / (2 * 0.1 * 9.81), rel=0.15)
@@ -67,7 +67,7 @@ def test_friction_of_the_ground_is_that_of_the_world(tmp_path):
 def test_wheels_drive_on_every_static_surface(tmp_path, surface):
     world = MujocoWorld(write(tmp_path / 'w.xml', f'<worldbody>{surface}</worldbody>'))
     robot = world.spawn('amr', AMR, Transform((0.0, 0.0, 0.01)))
-    robot.joints(WHEELS).command_velocities([-5.0, 5.0] * 2)
+    robot.joints(WHEELS).command('velocity', [-5.0, 5.0] * 2)
     world.step(1500)
     assert robot.pose('base_footprint').translation == pytest.approx((0, 0, 0), abs=1e-3)
     _, (_, _, yaw_rate) = robot.velocity('base_footprint')

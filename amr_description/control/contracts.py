@@ -1,7 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The page to read before writing a controller, a hardware component or a simulated world.
+The page to read before writing a controller or a hardware component; what a component sees of a
+simulated world stands in :mod:`amr_description.control.world`.
 
 Nothing here knows ROS, MuJoCo or a clock. One thread, **the owner**, calls every method below but
 :meth:`Controller.configure`; what comes from other threads arrives through :class:`Input`. Times
@@ -24,9 +25,9 @@ from amr_description.control.interfaces import (
     NO_INTERFACES,
     StateInterface,
 )
+from amr_description.control.world import World
 
 if TYPE_CHECKING:
-    from amr_description.model.frames import Transform
     from amr_description.model.ros2_control_tag import HardwareInfo
     from amr_description.model.urdf import Robot
 
@@ -271,55 +272,6 @@ class Controller(ABC):
 
 
 # --- Hardware ------------------------------------------------------------------------------------
-
-
-class JointGroup(Protocol):
-    """
-    Some joints of one robot, in the order in which they were asked for; cheap to call in the tick.
-    """
-
-    def positions(self) -> list[float]:
-        """rad or m."""
-
-    def velocities(self) -> list[float]:
-        """rad/s or m/s."""
-
-    def efforts(self) -> list[float]:
-        """The actuators' generalised force, N·m or N."""
-
-    def command_velocities(self, values: Sequence[float]) -> None:
-        """
-        Target velocities, rad/s or m/s, one a joint, kept until the next call. Raises
-        SimulationError if not finite.
-        """
-
-
-class World(Protocol):
-    """
-    What a simulated hardware component sees of the world: its own robot, by the names of its URDF.
-
-    MuJoCo implements it in ``sim/``; a test's fake is twenty lines. It stays valid when other
-    robots come and go.
-    """
-
-    @property
-    def time(self) -> int:
-        """Simulated time, ns."""
-
-    def joints(self, names: Sequence[str]) -> JointGroup:
-        """
-        These joints, in this order. Raises SimulationError naming what is missing and what there
-        is.
-        """
-
-    def pose(self, link: str) -> 'Transform':
-        """The transform from ``link`` to the world frame: the true pose of the link."""
-
-    def velocity(self, link: str) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """
-        Linear (m/s) and angular (rad/s) velocity of the link's origin, both in the link's own
-        axes.
-        """
 
 
 class HardwareComponent(ABC):

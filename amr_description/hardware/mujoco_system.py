@@ -1,16 +1,19 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The joints of a simulated robot as a hardware component.
+The joints and inertial measurement units of a simulated robot as a hardware component.
 
-It knows :class:`~amr_description.control.contracts.World` and not what is behind it. A joint whose
-command nobody claims is held still, as Gazebo's ``hold_joints`` does.
+It knows :class:`~amr_description.control.world.World` and not what is behind it. A joint obeys the
+command interface that is claimed, once the first command has come. Until then, and when nobody
+commands it, it is held where it stands, as Gazebo's ``hold_joints`` does; with
+``<hold_joints>false</hold_joints>`` in the plugin's ``<gazebo>`` block, or
+``<param name="hold_joints">false</param>`` in ``<hardware>``, it swings freely.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 import math
 
-from amr_description.control.contracts import HardwareComponent, Log, Severity, World
+from amr_description.control.contracts import HardwareComponent, Log, Severity
 from amr_description.control.interfaces import (
     CommandInterface,
     EFFORT,
@@ -18,16 +21,21 @@ from amr_description.control.interfaces import (
     StateInterface,
     VELOCITY,
 )
+from amr_description.control.world import JointGroup, World
 from amr_description.errors import HardwareError, SimulationError
+from amr_description.hardware.command_modes import CommandModes
+from amr_description.hardware.simulated_imu import is_imu, SimulatedImu
+from amr_description.model.gazebo_tag import gazebo_plugins_of
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
 
 STATES = (POSITION, VELOCITY, EFFORT)
-COMMANDS = (VELOCITY,)
+COMMANDS = (POSITION, VELOCITY, EFFORT)
+_TRUTH_VALUES = {'true': True, '1': True, 'false': False, '0': False}
 
 
 class MujocoSystem(HardwareComponent):
     """
-    ``amr_description/MujocoSystem``: position, velocity and effort of joints; velocity commands.
+    ``amr_description/MujocoSystem``: position, velocity and effort of joints, states and commands.
     """
 
     def __init__(self, info: HardwareInfo, log: Log, world: World | None) -> None:
@@ -38,15 +46,11 @@ class MujocoSystem(HardwareComponent):
                 f"hardware component '{info.name}': {info.plugin} needs a simulated world and "
                 'there is none; start it in the simulator, or use mock_components/GenericSystem'
             )
-        for component in (*info.sensors, *info.gpios):
-            log(
-                Severity.WARN,
-                f"hardware component '{info.name}': {component.type} '{component.name}' is not "
-                'simulated and has no interfaces',
-            )
+        self._world = world
         try:
+            self._holds_joints = _holds_joints(info, world)
             self._bind(world)
-        except SimulationError as cause:
+        except (SimulationError, HardwareError) as cause:
             raise HardwareError(f"hardware component '{info.name}': {cause}") from cause
 
     def _bind(self, world: World) -> None:
@@ -54,16 +58,14 @@ class MujocoSystem(HardwareComponent):
         self._commands = [
             CommandInterface(joint.name, interface.name)
             for joint in joints
-            for interface in self._checked(joint, joint.command_interfaces, 'command', COMMANDS)
+            for interface in _checked(joint, joint.command_interfaces, 'command', COMMANDS)
         ]
         self._states = [
             StateInterface(joint.name, interface.name)
             for joint in joints
-            for interface in self._checked(joint, joint.state_interfaces, 'state', STATES)
+            for interface in _checked(joint, joint.state_interfaces, 'state', STATES)
         ]
-        self._commanded = world.joints([command.prefix for command in self._commands])
-        self._targets = [0.0] * len(self._commands)
-        self._sources = []
+        self._sources: list[tuple[list[StateInterface], Callable[[], list[float]]]] = []
         for interface in STATES:
             cells = [state for state in self._states if state.interface == interface]
             if cells:
@@ -74,21 +76,22 @@ class MujocoSystem(HardwareComponent):
                     EFFORT: group.efforts,
                 }[interface]
                 self._sources.append((cells, read))
+        self._imus = [SimulatedImu(s, world) for s in self.info.sensors if is_imu(s, world)]
+        self._tell_what_is_left_out(world)
+        self._states += [state for imu in self._imus for state in imu.states]
+        self._modes = CommandModes(self._commands)
+        self._followers: list[_Follower] = []
+        self._idle: tuple[str, ...] = ()
+        self._idle_group = world.joints(self._modes.joints)
 
-    def _checked(
-        self,
-        joint: ComponentInfo,
-        interfaces: Sequence[InterfaceInfo],
-        kind: str,
-        supported: Sequence[str],
-    ) -> Sequence[InterfaceInfo]:
-        for interface in interfaces:
-            if interface.name not in supported:
-                raise HardwareError(
-                    f"hardware component '{self.info.name}': joint '{joint.name}': {kind} "
-                    f"interface '{interface.name}' is asked; there are: {', '.join(supported)}"
-                )
-        return interfaces
+    def _tell_what_is_left_out(self, world: World) -> None:
+        others = [sensor for sensor in self.info.sensors if not is_imu(sensor, world)]
+        for component in (*others, *self.info.gpios):
+            self.log(
+                Severity.WARN,
+                f"hardware component '{self.info.name}': {component.type} '{component.name}' is "
+                'not simulated and has no interfaces',
+            )
 
     def state_interfaces(self) -> Sequence[StateInterface]:
         """As the tag declares them, in its order."""
@@ -103,39 +106,134 @@ class MujocoSystem(HardwareComponent):
         self.read(0, 0)
 
     def activate(self) -> None:
-        """Hold still, and forget commands of an earlier life."""
+        """Leave the joints idle, and forget commands of an earlier life."""
         self._stop()
 
     def deactivate(self) -> None:
-        """Hold still."""
+        """Leave the joints idle."""
         self._stop()
 
+    def cleanup(self) -> None:
+        """Nobody has a claim on it any more."""
+        self._modes.forget()
+
+    def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """Two modes on one joint are refused. Raises HardwareError."""
+        self._modes.check(start, stop)
+
     def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Joints that are released, or change hands, hold still until the first command."""
-        for index, command in enumerate(self._commands):
-            if command.name in start or command.name in stop:
-                command.value = math.nan
-                self._targets[index] = 0.0
+        """Joints that are released, or change hands, are idle until the first command."""
+        self._rest(self._modes.switch(start, stop))
+
+    def reset(self, time: int) -> None:
+        """The world has put the joints back: forget all targets."""
+        self._stop()
 
     def read(self, time: int, period: int) -> None:
-        """Take the joints' present state."""
+        """Take the joints' present state, and what the sensors measure."""
         for cells, read in self._sources:
             for cell, value in zip(cells, read(), strict=True):
                 cell.value = value
+        for imu in self._imus:
+            imu.read()
 
     def write(self, time: int, period: int) -> None:
         """Command the joints; NaN keeps the target of before."""
-        for index, command in enumerate(self._commands):
-            if not math.isnan(command.value):
-                self._targets[index] = command.value
+        if any(self._is_called(joint) for joint in self._idle):
+            self._gather([joint for joint in self._idle if not self._is_called(joint)])
         try:
-            self._commanded.command_velocities(self._targets)
+            for follower in self._followers:
+                follower.write()
+            self._keep_idle()
         except SimulationError as cause:
             self._stop()
             raise HardwareError(f"hardware component '{self.info.name}': {cause}") from cause
 
+    def _is_called(self, joint: str) -> bool:
+        """Whether there is a command for the joint."""
+        command = self._modes.obeyed(joint)
+        return command is not None and not math.isnan(command.value)
+
     def _stop(self) -> None:
+        self._rest(self._modes.joints)
+
+    def _rest(self, joints: Iterable[str]) -> None:
+        """Leave these joints idle, and forget what they were told."""
+        resting = set(joints)
         for command in self._commands:
-            command.value = math.nan
-        self._targets = [0.0] * len(self._commands)
-        self._commanded.command_velocities(self._targets)
+            if command.prefix in resting:
+                command.value = math.nan
+        resting.update(self._idle)
+        self._gather([joint for joint in self._modes.joints if joint in resting])
+        self._keep_idle()
+
+    def _gather(self, idle: Sequence[str]) -> None:
+        """Sort the joints anew into idle ones and groups that follow one kind of command."""
+        targets = {name: target for each in self._followers for name, target in each.targets()}
+        busy = [self._modes.obeyed(joint) for joint in self._modes.joints if joint not in idle]
+        self._followers = []
+        for interface in COMMANDS:
+            commands = [each for each in busy if each is not None and each.interface == interface]
+            if commands:
+                group = self._world.joints([command.prefix for command in commands])
+                self._followers.append(_Follower(group, interface, commands, targets))
+        self._idle = tuple(idle)
+        self._idle_group = self._world.joints(self._idle)
+
+    def _keep_idle(self) -> None:
+        if self._holds_joints:
+            self._idle_group.hold()
+        else:
+            self._idle_group.release()
+
+
+class _Follower:
+    """Joints that follow one kind of command."""
+
+    def __init__(
+        self,
+        group: JointGroup,
+        interface: str,
+        commands: Sequence[CommandInterface],
+        targets: dict[str, float],
+    ) -> None:
+        """``targets``: the last commands that were numbers, by name, where there were some."""
+        self._group, self._interface, self._commands = group, interface, commands
+        self._targets = [targets.get(command.name, command.value) for command in commands]
+
+    def write(self) -> None:
+        """Raises SimulationError."""
+        for index, command in enumerate(self._commands):
+            if not math.isnan(command.value):
+                self._targets[index] = command.value
+        self._group.command(self._interface, self._targets)
+
+    def targets(self) -> Iterable[tuple[str, float]]:
+        """The last command of each joint that was a number."""
+        return zip((command.name for command in self._commands), self._targets, strict=True)
+
+
+def _checked(
+    joint: ComponentInfo,
+    interfaces: Sequence[InterfaceInfo],
+    kind: str,
+    supported: Sequence[str],
+) -> Sequence[InterfaceInfo]:
+    for interface in interfaces:
+        if interface.name not in supported:
+            raise HardwareError(
+                f"joint '{joint.name}': {kind} interface '{interface.name}' is asked; there are: "
+                f'{", ".join(supported)}'
+            )
+    return interfaces
+
+
+def _holds_joints(info: HardwareInfo, world: World) -> bool:
+    """Raises HardwareError for a text that is no truth value."""
+    text = info.parameters.get('hold_joints')
+    if text is None:
+        plugins = gazebo_plugins_of(world.description)
+        return all(plugin.hold_joints for plugin in plugins if plugin.hosts_ros2_control)
+    if text.lower() not in _TRUTH_VALUES:
+        raise HardwareError(f"parameter 'hold_joints' is '{text}'; true or false is needed")
+    return _TRUTH_VALUES[text.lower()]

@@ -13,7 +13,9 @@ The simulated world, and the only package that imports MuJoCo.
 ``robot_spec``      a URDF → MuJoCo spec of one robot
 ``meshes``          the mesh files of a URDF, found and judged
 ``wheels``          which links are wheels
-``actuators``       command interface → MuJoCo actuator
+``actuators``       command interface → MuJoCo actuators
+``drives``          which of a joint's actuators act
+``initial_state``   where joints begin
 ``contact``         how a wheel touches the ground
 ``spawning``        the request to spawn, checked; simulation_interfaces' codes
 ``resources``       ``package://`` and ``file://``, world names

@@ -1,14 +1,26 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Command interfaces of ros2_control as MuJoCo actuators named ``<joint>/<interface>``."""
+"""
+Command interfaces of ros2_control as MuJoCo actuators named ``<joint>/<interface>``.
 
-from collections.abc import Callable
+A commanded joint has a stiff **speed servo**. On top of it a **spring** pulls towards a target
+position; its force is cut off at ``servo gain · velocity limit``, so that together they are a
+cascade: speed = (target - position) / :data:`POSITION_TIME`, within the velocity limit, whatever
+the load and the inertia. A **motor** exerts an effort as it is told. Which of them act is the
+business of :mod:`amr_description.sim.drives`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 import math
 
 import mujoco
 
-from amr_description.control.interfaces import VELOCITY
-from amr_description.model.robot import Joint
+from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
+from amr_description.model.robot import Joint, JointType
+
+COMMANDS = (POSITION, VELOCITY, EFFORT)
+"""The command interfaces of a simulated joint."""
 
 SERVO_GAIN = 1e4
 """N·m·s/rad; a stiff speed servo. MuJoCo's discrete integrator solves it with the friction."""
@@ -19,15 +31,44 @@ s; the time constant of the first-order lag between command and servo. A step of
 otherwise enter as 250 m/s² of slip acceleration and lift the wheels.
 """
 
+POSITION_TIME = 0.04
+"""
+s; the time constant with which a position is approached. Measured on an arm of two links, 3 kg and
+0.9 m, with a step of 1 rad at 3 rad/s: no overshoot with effort limits of twice the load or more,
+0.05 mrad off at rest. At 0.02 s a motor of that strength overshoots by 1 %.
+"""
+
 FASTEST_JOINT = 100.0
 """rad/s or m/s; the bound of a command to a joint whose URDF has no velocity limit."""
 
+LARGEST_COMMAND = 1e10
+"""MuJoCo takes no larger number."""
 
 ROTOR_MASS, ROTOR_INERTIA = 1e-3, 1e-5
 """kg and kg·m²; small beside any wheel."""
 
-CLUTCH_IMPEDANCE = (0.999, 0.999, 0.001, 0.5, 2.0)
-"""Nearly rigid below the limit: at 0.95 a turning robot loses 13 % of its speed in the clutch."""
+CLUTCH_SOLREF, CLUTCH_IMPEDANCE = (0.004, 1.0), (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""
+Nearly rigid below the limit: at an impedance of 0.95 a turning robot loses 13 % of its speed in
+the clutch, and at 0.999 and MuJoCo's time constant (0.02 s) an arm sinks by 1 degree a minute; so
+it sinks by 0.04, while nobody brings it back (:meth:`~amr_description.sim.drives.Drives.hold`).
+"""
+
+LIMIT_SOLREF, LIMIT_IMPEDANCE = (0.004, 1.0), (0.99, 0.999, 0.001, 0.5, 2.0)
+"""A hard end of the joint's range; with MuJoCo's own a motor of 100 N·m gets 8 mrad beyond."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """The least and the largest command; rad, rad/s, N·m or m, m/s, N."""
+
+    lower: float
+    upper: float
+
+    def __str__(self) -> str:
+        if self.lower == -self.upper:
+            return f'its limit of {self.upper:.6g}'
+        return f'its limits of {self.lower:.6g} to {self.upper:.6g}'
 
 
 def actuator_name(joint: str, interface: str) -> str:
@@ -54,22 +95,68 @@ def effort_limit(joint: Joint) -> float:
     return math.inf
 
 
-def add_velocity_servo(spec: mujoco.MjSpec, joint: Joint) -> None:
-    """A servo that holds the joint at the commanded speed, within the limits of the URDF."""
+def command_bounds(joint: Joint, interface: str) -> Bounds:
+    """What the URDF allows a command of ``interface`` to be; always finite."""
+    if interface == VELOCITY:
+        most = speed_limit(joint)
+    elif interface == EFFORT:
+        most = min(effort_limit(joint), LARGEST_COMMAND)
+    elif joint.limit is not None and joint.type is not JointType.CONTINUOUS:
+        return Bounds(joint.limit.lower, joint.limit.upper)
+    else:
+        most = LARGEST_COMMAND
+    return Bounds(-most, most)
+
+
+def add_actuators(spec: mujoco.MjSpec, joint: Joint, interfaces: Sequence[str]) -> None:
+    """
+    Give a joint what its command interfaces need, and what holds it while nobody commands it.
+
+    A continuous joint that is only commanded by velocity, such as a wheel, is held by its speed
+    servo alone; any other, which may carry a load, also by a spring.
+    """
+    if not any(interface in COMMANDS for interface in interfaces):
+        return
+    # The effort limit is that of the clutch or of the motor's command; MuJoCo's would rattle.
+    moved = spec.joint(joint.name)
+    moved.actfrclimited = False
+    moved.solref_limit, moved.solimp_limit = LIMIT_SOLREF, LIMIT_IMPEDANCE
     driven = joint.name
     if math.isfinite(effort_limit(joint)):
         driven = _add_clutch(spec, joint)
-    servo = spec.add_actuator(
-        name=actuator_name(joint.name, VELOCITY),
+    _add_servo(spec, joint, driven)
+    if joint.type is not JointType.CONTINUOUS or set(interfaces) & {POSITION, EFFORT}:
+        _add_spring(spec, joint, driven)
+    if EFFORT in interfaces:
+        _add(spec, joint.name, EFFORT, joint.name).set_to_motor()
+
+
+def _add(spec: mujoco.MjSpec, joint: str, interface: str, driven: str) -> mujoco.MjsActuator:
+    return spec.add_actuator(
+        name=actuator_name(joint, interface),
         target=driven,
         trntype=mujoco.mjtTrn.mjTRN_JOINT,
     )
+
+
+def _add_servo(spec: mujoco.MjSpec, joint: Joint, driven: str) -> None:
+    """What holds the joint at a speed."""
+    servo = _add(spec, joint.name, VELOCITY, driven)
     servo.set_to_velocity(kv=SERVO_GAIN)
     servo.dyntype = mujoco.mjtDyn.mjDYN_FILTEREXACT
     servo.dynprm[0] = COMMAND_SMOOTHING
     limit = speed_limit(joint)
     servo.ctrllimited = True
     servo.ctrlrange = [-limit, limit]
+
+
+def _add_spring(spec: mujoco.MjSpec, joint: Joint, driven: str) -> None:
+    """What pulls towards a position; its own damping is the servo's."""
+    spring = _add(spec, joint.name, POSITION, driven)
+    spring.set_to_position(kp=SERVO_GAIN / POSITION_TIME)
+    force = SERVO_GAIN * speed_limit(joint)
+    spring.forcelimited = True
+    spring.forcerange = [-force, force]
 
 
 def _add_clutch(spec: mujoco.MjSpec, joint: Joint) -> str:
@@ -81,9 +168,8 @@ def _add_clutch(spec: mujoco.MjSpec, joint: Joint) -> str:
     friction of the limit's size couples rotor and joint: the solver finds that force together
     with the contacts, and it is exactly the limit once the joint cannot follow.
     """
+    link = spec.joint(joint.name).parent
     moved = spec.joint(joint.name)
-    link = moved.parent
-    moved.actfrclimited = False
     rotor = link.parent.add_body(name=rotor_name(joint.name), pos=link.pos, quat=link.quat)
     rotor.mass = ROTOR_MASS
     rotor.inertia = [ROTOR_INERTIA] * 3
@@ -93,9 +179,6 @@ def _add_clutch(spec: mujoco.MjSpec, joint: Joint) -> str:
     clutch.wrap_joint(joint.name, 1.0)
     clutch.wrap_joint(rotor_name(joint.name), -1.0)
     clutch.frictionloss = effort_limit(joint)
+    clutch.solref_friction = CLUTCH_SOLREF
     clutch.solimp_friction = CLUTCH_IMPEDANCE
     return rotor_name(joint.name)
-
-
-ACTUATORS: dict[str, Callable[[mujoco.MjSpec, Joint], None]] = {VELOCITY: add_velocity_servo}
-"""What makes the actuator of a command interface; the simulator takes no other commands."""

@@ -15,26 +15,38 @@ import mujoco
 import numpy as np
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.interfaces import VELOCITY
+from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SimulationError
-from amr_description.sim.actuators import actuator_name, rotor_name
+from amr_description.model.robot import Joint
+from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name
+from amr_description.sim.drives import Drives, Mode
+from amr_description.sim.efforts import EffortReader
 from amr_description.sim.engine import Engine
 
 _JOINT = mujoco.mjtObj.mjOBJ_JOINT
 _ACTUATOR = mujoco.mjtObj.mjOBJ_ACTUATOR
+_LIMITS = {
+    POSITION: 'lower="…" upper="…"',
+    VELOCITY: 'velocity="…"',
+    EFFORT: 'effort="…"',
+}
 
 type Reader = Callable[[], list[float]]
 type Writer = Callable[[Sequence[float]], None]
 
 
 class MujocoJointGroup:
-    """The :class:`~amr_description.control.contracts.JointGroup` of a simulated robot."""
+    """The :class:`~amr_description.control.world.JointGroup` of a simulated robot."""
 
-    def __init__(self, engine: Engine, robot: str, names: Sequence[str], log: Log) -> None:
+    def __init__(
+        self, engine: Engine, robot: str, joints: Sequence[Joint], drives: Drives, log: Log
+    ) -> None:
         """Bind these joints of ``robot``. Raises SimulationError if one is not there."""
         self._engine = engine
         self._robot = robot
-        self._names = tuple(names)
+        self._joints = tuple(joints)
+        self._names = tuple(joint.name for joint in joints)
+        self._drives = drives
         self._log = log
         self._bind()
 
@@ -56,79 +68,105 @@ class MujocoJointGroup:
             self._bind()
         return self._read_efforts()
 
-    def command_velocities(self, values: Sequence[float]) -> None:
+    def command(self, interface: str, values: Sequence[float]) -> None:
         """
-        Target velocities, rad/s or m/s, kept until the next call.
+        Let the joints follow ``interface`` (``position``: rad or m, ``velocity``: rad/s or m/s,
+        ``effort``: N·m or N) from now on, and no other; kept until the next call.
 
-        A value beyond the joint's velocity limit is clamped, which is told once. Raises
-        SimulationError if one is not finite, or if a joint takes no velocity command.
+        A value beyond the joint's limit is clamped, which is told once. Raises SimulationError if
+        one is not finite, or if a joint takes no such command.
         """
         if self._generation != self._engine.generation:
             self._bind()
-        for value in values:
+        if interface != self._interface:
+            self._turn_to(interface)
+        for value, (lower, upper) in zip(values, self._bounds, strict=True):
             # False for NaN too.
-            if not -self._lowest_limit <= value <= self._lowest_limit:
-                self._judge(values)
+            if not lower <= value <= upper:
+                values = self._judged(values)
                 break
-        self._write_velocities(values)
-
-    def _judge(self, values: Sequence[float]) -> None:
-        """Refuse what is not finite, and tell of what will be clamped."""
-        for name, value, limit in zip(self._names, values, self._limits, strict=True):
-            joint = f"robot '{self._robot}': joint '{name}'"
-            if not math.isfinite(value):
-                raise SimulationError(
-                    f'{joint}: the velocity command is {value}; a finite number is needed'
+        if self._drives.changes != self._seen_changes:
+            self._drives.switch(self._names, Mode(interface))
+            self._seen_changes = self._drives.changes
+        if interface == POSITION and self._has_rotors:
+            values = [
+                value + rotor - joint
+                for value, rotor, joint in zip(
+                    values, self._read_rotors(), self._read_positions(), strict=True
                 )
-            if abs(value) > limit:
+            ]
+        self._write(values)
+
+    def hold(self) -> None:
+        """Bring the joints to a stop and keep them where they stop."""
+        if self._generation != self._engine.generation:
+            self._bind()
+        self._drives.hold(self._names)
+
+    def release(self) -> None:
+        """Let the joints swing: no actuator exerts a force."""
+        if self._generation != self._engine.generation:
+            self._bind()
+        self._drives.switch(self._names, Mode.FREE)
+
+    def _turn_to(self, interface: str) -> None:
+        """Look up where commands of this interface go. Raises SimulationError."""
+        for name in self._names:
+            if interface not in self._drives.commands.get(name, ()) or interface not in COMMANDS:
+                raise SimulationError(
+                    f"robot '{self._robot}': joint '{name}' takes no {interface} command: its "
+                    '<ros2_control> block declares none'
+                )
+        actuators = self._find(_ACTUATOR, [actuator_name(name, interface) for name in self._names])
+        addresses = [int(self._engine.model.actuator_ctrladr[actuator]) for actuator in actuators]
+        self._write = _writer(self._engine.data.ctrl, addresses)
+        bounds = (command_bounds(joint, interface) for joint in self._joints)
+        self._bounds = [(each.lower, each.upper) for each in bounds]
+        self._interface = interface
+        self._seen_changes = -1
+
+    def _judged(self, values: Sequence[float]) -> list[float]:
+        """Refuse what is not finite; clamp what is beyond its limit, and tell of it."""
+        clamped = []
+        for joint, value in zip(self._joints, values, strict=True):
+            where = f"robot '{self._robot}': joint '{joint.name}': the {self._interface} command"
+            if not math.isfinite(value):
+                raise SimulationError(f'{where} is {value}; a finite number is needed')
+            bounds = command_bounds(joint, self._interface)
+            clamped.append(min(max(value, bounds.lower), bounds.upper))
+            if clamped[-1] != value:
                 self._log(
                     Severity.WARN,
-                    f'{joint}: the velocity command {value:.6g} is beyond its limit of '
-                    f'{limit:.6g} and is clamped; <limit velocity="…"> in the URDF sets the limit',
+                    f'{where} {value:.6g} is beyond {bounds} and is clamped; '
+                    f'<limit {_LIMITS[self._interface]}> in the URDF sets the limit',
                     throttle=math.inf,
                 )
+        return clamped
 
     def _bind(self) -> None:
         """Make the views into the present model and data; again after every recompile."""
         model, data = self._engine.model, self._engine.data
         joints = self._find(_JOINT, self._names)
-        self._require(joints, 'is not in the simulated world')
-        dofs = [int(model.jnt_dofadr[joint]) for joint in joints]
-        # Behind a slip clutch the actuator works on the rotor.
+        for name, index in zip(self._names, joints, strict=True):
+            if index < 0:
+                raise SimulationError(
+                    f"robot '{self._robot}': joint '{name}' is not in the simulated world"
+                )
+        # Behind a slip clutch the servo works on the rotor.
         rotors = self._find(_JOINT, [rotor_name(name) for name in self._names])
-        driven = [
-            dof if rotor < 0 else int(model.jnt_dofadr[rotor])
-            for dof, rotor in zip(dofs, rotors, strict=True)
-        ]
+        self._has_rotors = max(rotors, default=-1) >= 0
+        rotors = [j if rotor < 0 else rotor for j, rotor in zip(joints, rotors, strict=True)]
         self._read_positions = _reader(data.qpos, [int(model.jnt_qposadr[j]) for j in joints])
-        self._read_velocities = _reader(data.qvel, dofs)
-        self._read_efforts = _reader(data.qfrc_actuator, driven)
-        self._bind_velocity_commands()
+        self._read_rotors = _reader(data.qpos, [int(model.jnt_qposadr[j]) for j in rotors])
+        self._read_velocities = _reader(data.qvel, [int(model.jnt_dofadr[j]) for j in joints])
+        self._read_efforts = EffortReader(self._engine, self._robot, self._names)
+        self._interface = ''
         self._generation = self._engine.generation
-
-    def _bind_velocity_commands(self) -> None:
-        names = [actuator_name(joint, VELOCITY) for joint in self._names]
-        actuators = self._find(_ACTUATOR, names)
-        if -1 not in actuators:
-            limits = self._engine.model.actuator_ctrlrange[actuators, 1]
-            self._limits: list[float] = limits.tolist()
-            self._write_velocities = _writer(self._engine.data.ctrl, actuators)
-        else:
-            self._limits = [math.inf] * len(actuators)
-            self._write_velocities = lambda _: self._require(
-                actuators, 'takes no velocity command: its <ros2_control> block declares none'
-            )
-        self._lowest_limit = min(self._limits, default=math.inf)
 
     def _find(self, kind: mujoco.mjtObj, names: Sequence[str]) -> list[int]:
         """The indices of the robot's elements, -1 where there is none of that name."""
         model = self._engine.model
         return [mujoco.mj_name2id(model, kind, f'{self._robot}/{name}') for name in names]
-
-    def _require(self, indices: Sequence[int], fault: str) -> None:
-        for name, index in zip(self._names, indices, strict=True):
-            if index < 0:
-                raise SimulationError(f"robot '{self._robot}': joint '{name}' {fault}")
 
 
 def _reader(array: np.ndarray, indices: Sequence[int]) -> Reader:

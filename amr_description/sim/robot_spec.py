@@ -8,7 +8,7 @@ without a joint into it (most of the mass is gone then) and looks for meshes by 
 what it must be told is written into the XML before it reads, the rest is edited in the spec.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -22,14 +22,18 @@ from amr_description.model.findings import raise_error
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.xml_source import parse_xml
-from amr_description.sim.actuators import ACTUATORS
+from amr_description.sim.actuators import add_actuators
 from amr_description.sim.faults import one_line
+from amr_description.sim.initial_state import initial_states, JointState
 from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.wheels import find_wheels, Wheel
 
 WORLD_LINK = 'world'
 """A robot whose root has this name stands fixed."""
+
+MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
+"""A mimic joint follows as if by gears."""
 
 _COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'false'}
 
@@ -41,6 +45,10 @@ class RobotSpec:
     spec: mujoco.MjSpec
     treads: tuple[str, ...]
     """The geoms that touch the ground as wheels."""
+    commands: Mapping[str, Collection[str]]
+    """The command interfaces of each joint in a ``<ros2_control>`` block."""
+    initial: Mapping[str, JointState]
+    """The joints that do not begin at rest at 0."""
 
 
 def root_joint(robot: Robot) -> str:
@@ -50,16 +58,19 @@ def root_joint(robot: Robot) -> str:
 
 def build_robot(robot: Robot, log: Log) -> RobotSpec:
     """Build the spec of a sound robot; ``log`` is told what is left out. Raises SpawnError."""
+    controlled = [joint for hardware in hardware_of(robot) for joint in hardware.joints]
     commands = {
-        joint.name: [interface.name for interface in joint.command_interfaces]
-        for hardware in hardware_of(robot)
-        for joint in hardware.joints
+        joint.name: tuple(interface.name for interface in joint.command_interfaces)
+        for joint in controlled
     }
     try:
         spec = mujoco.MjSpec.from_string(_prepared_xml(robot, log))
         if robot.root.name != WORLD_LINK:
             spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
-        _add_actuators(spec, robot, commands)
+        for joint, interfaces in commands.items():
+            # An interface without an actuator is refused by the hardware component that has it.
+            add_actuators(spec, robot.joint(joint), interfaces)
+        _couple_mimics(spec, [joint.name for joint in controlled if joint.mimic is None])
         wheels = find_wheels(robot, [j for j, names in commands.items() if VELOCITY in names])
         treads = tuple(_make_tread(spec, wheel) for wheel in wheels)
         _exclude_self_collision(spec, robot)
@@ -70,7 +81,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
             f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
-    return RobotSpec(spec, treads)
+    return RobotSpec(spec, treads, commands, initial_states(robot, controlled))
 
 
 def _prepared_xml(robot: Robot, log: Log) -> str:
@@ -92,14 +103,18 @@ def _prepared_xml(robot: Robot, log: Log) -> str:
     return etree.tostring(root, encoding='unicode')
 
 
-def _add_actuators(
-    spec: mujoco.MjSpec, robot: Robot, commands: Mapping[str, Sequence[str]]
-) -> None:
-    for joint, interfaces in commands.items():
-        for interface in interfaces:
-            # An interface without an actuator is refused by the hardware component that has it.
-            if interface in ACTUATORS:
-                ACTUATORS[interface](spec, robot.joint(joint))
+def _couple_mimics(spec: mujoco.MjSpec, independent: Collection[str]) -> None:
+    """
+    Stiffen the couplings that MuJoCo made of ``<mimic>``: offset + multiplier · source.
+
+    ``independent``: joints for which ``<ros2_control>`` says ``mimic="false"``, among others.
+    """
+    for coupling in tuple(spec.equalities):
+        if coupling.name1 in independent:
+            spec.delete(coupling)
+        else:
+            coupling.solref = MIMIC_SOLREF
+            coupling.solimp = MIMIC_SOLIMP
 
 
 def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> str:

@@ -8,26 +8,41 @@ import mujoco
 import numpy as np
 
 from amr_description.control.contracts import Log
+from amr_description.control.world import ImuReading
 from amr_description.errors import SimulationError
-from amr_description.model.frames import Transform, Vector, xyzw_from_wxyz
+from amr_description.model.frames import (
+    conjugate,
+    multiply,
+    rotate,
+    Transform,
+    Vector,
+    xyzw_from_wxyz,
+)
 from amr_description.model.robot import Robot
+from amr_description.sim.drives import Drives
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
-from amr_description.sim.robot_spec import root_joint, WORLD_LINK
+from amr_description.sim.robot_spec import RobotSpec, root_joint, WORLD_LINK
 
 
 class RobotView:
     """
-    The :class:`~amr_description.control.contracts.World` of one robot.
+    The :class:`~amr_description.control.world.World` of one robot.
 
     It stays valid while other robots come and go; after its own removal every call raises
     SimulationError.
     """
 
     def __init__(
-        self, engine: Engine, name: str, description: Robot, place: Transform, log: Log
+        self,
+        engine: Engine,
+        name: str,
+        description: Robot,
+        model: RobotSpec,
+        place: Transform,
+        log: Log,
     ) -> None:
-        """``place``: the pose at which the robot was spawned."""
+        """``place``: the pose at which the robot, of the spec ``model``, was spawned."""
         self.name = name
         self.description = description
         self._place = place
@@ -35,6 +50,16 @@ class RobotView:
         self._engine = engine
         self._bodies: dict[str, int] = {}
         self._generation = -1
+        self._initial = model.initial
+        self._drives = Drives(engine, name, model.commands)
+        self.start()
+
+    def start(self) -> None:
+        """Put the joints to where they begin, held; for the world, at spawn and after a reset."""
+        for name, state in self._initial.items():
+            joint = self._engine.data.joint(f'{self.name}/{name}')
+            joint.qpos[:], joint.qvel[:] = state.position, state.velocity
+        self._drives.start()
 
     @property
     def time(self) -> int:
@@ -43,14 +68,15 @@ class RobotView:
 
     def joints(self, names: Sequence[str]) -> MujocoJointGroup:
         """These joints, in this order. Raises SimulationError."""
-        known = [joint.name for joint in self.description.joints if joint.has_position]
+        known = {joint.name: joint for joint in self.description.joints if joint.has_position}
         for name in names:
             if name not in known:
                 raise SimulationError(
                     f"robot '{self.name}': there is no joint '{name}' that moves; there are: "
                     f'{", ".join(known)}'
                 )
-        return MujocoJointGroup(self._engine, self.name, names, self._log)
+        joints = [known[name] for name in names]
+        return MujocoJointGroup(self._engine, self.name, joints, self._drives, self._log)
 
     def pose(self, link: str) -> Transform:
         """``transform_link_to_world`` at the present time. Raises SimulationError."""
@@ -75,6 +101,32 @@ class RobotView:
         )
         wx, wy, wz, vx, vy, vz = result.tolist()
         return (vx, vy, vz), (wx, wy, wz)
+
+    def imu(self, link: str, place: Transform) -> ImuReading:
+        """
+        What an inertial measurement unit on ``link`` measures; ``place``: the transform from the
+        unit to the link. Raises SimulationError.
+
+        The acceleration is that of the last physics step: (velocity after - before) / step.
+        """
+        body = self._body(link)
+        model, data = self._engine.model, self._engine.data
+        self._engine.refresh_truth()
+        mujoco.mj_rnePostConstraint(model, data)
+        result = np.empty(6)
+        # In the link's axes; gravity is in it, as MuJoCo lets the world accelerate upwards.
+        mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 1)
+        turning, acceleration = result[:3], result[3:]
+        _, rate = self.velocity(link)
+        lever = np.array(place.translation)
+        acceleration += np.cross(turning, lever) + np.cross(rate, np.cross(rate, lever))
+        back = conjugate(place.rotation)
+        x, y, z = acceleration.tolist()
+        return ImuReading(
+            orientation=multiply(self.pose(link).rotation, place.rotation),
+            angular_velocity=rotate(back, rate),
+            linear_acceleration=rotate(back, (x, y, z)),
+        )
 
     def height_index(self) -> int | None:
         """The index of the root's height in ``qpos``; None for a robot that stands fixed."""

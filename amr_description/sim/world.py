@@ -9,7 +9,7 @@ The simulated world: a ground, robots that come and go, and time.
     world.timestep = physics_stepping(10_000_000).step     # 2 ms for a 100 Hz controller
     robot = world.spawn('amr', urdf_text, Transform((0.0, 0.0, 0.2)))
     wheels = robot.joints(['joint_wheel_front_left', …])
-    wheels.command_velocities([5.0, …])
+    wheels.command('velocity', [5.0, …])
     world.step(5)                                           # 10 ms of simulated time
     robot.pose('base_footprint')
 """
@@ -100,7 +100,7 @@ class MujocoWorld:
 
     def spawn(self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN) -> RobotView:
         """
-        Put a robot into the world, at rest.
+        Put a robot into the world, its joints held where they begin.
 
         ``description``: a URDF, or what :func:`~amr_description.sim.spawning.read_description`
         made of it. ``pose``: transform from the robot's root link to the world. Time and all
@@ -110,8 +110,9 @@ class MujocoWorld:
         pose = checked_pose(pose)
         if isinstance(description, str):
             description = read_description(description, name, self._log)
-        self._attach(name, build_robot(description, self._log), pose)
-        view = RobotView(self.engine, name, description, pose, self._log)
+        model = build_robot(description, self._log)
+        self._attach(name, model, pose)
+        view = RobotView(self.engine, name, description, model, pose, self._log)
         self._robots[name] = view
         self._find_roots()
         return view
@@ -131,8 +132,10 @@ class MujocoWorld:
         self._faults.check(self._roots)
 
     def reset(self) -> None:
-        """Time 0, every robot at rest where it was spawned, all commands zero."""
+        """Time 0, every robot as it was spawned, its joints held."""
         self.engine.reset()
+        for view in self._robots.values():
+            view.start()
         self._faults.reset()
 
     def _attach(self, name: str, model: RobotSpec, pose: Transform) -> None:
