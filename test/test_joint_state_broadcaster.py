@@ -16,7 +16,7 @@ from amr_description.controllers.joint_state_broadcaster import (
 )
 from amr_description.errors import ControllerError
 from amr_description.model.urdf import load
-from amr_description.parameters import build
+from amr_description.parameters import build, specs
 
 URDF = load(Path(__file__).parents[1] / 'urdf' / 'amr.urdf')
 STANDARD = ('position', 'velocity', 'effort')
@@ -39,12 +39,21 @@ class Bench:
         self.controller = JointStateBroadcaster(ControllerContext('jsb', self.log, robot=robot))
         values = {'use_urdf_to_filter': robot is not None} | values
         self.controller.configure(build(BroadcasterParameters, values))
-        self.sent = collect(self.controller.outputs()[0])
+        outputs = self.controller.outputs()
+        self.sent, self.sent_dynamic = collect(outputs[0]), [collect(out) for out in outputs[1:]]
 
     def read(self, states):
         self.controller.activate((), states, 0)
         self.controller.update(10 * MS, 10 * MS)
         return self.sent[-1]
+
+    def read_dynamic(self, states):
+        """(name, {interface: value}) in order."""
+        self.read(states)
+        sample = self.sent_dynamic[0][-1]
+        rows = zip(sample.layout.interfaces, sample.values, strict=True)
+        rows = [dict(zip(names, values, strict=True)) for names, values in rows]
+        return list(zip(sample.layout.names, rows, strict=True))
 
 
 def test_every_interface_of_every_joint():
@@ -172,7 +181,88 @@ def test_what_is_no_double_is_left_out_and_said_so():
     bench = Bench()
     sample = bench.read([*gauges(['joint1']), StateInterface('door', 'position', 1.0, 'bool')])
     assert sample.name == ('joint1',)
+    assert bench.sent_dynamic[0][-1].layout.names == ('joint1',)
     assert "'door/position' is of type bool" in bench.log.texts(Severity.WARN)[0]
+
+
+def test_the_dynamic_message_has_every_interface_of_joints_sensors_and_gpios():
+    states = [
+        *gauges(['joint1'], ['velocity', 'temperature']),
+        StateInterface('imu', 'orientation.x', 0.5),
+        StateInterface('joint1', 'position', 7.0),
+        StateInterface('gpio', 'voltage', 12.0),
+    ]
+    for bench in (Bench(), Bench(URDF)):  # the URDF filters only joint_states
+        assert bench.read_dynamic(states) == [
+            ('joint1', {'velocity': 1.1, 'temperature': 1.1, 'position': 7.0}),
+            ('imu', {'orientation.x': 0.5}),
+            ('gpio', {'voltage': 12.0}),
+        ]
+        assert list(bench.read_dynamic(states)[0][1]) == ['velocity', 'temperature', 'position']
+        sample = bench.sent_dynamic[0][-1]
+        assert (sample.stamp, sample.layout.frame_id) == (10 * MS, 'base_link')
+
+
+def test_the_dynamic_message_shows_what_the_gauges_then_read():
+    bench, states = Bench(), gauges(['joint1'], ['position'])
+    bench.read(states)
+    states[0].value = 7.0
+    bench.controller.update(20 * MS, 10 * MS)
+    samples = bench.sent_dynamic[0]
+    assert [(s.stamp, s.values) for s in samples] == [(10 * MS, ((1.1,),)), (20 * MS, ((7.0,),))]
+    assert samples[0].layout is samples[1].layout
+
+
+def test_an_interface_not_written_yet_is_nan_in_both():
+    ((_, row),) = Bench().read_dynamic([StateInterface('joint1', 'position')])
+    assert math.isnan(row['position'])
+
+
+def test_extra_joints_stand_in_the_dynamic_message_with_three_interfaces_at_zero():
+    bench = Bench(extra_joints=['extra1', 'joint1'])
+    assert bench.read_dynamic(gauges(['joint1'], ['position'])) == [
+        ('joint1', {'position': 1.1}),
+        ('extra1', {'position': 0.0, 'velocity': 0.0, 'effort': 0.0}),
+    ]
+
+
+def test_an_extra_joint_that_is_known_by_another_interface_is_none():
+    bench = Bench(extra_joints=['tank'])
+    states = [*gauges(['joint1']), StateInterface('tank', 'level', 1.0)]
+    assert bench.read(states).name == ('joint1',)
+    assert bench.read_dynamic(states)[1] == ('tank', {'level': 1.0})
+
+
+@pytest.mark.parametrize('order', [1, -1])
+def test_a_mapped_interface_has_the_standard_name_in_the_dynamic_message(order):
+    bench = Bench(**{'map_interface_to_joint_state.position': 'measured'})
+    measured, plain = StateInterface('joint1', 'measured', 3.5), gauges(['joint1'], ['position'])
+    states = [measured, *plain][::order]
+    assert bench.read_dynamic(states) == [('joint1', {'position': 3.5})]
+    assert bench.sent[-1].position == (3.5,)
+
+
+def test_a_joint_without_the_mapped_interface_keeps_its_own():
+    bench = Bench(**{'map_interface_to_joint_state.position': 'measured'})
+    assert bench.read_dynamic(gauges(['joint1'], ['position'])) == [('joint1', {'position': 1.1})]
+    assert bench.sent[-1].position == (1.1,)
+
+
+def test_a_custom_interface_without_a_mapping_is_in_the_dynamic_message_only():
+    bench = Bench()
+    assert bench.read_dynamic([StateInterface('tank', 'level', 2.0)]) == [('tank', {'level': 2.0})]
+    assert bench.sent[-1].name == ()
+
+
+def test_a_gap_in_the_chosen_set_is_no_interface_in_the_dynamic_message():
+    bench = Bench(joints=JOINTS, interfaces=['position', 'velocity'])
+    rows = dict(bench.read_dynamic(gauges(interfaces=['position', 'velocity'])[:-1]))
+    assert rows['joint3'] == {'position': 3.1}
+
+
+def test_nothing_but_other_types_is_an_error():
+    with pytest.raises(ControllerError, match='Error initializing joint data.*is a double'):
+        Bench().controller.activate((), [StateInterface('door', 'open', 1, 'bool')], 0)
 
 
 def test_no_interface_at_all_is_an_error():
@@ -180,10 +270,23 @@ def test_no_interface_at_all_is_an_error():
         Bench().controller.activate((), (), 0)
 
 
-@pytest.mark.parametrize(('local', 'topic'), [(False, 'joint_states'), (True, '~/joint_states')])
-def test_the_topic(local, topic):
-    port = Bench(use_local_topics=local).controller.outputs()[0].port
-    assert (port.name, port.message) == (topic, 'sensor_msgs/msg/JointState')
+@pytest.mark.parametrize(('local', 'prefix'), [(False, ''), (True, '~/')])
+def test_the_topics(local, prefix):
+    ports = [output.port for output in Bench(use_local_topics=local).controller.outputs()]
+    assert [(port.name, port.message) for port in ports] == [
+        (f'{prefix}joint_states', 'sensor_msgs/msg/JointState'),
+        (f'{prefix}dynamic_joint_states', 'control_msgs/msg/DynamicJointState'),
+    ]
+
+
+def test_the_dynamic_topic_can_be_switched_off():
+    bench = Bench(publish_dynamic_joint_states=False)
+    assert bench.read(gauges()).name == JOINTS
+    assert len(bench.controller.outputs()) == 1
+
+
+def test_every_parameter_is_read_only():
+    assert all(spec.read_only for spec in specs(BroadcasterParameters))
 
 
 def test_an_empty_frame_is_warned_of():

@@ -62,3 +62,58 @@ class JointStateSample:
     """rad/s or m/s."""
     effort: tuple[float, ...]
     """N·m or N."""
+
+
+@dataclass(frozen=True, slots=True)
+class DynamicLayout:
+    """What of a DynamicJointState does not change: the names, and their order."""
+
+    frame_id: str
+    names: tuple[str, ...]
+    """Joints, sensors, GPIOs."""
+    interfaces: tuple[tuple[str, ...], ...]
+    """Of each of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class DynamicJointStateSample:
+    """A control_msgs/DynamicJointState: state interfaces of every kind."""
+
+    stamp: int
+    values: tuple[tuple[float, ...], ...]
+    """In the order of ``layout.interfaces``, each in its own unit."""
+    layout: DynamicLayout
+
+
+@dataclass(frozen=True, slots=True)
+class CommandsSample:
+    """A std_msgs/Float64MultiArray of commands, each in the unit of its interface."""
+
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ImuConstants:
+    """What of an Imu message does not change; 3 × 3 covariances by rows, about x, y, z."""
+
+    frame_id: str
+    orientation_covariance: tuple[float, ...]
+    """rad²."""
+    angular_velocity_covariance: tuple[float, ...]
+    """(rad/s)²."""
+    linear_acceleration_covariance: tuple[float, ...]
+    """(m/s²)²."""
+
+
+@dataclass(frozen=True, slots=True)
+class ImuSample:
+    """A sensor_msgs/Imu, in the axes of the sensor."""
+
+    stamp: int
+    orientation: tuple[float, ...]
+    """(x, y, z, w)."""
+    angular_velocity: tuple[float, ...]
+    """rad/s."""
+    linear_acceleration: tuple[float, ...]
+    """m/s²."""
+    constants: ImuConstants

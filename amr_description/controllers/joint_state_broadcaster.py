@@ -1,15 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-joint_state_broadcaster/JointStateBroadcaster: what the gauges read, as ``/joint_states``.
+joint_state_broadcaster/JointStateBroadcaster: what the gauges read, as ``/joint_states`` and, with
+all that no JointState can carry, as ``/dynamic_joint_states``.
 
 It commands nothing. Names come in the order of ``joints``, else alphabetically from the URDF, as
 joint_state_broadcaster 4.x gives them; an interface that a joint lacks is NaN.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-import math
+from typing import Any
 
 from amr_description.control.contracts import Controller, ControllerContext, Output, Port, Severity
 from amr_description.control.interfaces import (
@@ -21,11 +22,18 @@ from amr_description.control.interfaces import (
     StateInterface,
     VELOCITY,
 )
-from amr_description.control.samples import JointStateSample
+from amr_description.control.samples import (
+    DynamicJointStateSample,
+    DynamicLayout,
+    JointStateSample,
+)
 from amr_description.errors import ControllerError
 from amr_description.parameters import group, parameter
 
 _FIELDS = (POSITION, VELOCITY, EFFORT)
+
+type _Row = dict[str, StateInterface]
+"""The gauges of one joint, sensor or GPIO, by the names under which they are published."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +67,10 @@ class BroadcasterParameters:
     use_urdf_to_filter: bool = parameter(
         True, 'Leave out what is no joint of the URDF (sensors, GPIOs)', read_only=True
     )
-    frame_id: str = parameter('base_link', 'Frame id of joint_states', read_only=True)
+    frame_id: str = parameter('base_link', 'Frame id of both messages', read_only=True)
+    publish_dynamic_joint_states: bool = parameter(
+        True, 'Publish dynamic_joint_states too', read_only=True
+    )
 
 
 class JointStateBroadcaster(Controller):
@@ -69,10 +80,11 @@ class JointStateBroadcaster(Controller):
 
     def __init__(self, context: ControllerContext) -> None:
         super().__init__(context)
-        self._cells: dict[str, list[StateInterface | None]] = {}
+        self._rows: tuple[tuple[StateInterface, ...], ...] = ()
+        self._columns: tuple[tuple[StateInterface, ...], ...] = ()
 
     def configure(self, parameters: BroadcasterParameters) -> None:
-        """Decide the topic and the interfaces."""
+        """Decide the topics and the interfaces."""
         self._parameters = parameters
         self._is_choosing = bool(parameters.joints and parameters.interfaces)
         self.log(
@@ -84,12 +96,20 @@ class JointStateBroadcaster(Controller):
         )
         if not parameters.frame_id:
             self.log(Severity.WARN, 'Frame ID is not set.')
-        self._field_of = self._mapping(parameters)
+        self._published_as = self._mapping(parameters)
+        prefix = '~/' if parameters.use_local_topics else ''
         self._joint_states: Output[JointStateSample] = Output(
             Port(
-                '~/joint_states' if parameters.use_local_topics else 'joint_states',
+                f'{prefix}joint_states',
                 'sensor_msgs/msg/JointState',
                 'amr_description.nodes.converters:fill_joint_state',
+            )
+        )
+        self._dynamic_joint_states: Output[DynamicJointStateSample] = Output(
+            Port(
+                f'{prefix}dynamic_joint_states',
+                'control_msgs/msg/DynamicJointState',
+                'amr_description.nodes.converters:fill_dynamic_joint_state',
             )
         )
 
@@ -103,8 +123,10 @@ class JointStateBroadcaster(Controller):
             for interface in self._parameters.interfaces
         )
 
-    def outputs(self) -> tuple[Output[JointStateSample], ...]:
-        """``joint_states``."""
+    def outputs(self) -> tuple[Output[Any], ...]:
+        """``joint_states`` and, unless it is switched off, ``dynamic_joint_states``."""
+        if self._parameters.publish_dynamic_joint_states:
+            return self._joint_states, self._dynamic_joint_states
         return (self._joint_states,)
 
     def activate(
@@ -113,43 +135,48 @@ class JointStateBroadcaster(Controller):
         """Take the gauges. Raises ControllerError when there is none."""
         if not states:
             raise ControllerError('No state interfaces found to publish.')
-        cells: dict[str, list[StateInterface | None]] = {}
-        for state in states:
-            field = self._field_of.get(state.interface)
-            if state.data_type != 'double':
-                self.log(
-                    Severity.WARN,
-                    f"The state interface '{state.name}' is of type {state.data_type}, which "
-                    'joint_states cannot carry; it is left out',
-                )
-            elif field is not None:
-                row = cells.setdefault(state.prefix, [None, None, None])
-                row[_FIELDS.index(field)] = state
-        self._cells = {name: cells[name] for name in self._names(cells)}
-        extra = [name for name in self._parameters.extra_joints if name not in self._cells]
-        self._all_names = (*self._cells, *extra)
-        self._zeros = (0.0,) * len(extra)
+        gauges = self._gauges(states)
+        joints = self._joints(gauges)
+        for extra in self._parameters.extra_joints:
+            if extra not in gauges:
+                gauges[extra] = {field: StateInterface(extra, field, 0.0) for field in _FIELDS}
+                joints.append(extra)
+        if not gauges:
+            raise ControllerError(
+                'Error initializing joint data. JointStateBroadcaster will not run: '
+                'no state interface is a double'
+            )
+        missing = StateInterface('', '')  # reads NaN
+        self._names = tuple(joints)
+        self._columns = tuple(
+            tuple(gauges[joint].get(field, missing) for joint in joints) for field in _FIELDS
+        )
+        self._layout = DynamicLayout(
+            self._parameters.frame_id, tuple(gauges), tuple(tuple(row) for row in gauges.values())
+        )
+        self._rows = tuple(tuple(row.values()) for row in gauges.values())
 
     def update(self, time: int, period: int) -> None:
         """Publish every gauge as it reads now."""
-        rows = self._cells.values()
-        position, velocity, effort = (
-            tuple(math.nan if row[i] is None else row[i].value for row in rows) + self._zeros
-            for i in range(len(_FIELDS))
-        )
+        position, velocity, effort = [
+            tuple([gauge.value for gauge in column]) for column in self._columns
+        ]
         self._joint_states.send(
             JointStateSample(
-                time, self._parameters.frame_id, self._all_names, position, velocity, effort
+                time, self._parameters.frame_id, self._names, position, velocity, effort
             )
         )
+        if self._parameters.publish_dynamic_joint_states:
+            values = tuple([tuple([gauge.value for gauge in row]) for row in self._rows])
+            self._dynamic_joint_states.send(DynamicJointStateSample(time, values, self._layout))
 
     def deactivate(self, time: int) -> None:
         """Give the gauges back."""
-        self._cells = {}
+        self._rows = self._columns = ()
 
     def _mapping(self, parameters: BroadcasterParameters) -> dict[str, str]:
-        """Interface name → field; a standard interface that is also claimed beats its mapping."""
-        field_of: dict[str, str] = {}
+        """Interface → the name to publish it under; one that is chosen beats what maps to it."""
+        published_as: dict[str, str] = {}
         for field in _FIELDS:
             interface = getattr(parameters.map_interface_to_joint_state, field)
             if interface != field and self._is_choosing and field in parameters.interfaces:
@@ -159,14 +186,34 @@ class JointStateBroadcaster(Controller):
                     f"'{field}' is defined in 'interfaces' parameter.",
                 )
                 interface = field
-            field_of[interface] = field
-        return field_of
+            published_as[interface] = field
+        return published_as
 
-    def _names(self, cells: dict[str, list[StateInterface | None]]) -> list[str]:
+    def _gauges(self, states: Sequence[StateInterface]) -> dict[str, _Row]:
+        """Sort by joint, sensor or GPIO, in the order of ``states``."""
+        gauges: dict[str, _Row] = {}
+        for state in states:
+            if state.data_type != 'double':
+                self.log(
+                    Severity.WARN,
+                    f"The state interface '{state.name}' is of type {state.data_type}, which "
+                    'joint_states cannot carry; it is left out',
+                )
+                continue
+            row = gauges.setdefault(state.prefix, {})
+            name = self._published_as.get(state.interface, state.interface)
+            is_mapped = name != state.interface
+            if is_mapped or name not in row:
+                row[name] = state
+        return gauges
+
+    def _joints(self, gauges: Mapping[str, _Row]) -> list[str]:
+        """Return what JointState can tell of, in its order."""
+        joints = [name for name, row in gauges.items() if not row.keys().isdisjoint(_FIELDS)]
         if self._is_choosing:
-            return [joint for joint in self._parameters.joints if joint in cells]
+            return [joint for joint in self._parameters.joints if joint in joints]
         if not self._parameters.use_urdf_to_filter:
-            return list(cells)
+            return joints
         robot = self.context.robot
         if robot is None:
             self.log(
@@ -174,6 +221,6 @@ class JointStateBroadcaster(Controller):
                 'Failed to parse robot description. Will publish all the interfaces with '
                 f'{", ".join(_FIELDS)}',
             )
-            return list(cells)
+            return joints
         movable = {joint.name for joint in robot.joints if joint.type != 'fixed'}
-        return sorted(name for name in cells if name in movable)
+        return sorted(movable.intersection(joints))

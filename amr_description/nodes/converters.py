@@ -10,13 +10,25 @@ from array import array
 import math
 
 from builtin_interfaces.msg import Time
+from control_msgs.msg import DynamicJointState, InterfaceValue
 from geometry_msgs.msg import Pose, TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control.interfaces import NANOSECONDS
-from amr_description.control.samples import Frames, JointStateSample, OdometrySample, TwistSample
+from amr_description.control.samples import (
+    CommandsSample,
+    DynamicJointStateSample,
+    DynamicLayout,
+    Frames,
+    ImuConstants,
+    ImuSample,
+    JointStateSample,
+    OdometrySample,
+    TwistSample,
+)
 from amr_description.model.frames import Transform
 
 
@@ -79,13 +91,42 @@ def fill_odometry_transform(sample: OdometrySample, message: TFMessage) -> None:
 
 
 def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
-    """Write the four arrays."""
+    """Write the arrays of numbers and, when they have changed, the names."""
     fill_stamp(sample.stamp, message.header.stamp)
-    message.header.frame_id = sample.frame_id
-    message.name = list(sample.name)
+    if message.name is not sample.name:
+        message.header.frame_id = sample.frame_id
+        message.name = sample.name
     message.position = array('d', sample.position)
     message.velocity = array('d', sample.velocity)
     message.effort = array('d', sample.effort)
+
+
+def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: DynamicJointState) -> None:
+    """Write the values and, when they have changed, the names."""
+    if message.joint_names is not sample.layout.names:
+        _fill_names(sample.layout, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    for interfaces, values in zip(message.interface_values, sample.values, strict=True):
+        interfaces.values = array('d', values)
+
+
+def commands_sample(message: Float64MultiArray) -> CommandsSample:
+    """Keep the numbers; the layout tells nothing of a plain list."""
+    return CommandsSample(tuple(message.data))
+
+
+def fill_imu(sample: ImuSample, message: Imu) -> None:
+    """Write what is measured and, the first time, frame and covariances."""
+    if message.header.frame_id != sample.constants.frame_id:
+        _fill_imu_constants(sample.constants, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    orientation = message.orientation
+    orientation.x, orientation.y, orientation.z, orientation.w = sample.orientation
+    for vector, values in (
+        (message.angular_velocity, sample.angular_velocity),
+        (message.linear_acceleration, sample.linear_acceleration),
+    ):
+        vector.x, vector.y, vector.z = values
 
 
 def fill_pose(transform: Transform, pose: Pose) -> None:
@@ -122,3 +163,16 @@ def _fill_constants(frames: Frames, message: Odometry) -> None:
     ):
         for axis, variance in enumerate(variances):
             covariance[7 * axis] = variance
+
+
+def _fill_names(layout: DynamicLayout, message: DynamicJointState) -> None:
+    message.header.frame_id = layout.frame_id
+    message.joint_names = layout.names
+    message.interface_values = [InterfaceValue(interface_names=row) for row in layout.interfaces]
+
+
+def _fill_imu_constants(constants: ImuConstants, message: Imu) -> None:
+    message.header.frame_id = constants.frame_id
+    message.orientation_covariance = constants.orientation_covariance
+    message.angular_velocity_covariance = constants.angular_velocity_covariance
+    message.linear_acceleration_covariance = constants.linear_acceleration_covariance
