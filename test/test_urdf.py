@@ -468,8 +468,9 @@ def test_long_chains_and_wide_trees_are_read():
     [('missing.urdf', 'No such file or directory'), ('', 'Is a directory')],
     ids=['missing', 'directory'],
 )
-def test_unreadable_files(tmp_path, name, message):
-    path = tmp_path / name
+def test_unreadable_files(tmp_path, monkeypatch, name, message):
+    monkeypatch.chdir(tmp_path)
+    path = Path(name)  # short: a message shows the beginning of a long one
     with pytest.raises(DescriptionError, match=f'cannot read the description "{path}": {message}'):
         read_file(path)
 
