@@ -381,14 +381,67 @@ def test_a_component_that_is_set_down_takes_its_controllers_along():
 def test_shut_down_leaves_the_actuators_at_rest_and_the_hardware_closed():
     hardware = FakeHardware(['j'])
     manager = make_manager(hardware)
-    start(manager, FakeController(commands=['j/velocity']))
+    controller = start(manager, FakeController(commands=['j/velocity']))
     run(manager, 3)
     hardware.calls.clear()
     manager.shut_down(3 * PERIOD)
+    assert [call[0] for call in controller.calls][-2:] == ['deactivate', 'cleanup']
     assert hardware.written == {'j': 0.0}
     last = ['write', 'deactivate', 'cleanup', 'shutdown']
     assert [call[0] for call in hardware.calls][-4:] == last
-    assert states_of(manager) == {'fake': 'inactive'}
+    assert states_of(manager) == {'fake': 'finalized'}
+
+
+def test_every_transition_is_told_as_it_begins_and_as_it_ends():
+    told = []
+    manager = make_manager(FakeHardware(['j']))
+    controller = FakeController(commands=['j/velocity'])
+    manager.load(
+        controller,
+        'a/Type',
+        watch=lambda start, goal, reached: told.append(
+            f'{start.label} > {goal.label}: {reached.label if reached else "..."}'
+        ),
+    )
+
+    def new():
+        lines = told.copy()
+        told.clear()
+        return lines
+
+    configuring = manager.begin_configure('fake')
+    assert new() == ['unconfigured > inactive: ...']
+    configuring.run(None)
+    manager.finish_configure(configuring)
+    assert new() == ['unconfigured > inactive: inactive']
+    controller.faults['activate'] = ControllerError('not now')
+    with pytest.raises(ControllerError, match='Unable to activate'):
+        manager.switch(['fake'], [], Strictness.STRICT, 0)
+    assert new() == ['inactive > active: ...', 'inactive > active: inactive']
+    del controller.faults['activate']
+    manager.switch(['fake'], [], Strictness.STRICT, 0)
+    manager.switch(['fake'], ['fake'], Strictness.STRICT, 0)
+    assert new() == [
+        'inactive > active: ...',
+        'inactive > active: active',
+        'active > inactive: ...',
+        'active > inactive: inactive',
+        'inactive > active: ...',
+        'inactive > active: active',
+    ]
+    manager.switch([], ['fake'], Strictness.STRICT, 0)
+    new()
+    controller.faults['configure'] = ControllerError('not now')
+    with pytest.raises(ControllerError, match='not now'):
+        manager.configure('fake', None)
+    assert new() == [
+        'inactive > unconfigured: ...',
+        'inactive > unconfigured: unconfigured',
+        'unconfigured > inactive: ...',
+        'unconfigured > inactive: unconfigured',
+    ]
+    manager.unload('fake')
+    assert new() == ['unconfigured > finalized: ...', 'unconfigured > finalized: finalized']
 
 
 # --- reset ---------------------------------------------------------------------------------------

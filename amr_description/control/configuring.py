@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The configuration of a controller, which may take its time on another thread."""
 
+from contextlib import ExitStack
 from typing import Any
 
+from amr_description.control.interfaces import LifecycleState
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.errors import ControllerError
 
@@ -19,6 +21,9 @@ class Configuring:
     def __init__(self, loaded: LoadedController) -> None:
         self.loaded = loaded
         self.failure: Exception | None = ControllerError('it was not configured')
+        self.transition = ExitStack()
+        """Open from the begin to the finish."""
+        self.transition.enter_context(loaded.transition(LifecycleState.INACTIVE))
 
     def run(self, parameters: Any) -> None:
         """

@@ -17,7 +17,7 @@ from amr_description.control.controller_list import ControllerList
 from amr_description.control.faults import Faults
 from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
-from amr_description.control.loaded_controller import LoadedController
+from amr_description.control.loaded_controller import LoadedController, look_away, Watch
 from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshots import ManagerSnapshot
@@ -106,9 +106,17 @@ class ControllerManager:
 
     def shut_down(self, time: int) -> None:
         """End: deactivate the controllers, write once more, then stop and close the hardware."""
+        self._log(Severity.INFO, 'Shutting down all controllers in the controller manager.')
+        for loaded in self._controllers.active:
+            self._log(Severity.INFO, f"Deactivating controller '{loaded.name}'")
         self._execution.drop(self._controllers.active, time)
         self.resources.enforce_limits(self.period)
         self.resources.write(time, self.period)
+        for loaded in self._controllers:
+            if not loaded.is_busy:  # another thread is still in its configure
+                self._log(Severity.INFO, f"Shutting down controller '{loaded.name}'")
+                self._clean_up(loaded)
+                loaded.finalize()
         self.resources.shut_down()
         self.refresh()
 
@@ -121,13 +129,17 @@ class ControllerManager:
     # --- load, configure, unload --------------------------------------------------------------
 
     def load(
-        self, controller: Controller, type_name: str, fallbacks: Iterable[str] = ()
+        self,
+        controller: Controller,
+        type_name: str,
+        fallbacks: Iterable[str] = (),
+        watch: Watch = look_away,
     ) -> None:
         """
         Take a controller that was made elsewhere.
 
-        ``fallbacks``: the controllers to start when it fails. Raises ControllerError: name, rate
-        or fallbacks.
+        ``fallbacks``: the controllers to start when it fails. ``watch``: is told of every
+        transition. Raises ControllerError: name, rate or fallbacks.
         """
         name = controller.context.name
         if name in self._controllers:
@@ -140,7 +152,7 @@ class ControllerManager:
                 f"Controller '{name}' cannot be a fallback controller for itself."
             )
         stride = stride_of(controller, self.update_rate, self._log)
-        self._controllers.add(LoadedController(controller, type_name, stride, fallbacks))
+        self._controllers.add(LoadedController(controller, type_name, stride, fallbacks, watch))
         self.refresh()
 
     def configure(self, name: str, parameters: Any) -> Controller:
@@ -175,9 +187,10 @@ class ControllerManager:
         loaded = configuring.loaded
         loaded.is_busy = False
         try:
-            if configuring.failure is not None:
-                raise configuring.failure
-            self._settle(loaded)
+            with configuring.transition:
+                if configuring.failure is not None:
+                    raise configuring.failure
+                self._settle(loaded)
         except Exception as error:  # a foreign controller may raise anything
             raise ControllerError(
                 f"Failed to configure controller '{loaded.name}': {describe(error)}"
@@ -191,7 +204,7 @@ class ControllerManager:
         try:
             self._controllers.link()
         except ControllerError:
-            loaded.cleanup()
+            loaded.unsettle()
             raise
 
     def cleanup(self, name: str) -> None:
@@ -212,7 +225,7 @@ class ControllerManager:
                 f"Could not unload controller with name '{name}' because it is still active"
             )
         self._clean_up(loaded)
-        loaded.state = LifecycleState.FINALIZED
+        loaded.finalize()
         self._controllers.remove(name)
         self.refresh()
 

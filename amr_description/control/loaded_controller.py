@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """One controller inside the manager: its state, its interfaces and when it is due."""
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 
 from amr_description.control.chains import Ends
 from amr_description.control.contracts import Controller
@@ -16,13 +17,20 @@ from amr_description.control.interfaces import (
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import ControllerError
 
+type Watch = Callable[[LifecycleState, LifecycleState, LifecycleState | None], None]
+"""Told of a transition: its start, its goal, and at its end the state that was reached."""
+
+
+def look_away(_: LifecycleState, __: LifecycleState, ___: LifecycleState | None) -> None:
+    """Watch nothing."""
+
 
 class LoadedController:
     """
     A controller with its lifecycle; the manager is the only one to move it.
 
     ``stride``: it is updated at every so manieth tick of the manager. ``fallbacks``: the names of
-    the controllers that are started when it fails.
+    the controllers that are started when it fails. ``watch``: is told of every transition.
     """
 
     def __init__(
@@ -31,7 +39,9 @@ class LoadedController:
         type_name: str,
         stride: int,
         fallbacks: Iterable[str] = (),
+        watch: Watch = look_away,
     ) -> None:
+        self._watch = watch
         self.fallbacks = tuple(fallbacks)
         self.controller = controller
         self.type = type_name
@@ -63,12 +73,22 @@ class LoadedController:
         """True while it is inactive or active."""
         return self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
 
+    @contextmanager
+    def transition(self, goal: LifecycleState) -> Iterator[None]:
+        """Tell whoever watches that a transition begins and, either way, where it ended."""
+        start = self.state
+        self._watch(start, goal, None)
+        try:
+            yield
+        finally:
+            self._watch(start, goal, self.state)
+
     def settle(self, resources: ResourceManager) -> None:
         """Configured → inactive. Raises ControllerError; it is then cleaned up again."""
         try:
             self._ask_for_interfaces(resources)
         except Exception:
-            self.cleanup()
+            self.unsettle()
             raise
         self.state = LifecycleState.INACTIVE
 
@@ -117,6 +137,10 @@ class LoadedController:
 
         Raises; all claims are then given back, and it stays inactive.
         """
+        with self.transition(LifecycleState.ACTIVE):
+            self._activate(resources, time, chained)
+
+    def _activate(self, resources: ResourceManager, time: int, chained: bool) -> None:
         try:
             self._set_chained_mode(chained)
             self.required_commands, self.required_states = self.wanted(
@@ -153,6 +177,10 @@ class LoadedController:
 
     def deactivate(self, resources: ResourceManager, time: int) -> None:
         """Active → inactive: actuators safe, claims and offers taken back, inputs closed."""
+        with self.transition(LifecycleState.INACTIVE):
+            self._deactivate(resources, time)
+
+    def _deactivate(self, resources: ResourceManager, time: int) -> None:
         for port in self.controller.inputs():
             port.close()
         try:
@@ -170,6 +198,16 @@ class LoadedController:
 
     def cleanup(self) -> None:
         """Inactive → unconfigured."""
+        with self.transition(LifecycleState.UNCONFIGURED):
+            self.unsettle()
+
+    def finalize(self) -> None:
+        """Any state but active → finalized, the last one."""
+        with self.transition(LifecycleState.FINALIZED):
+            self.state = LifecycleState.FINALIZED
+
+    def unsettle(self) -> None:
+        """Unconfigured again, as part of another transition."""
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands = self.required_states = ()
         self.references = self.exported_states = ()
