@@ -105,8 +105,14 @@ class ControllerManagerNode:
         On the owner's thread. ``world``: as components see it; ``period``: of the tick, ns. Raises
         HardwareError, or what a foreign component raises; the hardware is then down again.
         """
+        enforce = self.parameters.start.enforce_command_limits
         initial = self.parameters.start.hardware_components_initial_state
-        resources = ResourceManager(self.log)
+        if not enforce:
+            self.log(
+                Severity.INFO,
+                'Enforcing command limits is disabled. Command limits from URDF will be ignored.',
+            )
+        resources = ResourceManager(self.log, self._robot, enforce)
         try:
             for info, node in self._hardware:
                 resources.load(info, HARDWARE.find, world, node.log)
@@ -119,7 +125,11 @@ class ControllerManagerNode:
             resources.shut_down()
             raise
         self.manager = ControllerManager(
-            resources, self.parameters.update_rate, self.log, period=period
+            resources,
+            self.parameters.update_rate,
+            self.log,
+            period,
+            self.parameters.defaults(),
         )
         return self.manager
 
@@ -184,7 +194,11 @@ class ControllerManagerNode:
         self._controllers[name] = bridge
         self.node.executor.add_node(bridge.node)
         try:
-            await self._owner.submit(lambda: self.manager.load(bridge.controller, entry.type))
+            await self._owner.submit(
+                lambda: self.manager.load(
+                    bridge.controller, entry.type, entry.fallback_controllers
+                )
+            )
         except Exception:
             self._forget(name)
             raise
@@ -251,13 +265,17 @@ class ControllerManagerNode:
         reload_modules(self._modules)
 
     async def switch(
-        self, activate: Sequence[str], deactivate: Sequence[str], strictness: int
+        self, activate: Sequence[str], deactivate: Sequence[str], strictness: int, timeout: int
     ) -> str:
-        """Switch controllers; ``strictness`` as in the request. Raises ControllerError."""
-        chosen = self.parameters.strictness(strictness)
-        return await self._owner.submit(
-            lambda: self.manager.switch(activate, deactivate, chosen, self._owner.loop.time)
-        )
+        """Switch controllers, as in the request; ``timeout``: ns. Raises ControllerError."""
+        defaults = self.parameters.defaults()
+
+        def switch() -> str:
+            self.manager.defaults = defaults
+            time = self._owner.loop.time
+            return self.manager.switch(activate, deactivate, strictness, time, timeout)
+
+        return await self._owner.submit(switch)
 
     async def set_component_state(self, name: str, state: LifecycleState) -> None:
         """Bring a hardware component to a state. Raises HardwareError."""

@@ -8,6 +8,7 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
 from amr_description.nodes.manager_table import ControllerEntry, ManagerTable
@@ -80,24 +81,18 @@ class ManagerParameters:
             *(option for option in entry.node_options_args if option != '--ros-args'),
         ]
 
-    def strictness(self, requested: int) -> Strictness:
-        """Return the strictness of a request; 0 asks for the default."""
-        default = self._get('defaults.switch_controller.strictness')
-        if requested == 0:
-            self._node.get_logger().warning(
-                'Controller Manager: to switch controllers you need to specify a strictness level '
-                f'of controller_manager_msgs::SwitchController::STRICT ({Strictness.STRICT:d}) or '
-                f'::BEST_EFFORT ({Strictness.BEST_EFFORT:d}). When unspecified, the default is '
-                f'{default}',
-                once=True,
-            )
-            return Strictness[default.upper()]
-        if requested in (Strictness.AUTO, Strictness.FORCE_AUTO):
-            self._node.get_logger().warning(
-                f'{Strictness(requested).name} is not currently implemented. Defaulting to '
-                'BEST_EFFORT'
-            )
-        return Strictness.STRICT if requested == Strictness.STRICT else Strictness.BEST_EFFORT
+    def defaults(self) -> ManagerDefaults:
+        """Return what ``defaults.…`` says now."""
+        now = self.now().defaults
+        return ManagerDefaults(
+            strictness=Strictness[now.switch_controller.strictness.upper()],
+            allow_controller_activation_with_inactive_hardware=(
+                now.allow_controller_activation_with_inactive_hardware
+            ),
+            deactivate_controllers_on_hardware_self_deactivate=(
+                now.deactivate_controllers_on_hardware_self_deactivate
+            ),
+        )
 
     def _get(self, name: str) -> Any:
         return self._node.get_parameter_or(name, Parameter(name)).value

@@ -12,6 +12,7 @@ from typing import Any, TYPE_CHECKING
 
 from controller_manager_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.duration import Duration
 from rclpy.qos import HistoryPolicy, QoSProfile
 
 from amr_description.control.interfaces import LifecycleState
@@ -135,7 +136,10 @@ class ManagerServices:
     ) -> srv.SwitchController.Response:
         try:
             response.message = await self._work.switch(
-                request.activate_controllers, request.deactivate_controllers, request.strictness
+                request.activate_controllers,
+                request.deactivate_controllers,
+                request.strictness,
+                Duration.from_msg(request.timeout).nanoseconds,
             )
             response.ok = True
         except Exception as error:  # a stranger's class may raise anything; the robot must go on
