@@ -42,6 +42,7 @@ HOMES = {
     'rclpy': {'nodes', 'cli'},
     'mujoco': {'sim'},
     'websockets': {'viewer'},
+    'serial': {'hardware'},
 }
 MESSAGE_HOMES = {'nodes', 'cli'}
 IMPURE = {

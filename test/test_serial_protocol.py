@@ -32,15 +32,15 @@ VELOCITIES = st.integers(-100_000_000, 100_000_000).map(lambda n: n / 10_000)  #
 NAMES = st.from_regex('[A-Za-z0-9_-]{1,16}', fullmatch=True)
 MESSAGES = st.one_of(
     st.builds(Hello, U16, U16),
-    st.just(Get()),
-    st.builds(Arm, U16),
-    st.builds(Set, VELOCITIES, VELOCITIES),
-    st.just(Disarm()),
+    st.builds(Get, U16),
+    st.builds(Arm, U16, U16),
+    st.builds(Set, U16, VELOCITIES, VELOCITIES),
+    st.builds(Disarm, U16),
     st.builds(Board, U16, U16, NAMES, U32, VELOCITIES),
-    st.builds(State, U32, I32, I32, VELOCITIES, VELOCITIES, st.sampled_from(Mode)),
+    st.builds(State, U16, U32, I32, I32, VELOCITIES, VELOCITIES, st.sampled_from(Mode)),
     st.builds(Error, st.sampled_from(Reason)),
 )
-LONGEST = State(2**32 - 1, -(2**31), -(2**31), -9999.9999, -9999.9999, Mode.TIMEOUT)
+LONGEST = State(65535, 2**32 - 1, -(2**31), -(2**31), -10000.0, -10000.0, Mode.TIMEOUT)
 
 
 def good(found):
@@ -70,7 +70,7 @@ def test_a_line_with_one_wrong_byte_is_refused(message, data):
     line = bytearray(encode(message))
     position = data.draw(st.integers(0, len(line) - 1))
     line[position] = data.draw(st.integers(0, 255).filter(lambda byte: byte != line[position]))
-    assert good(LineReader().feed(bytes(line) + encode(Get()))) in ([], [Get()])
+    assert good(LineReader().feed(bytes(line) + encode(Get(7)))) in ([], [Get(7)])
 
 
 @given(MESSAGES, st.data())
@@ -98,7 +98,7 @@ def test_a_stream_without_end_takes_no_memory():
         assert reader.feed(b'x' * 1000) == []
     assert len(reader._begun) <= LONGEST_LINE
     assert reader.feed(b'\n') == [Refused(b'x' * LONGEST_LINE, Reason.CHECKSUM)]
-    assert reader.feed(encode(Get())) == [Get()]
+    assert reader.feed(encode(Get(7))) == [Get(7)]
 
 
 def framed(body):
@@ -110,7 +110,7 @@ def framed(body):
 
 def test_the_crc_is_that_of_the_catalogue():
     assert framed(b'123456789') == b'$123456789*29B1'
-    assert encode(Get()) == framed(b'GET') + b'\n'
+    assert encode(Get(7)) == framed(b'GET,7') + b'\n'
 
 
 @pytest.mark.parametrize(
@@ -118,18 +118,18 @@ def test_the_crc_is_that_of_the_catalogue():
     [
         (b'', Reason.MESSAGE),
         (b'get', Reason.MESSAGE),
-        (b'GET,1', Reason.MESSAGE),
-        (b'SET,1.0000', Reason.MESSAGE),
-        (b'SET,1.0000,nan', Reason.MESSAGE),
-        (b'SET,1.0000,inf', Reason.MESSAGE),
-        (b'SET,1.0000,1e3', Reason.MESSAGE),
-        (b'SET,1.0000,1', Reason.MESSAGE),
-        (b'SET,1.0000,10000.0001', Reason.RANGE),
-        (b'ARM,65536', Reason.RANGE),
-        (b'ARM,-1', Reason.RANGE),
+        (b'GET', Reason.MESSAGE),
+        (b'SET,1,1.0000', Reason.MESSAGE),
+        (b'SET,1,1.0000,nan', Reason.MESSAGE),
+        (b'SET,1,1.0000,inf', Reason.MESSAGE),
+        (b'SET,1,1.0000,1e3', Reason.MESSAGE),
+        (b'SET,1,1.0000,1', Reason.MESSAGE),
+        (b'SET,1,1.0000,10000.0001', Reason.RANGE),
+        (b'ARM,1,65536', Reason.RANGE),
+        (b'ARM,1,-1', Reason.RANGE),
         (b'HELLO,1,', Reason.MESSAGE),
         (b'ERROR,WHATEVER', Reason.MESSAGE),
-        (b'STATE,0,2147483648,0,0.0000,0.0000,IDLE', Reason.RANGE),
+        (b'STATE,1,0,2147483648,0,0.0000,0.0000,IDLE', Reason.RANGE),
     ],
 )
 def test_a_line_without_a_meaning_is_refused(body, reason):
@@ -137,15 +137,15 @@ def test_a_line_without_a_meaning_is_refused(body, reason):
 
 
 def test_nothing_is_read_into_a_lower_case_crc_or_a_carriage_return():
-    line = next(framed(b'ARM,%d' % n) for n in range(99) if framed(b'ARM,%d' % n)[-1:].isalpha())
-    assert decode(line) == Arm(int(line[5:-5]))
+    line = next(framed(b'GET,%d' % n) for n in range(99) if framed(b'GET,%d' % n)[-1:].isalpha())
+    assert decode(line) == Get(int(line[5:-5]))
     assert decode(line[:-4] + line[-4:].lower()).reason is Reason.CHECKSUM
     assert decode(line + b'\r').reason is Reason.CHECKSUM
 
 
 def test_a_firmware_may_print_a_negative_zero():
-    assert str(decode(framed(b'SET,-0.0000,0.0000')).left) == '0.0'
-    assert encode(Set(-0.0, -0.00001)) == encode(Set(0.0, 0.0))
+    assert str(decode(framed(b'SET,1,-0.0000,0.0000')).left) == '0.0'
+    assert encode(Set(1, -0.0, -0.00001)) == encode(Set(1, 0.0, 0.0))
 
 
 @pytest.mark.parametrize(
@@ -153,7 +153,7 @@ def test_a_firmware_may_print_a_negative_zero():
 )
 def test_what_is_not_finite_or_huge_is_not_written(value):
     with pytest.raises(HardwareError, match='rad/s is no field of a line; it must be finite and'):
-        encode(Set(0.0, value))
+        encode(Set(1, 0.0, value))
 
 
 @pytest.mark.parametrize('message', [Hello(-1, 0), Hello(2**16, 0), Board(1, 1, 'a b', 1, 1.0)])

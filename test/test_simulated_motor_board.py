@@ -30,12 +30,13 @@ from amr_description.hardware.simulated_motor_board import (
 UNLIMITED = MotorConstants(time_constant=0.1, acceleration=math.inf)
 SPEEDS = st.floats(-30.0, 30.0)
 TIMES = st.lists(st.floats(1e-4, 0.1), min_size=1, max_size=20)
+NUMBERS = st.integers(0, 65535)
 REQUESTS = st.one_of(
-    st.builds(Hello, st.integers(0, 9), st.integers(0, 9)),
-    st.just(Get()),
-    st.builds(Arm, st.integers(0, 6000)),
-    st.builds(Set, st.floats(-40.0, 40.0), st.floats(-40.0, 40.0)),
-    st.just(Disarm()),
+    st.builds(Hello, NUMBERS, st.integers(0, 9)),
+    st.builds(Get, NUMBERS),
+    st.builds(Arm, NUMBERS, st.integers(0, 6000)),
+    st.builds(Set, NUMBERS, st.floats(-40.0, 40.0), st.floats(-40.0, 40.0)),
+    st.builds(Disarm, NUMBERS),
 )
 
 
@@ -96,7 +97,7 @@ class Bench:
 
     @property
     def mode(self):
-        return self.ask(Get()).mode
+        return self.ask(Get(1)).mode
 
 
 @pytest.fixture
@@ -106,7 +107,7 @@ def bench():
 
 @pytest.fixture
 def armed(bench):
-    assert bench.ask(Arm(200)).mode is Mode.ARMED
+    assert bench.ask(Arm(1, 200)).mode is Mode.ARMED
     return bench
 
 
@@ -117,6 +118,7 @@ def test_every_line_has_one_answer_and_the_motors_never_exceed_their_limit(reque
         answer = bench.ask(request)
         expected = Board if isinstance(request, Hello) else State | Error
         assert isinstance(answer, expected)
+        assert isinstance(answer, Error) or answer.number == request.number
         bench.wait(0.1)
         for motor in (bench.board.left, bench.board.right):
             assert abs(motor.target) <= MotorConstants().velocity
@@ -125,27 +127,27 @@ def test_every_line_has_one_answer_and_the_motors_never_exceed_their_limit(reque
 
 
 def test_introduces_itself_with_the_number_of_the_question(bench):
-    assert bench.ask(Hello(99, 7)) == Board(VERSION, 7, 'simulated', 4096, 30.0)
+    assert bench.ask(Hello(7, 99)) == Board(7, VERSION, 'simulated', 4096, 30.0)
 
 
 def test_turns_as_it_is_told_and_tells_it(armed):
     for _ in range(100):
-        answer = armed.ask(Set(5.0, -2.0))
+        answer = armed.ask(Set(1, 5.0, -2.0))
         armed.wait(0.01)
     assert (answer.left, answer.right) == (5.0, -2.0)
-    before, after = armed.ask(Get()), (armed.wait(0.1), armed.ask(Get()))[1]
+    before, after = armed.ask(Get(1)), (armed.wait(0.1), armed.ask(Get(1)))[1]
     assert after.uptime - before.uptime == 100
     assert after.left_ticks - before.left_ticks == pytest.approx(0.5 / math.tau * 4096, abs=1)
     assert after.right_ticks - before.right_ticks == pytest.approx(-0.2 / math.tau * 4096, abs=1)
 
 
 def test_watchdog_stops_the_motors_and_the_next_command_goes_on(armed):
-    armed.ask(Set(5.0, 5.0))
+    armed.ask(Set(1, 5.0, 5.0))
     armed.wait(0.19)
     assert (armed.mode, armed.board.left.target) == (Mode.ARMED, 5.0)
     armed.wait(0.02)
     assert (armed.mode, armed.board.left.target) == (Mode.TIMEOUT, 0.0)
-    assert armed.ask(Set(1.0, 1.0)).mode is Mode.ARMED
+    assert armed.ask(Set(1, 1.0, 1.0)).mode is Mode.ARMED
     assert armed.board.left.target == 1.0
     assert armed.events == [
         'armed; the watchdog waits 200 ms',
@@ -154,7 +156,7 @@ def test_watchdog_stops_the_motors_and_the_next_command_goes_on(armed):
     ]
 
 
-@pytest.mark.parametrize('fodder', [Get(), Hello(1, 1), Set(31.0, 0.0)])
+@pytest.mark.parametrize('fodder', [Get(1), Hello(1, 1), Set(1, 31.0, 0.0)])
 def test_only_a_good_command_feeds_the_watchdog(armed, fodder):
     for _ in range(30):
         armed.ask(fodder)
@@ -163,25 +165,29 @@ def test_only_a_good_command_feeds_the_watchdog(armed, fodder):
 
 
 def test_is_not_moved_before_it_is_armed_nor_after(bench):
-    assert bench.ask(Set(1.0, 1.0)) == Error(Reason.NOT_ARMED)
-    bench.ask(Arm(200))
-    bench.ask(Set(1.0, 1.0))
-    assert bench.ask(Disarm()).mode is Mode.IDLE
+    assert bench.ask(Set(1, 1.0, 1.0)).mode is Mode.IDLE
     assert bench.board.left.target == 0.0
-    assert bench.ask(Set(1.0, 1.0)) == Error(Reason.NOT_ARMED)
+    bench.ask(Arm(1, 200))
+    bench.ask(Set(1, 1.0, 1.0))
+    assert bench.ask(Disarm(1)).mode is Mode.IDLE
+    assert bench.ask(Set(1, 1.0, 1.0)).mode is Mode.IDLE
+    assert bench.board.left.target == 0.0
 
 
 def test_a_fault_stops_it_until_it_is_disarmed(armed):
-    armed.ask(Set(1.0, 1.0))
+    armed.ask(Set(1, 1.0, 1.0))
     armed.board.break_down()
-    assert armed.ask(Arm(200)).mode is Mode.FAULT
-    assert armed.ask(Set(1.0, 1.0)) == Error(Reason.NOT_ARMED)
-    assert armed.ask(Disarm()).mode is Mode.IDLE
+    assert armed.ask(Arm(1, 200)).mode is Mode.FAULT
+    assert armed.ask(Set(1, 1.0, 1.0)).mode is Mode.FAULT
+    assert armed.board.left.target == 0.0
+    assert armed.ask(Disarm(1)).mode is Mode.IDLE
 
 
-@pytest.mark.parametrize('refused', [Arm(19), Arm(5001), Set(30.0001, 0.0), Set(0.0, -30.0001)])
+@pytest.mark.parametrize(
+    'refused', [Arm(1, 19), Arm(1, 5001), Set(1, 30.0001, 0.0), Set(1, 0.0, -30.0001)]
+)
 def test_what_is_beyond_its_limits_changes_nothing(armed, refused):
-    armed.ask(Set(1.0, 2.0))
+    armed.ask(Set(1, 1.0, 2.0))
     assert armed.ask(refused) == Error(Reason.RANGE)
     assert (armed.mode, armed.board.left.target, armed.board.right.target) == (
         Mode.ARMED, 1.0, 2.0

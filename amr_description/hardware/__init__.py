@@ -14,6 +14,7 @@ from amr_description.registry import Registry
 
 _MUJOCO_SYSTEM = 'amr_description.hardware.mujoco_system:MujocoSystem'
 _MOCK_SYSTEM = 'amr_description.hardware.mock_system:MockSystem'
+_SERIAL_BASE_SYSTEM = 'amr_description.hardware.serial_base_system:SerialBaseSystem'
 
 HARDWARE = Registry(
     'hardware plugin',
@@ -23,6 +24,7 @@ HARDWARE = Registry(
         'gz_ros2_control/GazeboSimSystem': _MUJOCO_SYSTEM,
         'mujoco_ros2_control/MujocoSystemInterface': _MUJOCO_SYSTEM,
         'mock_components/GenericSystem': _MOCK_SYSTEM,
+        'amr_description/SerialBaseSystem': _SERIAL_BASE_SYSTEM,
     },
     HardwareError,
 )

@@ -78,12 +78,12 @@ _VELOCITY = _Field(
 
 _LAYOUTS: dict[type[Message], tuple[_Field, ...]] = {
     Hello: (_U16, _U16),
-    Get: (),
-    Arm: (_U16,),
-    Set: (_VELOCITY, _VELOCITY),
-    Disarm: (),
+    Get: (_U16,),
+    Arm: (_U16, _U16),
+    Set: (_U16, _VELOCITY, _VELOCITY),
+    Disarm: (_U16,),
     Board: (_U16, _U16, _text('[A-Za-z0-9_-]{1,16}'), _U32, _VELOCITY),
-    State: (_U32, _I32, _I32, _VELOCITY, _VELOCITY, _text('|'.join(Mode), Mode)),
+    State: (_U16, _U32, _I32, _I32, _VELOCITY, _VELOCITY, _text('|'.join(Mode), Mode)),
     Error: (_text('|'.join(Reason), Reason),),
 }
 _BY_WORD = {kind.__name__.upper(): (kind, layout) for kind, layout in _LAYOUTS.items()}

@@ -4,7 +4,7 @@
 The line protocol between a robot computer (the host) and a motor board with two sides, version 1.
 
 All that a firmware has to know stands here; :mod:`amr_description.hardware.serial_lines` reads
-and writes it. **A line** is ASCII, at most 80 bytes with the line feed that ends it::
+and writes it. **A line** is ASCII, at most 96 bytes with the line feed that ends it::
 
     $<word>,<field>,…*<CRC>
 
@@ -13,42 +13,42 @@ all between ``$`` and ``*``, as four upper-case hexadecimal digits. A line that 
 in anything is refused whole; an empty line says nothing. Whatever went wrong, the next line feed
 puts things right, so the host sends one before its first word.
 
-==========================================  =======================================================
-from the host                               the board
-==========================================  =======================================================
-``HELLO,<version>,<number>``                answers ``BOARD``, in every mode
-``GET``                                     answers ``STATE``
-``ARM,<watchdog>``                          but in FAULT powers the motors at 0 rad/s and goes to
-                                            ARMED; answers ``STATE``. ``watchdog``: 20 to 5000 ms
-``SET,<left>,<right>``                      ARMED or TIMEOUT: follows these target velocities, goes
-                                            to ARMED, answers ``STATE``; else ``ERROR,NOT_ARMED``
-``DISARM``                                  brakes and goes to IDLE, from FAULT if the fault is
-                                            over; answers ``STATE``
-==========================================  =======================================================
+========================================  =========================================================
+from the host                             the board
+========================================  =========================================================
+``HELLO,<number>,<version>``              answers ``BOARD``
+``GET,<number>``                          answers ``STATE``
+``ARM,<number>,<watchdog>``               but in FAULT powers the motors at 0 rad/s and goes to
+                                          ARMED; answers ``STATE``. ``watchdog``: 20 to 5000 ms
+``SET,<number>,<left>,<right>``           in ARMED or TIMEOUT follows these target velocities and
+                                          goes to ARMED; answers ``STATE``, whose mode tells
+``DISARM,<number>``                       brakes and goes to IDLE, from FAULT if the fault is over;
+                                          answers ``STATE``
+========================================  =========================================================
 
-==========================================  =======================================================
-from the board                              meaning
-==========================================  =======================================================
-``BOARD,<version>,<number>,<name>,``        who it is. ``number`` is that of the ``HELLO``, so that
-``<ticks>,<velocity>``                      no old answer is taken for a new one; ``ticks``: of the
-                                            encoder, per turn of the motor shaft; ``velocity``: the
-                                            greatest that ``SET`` may ask for, rad/s
-``STATE,<uptime>,<left ticks>,``            ``uptime``: ms since its start; the encoder counts,
-``<right ticks>,<left>,<right>,<mode>``     growing as the motor turns forward; the measured
-                                            velocities, rad/s; the mode
-``ERROR,<reason>``                          the last line was refused, and nothing was changed
-==========================================  =======================================================
+========================================  =========================================================
+from the board                            meaning
+========================================  =========================================================
+``BOARD,<number>,<version>,<name>,``      who it is. ``ticks``: of the encoder, per turn of the
+``<ticks>,<velocity>``                    motor shaft; ``velocity``: the greatest that ``SET`` may
+                                          ask for, rad/s
+``STATE,<number>,<uptime>,``              ms since its start; encoder counts, growing as the motor
+``<left ticks>,<right ticks>,``           turns forward; measured velocities, rad/s; mode
+``<left>,<right>,<mode>``
+``ERROR,<reason>``                        a line was refused, and nothing was changed
+========================================  =========================================================
 
-The board says nothing by itself. Every good line has exactly one answer, so what the host reads is
-as old as its question, and a host that asks in its own rhythm gets samples in that rhythm.
+The board says nothing by itself. Every good line has exactly one answer, with the ``number`` of
+its question, so that no old answer is taken for a new one. What the host reads is as old as its
+question: a host that asks in its own rhythm gets samples in that rhythm.
 
 **The watchdog.** When the board is ARMED and for ``watchdog`` ms no ``SET`` came that it could
 follow, it brakes and goes to TIMEOUT. The next good ``SET`` makes it go on. Nothing else feeds it:
 a host whose program hangs stops, even if its driver still asks for states.
 
 Fields: velocities are of the motor shafts, rad/s, with four digits after the point (``-12.5000``).
-``uptime`` is an unsigned, a tick count a signed 32-bit number; both wrap around. ``version`` and
-``number`` have 16 bits. A name has 1 to 16 letters, digits, ``-`` or ``_``. Modes and reasons:
+``uptime`` is an unsigned, a tick count a signed 32-bit number; both wrap around. ``number`` and
+``version`` have 16 bits. A name has 1 to 16 letters, digits, ``-`` or ``_``. Modes and reasons:
 :class:`Mode`, :class:`Reason`. A board that is of another version answers ``HELLO`` all the same,
 with its own version.
 """
@@ -57,7 +57,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 VERSION = 1
-LONGEST_LINE = 80
+LONGEST_LINE = 96
 """bytes, with the line feed."""
 SHORTEST_WATCHDOG, LONGEST_WATCHDOG = 20, 5000
 """ms."""
@@ -87,27 +87,28 @@ class Reason(StrEnum):
     """An unknown word, or fields that do not belong to it."""
     RANGE = 'RANGE'
     """A number beyond its limits."""
-    NOT_ARMED = 'NOT_ARMED'
-    """``SET`` in IDLE or FAULT."""
 
 
 @dataclass(frozen=True, slots=True)
 class Hello:
     """``HELLO``."""
 
-    version: int
     number: int
+    version: int
 
 
 @dataclass(frozen=True, slots=True)
 class Get:
     """``GET``."""
 
+    number: int
+
 
 @dataclass(frozen=True, slots=True)
 class Arm:
     """``ARM``; ``watchdog`` in ms."""
 
+    number: int
     watchdog: int
 
 
@@ -115,6 +116,7 @@ class Arm:
 class Set:
     """``SET``; rad/s."""
 
+    number: int
     left: float
     right: float
 
@@ -123,13 +125,15 @@ class Set:
 class Disarm:
     """``DISARM``."""
 
+    number: int
+
 
 @dataclass(frozen=True, slots=True)
 class Board:
     """``BOARD``; ``ticks`` per turn, ``velocity`` in rad/s."""
 
-    version: int
     number: int
+    version: int
     name: str
     ticks: int
     velocity: float
@@ -139,6 +143,7 @@ class Board:
 class State:
     """``STATE``; ``uptime`` in ms, velocities in rad/s."""
 
+    number: int
     uptime: int
     left_ticks: int
     right_ticks: int
@@ -154,7 +159,9 @@ class Error:
     reason: Reason
 
 
-type Message = Hello | Get | Arm | Set | Disarm | Board | State | Error
+type Question = Hello | Get | Arm | Set | Disarm
+type Answer = Board | State | Error
+type Message = Question | Answer
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,11 +13,11 @@ import math
 
 from amr_description.hardware.serial_lines import encode, LineReader
 from amr_description.hardware.serial_protocol import (
+    Answer,
     Arm,
     Board,
     Disarm,
     Error,
-    Get,
     Hello,
     LONGEST_WATCHDOG,
     Message,
@@ -112,43 +112,39 @@ class SimulatedMotorBoard:
         """Take what came in on the line; return what goes out."""
         return b''.join(encode(self._answer(message)) for message in self._lines.feed(data))
 
-    def _answer(self, message: Message | Refused) -> Message:
+    def _answer(self, message: Message | Refused) -> Answer:
+        """Do what a line says, if it may be; the answer tells."""
         match message:
             case Refused(reason=reason):
                 return Error(reason)
-            case Hello(number=number):
+            case Hello(number):
                 limits = self._constants
-                return Board(VERSION, number, self._name, limits.ticks, limits.velocity)
-            case Get():
-                return self._state()
-            case Arm(watchdog):
-                return self._arm(watchdog)
-            case Set(left, right):
-                return self._set(left, right)
+                return Board(number, VERSION, self._name, limits.ticks, limits.velocity)
+            case Arm(watchdog=watchdog):
+                if not SHORTEST_WATCHDOG <= watchdog <= LONGEST_WATCHDOG:
+                    return Error(Reason.RANGE)
+                self._arm(watchdog)
+            case Set(left=left, right=right):
+                if max(abs(left), abs(right)) > self._constants.velocity:
+                    return Error(Reason.RANGE)
+                self._set(left, right)
             case Disarm():
                 self._enter(Mode.IDLE, 'disarmed')
-                return self._state()
-        return Error(Reason.MESSAGE)  # a word of the board itself: a host that echoes
+            case Board() | State() | Error():
+                return Error(Reason.MESSAGE)  # words of the board itself: a host that echoes
+        return self._state(message.number)
 
-    def _arm(self, watchdog: int) -> Message:
-        if not SHORTEST_WATCHDOG <= watchdog <= LONGEST_WATCHDOG:
-            return Error(Reason.RANGE)
+    def _arm(self, watchdog: int) -> None:
         if self.mode is not Mode.FAULT:
             self._watchdog = watchdog
             self._last_set = self._uptime
             self._enter(Mode.ARMED, f'armed; the watchdog waits {watchdog} ms')
-        return self._state()
 
-    def _set(self, left: float, right: float) -> Message:
-        if self.mode not in (Mode.ARMED, Mode.TIMEOUT):
-            return Error(Reason.NOT_ARMED)
-        if max(abs(left), abs(right)) > self._constants.velocity:
-            return Error(Reason.RANGE)
-        if self.mode is Mode.TIMEOUT:
+    def _set(self, left: float, right: float) -> None:
+        if self.mode in (Mode.ARMED, Mode.TIMEOUT):
             self._enter(Mode.ARMED, 'a SET came: the motors go on')
-        self._last_set = self._uptime
-        self.left.target, self.right.target = left, right
-        return self._state()
+            self._last_set = self._uptime
+            self.left.target, self.right.target = left, right
 
     def _enter(self, mode: Mode, line: str) -> None:
         """Change the mode, which stops the motors: whatever turns them says so afterwards."""
@@ -157,9 +153,10 @@ class SimulatedMotorBoard:
         self.mode = mode
         self.left.target = self.right.target = 0.0
 
-    def _state(self) -> State:
+    def _state(self, number: int) -> State:
         left, right = self.left, self.right
         return State(
+            number,
             round(self._uptime * 1e3) % 2**32,
             left.ticks,
             right.ticks,
