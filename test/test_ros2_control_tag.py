@@ -190,6 +190,26 @@ REFUSED = {
         joint('<command_interface name="x"><param name="max">inf</param></command_interface>'),
         'parameter "max": found "inf", expected a finite number',
     ),
+    'min above max': (
+        joint('<command_interface name="x"><param name="min">2</param><param name="max">1</param>'
+              '</command_interface>'),
+        'parameters "min" and "max": found 2 and 1, expected a "min" that is not above "max"',
+    ),
+    'too large': (
+        joint('<state_interface name="x" data_type="uint8"><param name="initial_value">256</param>'
+              '</state_interface>'),
+        '"initial_value": found 256, expected an integer from 0 to 255, as its data_type is uint8',
+    ),
+    'too small': (
+        joint('<state_interface name="x" data_type="int16"><param name="initial_value">-32769'
+              '</param></state_interface>'),
+        'found -32769, expected an integer from -32768 to 32767',
+    ),
+    'no integer': (
+        joint('<state_interface name="x" data_type="int32"><param name="initial_value">1.5'
+              '</param></state_interface>'),
+        'found 1.5, expected an integer from',
+    ),
     'parameter twice': (
         block(
             '<hardware><plugin>p</plugin><param name="a">1</param><param name="a">2</param>'

@@ -17,9 +17,15 @@ from amr_description.model.hardware_info import (
 )
 from amr_description.model.robot import Mimic
 
-_DATA_TYPES = (
-    'double', 'bool', 'float32', 'int8', 'uint8', 'int16', 'uint16', 'int32', 'uint32'
-)  # fmt: skip
+_INTEGER_RANGES = {
+    'int8': (-(2**7), 2**7 - 1),
+    'uint8': (0, 2**8 - 1),
+    'int16': (-(2**15), 2**15 - 1),
+    'uint16': (0, 2**16 - 1),
+    'int32': (-(2**31), 2**31 - 1),
+    'uint32': (0, 2**32 - 1),
+}
+_DATA_TYPES = ('double', 'bool', 'float32', *_INTEGER_RANGES)
 _INTERFACE_TAGS = ('command_interface', 'state_interface')
 _COMPONENT_CHILDREN = {
     ComponentType.JOINT: (*_INTERFACE_TAGS, 'param', 'limits'),
@@ -118,6 +124,8 @@ def _read_interface(
         for key in _NUMERIC_PARAMETERS
         if key in parameters
     }
+    _check_range(element, numbers, reader)
+    _check_initial(element, data_type, numbers.get('initial_value'), reader)
     return InterfaceInfo(
         name=name,
         data_type=data_type,
@@ -126,6 +134,35 @@ def _read_interface(
         parameters=parameters,
         **numbers,
     )
+
+
+def _check_range(
+    element: etree._Element, numbers: dict[str, float | None], reader: ElementReader
+) -> None:
+    low, high = numbers.get('min'), numbers.get('max')
+    if low is not None and high is not None and low > high:
+        reader.error(
+            element,
+            'parameters "min" and "max"',
+            found=f'{low:g} and {high:g}',
+            expected='a "min" that is not above "max"',
+        )
+
+
+def _check_initial(
+    element: etree._Element, data_type: str, value: float | None, reader: ElementReader
+) -> None:
+    """Report a first value that an integer type cannot hold."""
+    if value is None or data_type not in _INTEGER_RANGES:
+        return
+    low, high = _INTEGER_RANGES[data_type]
+    if not (value.is_integer() and low <= value <= high):
+        reader.error(
+            element,
+            'parameter "initial_value"',
+            found=f'{value:g}',
+            expected=f'an integer from {low} to {high}, as its data_type is {data_type}',
+        )
 
 
 def _read_size(element: etree._Element, reader: ElementReader) -> int:
