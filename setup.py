@@ -44,6 +44,7 @@ setup(
             'create = amr_description.nodes.create:main',
             'hardware_spawner = amr_description.nodes.hardware_spawner:main',
             'listener = amr_description.nodes.listener:main',
+            'motor_board = amr_description.nodes.motor_board:main',
             'mujoco_sim = amr_description.nodes.mujoco_sim:main',
             'robot_state_publisher = amr_description.nodes.robot_state_publisher:main',
             'ros2_control_node = amr_description.nodes.ros2_control_node:main',
