@@ -30,6 +30,7 @@ from amr_description.nodes.message_types import message_type
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.node_parameters import declare, refuse_what_the_table_refuses, values
 from amr_description.nodes.outgoing import Outgoing
+from amr_description.nodes.transition_events import TransitionEvents
 from amr_description.registry import resolve
 
 
@@ -38,7 +39,7 @@ class ControllerNode:
     One controller and its node.
 
     ``controller`` is unconfigured at first. Everything here runs on the ROS thread, but for what
-    the ports call: ``Outgoing.send`` on the owner's.
+    the owner calls: ``Outgoing.send``, by the ports, and ``watch``, which publishes transitions.
     """
 
     def __init__(
@@ -64,6 +65,7 @@ class ControllerNode:
         try:
             self._table = controller_class.parameters_type
             self.log = logs.log_of(self.node.get_logger())
+            self.watch = TransitionEvents(self.node)
             common = self._declare(update_rate)
             self.controller = controller_class(
                 ControllerContext(

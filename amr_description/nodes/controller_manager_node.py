@@ -172,7 +172,12 @@ class ControllerManagerNode:
             )
         entry = self.parameters.entry_of(name)
         self.log(Severity.INFO, f"Loading controller : '{name}' of type '{entry.type}'")
-        controller_class = CONTROLLERS.find(entry.type)
+        try:
+            controller_class = CONTROLLERS.find(entry.type)
+        except ControllerError as error:
+            raise ControllerError(
+                f"Loader for controller '{name}' (type '{entry.type}') not found. {error}"
+            ) from error
         self._modules.add(controller_class.__module__)
         arguments = self.parameters.arguments_of(entry)
         self.log(Severity.INFO, f"Loading controller '{name}'")
@@ -196,7 +201,7 @@ class ControllerManagerNode:
         try:
             await self._owner.submit(
                 lambda: self.manager.load(
-                    bridge.controller, entry.type, entry.fallback_controllers
+                    bridge.controller, entry.type, entry.fallback_controllers, bridge.watch
                 )
             )
         except Exception:
