@@ -16,8 +16,27 @@ CONTROLLERS = Registry(
         'diff_drive_controller/DiffDriveController': (
             'amr_description.controllers.diff_drive_controller:DiffDriveController'
         ),
+        'effort_controllers/JointGroupEffortController': (
+            'amr_description.controllers.joint_group_controllers:JointGroupEffortController'
+        ),
+        'forward_command_controller/ForwardCommandController': (
+            'amr_description.controllers.forward_command_controller:ForwardCommandController'
+        ),
+        'forward_command_controller/MultiInterfaceForwardCommandController': (
+            'amr_description.controllers.forward_command_controller:'
+            'MultiInterfaceForwardCommandController'
+        ),
+        'imu_sensor_broadcaster/IMUSensorBroadcaster': (
+            'amr_description.controllers.imu_sensor_broadcaster:IMUSensorBroadcaster'
+        ),
         'joint_state_broadcaster/JointStateBroadcaster': (
             'amr_description.controllers.joint_state_broadcaster:JointStateBroadcaster'
+        ),
+        'position_controllers/JointGroupPositionController': (
+            'amr_description.controllers.joint_group_controllers:JointGroupPositionController'
+        ),
+        'velocity_controllers/JointGroupVelocityController': (
+            'amr_description.controllers.joint_group_controllers:JointGroupVelocityController'
         ),
     },
     ControllerError,

@@ -1,0 +1,182 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+forward_command_controller: numbers from a topic, put to command interfaces as they are.
+
+``ForwardCommandController`` commands one interface of several joints,
+``MultiInterfaceForwardCommandController`` several interfaces of one joint. Both hear
+``~/commands`` (std_msgs/Float64MultiArray): one number for each interface, in its unit, in force
+until the next; nothing is written before the first.
+
+Where this departs from forward_command_controller 4.x:
+
+- a command of the wrong size is said to be so, and dropped; it does not end the controller;
+- on deactivation what would go on moving by itself (velocity, acceleration, effort) is set to
+  zero, and any other interface to NaN, no command; the original leaves the last command in force;
+- when time goes back, the command is forgotten in the same way.
+"""
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from amr_description.control.contracts import (
+    Controller,
+    ControllerContext,
+    Input,
+    Port,
+    Severity,
+)
+from amr_description.control.interfaces import (
+    ACCELERATION,
+    CommandInterface,
+    EFFORT,
+    InterfaceRequest,
+    StateInterface,
+    VELOCITY,
+)
+from amr_description.control.samples import CommandsSample
+from amr_description.errors import ControllerError
+from amr_description.parameters import parameter
+
+_RATES = (VELOCITY, ACCELERATION, EFFORT)
+_NO_COMMAND = math.nan
+
+
+@dataclass(frozen=True)
+class ForwardCommandParameters:
+    """The table of forward_command_controller/ForwardCommandController."""
+
+    joints: tuple[str, ...] = parameter((), 'Name of the joints to control')
+    interface_name: str = parameter('', 'Name of the interface to command')
+
+
+@dataclass(frozen=True)
+class MultiInterfaceParameters:
+    """The table of forward_command_controller/MultiInterfaceForwardCommandController."""
+
+    joint: str = parameter('', 'Name of the joint to control')
+    interface_names: tuple[str, ...] = parameter((), 'Names of the interfaces to command')
+
+
+class ForwardControllersBase(Controller):
+    """What both have in common: all but the names of the interfaces."""
+
+    def __init__(self, context: ControllerContext) -> None:
+        super().__init__(context)
+        self._handles: tuple[CommandInterface, ...] = ()
+        self._in_force: tuple[float, ...] = ()
+        """One number a handle; empty before the first command."""
+
+    @abstractmethod
+    def interface_names(self, parameters: Any) -> tuple[str, ...]:
+        """``<joint>/<interface>``, in the order of a command. Raises ControllerError."""
+
+    def configure(self, parameters: Any) -> None:
+        """Take over the names."""
+        names = self.interface_names(parameters)
+        if twice := [name for name in dict.fromkeys(names) if names.count(name) > 1]:
+            raise ControllerError(f'interface named more than once: {", ".join(twice)}')
+        self._request = InterfaceRequest.individual(names)
+        self._commands: Input[CommandsSample] = Input(
+            Port(
+                '~/commands',
+                'std_msgs/msg/Float64MultiArray',
+                'amr_description.nodes.converters:commands_sample',
+            )
+        )
+        self.log(Severity.INFO, 'configure successful')
+
+    def command_interfaces(self) -> InterfaceRequest:
+        """One for each number of a command."""
+        return self._request
+
+    def inputs(self) -> tuple[Input[CommandsSample], ...]:
+        """``~/commands``."""
+        return (self._commands,)
+
+    def activate(
+        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
+    ) -> None:
+        """Take the handles; what they hold stays until the first command."""
+        wanted = len(self._request.names)
+        if len(commands) != wanted:
+            raise ControllerError(f'Expected {wanted} command interfaces, got {len(commands)}')
+        for handle in commands:
+            if handle.data_type != 'double':
+                raise ControllerError(
+                    f"The command interface '{handle.name}' is of type {handle.data_type}; "
+                    'only doubles can be forwarded'
+                )
+        self._handles = tuple(commands)
+        self._in_force = ()
+        self.log(Severity.INFO, 'activate successful')
+
+    def update(self, time: int, period: int) -> None:
+        """Write the newest good command, at every update anew."""
+        for sample in self._commands.drain():
+            if self._is_good(sample.values):
+                self._in_force = sample.values
+        if self._in_force:
+            for handle, value in zip(self._handles, self._in_force, strict=True):
+                handle.value = value
+
+    def deactivate(self, time: int) -> None:
+        """Leave nothing moving by itself."""
+        self._forget_command()
+        self._handles = ()
+
+    def reset(self, time: int) -> None:
+        """Wait for a new command: simulated time went back."""
+        self._commands.drain()
+        self._forget_command()
+
+    def _is_good(self, values: tuple[float, ...]) -> bool:
+        """Tell whether to forward ``values``, and say so if not."""
+        if not all(map(math.isfinite, values)):
+            self.log(Severity.WARN, 'Non-finite value received. Dropping message', throttle=1.0)
+            return False
+        if len(values) != len(self._handles):
+            self.log(
+                Severity.ERROR,
+                f'command size ({len(values)}) does not match number of interfaces '
+                f'({len(self._handles)})',
+                throttle=1.0,
+            )
+            return False
+        return True
+
+    def _forget_command(self) -> None:
+        self._in_force = ()
+        for handle in self._handles:
+            handle.value = 0.0 if handle.interface in _RATES else _NO_COMMAND
+
+
+class ForwardCommandController(ForwardControllersBase):
+    """One interface of several joints."""
+
+    parameters_type = ForwardCommandParameters
+
+    def interface_names(self, parameters: ForwardCommandParameters) -> tuple[str, ...]:
+        """joints × interface_name."""
+        if not parameters.joints:
+            raise ControllerError("'joints' parameter was empty")
+        if not parameters.interface_name:
+            raise ControllerError("'interface_name' parameter was empty")
+        return tuple(f'{joint}/{parameters.interface_name}' for joint in parameters.joints)
+
+
+class MultiInterfaceForwardCommandController(ForwardControllersBase):
+    """Several interfaces of one joint."""
+
+    parameters_type = MultiInterfaceParameters
+
+    def interface_names(self, parameters: MultiInterfaceParameters) -> tuple[str, ...]:
+        """joint × interface_names."""
+        if not parameters.joint:
+            raise ControllerError("'joint' parameter is empty")
+        if not parameters.interface_names:
+            raise ControllerError("'interfaces' parameter is empty")
+        return tuple(f'{parameters.joint}/{name}' for name in parameters.interface_names)
