@@ -62,16 +62,29 @@ class Bench:
         self.odom, self.tf, *rest = (collect(port) for port in ports)
         self.limited = rest[0] if rest else None
 
-    def activate(self, feedback='position', time=0):
+    def activate(self, feedback='position', time=0, chained=False):
         states = self.states[feedback] if feedback else []
+        self.controller.set_chained_mode(chained)
         self.controller.activate([self.left, self.right], states, time)
-        self.controller.inputs()[0].open()
+        for port in self.controller.inputs():
+            port.open()
         self.time = time
         return self
 
     def deactivate(self):
-        self.controller.inputs()[0].close()
+        for port in self.controller.inputs():
+            port.close()
         self.controller.deactivate(self.time)
+
+    def refer(self, linear, angular):
+        """Command as a preceding controller does."""
+        for reference, value in zip(
+            self.controller.references(), (linear, angular), strict=True
+        ):
+            reference.value = value
+
+    def send_unstamped(self, linear, angular=0.0):
+        self.controller.inputs()[1].put(TwistSample(0, linear, angular))
 
     def send(self, linear, angular=0.0, stamp=None):
         stamp = self.time if stamp is None else stamp
@@ -319,11 +332,63 @@ def test_unchained_mode():
     assert bench.drive(1.0) == (1.0, 1.0)
 
 
-def test_references_set_from_outside_are_driven():
-    bench = Bench(wheel_radius=1.0).activate()
-    linear, angular = bench.controller.references()
-    linear.value, angular.value = 3.0, 0.0
+def test_chained_mode():
+    """The upstream test: references 3.0 and 0.0, radius 1."""
+    bench = Bench(wheel_radius=1.0).activate(chained=True)
+    assert all(math.isnan(reference.value) for reference in bench.controller.references())
+    bench.left.value = bench.right.value = 7.0
+    assert bench.update() == (7.0, 7.0)
+    bench.refer(3.0, 0.0)
     assert bench.update() == (3.0, 3.0)
+    bench.deactivate()
+    assert bench.wheels == (0.0, 0.0)
+    assert all(math.isnan(reference.value) for reference in bench.controller.references())
+
+
+def test_in_chained_mode_references_hold_without_a_time_out():
+    bench = Bench(wheel_radius=1.0).activate(chained=True)
+    bench.refer(1.0, 0.5)
+    assert bench.update(100_000 * MS, times=3) == (0.75, 1.25)
+    assert bench.log.texts(Severity.WARN) == []
+
+
+@pytest.mark.parametrize('reference', [(math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0)])
+def test_in_chained_mode_a_reference_that_is_no_number_leaves_the_wheels_as_they_are(reference):
+    bench = Bench(wheel_radius=1.0).activate(chained=True)
+    bench.refer(1.0, 0.0)
+    bench.update()
+    bench.refer(*reference)
+    bench.odom.clear()
+    assert bench.update(times=10) == (1.0, 1.0)
+    assert bench.odom == []
+
+
+def test_in_chained_mode_topics_count_for_nothing_and_that_is_said():
+    bench = Bench(wheel_radius=1.0, enable_cmd_vel_unstamped=True).activate(chained=True)
+    bench.refer(1.0, 0.0)
+    bench.send_unstamped(-1.0)
+    assert bench.drive(-1.0) == (1.0, 1.0)
+    assert bench.log.texts(Severity.WARN) == [
+        f"Ignoring commands on '~/{name}': in chained mode the preceding controller commands"
+        for name in ('cmd_vel', 'cmd_vel_unstamped')
+    ]
+    bench.deactivate()
+    bench.activate(time=bench.time)
+    bench.update()
+    assert bench.wheels == (0.0, 0.0)
+    assert bench.drive(-1.0) == (-1.0, -1.0)
+
+
+def test_in_chained_mode_limits_odometry_and_publication_are_the_same():
+    values = {'publish_limited_velocity': True, 'linear.x.max_acceleration': 1.0}
+    bench, chained = Bench(**values).activate(), Bench(**values).activate(chained=True)
+    for linear, angular in ((1.0, 0.5), (1.0, 0.5), (-0.2, 0.0), (0.0, 0.0)):
+        bench.drive(linear, angular)
+        chained.refer(linear, angular)
+        chained.update()
+        assert (chained.wheels, chained.limited) == (bench.wheels, bench.limited)
+    assert chained.odom == bench.odom
+    assert len(chained.odom) == 2
 
 
 def test_references_of_which_one_is_no_number_are_not_driven():
@@ -384,6 +449,60 @@ def test_open_loop_odometry(first):
         bench.drive(*map(float, step['cmd']), period=period)
         for name in step.keys() - {'max', 'cmd'}:
             assert getattr(bench.odom[-1], name) == pytest.approx(step[name], abs=1e-3)
+
+
+# --- plain Twist ---------------------------------------------------------------------------------
+
+
+def test_plain_twists_are_heard_only_when_asked_for():
+    assert len(Bench().controller.inputs()) == 1
+    ports = [port.port for port in Bench(enable_cmd_vel_unstamped=True).controller.inputs()]
+    assert [(port.name, port.message) for port in ports] == [
+        ('~/cmd_vel', 'geometry_msgs/msg/TwistStamped'),
+        ('~/cmd_vel_unstamped', 'geometry_msgs/msg/Twist'),
+    ]
+
+
+def test_a_plain_twist_drives_without_a_warning_and_times_out_from_its_arrival():
+    bench = Bench(enable_cmd_vel_unstamped=True, wheel_radius=1.0).activate()
+    bench.update(times=200)
+    bench.send_unstamped(1.0, 0.5)
+    arrival = bench.time
+    while bench.update() == (0.75, 1.25):
+        assert bench.time - arrival <= 500 * MS
+    assert bench.wheels == (0.0, 0.0)
+    assert bench.time - arrival == 510 * MS
+    assert bench.log.texts(Severity.WARN) == ['Velocity command timed out. Braking.']
+
+
+def test_the_command_that_came_last_counts_be_it_stamped_or_not():
+    bench = Bench(enable_cmd_vel_unstamped=True, wheel_radius=1.0).activate()
+    bench.send_unstamped(1.0)
+    assert bench.update() == (1.0, 1.0)
+    assert bench.drive(2.0) == (2.0, 2.0)
+    bench.send_unstamped(3.0)
+    assert bench.drive(2.0) == (3.0, 3.0)
+
+
+def test_a_plain_twist_that_is_no_number_leaves_what_was_in_force():
+    bench = Bench(enable_cmd_vel_unstamped=True, wheel_radius=1.0).activate()
+    bench.drive(1.0)
+    bench.send_unstamped(math.nan)
+    assert bench.update(times=10) == (1.0, 1.0)
+
+
+# --- curvature -----------------------------------------------------------------------------------
+
+
+def test_a_limited_arc_keeps_its_curvature_only_when_asked_for():
+    limits = {'linear.x.max_acceleration': 1.0, 'publish_limited_velocity': True}
+    free, kept = Bench(**limits).activate(), Bench(**limits, preserve_curvature=True).activate()
+    for bench in (free, kept):
+        for _ in range(10):
+            bench.drive(1.0, 2.0)
+    assert {sample.angular for sample in free.limited} == {2.0}
+    for sample in kept.limited:
+        assert sample.angular == pytest.approx(2.0 * sample.linear)
 
 
 # --- what is published ---------------------------------------------------------------------------

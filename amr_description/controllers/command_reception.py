@@ -45,6 +45,12 @@ class CommandReception:
                 self._stamp = stamp
                 self._twist = (sample.linear, sample.angular)
 
+    def receive_unstamped(self, samples: Iterable[TwistSample], now: int) -> None:
+        """Take what arrived without a stamp; it is as old as if stamped ``now``."""
+        for sample in samples:
+            self._stamp = now
+            self._twist = (sample.linear, sample.angular)
+
     def in_force(self, time: int) -> tuple[float, float] | None:
         """
         Return the twist (m/s, rad/s) to drive at ``time``: the newest command, or rest once it

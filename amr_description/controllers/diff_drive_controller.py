@@ -16,7 +16,15 @@ Where this departs from diff_drive_controller 4.x:
   (:data:`~amr_description.controllers.command_reception.FOREIGN_CLOCK`) is of another clock: it
   counts as now, so that the time-out still brakes when that publisher dies;
 - "Braking." is said when a command times out, not every second of rest;
-- an infinite wheel reading is an error as NaN is, instead of making the pose NaN for good.
+- an infinite wheel reading is an error as NaN is, instead of making the pose NaN for good;
+- commands on topics that arrive in chained mode, where they count for nothing, are warned of.
+
+What it has beyond diff_drive_controller, off unless asked for:
+
+- ``enable_cmd_vel_unstamped``: plain ``geometry_msgs/msg/Twist`` on ``~/cmd_vel_unstamped``,
+  beside the stamped ones; of two that arrive within one period the unstamped one counts;
+- ``preserve_curvature``: a limited command keeps to its arc, see
+  :mod:`amr_description.controllers.twist_limiter`.
 """
 
 from collections.abc import Sequence
@@ -47,12 +55,13 @@ from amr_description.controllers.diff_drive_parameters import DiffDriveParameter
 from amr_description.controllers.odometry import Odometry
 from amr_description.controllers.publish_gate import PublishGate
 from amr_description.controllers.rate_limiter import RateLimiter
+from amr_description.controllers.twist_limiter import TwistLimiter
 from amr_description.controllers.wheel_side import WheelSide
 from amr_description.errors import ControllerError
 
 _STAMPED = 'geometry_msgs/msg/TwistStamped'
+_UNSTAMPED = 'geometry_msgs/msg/Twist'
 _CONVERT = 'amr_description.nodes.converters'
-_NO_HISTORY = ((0.0, 0.0), (0.0, 0.0))
 
 
 class DiffDriveController(Controller):
@@ -79,8 +88,11 @@ class DiffDriveController(Controller):
             )
         self._parameters = parameters
         self._separation = parameters.wheel_separation_multiplier * parameters.wheel_separation
-        self._linear_limiter = self._limiter(parameters.linear)
-        self._angular_limiter = self._limiter(parameters.angular)
+        self._limiter = TwistLimiter(
+            self._rate_limiter(parameters.linear),
+            self._rate_limiter(parameters.angular),
+            keeps_curvature=parameters.preserve_curvature,
+        )
         self._reception = CommandReception(
             round(parameters.cmd_vel_timeout * NANOSECONDS), self.log
         )
@@ -108,8 +120,9 @@ class DiffDriveController(Controller):
         return self._references
 
     def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """``~/cmd_vel``."""
-        return (self._command,)
+        """``~/cmd_vel`` and, when asked for, ``~/cmd_vel_unstamped``."""
+        optional = (self._unstamped,) if self._parameters.enable_cmd_vel_unstamped else ()
+        return (self._command, *optional)
 
     def outputs(self) -> tuple[Output, ...]:
         """``~/odom``, ``/tf`` and, when asked for, ``~/cmd_vel_out``."""
@@ -125,7 +138,7 @@ class DiffDriveController(Controller):
         self._take_wheels(commands, states)
         self._reception.forget(time)
         self._set_references(math.nan, math.nan)
-        self._limited = _NO_HISTORY
+        self._limiter.forget()
         self._reckoning.hold(time)
 
     def deactivate(self, time: int) -> None:
@@ -139,8 +152,9 @@ class DiffDriveController(Controller):
         """Begin anew at the origin: simulated time went back, and the robot with it."""
         self._reckoning.reset(time)
         self._gate.reset()
-        self._limited = _NO_HISTORY
-        self._command.drain()
+        self._limiter.forget()
+        for port in self.inputs():
+            port.drain()
         self._reception.forget(time)
         self._set_references(0.0, 0.0)
 
@@ -148,34 +162,44 @@ class DiffDriveController(Controller):
 
     def update(self, time: int, period: int) -> None:
         """Command, limits, odometry, publication, wheels: in this order."""
-        # What waits was sent after the previous update, whose time the sender's clock still read.
-        self._reception.receive(self._command.drain(), time - period)
-        twist = self._reception.in_force(time)
-        if twist is not None:
-            self._set_references(*twist)
+        self._hear(time, period)
         linear, angular = (reference.value for reference in self._references)
         if not (math.isfinite(linear) and math.isfinite(angular)):
             self._reckoning.hold(time)
             return
-        linear, angular = self._limit(linear, angular, period / NANOSECONDS)
+        linear, angular = self._limiter.limit((linear, angular), period / NANOSECONDS)
         self._reckoning.update(self._left, self._right, (linear, angular), time, period)
         self._publish(time, linear, angular)
         turn = angular * self._separation * 0.5
         self._left.drive(linear - turn)
         self._right.drive(linear + turn)
 
+    def _hear(self, time: int, period: int) -> None:
+        """Let the references follow the topics, or in chained mode the preceding controller."""
+        if self.is_chained:
+            self._ignore_topics()
+            return
+        # What waits was sent after the previous update, whose time the sender's clock still read.
+        now = time - period
+        self._reception.receive(self._command.drain(), now)
+        self._reception.receive_unstamped(self._unstamped.drain(), now)
+        twist = self._reception.in_force(time)
+        if twist is not None:
+            self._set_references(*twist)
+
+    def _ignore_topics(self) -> None:
+        for port in self.inputs():
+            if port.drain():
+                self.log(
+                    Severity.WARN,
+                    f"Ignoring commands on '{port.port.name}': in chained mode the preceding "
+                    'controller commands',
+                    throttle=1.0,
+                )
+
     def _set_references(self, linear: float, angular: float) -> None:
         self._references[0].value = linear
         self._references[1].value = angular
-
-    def _limit(self, linear: float, angular: float, dt: float) -> tuple[float, float]:
-        (linear_1, angular_1), (linear_2, angular_2) = self._limited
-        limited = (
-            self._linear_limiter.limit(linear, linear_1, linear_2, dt),
-            self._angular_limiter.limit(angular, angular_1, angular_2, dt),
-        )
-        self._limited = (limited, self._limited[0])
-        return limited
 
     def _publish(self, time: int, linear: float, angular: float) -> None:
         if self._gate.passes(time):
@@ -216,7 +240,7 @@ class DiffDriveController(Controller):
             states[count:],
         )
 
-    def _limiter(self, limits: SpeedLimits) -> RateLimiter:
+    def _rate_limiter(self, limits: SpeedLimits) -> RateLimiter:
         for name in limits.uses_deprecated:
             self.log(
                 Severity.WARN,
@@ -233,6 +257,9 @@ class DiffDriveController(Controller):
         )
         self._command: Input[TwistSample] = Input(
             Port('~/cmd_vel', _STAMPED, f'{_CONVERT}:twist_sample')
+        )
+        self._unstamped: Input[TwistSample] = Input(
+            Port('~/cmd_vel_unstamped', _UNSTAMPED, f'{_CONVERT}:unstamped_twist_sample')
         )
         self._odom: Output[OdometrySample] = Output(
             Port('~/odom', 'nav_msgs/msg/Odometry', f'{_CONVERT}:fill_odometry')

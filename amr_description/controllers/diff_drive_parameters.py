@@ -42,9 +42,7 @@ class SpeedLimits:
         math.nan, 'Deprecated, ignored: use max_deceleration', **_NO_LIMIT
     )
     max_jerk: float = parameter(math.nan, 'Highest jerk', minimum=0.0, **_NO_LIMIT)
-    min_jerk: float = parameter(
-        math.nan, 'Lowest jerk; .nan: -max_jerk', maximum=0.0, **_NO_LIMIT
-    )
+    min_jerk: float = parameter(math.nan, 'Lowest jerk; .nan: -max_jerk', maximum=0.0, **_NO_LIMIT)
 
     @property
     def uses_deprecated(self) -> tuple[str, ...]:
@@ -120,6 +118,16 @@ class DiffDriveParameters:
         10, 'Samples in the mean of the estimated twist', minimum=1
     )
     publish_rate: float = parameter(50.0, 'Rate of odometry and transform', unit='Hz', above=0.0)
+    enable_cmd_vel_unstamped: bool = parameter(
+        False,
+        'Hear plain Twist messages on ~/cmd_vel_unstamped too; they count as stamped on arrival. '
+        'Not in the original (use_stamped_vel of Humble: false moved all input there)',
+    )
+    preserve_curvature: bool = parameter(
+        False,
+        'Limit linear and angular velocity by one factor, so that the robot keeps to the arc. '
+        'Not in the original',
+    )
     linear: SpeedLimits = group('linear.x', SpeedLimits)
     angular: SpeedLimits = group('angular.z', SpeedLimits)
 

@@ -1,0 +1,65 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The limits of a planar twist: each component by itself, or both by one factor.
+
+By itself, as diff_drive_controller does it, a robot told to drive an arc starts on another one
+when one component reaches its speed later than the other. With one factor it keeps to the arc, as
+far as the limits allow: they are never exceeded for its sake.
+"""
+
+from amr_description.controllers.rate_limiter import RateLimiter
+
+type Twist = tuple[float, float]
+"""m/s along x, rad/s about z."""
+
+_AT_REST = (0.0, 0.0)
+
+
+class TwistLimiter:
+    """Limits one twist after the other."""
+
+    def __init__(
+        self, linear: RateLimiter, angular: RateLimiter, *, keeps_curvature: bool = False
+    ) -> None:
+        """Begin at rest."""
+        self._limiters = (linear, angular)
+        self._keeps_curvature = keeps_curvature
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin at rest: the twists before count no more."""
+        self._last = self._before_last = _AT_REST
+
+    def limit(self, twist: Twist, dt: float) -> Twist:
+        """Return the twist to drive; ``dt``: since the one before, s."""
+        limited = self._limit_each(twist, dt)
+        if self._keeps_curvature and limited != twist:
+            limited = self._limit_each(self._scaled(twist, limited), dt)
+        self._last, self._before_last = limited, self._last
+        return limited
+
+    def _limit_each(self, twist: Twist, dt: float) -> Twist:
+        linear, angular = (
+            limiter.limit(value, last, before, dt)
+            for limiter, value, last, before in zip(
+                self._limiters, twist, self._last, self._before_last, strict=True
+            )
+        )
+        return linear, angular
+
+    def _scaled(self, twist: Twist, limited: Twist) -> Twist:
+        """
+        Scale the command by what is left of its more limited component, between 0 and 1.
+
+        Rest has no curvature: on the way there it is that of the motion, and the component that
+        brakes slower decides.
+        """
+        if twist == _AT_REST:
+            kept = [a / b for a, b in zip(limited, self._last, strict=True) if b]
+            base, factor = self._last, max(kept, default=0.0)
+        else:
+            base = twist
+            factor = min(a / b for a, b in zip(limited, twist, strict=True) if b)
+        factor = min(max(factor, 0.0), 1.0)
+        return factor * base[0], factor * base[1]
