@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The verbs of ``ros2 control`` that change something, beside a controller manager that runs."""
 
+from control_fakes import WHEELS
 from fixtures.cli.commands import ros2
-from manager_host import ros_in_this_process, running_host, YAML
+from manager_host import ros_in_this_process, running_host
 import pytest
 
 JOINTS, DRIVE = 'joint_state_broadcaster', 'diff_drive_controller'
+PARAMETERS = f"""\
+left_wheel_names: [{WHEELS[0]}, {WHEELS[1]}], right_wheel_names: [{WHEELS[2]}, {WHEELS[3]}],
+wheel_separation: 0.3, wheel_radius: 0.1"""
 TYPE = 'diff_drive_controller/DiffDriveController'
 LOGS = 'check controller_manager logs'
 WAITING = 'waiting for service /controller_manager/list_controllers to become available...'
@@ -62,9 +66,7 @@ def test_a_controller_is_loaded_and_brought_to_a_state(host):
 
 def test_a_parameter_file_names_the_type(host, tmp_path):
     file = tmp_path / 'mine.yaml'
-    file.write_text(YAML[YAML.index('diff_drive_controller:\n  ros__') :].replace(DRIVE, 'mine'))
-    text = file.read_text().replace('parameters:\n', f'parameters:\n    type: {TYPE}\n', 1)
-    file.write_text(text)
+    file.write_text(f'mine: {{ros__parameters: {{type: {TYPE}, {PARAMETERS}}}}}')
     code, said, error = control('load_controller', 'mine', '--set-state', 'active', str(file))
     assert (code, error) == (0, '')
     assert said.endswith('Successfully loaded controller mine into state active\n')
@@ -119,16 +121,12 @@ def test_a_state_that_is_not_the_next_is_refused(host, state, asked, said):
     assert host.client.states() == ({JOINTS: state} if state else {})
 
 
-def test_an_activation_that_is_refused_is_not_called_a_success(host, tmp_path):
+def test_an_activation_that_is_refused_is_not_called_a_success(host):
     """The original asks under BEST_EFFORT here, and says that all went well."""
     host.activate(DRIVE)
-    rival = {'type': TYPE, 'params_file': [str(tmp_path / 'rival.yaml')]}
-    text = YAML[YAML.index('diff_drive_controller:\n  ros__') :].replace(DRIVE, 'rival')
-    (tmp_path / 'rival.yaml').write_text(text)
-    host.client.set_parameters('rival', rival)
-    assert host.client.load('rival')
-    assert host.client.configure('rival')
-    code, said, error = control('set_controller_state', 'rival', 'active')
+    assert host.client.load('rival_1')
+    assert host.client.configure('rival_1')
+    code, said, error = control('set_controller_state', 'rival_1', 'active')
     assert (code, said) == (1, '')
     assert error.startswith(f'Error activating controller, {LOGS}: Unable to activate controller')
     assert 'is currently claimed by another controller' in error

@@ -27,6 +27,8 @@ _OURS = 'amr_description'
 # (package, executable) -> the executable of ours that takes its part where the package is not
 # installed, with what makes it the same to others; that comes last, so what the user says wins.
 STAND_INS = {
+    ('controller_manager', 'hardware_spawner'): 'hardware_spawner',
+    ('controller_manager', 'ros2_control_node'): 'ros2_control_node',
     ('controller_manager', 'spawner'): 'spawner',
     ('controller_manager', 'unspawner'): 'unspawner',
     ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',

@@ -23,9 +23,9 @@ class NoAnswerError(AmrError):
 def wait_until[Result](
     node: Node,
     condition: Callable[[], Result | None],
-    say: Callable[[], None],
+    say: Callable[[], object] = lambda: None,
     *,
-    every: float,
+    every: float = 1.0,
     timeout: float = 0.0,
 ) -> Result | None:
     """
@@ -47,7 +47,7 @@ def wait_until[Result](
 
 
 def ask_until_answered(
-    node: Node, client: Client, request: Any, *, timeout: float = 10.0
+    node: Node, client: Client, request: Any, *, timeout: float = 10.0, attempts: int = 1
 ) -> Any:
     """
     Send a request that changes nothing, again every second until it is answered.
@@ -55,45 +55,86 @@ def ask_until_answered(
     Fast DDS finds the endpoints of two participants in either direction by itself, one perhaps a
     second after the other. A server that does not know the client's yet does what it is asked for
     and throws its response away. Once it has answered, other requests need to be sent only once.
-    Raises NoAnswerError.
+    ``timeout``, ``attempts``: as of :func:`call`. Raises NoAnswerError.
     """
     pending = [client.call_async(request)]
-    response = wait_until(
+    return _answer(
         node,
+        client.srv_name,
         lambda: next((future.result() for future in pending if future.done()), None),
         lambda: pending.append(client.call_async(request)),
-        every=1.0,
         timeout=timeout,
+        attempts=attempts,
     )
-    if response is None:
-        raise NoAnswerError(f'service {client.srv_name} has not answered within {timeout:g} s')
-    return response
 
 
 def call(
-    node: Node, service_type: Any, name: str, request: Any, *, timeout: float = 10.0
+    node: Node,
+    service_type: Any,
+    name: str,
+    request: Any,
+    *,
+    timeout: float = 10.0,
+    attempts: int = 1,
 ) -> Any:
-    """Call a service that is there, once; return the response. Raises NoAnswerError."""
+    """
+    Call a service that is there, once; return the response. Raises NoAnswerError.
+
+    ``attempts``: how often to wait ``timeout`` s for the response. Each wait that is in vain is
+    told, in the words of ros2_control. The request is not sent again: what it asks for would be
+    done again, by a server that is only slow.
+    """
     client = node.create_client(service_type, name)
     try:
-        return call_with(node, client, request, timeout=timeout)
+        return call_with(node, client, request, timeout=timeout, attempts=attempts)
     finally:
         node.destroy_client(client)
 
 
-def call_with(node: Node, client: Client, request: Any, *, timeout: float = 10.0) -> Any:
+def call_with(
+    node: Node, client: Client, request: Any, *, timeout: float = 10.0, attempts: int = 1
+) -> Any:
     """As :func:`call`, with a client that is there already."""
-    name, deadline = client.srv_name, time.monotonic() + timeout
-    while not client.service_is_ready():
-        if time.monotonic() >= deadline:
-            raise NoAnswerError(
-                f'service {name} is not there after {timeout:g} s; is its node running?'
-            )
-        rclpy.spin_once(node, timeout_sec=_POLL)
+    name = client.srv_name
+
+    def ready() -> bool | None:
+        return client.service_is_ready() or None
+
+    if not wait_until(node, ready, timeout=timeout):
+        raise NoAnswerError(
+            f'service {name} is not there after {timeout:g} s; is its node running?'
+        )
     future = client.call_async(request)
-    rclpy.spin_until_future_complete(
-        node, future, timeout_sec=max(0.0, deadline - time.monotonic())
+    return _answer(
+        node,
+        name,
+        lambda: future.result() if future.done() else None,
+        timeout=timeout,
+        attempts=attempts,
     )
-    if not future.done():
-        raise NoAnswerError(f'service {name} has not answered within {timeout:g} s')
-    return future.result()
+
+
+def _answer(
+    node: Node,
+    service: str,
+    answered: Callable[[], Any | None],
+    each_second: Callable[[], object] = lambda: None,
+    *,
+    timeout: float,
+    attempts: int,
+) -> Any:
+    """Wait for the response of a service. Raises NoAnswerError."""
+    for attempt in range(1, attempts + 1):
+        response = wait_until(node, answered, each_second, timeout=timeout)
+        if response is not None:
+            return response
+        if attempts > 1:
+            node.get_logger().warning(
+                f'Failed getting a result from calling {service} in {timeout}. '
+                f'(Attempt {attempt} of {attempts}.)'
+            )
+    if attempts > 1:
+        raise NoAnswerError(
+            f'Could not successfully call service {service} after {attempts} attempts.'
+        )
+    raise NoAnswerError(f'service {service} has not answered within {timeout:g} s')

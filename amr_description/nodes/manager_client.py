@@ -3,23 +3,28 @@
 """A controller manager as seen by a program that asks it for something, ours or a C++ one."""
 
 from collections.abc import Mapping, Sequence
+import re
 import time
 from typing import Any
 
 from controller_manager_msgs import srv
+from controller_manager_msgs.msg import HardwareComponentState
 from lifecycle_msgs.msg import State
-from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
+from rclpy.client import Client
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
-from amr_description.nodes.clients import ask_until_answered, call, wait_until
+from amr_description.nodes.clients import ask_until_answered, call, NoAnswerError, wait_until
+from amr_description.nodes.manager_search import errors_of, ManagerSearch
+from amr_description.nodes.runtime import argument_errors
 
-_ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_EVERY = 10.0
+"""s: how often it is said that the manager is still not there."""
+_ATTEMPTS = 3
 
 
 class ManagerClient:
@@ -33,85 +38,74 @@ class ManagerClient:
         timeout: float = 0.0,
         call_timeout: float = 10.0,
         silent: float = 0.0,
+        first: Any = srv.ListControllers,
     ) -> None:
         """
         Wait until the manager is there; ``manager``: its node, relative to the namespace.
 
-        ``timeout``: s, 0 for ever. ``silent``: for so long, s, waiting is not worth a line.
-        Raises ControllerError when it does not come, NoAnswerError when it does not answer.
+        ``timeout``: s, 0 for ever. ``call_timeout``: s, for each of three waits for a response.
+        ``silent``: for so long, s, waiting is not worth a line. ``first``: the type of the service
+        that is waited for, one that changes nothing. Raises ControllerError, which names what is
+        missing, when it does not come; NoAnswerError when it does not answer; ParameterError when
+        ``manager`` is no name.
         """
         self._node = node
         self._call_timeout = call_timeout
         self._asked = 0.0
-        self.name = node.resolve_service_name(manager)
+        with argument_errors():
+            self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
-        service = f'{self.name}/list_controllers'
-        self._list = node.create_client(srv.ListControllers, service)
-
-        def say() -> None:
-            node.get_logger().warning(f'Could not contact service {service}')
-            node.get_logger().info(f'waiting for service {service} to become available...')
-
-        def ready() -> bool | None:
-            return True if self._list.service_is_ready() else None
-
-        found = None
-        if silent:
-            found = wait_until(node, ready, lambda: None, every=10.0, timeout=silent)
-        if not found:
-            node.get_logger().info(f'waiting for service {service} to become available...')
-            found = wait_until(node, ready, say, every=10.0, timeout=timeout)
-        if not found:
-            raise ControllerError(
-                f'Could not contact service {service} within {timeout:g} s: the controller '
-                'manager comes up when a robot with a <ros2_control> block is spawned'
-            )
-        self.states()
+        self._search = ManagerSearch(node, self.name)
+        client = node.create_client(first, f'{self.name}/{_service_name(first)}')
+        try:
+            self._wait_for(client, timeout, silent)
+            self._ask(client)
+        finally:
+            node.destroy_client(client)
 
     def states(self) -> dict[str, str]:
         """Name → state of every loaded controller."""
-        response = ask_until_answered(
-            self._node, self._list, srv.ListControllers.Request(), timeout=self._call_timeout
-        )
-        return {controller.name: controller.state for controller in response.controller}
+        return {each.name: each.state for each in self._look(srv.ListControllers).controller}
+
+    def components(self) -> list[HardwareComponentState]:
+        """Return the hardware components."""
+        return self._look(srv.ListHardwareComponents).component
 
     def typed_controllers(self) -> list[str]:
         """Names of the controllers that the manager's parameters hold a type for."""
-        listed = self.call(ListParameters, 'list_parameters').result.names
+        listed = self._look(ListParameters).result.names
         return sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
+
+    def has_type(self, controller: str) -> bool:
+        """Tell whether the manager's parameters hold a type for a controller."""
+        values = self._look(GetParameters, names=[f'{controller}.type']).values
+        return bool(values and values[0].string_value)
 
     def load(self, name: str) -> bool:
         """Load a controller."""
-        return self.call(srv.LoadController, 'load_controller', name=name).ok
+        return self._call(srv.LoadController, name=name).ok
 
     def configure(self, name: str) -> bool:
         """Configure a controller."""
-        return self.call(srv.ConfigureController, 'configure_controller', name=name).ok
+        return self._call(srv.ConfigureController, name=name).ok
 
     def unload(self, name: str) -> bool:
         """Unload a controller."""
-        return self.call(srv.UnloadController, 'unload_controller', name=name).ok
+        return self._call(srv.UnloadController, name=name).ok
 
     def cleanup(self, name: str) -> bool:
         """Bring an inactive controller back to unconfigured."""
-        return self.call(srv.CleanupController, 'cleanup_controller', name=name).ok
+        return self._call(srv.CleanupController, name=name).ok
 
     def reload_libraries(self, *, force_kill: bool) -> bool:
         """Unload all controllers, and import what they are made of anew."""
-        return self.call(
-            srv.ReloadControllerLibraries, 'reload_controller_libraries', force_kill=force_kill
-        ).ok
+        return self._call(srv.ReloadControllerLibraries, force_kill=force_kill).ok
 
     def set_component_state(
         self, name: str, state: State
     ) -> srv.SetHardwareComponentState.Response:
         """Bring a hardware component to a state; the response has the state that it is in."""
-        return self.call(
-            srv.SetHardwareComponentState,
-            'set_hardware_component_state',
-            name=name,
-            target_state=state,
-        )
+        return self._call(srv.SetHardwareComponentState, name=name, target_state=state)
 
     def switch(
         self,
@@ -125,7 +119,10 @@ class ManagerClient:
         response = self.request_switch(
             activate, deactivate, Strictness.STRICT, timeout=timeout, activate_asap=activate_asap
         )
-        return None if response.ok else response.message
+        if response.ok:
+            return None
+        fault = self._search.clock_fault() if 'timed out' in response.message else ''
+        return '; '.join(filter(None, (response.message, fault)))
 
     def request_switch(
         self,
@@ -136,10 +133,14 @@ class ManagerClient:
         timeout: float = 5.0,
         activate_asap: bool = True,
     ) -> srv.SwitchController.Response:
-        """Switch; ``strictness``: as in the request, 0 for the manager's default."""
-        return self.call(
+        """
+        Switch; ``strictness``: as in the request, 0 for the manager's default.
+
+        ``timeout``: s, how long the manager may take; its answer is waited for at least as long.
+        """
+        return self._call(
             srv.SwitchController,
-            'switch_controller',
+            max(timeout, self._call_timeout),
             activate_controllers=list(activate),
             deactivate_controllers=list(deactivate),
             strictness=int(strictness),
@@ -151,13 +152,15 @@ class ManagerClient:
         """Set ``<controller>.<key>`` at the manager. Raises ControllerError."""
         if not parameters:
             return
-        rows = [Parameter(f'{controller}.{k}', value=v) for k, v in parameters.items()]
-        response = self.call(
-            SetParameters, 'set_parameters', parameters=[row.to_parameter_msg() for row in rows]
-        )
-        for row, result in zip(rows, response.results, strict=True):
+        rows = [Parameter(f'{controller}.{key}', value=v) for key, v in parameters.items()]
+        messages = [row.to_parameter_msg() for row in rows]
+        response = self._call(SetParameters, parameters=messages)
+        for (key, value), result in zip(parameters.items(), response.results, strict=True):
             if not result.successful:
-                raise ControllerError(f"{self.name} refuses '{row.name}': {result.reason}")
+                raise ControllerError(
+                    f'Could not set controller param "{key}" to "{value}" for {controller}: '
+                    f'{self.name} refuses it: {result.reason}'
+                )
 
     def reasons(self, controller: str) -> str:
         """
@@ -166,50 +169,85 @@ class ManagerClient:
         A missing type is found by asking; the rest is :meth:`logged`.
         """
         asked = self._asked
-        return self._missing_type(controller) or self.logged(controller, since=asked)
+        if self.has_type(controller):
+            return self.logged(controller, since=asked)
+        return (
+            f'no type is set for it; the parameters of {self.name} hold one for: '
+            f'{", ".join(self.typed_controllers()) or "none"}; a parameter file given here may '
+            'name another'
+        )
 
     def logged(self, *nodes: str, since: float | None = None) -> str:
         """
         Return what the manager, and nodes beside it, have logged as errors; empty: nothing.
 
-        Taken from the latched ``/rosout``. ``since``: s, Unix time; None: the last request.
+        ``since``: s, Unix time; None: the last request that was to change something.
         """
-        since = self._asked if since is None else since
         inside = self.namespace.rstrip('/')
-        names = {self.name, *(f'{inside}/{node}' for node in nodes)}
-        loggers = {name.strip('/').replace('/', '.') for name in names}
-        lines: list[str] = []
+        names = [self.name, *(f'{inside}/{node}' for node in nodes)]
+        return '; '.join(errors_of(self._node, names, self._asked if since is None else since))
 
-        def hear(message: Log) -> None:
-            stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
-            if message.level >= Log.ERROR and message.name in loggers and stamp >= since:
-                lines.append(message.msg)
+    def _wait_for(self, client: Client, timeout: float, silent: float) -> None:
+        """Wait until the service is there, in words. Raises ControllerError."""
+        service, log = client.srv_name, self._node.get_logger()
 
-        subscription = self._node.create_subscription(Log, '/rosout', hear, _ROSOUT)
-        wait_until(self._node, lambda: lines or None, lambda: None, every=1.0, timeout=1.0)
-        self._node.destroy_subscription(subscription)
-        return '; '.join(dict.fromkeys(lines))
+        def ready() -> bool | None:
+            return client.service_is_ready() or None
 
-    def _missing_type(self, controller: str) -> str:
-        """Say which controllers have a type, if this one has none."""
-        response = self.call(GetParameters, 'get_parameters', names=[f'{controller}.type'])
-        if response.values and response.values[0].string_value:
-            return ''
-        typed = self.typed_controllers()
-        return (
-            f"no type is set for it; the parameters of {self.name} hold one for: "
-            f'{", ".join(typed) or "none"}; a parameter file given here may name another'
-        )
+        def say() -> None:
+            log.warning(f'Could not contact service {service}: {self._search.missing()}')
+            log.info(f'waiting for service {service} to become available...')
 
-    def call(self, service_type: Any, service: str, **fields: Any) -> Any:
-        """Call a service, by its name below that of the manager; return the response."""
-        request = service_type.Request(**fields)
+        if silent and wait_until(self._node, ready, timeout=silent):
+            return
+        log.info(f'waiting for service {service} to become available...')
+        if not wait_until(self._node, ready, say, every=_EVERY, timeout=timeout):
+            fault = self._search.missing()
+            if not ready():
+                raise ControllerError(
+                    f'Could not contact service {service} within {timeout:g} s: {fault}'
+                )
+
+    def _look(self, service_type: Any, **fields: Any) -> Any:
+        """Call a service that changes nothing; return the response."""
+        client = self._node.create_client(service_type, self._service(service_type))
+        try:
+            return self._ask(client, **fields)
+        finally:
+            self._node.destroy_client(client)
+
+    def _ask(self, client: Client, **fields: Any) -> Any:
+        request = client.srv_type.Request(**fields)
+        try:
+            return ask_until_answered(
+                self._node, client, request, timeout=self._call_timeout, attempts=_ATTEMPTS
+            )
+        except NoAnswerError as error:
+            raise self._explained(error) from error
+
+    def _call(self, service_type: Any, timeout: float | None = None, /, **fields: Any) -> Any:
+        """Call a service that changes something, once; return the response."""
         self._asked = time.time()
-        return call(
-            self._node,
-            service_type,
-            f'{self.name}/{service}',
-            request,
-            timeout=self._call_timeout,
-        )
+        try:
+            return call(
+                self._node,
+                service_type,
+                self._service(service_type),
+                service_type.Request(**fields),
+                timeout=self._call_timeout if timeout is None else timeout,
+                attempts=_ATTEMPTS,
+            )
+        except NoAnswerError as error:
+            raise self._explained(error) from error
 
+    def _service(self, service_type: Any) -> str:
+        return f'{self.name}/{_service_name(service_type)}'
+
+    def _explained(self, error: NoAnswerError) -> NoAnswerError:
+        fault = self._search.clock_fault() or f'{self.name} may be stopped, or busy: see its log'
+        return NoAnswerError(f'{error} {fault}')
+
+
+def _service_name(service_type: Any) -> str:
+    """Return the name that a service has by its type: ``LoadController`` → load_controller."""
+    return re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()

@@ -186,6 +186,8 @@ def argument_errors() -> Iterator[None]:
             f'unknown ROS arguments {error}: between --ros-args and -- stand -r from:=to, '
             '-p name:=value, --params-file file and --log-level level'
         ) from error
+    except UnicodeEncodeError as error:  # a word of the command line
+        raise ParameterError(f'not valid UTF-8: {error.object!a}') from error
     except (
         rclpy_implementation.RCLError,
         rclpy_implementation.RCLInvalidROSArgsError,

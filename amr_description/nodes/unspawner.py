@@ -16,10 +16,12 @@ import sys
 
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
+from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import ControllerError
 from amr_description.nodes.manager_client import ManagerClient
 from amr_description.nodes.runtime import argument_errors, program, ros
+from amr_description.nodes.spawner_arguments import seconds
 
 
 def parser() -> argparse.ArgumentParser:
@@ -29,7 +31,13 @@ def parser() -> argparse.ArgumentParser:
     options.add_argument(
         '-c', '--controller-manager', default='/controller_manager', help='its node'
     )
-    options.add_argument('--switch-timeout', type=float, default=5.0, help='s')
+    options.add_argument(
+        '--switch-timeout',
+        type=seconds,
+        default=5.0,
+        metavar='S',
+        help='how long to let the switch take, s (default: %(default)s)',
+    )
     return options
 
 
@@ -39,14 +47,14 @@ def unload(
     """Deactivate with one request and unload one by one. Raises ControllerError."""
     log = node.get_logger()
     states = manager.states()
-    active = [name for name in names if states.get(name) == 'active']
+    active = [name for name in dict.fromkeys(names) if states.get(name) == 'active']
     if active:
         message = manager.switch(deactivate=active, timeout=switch_timeout)
         if message is not None:
             raise ControllerError(f'Failed to deactivate controllers : {active}: {message}')
         log.info('Deactivated controller')
     failures = []
-    for name in names:
+    for name in dict.fromkeys(names):
         if name not in states:
             failures.append(f'{name}: no controller of this name is loaded')
         elif manager.unload(name):
@@ -63,7 +71,9 @@ def unspawn(args: list[str] | None) -> None:
         words = sys.argv if args is None else ['unspawner', *args]
         options = parser().parse_args(remove_ros_args(words)[1:])
         with argument_errors():
-            node = Node(f'unspawner_{options.controller_names[0]}')
+            name = f'unspawner_{options.controller_names[0]}'
+            validate_node_name(name)  # Node() does so too, but leaves a warning behind
+            node = Node(name)
         try:
             manager = ManagerClient(node, options.controller_manager)
             unload(node, manager, options.controller_names, options.switch_timeout)

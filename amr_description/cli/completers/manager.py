@@ -6,8 +6,6 @@ from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-from controller_manager_msgs.srv import ListHardwareComponents
-
 from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session
 from amr_description.nodes.manager_client import ManagerClient
@@ -47,8 +45,7 @@ def loadable_controllers(args: Namespace, _prefix: str) -> Iterable[str]:
 def hardware_components(args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the hardware components."""
     with _manager(args) as manager:
-        response = manager.call(ListHardwareComponents, 'list_hardware_components')
-        return [component.name for component in response.component]
+        return [component.name for component in manager.components()]
 
 
 def _in_state(args: Namespace, wanted: str) -> Iterable[str]:

@@ -4,13 +4,13 @@
 
 from argparse import ArgumentParser, Namespace
 
-from amr_description.cli.colors import BLUE, colored
 from amr_description.cli.control.manager import (
     add_controller_argument,
     add_manager_arguments,
     failure,
     open_manager,
 )
+from amr_description.nodes.colors import BLUE, colored
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -14,7 +14,6 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from amr_description.cli.colors import BLUE, colored, YELLOW
 from amr_description.cli.control.manager import (
     add_controller_argument,
     add_manager_arguments,
@@ -22,6 +21,7 @@ from amr_description.cli.control.manager import (
     open_manager,
 )
 from amr_description.errors import AmrError
+from amr_description.nodes.colors import BLUE, colored, YELLOW
 
 if TYPE_CHECKING:
     from amr_description.nodes.manager_client import ManagerClient
@@ -62,10 +62,18 @@ def main(args: Namespace) -> int:
 
 
 def _load(manager: 'ManagerClient', name: str, file: str | None) -> None:
-    from amr_description.nodes.spawner_files import manager_parameters
+    from amr_description.nodes.spawner_files import (
+        controller_entries,
+        manager_parameters,
+        not_found,
+    )
 
-    files = [str(Path(file).absolute())] if file else []
-    manager.set_parameters(name, manager_parameters(name, files, manager.namespace))
+    if file:
+        files = [str(Path(file).absolute())]
+        entries = controller_entries(name, files, manager.namespace)
+        if not entries:
+            raise AmrError(not_found(name, files))
+        manager.set_parameters(name, manager_parameters(name, entries))
     if not manager.load(name):
         text = f'Failed loading controller {name} check controller_manager logs'
         raise failure(text, manager.reasons(name))

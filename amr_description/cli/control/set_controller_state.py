@@ -10,7 +10,6 @@ deactivates it, inactive -> unconfigured cleans it up.
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from amr_description.cli.colors import BLUE, colored
 from amr_description.cli.control.manager import (
     add_controller_argument,
     add_manager_arguments,
@@ -18,6 +17,7 @@ from amr_description.cli.control.manager import (
     open_manager,
 )
 from amr_description.errors import AmrError
+from amr_description.nodes.colors import BLUE, colored
 
 if TYPE_CHECKING:
     from amr_description.nodes.manager_client import ManagerClient

@@ -1,0 +1,58 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Keeps two spawners of this host from working on one controller at the same time.
+
+One would configure it anew while the other activates it. Spawners of other controllers, and of
+other robots, do not wait for each other: the original has a single lock for the whole machine.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, ExitStack
+import fcntl
+import os
+from pathlib import Path
+
+from rclpy.node import Node
+
+from amr_description.nodes.clients import wait_until
+
+_EVERY = 10.0
+"""s: how often it is said that another one has the lock."""
+
+
+@contextmanager
+def alone_with(node: Node, manager: str, controllers: Sequence[str]) -> Iterator[None]:
+    """
+    Be the only spawner of these controllers of ``manager`` (an absolute name) while inside.
+
+    The locks are files in ``$ROS_HOME/locks`` (``~/.ros/locks``), and end with the process. Where
+    that folder cannot be written the spawner does without.
+    """
+    home = Path(os.environ.get('ROS_HOME') or Path.home() / '.ros')
+    place = f'{node.context.get_domain_id()}{manager.replace("/", ".")}'
+    with ExitStack() as stack:
+        for name in sorted(set(controllers)):  # in one order, so that no two wait in a circle
+            path = home / 'locks' / f'spawner.{place}.{name}.lock'
+            try:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                file = stack.enter_context(path.open('a'))
+            except OSError as error:
+                node.get_logger().debug(f'without a lock: {error}')
+                continue
+            _lock(node, file.fileno(), f'controller {name} of {manager} ({path})')
+        yield
+
+
+def _lock(node: Node, descriptor: int, what: str) -> None:
+    def taken() -> bool | None:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return None
+        return True
+
+    def say() -> None:
+        node.get_logger().warning(f'Waiting for the spawner that works on {what}')
+
+    wait_until(node, taken, say, every=_EVERY)

@@ -1,0 +1,107 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What keeps a program from its controller manager: each fault has its own words."""
+
+from dataclasses import replace
+
+import pytest
+
+from amr_description.nodes.missing_manager import (
+    clock_fault,
+    ClockSight,
+    DescriptionSight,
+    ManagerSight,
+    missing,
+)
+
+NAME = '/left/controller_manager'
+NOBODY = ManagerSight(NAME, domain=7)
+TOPIC = '/left/robot_description'
+WAITS = f'{NAME} is there, and waits for a robot description on {TOPIC}'
+SILENT = ClockSight(0)
+PAUSED = ClockSight(1, (1_500_000_000, 1_500_000_000))
+RUNNING = ClockSight(1, (1_500_000_000, 1_510_000_000))
+
+
+@pytest.mark.parametrize(
+    ('sight', 'said'),
+    [
+        (NOBODY, 'there is no controller manager in ROS domain 7; a simulator starts one'),
+        (
+            replace(NOBODY, simulators=('/mujoco_sim',)),
+            'ROS domain 7; the simulator /mujoco_sim starts one as soon as a robot with a '
+            '<ros2_control> block is spawned',
+        ),
+        (
+            replace(NOBODY, others=('/controller_manager', '/right/controller_manager')),
+            f'there is no node {NAME}, but /controller_manager, /right/controller_manager; name '
+            'it with -c /controller_manager, or',
+        ),
+        (replace(NOBODY, is_there=True), f'{NAME} is there, but has no services yet'),
+        (
+            replace(NOBODY, is_there=True, others=('/controller_manager',)),
+            f'{NAME} is there, but',
+        ),
+    ],
+)
+def test_no_manager(sight, said):
+    assert said in missing(sight)
+
+
+@pytest.mark.parametrize(
+    ('description', 'said'),
+    [
+        (DescriptionSight(TOPIC), 'which nobody publishes: start robot_state_publisher'),
+        (
+            DescriptionSight(TOPIC, elsewhere=('/robot_description',)),
+            'which nobody publishes; there is /robot_description: remap one of the two',
+        ),
+        (
+            DescriptionSight(TOPIC, 1),
+            'whose publisher is VOLATILE: it must be TRANSIENT_LOCAL to reach it',
+        ),
+        (DescriptionSight(TOPIC, 1, 1), 'which has 1 publisher: see its log'),
+        (
+            DescriptionSight(TOPIC, 2, 1, errors=('no block.', 'Could not load')),
+            'which has 2 publishers; its log says: no block. Could not load',
+        ),
+    ],
+)
+def test_no_description(description, said):
+    assert missing(replace(NOBODY, is_there=True, description=description)).startswith(WAITS)
+    assert said in missing(replace(NOBODY, is_there=True, description=description))
+
+
+@pytest.mark.parametrize('needed', [True, False])
+@pytest.mark.parametrize(
+    ('clock', 'said'),
+    [
+        (ClockSight(1), 'nothing comes from /clock, which has a publisher'),
+        (PAUSED, '/clock stands still at 1.500 s: is the simulation paused?'),
+        (RUNNING, ''),
+        (ClockSight(1, (2, 1)), ''),
+    ],
+)
+def test_a_clock_that_is_there_must_run(clock, said, needed):
+    assert clock_fault(clock, needed=needed).startswith(said)
+    assert bool(clock_fault(clock, needed=needed)) == bool(said)
+
+
+def test_a_clock_that_is_not_there_is_missed_only_where_it_is_needed():
+    assert clock_fault(SILENT, needed=False) == ''
+    assert 'nobody publishes /clock; start the simulation' in clock_fault(SILENT, needed=True)
+
+
+def test_everything_that_is_missing_is_told_in_one_line():
+    sight = replace(
+        NOBODY,
+        is_there=True,
+        description=DescriptionSight(TOPIC),
+        clock=SILENT,
+        needs_clock=True,
+    )
+    assert missing(sight) == (
+        f'{WAITS}, which nobody publishes: start robot_state_publisher; there is no clock: '
+        'use_sim_time is true, and nobody publishes /clock; start the simulation, or set '
+        'use_sim_time to false'
+    )
