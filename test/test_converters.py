@@ -5,6 +5,7 @@
 import math
 
 from control_msgs.msg import DynamicJointState
+from geometry_msgs.msg import Twist
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Imu, JointState
@@ -17,6 +18,7 @@ from amr_description.control.samples import (
     ImuConstants,
     ImuSample,
     JointStateSample,
+    TwistSample,
 )
 from amr_description.nodes import converters
 
@@ -130,3 +132,9 @@ def test_any_number_of_joints_goes(count):
     layout = DynamicLayout('', names, (('position',),) * count)
     converters.fill_dynamic_joint_state(dynamic(values, layout), message)
     assert [row.values[0] for row in sent(message).interface_values] == list(range(count))
+
+
+def test_a_plain_twist_has_no_stamp_and_keeps_the_planar_part():
+    message = Twist()
+    message.linear.x, message.linear.y, message.angular.z = 0.5, 9.0, -0.25
+    assert converters.unstamped_twist_sample(message) == TwistSample(0, 0.5, -0.25)

@@ -52,6 +52,11 @@ def twist_sample(message: TwistStamped) -> TwistSample:
     )
 
 
+def unstamped_twist_sample(message: Twist) -> TwistSample:
+    """Keep the planar part; there is no stamp."""
+    return TwistSample(stamp=0, linear=message.linear.x, angular=message.angular.z)
+
+
 def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
     """Write a planar twist."""
     fill_stamp(sample.stamp, message.header.stamp)
