@@ -126,6 +126,17 @@ def test_activation_forgets_commands_of_an_earlier_life():
     assert rig.commands['relay/open'].value is True
 
 
+def test_a_second_life_begins_where_the_first_ended():
+    """Encoders that jumped to zero would make whoever counts them jump."""
+    rig = Rig()
+    rig.command('ja/position', 2.0)
+    rig.command('ja/velocity', 3.0)
+    rig.read()
+    for transition in ('deactivate', 'cleanup', 'configure', 'activate'):
+        getattr(rig.system, transition)()
+    assert rig.read(*JA) == [2.0, 0.0, 0.0]
+
+
 def test_mimic_joint_follows():
     rig = Rig()
     rig.command('ja/position', 2.0)

@@ -44,6 +44,7 @@ class MockSystem(HardwareComponent):
         super().__init__(info, log, world)
         self._with_dynamics = self._flag('calculate_dynamics')
         self._is_disabled = self._flag('disable_commands')
+        self._has_lived = False
         offset = self._number('position_state_following_offset')
         custom = info.parameters.get('custom_interface_with_following_offset', '')
         self._warn_of_missing(custom)
@@ -69,9 +70,11 @@ class MockSystem(HardwareComponent):
         return [command for part in self._parts for command in part.commands.values()]
 
     def configure(self) -> None:
-        """Set every state to its initial value."""
-        for part in self._parts:
-            part.set_initial_states()
+        """Begin at the initial values; a later life begins where the one before ended."""
+        if not self._has_lived:
+            for part in self._parts:
+                part.set_initial_states()
+        self._has_lived = True
 
     def activate(self) -> None:
         """Forget commands of an earlier life."""
