@@ -4,6 +4,7 @@
 
 import math
 
+from control_fakes import FakeLog
 from control_msgs.msg import DynamicJointState
 from geometry_msgs.msg import Twist
 import pytest
@@ -11,6 +12,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64MultiArray
 
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.samples import (
     CommandsSample,
     DynamicJointStateSample,
@@ -20,7 +22,11 @@ from amr_description.control.samples import (
     JointStateSample,
     TwistSample,
 )
+from amr_description.controllers import CONTROLLERS
 from amr_description.nodes import converters
+from amr_description.nodes.message_types import message_type
+from amr_description.parameters import build
+from amr_description.registry import resolve
 
 STAMP = 3_000_000_007
 LAYOUT = DynamicLayout('base', ('wheel', 'imu'), (('position', 'velocity'), ('gyro.x',)))
@@ -122,6 +128,31 @@ def test_an_imu_message_arrives_as_it_was():
         arrived.linear_acceleration_covariance,
     )
     assert [tuple(covariance) for covariance in found] == covariances
+
+
+@pytest.mark.parametrize(
+    ('controller', 'values'),
+    [
+        ('joint_state_broadcaster/JointStateBroadcaster', {}),
+        (
+            'forward_command_controller/ForwardCommandController',
+            {'joints': ['a'], 'interface_name': 'velocity'},
+        ),
+        (
+            'imu_sensor_broadcaster/IMUSensorBroadcaster',
+            {'sensor_name': 'imu', 'frame_id': 'imu_link'},
+        ),
+    ],
+)
+def test_the_converters_of_every_port_exist(controller, values):
+    found = CONTROLLERS.find(controller)
+    made = found(ControllerContext('made', FakeLog()))
+    made.configure(build(found.parameters_type, values))
+    ports = [each.port for each in (*made.inputs(), *made.outputs())]
+    assert ports
+    for port in ports:
+        assert callable(resolve(port.convert))
+        assert message_type(port.message)()
 
 
 @pytest.mark.parametrize('count', [0, 1, 40])
