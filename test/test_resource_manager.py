@@ -8,6 +8,7 @@ from control_fakes import bring_up, FakeHardware, FakeLog, MS
 import pytest
 
 from amr_description.control.contracts import Severity
+from amr_description.control.controller_list import ControllerList
 from amr_description.control.interfaces import (
     ALL_INTERFACES,
     CommandInterface,
@@ -18,6 +19,7 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.taking_snapshots import take_snapshot
 from amr_description.errors import HardwareDeactivationError, HardwareError, InterfaceError
 from amr_description.model.hardware_info import (
     ComponentInfo,
@@ -332,6 +334,13 @@ def test_a_slow_component_is_read_and_written_with_its_true_period(rate, period,
     assert given['read'] == given['write']
     first = max(10 * MS, NANOSECONDS // rate) if rate else 10 * MS
     assert given['read'][0][1] == first
+
+
+@pytest.mark.parametrize(('rate', 'shown'), [(0, 100), (30, 30), (100, 100), (1000, 100)])
+def test_the_rate_of_a_component_is_at_most_the_managers(rate, shown):
+    resources = bring_up(FakeHardware(['j'], rw_rate=rate))
+    (component,) = take_snapshot(ControllerList(), resources, 100).components
+    assert component.rate == shown
 
 
 def test_a_sensor_is_not_written():

@@ -279,11 +279,14 @@ class HardwareComponent(ABC):
     The one layer that is swapped on a real robot: it turns commands into motion and encoders into
     states.
 
-    Life as a controller's. ``read`` is called while inactive or active, ``write`` only while
-    active. Neither may block: a component that owns a device lets a thread of its own do the I/O
-    and exchanges snapshots with it. When one of them raises, the component is brought down
-    (``deactivate``, ``cleanup``), so that nothing goes on moving by itself; a ``write`` that
-    raises a :class:`~amr_description.errors.HardwareDeactivationError` only makes it inactive.
+    Life as a controller's, and at its end finalized. ``read`` is called while inactive or active,
+    ``write`` only while active, and not of a sensor; with ``rw_rate`` both come at that rate, with
+    the true period. Neither may block: a component that owns a device lets a thread of its own do
+    the I/O and exchanges snapshots with it. When one of them raises, the component is brought down
+    (``deactivate``, ``cleanup``), so that nothing goes on moving by itself, and with it all of its
+    ``group``; a ``write`` that raises
+    :class:`~amr_description.errors.HardwareDeactivationError` only makes it inactive. Either way
+    controllers that need its interfaces are deactivated, and it may be configured again.
     """
 
     def __init__(self, info: 'HardwareInfo', log: Log, world: World | None) -> None:
@@ -297,11 +300,11 @@ class HardwareComponent(ABC):
 
     @abstractmethod
     def state_interfaces(self) -> Sequence[StateInterface]:
-        """Its gauges; asked once, after construction."""
+        """Its gauges, ``StateInterface.of(joint, interface)``; asked once, after construction."""
 
     @abstractmethod
     def command_interfaces(self) -> Sequence[CommandInterface]:
-        """Its knobs; asked once, after construction."""
+        """Its knobs, ``CommandInterface.of(joint, interface)``; asked once, after construction."""
 
     def configure(self) -> None:
         """Open the device."""
@@ -341,5 +344,8 @@ class HardwareComponent(ABC):
     @abstractmethod
     def write(self, time: int, period: int) -> None:
         """
-        Put the command cells to the actuators; a NaN command is no command. Raises HardwareError.
+        Put the command cells to the actuators. Raises HardwareError.
+
+        A NaN command is no command; an infinite one never comes here: the manager makes it
+        standing still (velocity, effort, acceleration) or none.
         """
