@@ -4,7 +4,8 @@
 ros2_control's heart. Knows no ROS, no simulator, no clock; one thread, the owner, runs it all.
 
 =========================== ======================================================================
-``contracts.py``            the page to read: Controller, HardwareComponent, World, Port, Log
+``contracts.py``            the page to read: Controller, HardwareComponent, Port, Log
+``world.py``                … what a simulated hardware component sees: World, JointGroup
 ``interfaces.py``           the words: interface names, handles, lifecycle states
 ``samples.py``              what goes through the ports of the shipped controllers
 

@@ -15,6 +15,7 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 ``ros2_control_tag.py``             ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
 ``ros2_control_interfaces.py``      … its inner elements
 ``gazebo_tag.py``                   ``<gazebo>`` plugins: ``gazebo_plugins_of(robot)``
+``gazebo_sensors.py``               ``<gazebo>`` sensors: ``gazebo_sensors_of(robot)``
 
 ``checks.py``                       the checker: ``RULES``, ``examine``, ``require_sound``
 ``rules_mass.py`` …                 … its rules, by what they judge

@@ -174,6 +174,7 @@ def _add_clutch(spec: mujoco.MjSpec, joint: Joint) -> str:
     rotor.mass = ROTOR_MASS
     rotor.inertia = [ROTOR_INERTIA] * 3
     rotor.explicitinertial = True
+    rotor.gravcomp = 1.0  # it has inertia for the solver's sake, and no weight
     rotor.add_joint(name=rotor_name(joint.name), type=moved.type, axis=moved.axis)
     clutch = spec.add_tendon(name=rotor_name(joint.name))
     clutch.wrap_joint(joint.name, 1.0)

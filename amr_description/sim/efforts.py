@@ -3,13 +3,27 @@
 """The force that reaches a joint from its actuators."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import mujoco
-import numpy as np
 
 from amr_description.control.interfaces import POSITION, VELOCITY
 from amr_description.sim.actuators import actuator_name, rotor_name
-from amr_description.sim.engine import Engine, NANOSECONDS
+from amr_description.sim.engine import Engine
+
+_JOINT = mujoco.mjtObj.mjOBJ_JOINT
+_ACTUATOR = mujoco.mjtObj.mjOBJ_ACTUATOR
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where a joint and its actuators stand in MuJoCo's vectors; -1 for an actuator it has not."""
+
+    dof: int
+    driven: int
+    """The rotor's, behind a slip clutch; else the joint's own."""
+    servo: int
+    spring: int
 
 
 class EffortReader:
@@ -24,42 +38,42 @@ class EffortReader:
 
     def __init__(self, engine: Engine, robot: str, joints: Sequence[str]) -> None:
         """Bind joints of the present model; those that nothing drives have no effort."""
-        self._model, self._data = engine.model, engine.data
-        self._step = engine.timestep / NANOSECONDS
-        self._dofs = self._addresses(robot, joints)
-        rotors = self._addresses(robot, [rotor_name(joint) for joint in joints])
-        self._has_rotor = rotors >= 0
-        # Behind a slip clutch servo and spring work on the rotor.
-        self._driven = np.where(self._has_rotor, rotors, self._dofs)
-        self._servos = self._actuators(robot, joints, VELOCITY)
-        self._springs = self._actuators(robot, joints, POSITION)
+        model, data = engine.model, engine.data
+        self._places = [_place(model, robot, joint) for joint in joints]
+        # The arrays themselves: to look each up in MuJoCo's objects would cost 1 µs.
+        self._forces, self._actuator_forces = data.qfrc_actuator, data.actuator_force
+        self._velocities, self._accelerations = data.qvel, data.qacc
+        self._by_velocity, self._by_position = (model.actuator_biasprm[:, i] for i in (2, 1))
+        self._most_forces = model.actuator_forcerange[:, 1]
+        self._option = model.opt
 
     def __call__(self) -> list[float]:
         """N·m or N."""
-        model, data = self._model, self._data
-        force = data.qfrc_actuator[self._driven]
-        force += self._has_rotor * data.qfrc_actuator[self._dofs]
-        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE:
-            has_servo, servos = self._servos
-            damping = has_servo * model.actuator_biasprm[servos, 2]
-            has_spring, springs = self._springs
-            cut_off = np.abs(data.actuator_force[springs]) >= model.actuator_forcerange[springs, 1]
-            stiffness = (has_spring & ~cut_off) * model.actuator_biasprm[springs, 1]
-            acceleration, velocity = data.qacc[self._driven], data.qvel[self._driven]
-            force += self._step * (damping * acceleration + stiffness * velocity)
-        return force.tolist()
+        is_implicit = self._option.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
+        step = self._option.timestep if is_implicit else 0.0
+        return [self._effort(place, step) for place in self._places]
 
-    def _addresses(self, robot: str, joints: Sequence[str]) -> np.ndarray:
-        """Where the joints stand in MuJoCo's velocities; -1 for one that is not there."""
-        kind = mujoco.mjtObj.mjOBJ_JOINT
-        indices = [mujoco.mj_name2id(self._model, kind, f'{robot}/{joint}') for joint in joints]
-        return np.array([-1 if i < 0 else self._model.jnt_dofadr[i] for i in indices], int)
+    def _effort(self, place: _Place, step: float) -> float:
+        driven, servo, spring = place.driven, place.servo, place.spring
+        force = self._forces[driven]
+        if driven != place.dof:
+            force += self._forces[place.dof]
+        if servo >= 0:
+            force += step * self._by_velocity[servo] * self._accelerations[driven]
+        # A spring whose force is cut off does not depend on the position.
+        if spring >= 0 and abs(self._actuator_forces[spring]) < self._most_forces[spring]:
+            force += step * self._by_position[spring] * self._velocities[driven]
+        return float(force)
 
-    def _actuators(
-        self, robot: str, joints: Sequence[str], interface: str
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Whether each joint has this actuator, and its index, any for one that has none."""
-        kind = mujoco.mjtObj.mjOBJ_ACTUATOR
-        names = [f'{robot}/{actuator_name(joint, interface)}' for joint in joints]
-        indices = np.array([mujoco.mj_name2id(self._model, kind, name) for name in names], int)
-        return indices >= 0, np.maximum(indices, 0)
+
+def _place(model: mujoco.MjModel, robot: str, joint: str) -> _Place:
+    def find(kind: mujoco.mjtObj, name: str) -> int:
+        return mujoco.mj_name2id(model, kind, f'{robot}/{name}')
+
+    index, rotor = find(_JOINT, joint), find(_JOINT, rotor_name(joint))
+    return _Place(
+        dof=int(model.jnt_dofadr[index]),
+        driven=int(model.jnt_dofadr[index if rotor < 0 else rotor]),
+        servo=find(_ACTUATOR, actuator_name(joint, VELOCITY)),
+        spring=find(_ACTUATOR, actuator_name(joint, POSITION)),
+    )

@@ -1,24 +1,18 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-Some joints of one robot, read and commanded in the control tick.
+"""Some joints of one robot, read and commanded in the control tick."""
 
-A read is one slice and one ``tolist()``, well below 1 µs; access by name would cost 10 µs.
-"""
-
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 import math
-from operator import itemgetter
-from typing import Any
 
 import mujoco
-import numpy as np
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SimulationError
 from amr_description.model.robot import Joint
 from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name
+from amr_description.sim.array_views import reader, writer
 from amr_description.sim.drives import Drives, Mode
 from amr_description.sim.efforts import EffortReader
 from amr_description.sim.engine import Engine
@@ -30,9 +24,6 @@ _LIMITS = {
     VELOCITY: 'velocity="…"',
     EFFORT: 'effort="…"',
 }
-
-type Reader = Callable[[], list[float]]
-type Writer = Callable[[Sequence[float]], None]
 
 
 class MujocoJointGroup:
@@ -119,7 +110,7 @@ class MujocoJointGroup:
                 )
         actuators = self._find(_ACTUATOR, [actuator_name(name, interface) for name in self._names])
         addresses = [int(self._engine.model.actuator_ctrladr[actuator]) for actuator in actuators]
-        self._write = _writer(self._engine.data.ctrl, addresses)
+        self._write = writer(self._engine.data.ctrl, addresses)
         bounds = (command_bounds(joint, interface) for joint in self._joints)
         self._bounds = [(each.lower, each.upper) for each in bounds]
         self._interface = interface
@@ -156,9 +147,9 @@ class MujocoJointGroup:
         rotors = self._find(_JOINT, [rotor_name(name) for name in self._names])
         self._has_rotors = max(rotors, default=-1) >= 0
         rotors = [j if rotor < 0 else rotor for j, rotor in zip(joints, rotors, strict=True)]
-        self._read_positions = _reader(data.qpos, [int(model.jnt_qposadr[j]) for j in joints])
-        self._read_rotors = _reader(data.qpos, [int(model.jnt_qposadr[j]) for j in rotors])
-        self._read_velocities = _reader(data.qvel, [int(model.jnt_dofadr[j]) for j in joints])
+        self._read_positions = reader(data.qpos, [int(model.jnt_qposadr[j]) for j in joints])
+        self._read_rotors = reader(data.qpos, [int(model.jnt_qposadr[j]) for j in rotors])
+        self._read_velocities = reader(data.qvel, [int(model.jnt_dofadr[j]) for j in joints])
         self._read_efforts = EffortReader(self._engine, self._robot, self._names)
         self._interface = ''
         self._generation = self._engine.generation
@@ -167,35 +158,3 @@ class MujocoJointGroup:
         """The indices of the robot's elements, -1 where there is none of that name."""
         model = self._engine.model
         return [mujoco.mj_name2id(model, kind, f'{self._robot}/{name}') for name in names]
-
-
-def _reader(array: np.ndarray, indices: Sequence[int]) -> Reader:
-    """A function that reads these elements as Python floats."""
-    if not indices:
-        return list
-    first, end = min(indices), max(indices) + 1
-    view = array[first:end]
-    if list(indices) == list(range(first, end)):
-        return view.tolist
-    pick = itemgetter(*(index - first for index in indices))
-    return lambda: list(pick(view.tolist()))
-
-
-def _writer(array: np.ndarray, indices: Sequence[int]) -> Writer:
-    """A function that writes these elements."""
-    first, end = min(indices, default=0), max(indices, default=-1) + 1
-    if sorted(indices) != list(range(first, end)) or len(indices) < 2:
-        where: Any = list(indices)
-
-        def scatter(values: Sequence[float]) -> None:
-            array[where] = values
-
-        return scatter
-    # A permuted run is written as a slice, which is three times faster than by index.
-    view = array[first:end]
-    pick = itemgetter(*(indices.index(index) for index in range(first, end)))
-
-    def write(values: Sequence[float]) -> None:
-        view[:] = pick(values)
-
-    return write

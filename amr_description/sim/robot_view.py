@@ -113,17 +113,22 @@ class RobotView:
         model, data = self._engine.model, self._engine.data
         self._engine.refresh_truth()
         mujoco.mj_rnePostConstraint(model, data)
-        result = np.empty(6)
-        # In the link's axes; gravity is in it, as MuJoCo lets the world accelerate upwards.
-        mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 1)
-        turning, acceleration = result[:3], result[3:]
-        _, rate = self.velocity(link)
-        lever = np.array(place.translation)
-        acceleration += np.cross(turning, lever) + np.cross(rate, np.cross(rate, lever))
-        back = conjugate(place.rotation)
-        x, y, z = acceleration.tolist()
+        motion, change = np.empty(6), np.empty(6)
+        # In the world's axes; gravity is in it, as MuJoCo lets the world accelerate upwards.
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, motion, 0)
+        mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, change, 0)
+        rate, turning, acceleration = map(_vector, (motion[:3], change[:3], change[3:]))
+        pose = self.pose(link)
+        lever = rotate(pose.rotation, place.translation)
+        # a + α × r + ω × (ω × r)
+        parts = zip(
+            acceleration, _cross(turning, lever), _cross(rate, _cross(rate, lever)), strict=True
+        )
+        x, y, z = (sum(part) for part in parts)
+        orientation = multiply(pose.rotation, place.rotation)
+        back = conjugate(orientation)
         return ImuReading(
-            orientation=multiply(self.pose(link).rotation, place.rotation),
+            orientation=orientation,
             angular_velocity=rotate(back, rate),
             linear_acceleration=rotate(back, (x, y, z)),
         )
@@ -157,3 +162,16 @@ class RobotView:
         raise SimulationError(
             f"robot '{self.name}': there is no link '{link}' in the world; there are: {links}"
         )
+
+
+def _vector(array: np.ndarray) -> Vector:
+    x, y, z = array.tolist()
+    return (x, y, z)
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )

@@ -1,0 +1,47 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where joints stand at spawn and after a reset: ``initial_value`` of their state interfaces."""
+
+from fixtures.sim.arm import ARM, arm, follow
+import pytest
+
+from amr_description.errors import SpawnError
+
+
+def with_initial(joint, interface, value, urdf=ARM):
+    block = f'<joint name="{joint}">'
+    before, _, after = urdf.rpartition(block)
+    state = f'<state_interface name="{interface}"/>'
+    full = f'<state_interface name="{interface}"><param name="initial_value">{value}</param>'
+    return before + block + after.replace(state, f'{full}</state_interface>', 1)
+
+
+def test_initial_positions_are_taken_held_and_come_back():
+    urdf = with_initial('shoulder', 'position', 0.7)
+    urdf = with_initial('finger', 'position', 0.02, urdf)
+    world, robot = arm(urdf)
+    names = ['shoulder', 'elbow', 'finger', 'other_finger']
+    start = [0.7, 0.0, 0.02, -1.5 * 0.02 - 0.002]
+    group = robot.joints(names)
+    assert group.positions() == pytest.approx(start, abs=1e-12)
+    world.step(500)
+    assert group.positions() == pytest.approx(start, abs=2e-4)
+    follow(world, robot.joints(['shoulder']), [-0.5], 0.5)
+    world.reset()
+    assert group.positions() == pytest.approx(start, abs=1e-12)
+
+
+def test_initial_velocity_of_a_joint_that_nobody_drives():
+    urdf = with_initial('spindle', 'velocity', 4.0)
+    commands = '<command_interface name="velocity"/>\n      <command_interface name="effort"/>'
+    before, _, after = urdf.rpartition('<joint name="spindle">')
+    world, robot = arm(before + '<joint name="spindle">' + after.replace(commands, '', 1))
+    spindle = robot.joints(['spindle'])
+    assert spindle.velocities() == [4.0]
+    world.step(500)
+    assert spindle.positions() == pytest.approx([4.0], rel=1e-6)
+
+
+def test_initial_position_beyond_the_range_is_refused():
+    with pytest.raises(SpawnError, match="'shoulder': initial_value 3 of its position is beyond "):
+        arm(with_initial('shoulder', 'position', 3))
