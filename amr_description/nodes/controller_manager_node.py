@@ -280,7 +280,9 @@ class ControllerManagerNode:
             time = self._owner.loop.time
             return self.manager.switch(activate, deactivate, strictness, time, timeout)
 
-        return await self._owner.submit(switch)
+        message = await self._owner.submit(switch)
+        self.log(Severity.INFO, message)
+        return message
 
     async def set_component_state(self, name: str, state: LifecycleState) -> None:
         """Bring a hardware component to a state. Raises HardwareError."""

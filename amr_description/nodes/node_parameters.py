@@ -25,6 +25,14 @@ _ARRAYS = {
     'string_array': Parameter.Type.STRING_ARRAY,
     'double_array': Parameter.Type.DOUBLE_ARRAY,
 }
+PUBLISHER_POLICIES = (
+    QoSPolicyKind.DEPTH,
+    QoSPolicyKind.DURABILITY,
+    QoSPolicyKind.HISTORY,
+    QoSPolicyKind.RELIABILITY,
+)
+"""What rclcpp lets be overridden of a publisher, as a rule."""
+
 _NO_DEFAULTS: Mapping[str, Value] = {}
 
 
@@ -46,9 +54,17 @@ def declare[Table](
 def declare_missing(
     node: Node, table: type, *, prefix: str = '', defaults: Mapping[str, Value] = _NO_DEFAULTS
 ) -> None:
-    """Declare the rows of ``table`` that are not yet; ``prefix``: of every name, with its dot."""
+    """
+    Declare the rows of ``table`` that are not yet; ``prefix``: of every name, with its dot.
+
+    What a node that allows it was told undeclared is described now, and keeps its type.
+    """
     for spec in specs(table, prefix):
-        if not node.has_parameter(spec.name):
+        if node.has_parameter(spec.name):
+            descriptor = _descriptor(spec)
+            descriptor.type = node.get_parameter(spec.name).type_.value
+            node.set_descriptor(spec.name, descriptor)
+        else:
             default = defaults.get(spec.name, spec.default)
             _declare(node, dataclasses.replace(spec, default=default))
 
@@ -98,14 +114,7 @@ def let_parameter_events_be_overridden(node: Node) -> None:
         ParameterEvent,
         '/parameter_events',
         copy(qos_profile_parameter_events),
-        qos_overriding_options=QoSOverridingOptions(
-            (
-                QoSPolicyKind.DEPTH,
-                QoSPolicyKind.DURABILITY,
-                QoSPolicyKind.HISTORY,
-                QoSPolicyKind.RELIABILITY,
-            )
-        ),
+        qos_overriding_options=QoSOverridingOptions(PUBLISHER_POLICIES),
     )
     node.destroy_publisher(node._parameter_event_publisher)
     node._parameter_event_publisher = publisher
@@ -127,7 +136,9 @@ def _declare(node: Node, spec: Spec) -> None:
 def _descriptor(spec: Spec) -> ParameterDescriptor:
     """Meaning, unit and range of one row."""
     unit = f' [{spec.unit}]' if spec.unit else ''
-    descriptor = ParameterDescriptor(description=spec.doc + unit, read_only=spec.read_only)
+    descriptor = ParameterDescriptor(
+        name=spec.name, description=spec.doc + unit, read_only=spec.read_only
+    )
     low, high = spec.bounds.minimum, spec.bounds.maximum
     if low is not None and high is not None:
         if spec.type == 'integer':

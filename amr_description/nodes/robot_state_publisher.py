@@ -33,6 +33,7 @@ at all (an empty callback); ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
 """
 
 from collections.abc import Iterable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -51,7 +52,12 @@ from tf2_msgs.msg import TFMessage
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.errors import AmrError, DescriptionError, ParameterError
 from amr_description.model.urdf import load, parse
-from amr_description.nodes.node_parameters import declare, values
+from amr_description.nodes.node_parameters import (
+    declare,
+    let_parameter_events_be_overridden,
+    PUBLISHER_POLICIES,
+    values,
+)
 from amr_description.nodes.robot_state import LinkTransform, period_of, RobotState, Throttle
 from amr_description.nodes.runtime import run
 from amr_description.parameters import parameter
@@ -83,6 +89,7 @@ class RobotStatePublisher(Node):
 
     def __init__(self, arguments: Sequence[str] = (), **options: Any) -> None:
         super().__init__('robot_state_publisher', **options)
+        let_parameter_events_be_overridden(self)
         self._settings = declare(self, Settings)
         if not self._settings.robot_description and arguments:
             self._take_file(arguments[0])
@@ -95,8 +102,18 @@ class RobotStatePublisher(Node):
         self._throttle = Throttle()
         self._last_now = 0  # ns
         self._description = self.create_publisher(String, 'robot_description', _LATCHED)
-        self._static = self.create_publisher(TFMessage, '/tf_static', _LATCHED)
-        self._moving = self.create_publisher(TFMessage, '/tf', 100)
+        self._static = self.create_publisher(
+            TFMessage,
+            '/tf_static',
+            copy(_LATCHED),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )
+        self._moving = self.create_publisher(
+            TFMessage,
+            '/tf',
+            100,
+            qos_overriding_options=QoSOverridingOptions(PUBLISHER_POLICIES),
+        )
         self._adopt(self._settings, self._state_for(self._settings))
         self.create_subscription(
             JointState,
