@@ -101,6 +101,7 @@ class StandAlone:
             self.node.get_logger().info(
                 f'Overruns handling is : {"enabled" if manages else "disabled"}'
             )
+        self._clock = clock
         loop = Loop(clock, clock, self._mailbox, self._outgoing, self._period)
         clock.on_step = loop.reset
         if isinstance(clock, HeardClock):
