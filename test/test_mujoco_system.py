@@ -4,6 +4,7 @@
 
 import math
 
+from fixtures.sim.arm import arm
 from fixtures.sim.driving import AMR, Lines
 import pytest
 
@@ -12,6 +13,8 @@ from amr_description.control.world import ImuReading
 from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.mujoco_system import MujocoSystem
+from amr_description.hardware.simulated_imu import INTERFACES
+from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.sim.world import MujocoWorld
@@ -231,6 +234,216 @@ def test_what_is_not_simulated_is_told(world, kind):
     assert log.lines == [(Severity.WARN, text)]
 
 
+# --- several command interfaces on a joint -------------------------------------------------------
+
+MULTI = URDF.replace(
+    '<command_interface name="velocity"/>',
+    '<command_interface name="position"/><command_interface name="velocity"/>'
+    '<command_interface name="effort"/>',
+    1,
+)
+
+
+@pytest.fixture
+def multi(world):
+    """``jb`` has three command interfaces, ``ja`` one."""
+    system = MujocoSystem(info_of(MULTI), Lines(), world)
+    system.configure()
+    system.activate()
+    return system
+
+
+def switch(system, start=(), stop=()):
+    system.prepare_command_mode_switch(start, stop)
+    system.perform_command_mode_switch(start, stop)
+
+
+@pytest.mark.parametrize('mode', ['position', 'velocity', 'effort'])
+def test_only_the_claimed_command_acts_and_only_once_it_came(multi, world, mode):
+    for command in multi.command_interfaces():
+        command.value = 9.0
+    switch(multi, [f'jb/{mode}'])
+    multi.write(0, PERIOD)
+    assert world.commands['jb'] == 'held'
+    for command in multi.command_interfaces():
+        command.value = 8.0 if command.interface == mode else 7.0
+    multi.write(0, PERIOD)
+    assert world.commands['jb'] == (mode, 8.0)
+
+
+def test_unclaimed_joint_with_several_commands_is_held(multi, world):
+    for command in multi.command_interfaces():
+        command.value = 9.0
+    multi.write(0, PERIOD)
+    assert world.commands == {'jb': 'held', 'ja': velocity(9.0)}
+
+
+def test_from_mode_to_mode_in_one_switch(multi, world):
+    position, _, effort, ja = multi.command_interfaces()
+    switch(multi, ['jb/position', 'ja/velocity'])
+    position.value, ja.value = 1.0, 2.0
+    multi.write(0, PERIOD)
+    assert world.commands == {'jb': ('position', 1.0), 'ja': velocity(2.0)}
+    switch(multi, ['jb/effort'], ['jb/position'])
+    # At once, not with the next write.
+    assert world.commands == {'jb': 'held', 'ja': velocity(2.0)}
+    multi.write(0, PERIOD)
+    assert world.commands == {'jb': 'held', 'ja': velocity(2.0)}
+    effort.value, ja.value = -3.0, math.nan
+    multi.write(0, PERIOD)
+    assert world.commands == {'jb': ('effort', -3.0), 'ja': velocity(2.0)}
+    switch(multi, [], ['jb/effort'])
+    assert world.commands == {'jb': 'held', 'ja': velocity(2.0)}
+
+
+def test_a_command_of_a_neighbour_survives_a_switch(multi, world):
+    # Its first command is written in the same tick in which another joint changes hands.
+    ja = cell(multi.command_interfaces(), 'ja/velocity')
+    ja.value = 2.0
+    switch(multi, ['jb/position'])
+    multi.write(0, PERIOD)
+    assert world.commands == {'jb': 'held', 'ja': velocity(2.0)}
+
+
+@pytest.mark.parametrize(
+    'claimed, start, stop',
+    [
+        ([], ['jb/position', 'jb/effort'], []),
+        (['jb/position'], ['jb/velocity'], []),
+        (['jb/position'], ['jb/velocity', 'jb/effort'], ['jb/position']),
+    ],
+)
+def test_two_modes_on_one_joint_are_refused(multi, world, claimed, start, stop):
+    switch(multi, claimed)
+    with pytest.raises(HardwareError, match="'jb' is to be commanded by .* and .* at once; one"):
+        multi.prepare_command_mode_switch(start, stop)
+    # Nothing has changed.
+    for command in multi.command_interfaces():
+        command.value = 4.0
+    multi.write(0, PERIOD)
+    assert world.commands['jb'] == (('position', 4.0) if claimed else 'held')
+
+
+def test_claims_end_with_the_component(multi):
+    switch(multi, ['jb/position'])
+    multi.deactivate()
+    multi.cleanup()
+    multi.configure()
+    multi.activate()
+    switch(multi, ['jb/velocity'])
+
+
+# --- joints that nobody commands -----------------------------------------------------------------
+
+
+def gazebo(hold_joints):
+    name = 'gz_ros2_control::GazeboSimROS2ControlPlugin'
+    inside = f'<hold_joints>{hold_joints}</hold_joints>'
+    return f'<gazebo><plugin filename="x" name="{name}">{inside}</plugin></gazebo></robot>'
+
+
+def parameter(hold_joints):
+    return f'</plugin><param name="hold_joints">{hold_joints}</param>'
+
+
+@pytest.mark.parametrize(
+    'old, new, idle',
+    [
+        ('</robot>', gazebo('false'), 'free'),
+        ('</robot>', gazebo('true'), 'held'),
+        ('</plugin>', parameter('false'), 'free'),
+        ('</plugin>', parameter('True'), 'held'),
+    ],
+)
+def test_hold_joints(old, new, idle):
+    urdf = URDF.replace(old, new)
+    world = FakeWorld(urdf)
+    system = MujocoSystem(info_of(urdf), Lines(), world)
+    system.activate()
+    assert world.commands == {'jb': idle, 'ja': idle}
+    jb, _ = system.command_interfaces()
+    jb.value = 1.0
+    system.write(0, PERIOD)
+    assert world.commands == {'jb': velocity(1.0), 'ja': idle}
+    system.deactivate()
+    assert world.commands == {'jb': idle, 'ja': idle}
+
+
+def test_hold_joints_must_be_a_truth_value(world):
+    urdf = URDF.replace('</plugin>', parameter('maybe'))
+    with pytest.raises(HardwareError, match="'Cart': parameter 'hold_joints' is 'maybe'; true or"):
+        MujocoSystem(info_of(urdf), Lines(), world)
+
+
+# --- inertial measurement units ------------------------------------------------------------------
+
+
+def with_imu(interfaces, mount='', parameters='', name='imu'):
+    states = ''.join(f'<state_interface name="{interface}"/>' for interface in interfaces)
+    sensor = f'<sensor name="{name}">{states}{parameters}</sensor></ros2_control>{mount}'
+    return URDF.replace('</ros2_control>', sensor)
+
+
+def imu_of(urdf):
+    world = FakeWorld(urdf)
+    return MujocoSystem(info_of(urdf), Lines(), world), world
+
+
+SENSOR = '<sensor name="imu" type="imu"><pose>1 2 3 0 0 0</pose></sensor>'
+MOUNT = f'<gazebo reference="b">{SENSOR}</gazebo>'
+
+
+def test_imu_states_in_the_order_of_the_tag():
+    system, world = imu_of(with_imu(INTERFACES, MOUNT))
+    assert [s.name for s in system.state_interfaces()][4:] == [f'imu/{i}' for i in INTERFACES]
+    system.configure()
+    expected = [0.1, 0.2, 0.3, 0.9, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
+    assert [s.value for s in system.state_interfaces()][4:] == expected
+    assert world.imus == [('b', Transform((1.0, 2.0, 3.0)))]
+    assert system.log.lines == []
+
+
+def test_imu_with_some_interfaces_only():
+    system, _ = imu_of(with_imu(['angular_velocity.z', 'orientation.w'], MOUNT))
+    system.read(0, PERIOD)
+    assert [s.value for s in system.state_interfaces()][4:] == [3.0, 0.9]
+
+
+@pytest.mark.parametrize(
+    'options, link',
+    [
+        ({'parameters': '<param name="link">a</param>'}, 'a'),
+        ({'parameters': '<param name="frame_id">c</param>'}, 'c'),
+        ({'name': 'base'}, 'base'),
+        ({'mount': MOUNT, 'parameters': '<param name="link">a</param>'}, 'b'),
+    ],
+)
+def test_where_an_imu_is_mounted(options, link):
+    system, world = imu_of(with_imu(['orientation.x'], **options))
+    system.read(0, PERIOD)
+    assert [where for where, _ in world.imus] == [link]
+
+
+@pytest.mark.parametrize(
+    'urdf, message',
+    [
+        (with_imu(['orientation.x']), "'imu': nothing says on which link it is mounted; write "),
+        (with_imu(['orientation.x']), 'one of: base, a, b, c'),
+        (
+            with_imu(['orientation.x'], parameters='<param name="link">nose</param>'),
+            "sensor 'imu': there is no link 'nose' to mount it on; there are: base, a, b, c",
+        ),
+        (
+            with_imu(['orientation.x', 'temperature'], MOUNT),
+            "sensor 'imu': state interface 'temperature' is asked; an IMU has: orientation.x, or",
+        ),
+    ],
+)
+def test_imu_that_cannot_be(urdf, message):
+    with pytest.raises(HardwareError, match=f"hardware component 'Cart': .*{message}"):
+        imu_of(urdf)
+
+
 # --- the table of plugins ------------------------------------------------------------------------
 
 
@@ -275,4 +488,41 @@ def test_drives_the_real_robot():
     assert ahead == pytest.approx(wheel.value * 0.1, abs=0.01)
     assert [s.value for s in system.state_interfaces() if s.interface == 'velocity'] == (
         pytest.approx([5.0] * 4, rel=1e-3)
+    )
+
+
+def test_arm_through_its_modes_and_a_reset():
+    world, robot = arm()
+    (info,) = hardware_of(robot.description)
+    system = MujocoSystem(info, Lines(), robot)
+    system.configure()
+    system.activate()
+    commands = {command.name: command for command in system.command_interfaces()}
+    states = {state.name: state for state in system.state_interfaces()}
+
+    def run(seconds):
+        for _ in range(round(seconds * 100)):
+            system.read(world.time, PERIOD)
+            system.write(world.time, PERIOD)
+            world.step(5)
+        system.read(world.time, PERIOD)
+
+    switch(system, ['shoulder/position', 'spindle/effort'])
+    commands['shoulder/position'].value = -0.5
+    commands['spindle/effort'].value = 0.1
+    run(1.0)
+    assert states['shoulder/position'].value == pytest.approx(-0.5, abs=1e-3)
+    assert states['spindle/velocity'].value == pytest.approx(1.0, rel=1e-6)
+    assert states['elbow/position'].value == pytest.approx(0.0, abs=1e-3)
+    switch(system, ['shoulder/velocity'], ['shoulder/position', 'spindle/effort'])
+    commands['shoulder/velocity'].value = 0.4
+    run(1.0)
+    assert states['shoulder/position'].value == pytest.approx(-0.1, abs=0.02)
+    assert states['spindle/velocity'].value == pytest.approx(0.0, abs=1e-3)
+    world.reset()
+    system.reset(world.time)
+    assert math.isnan(commands['shoulder/velocity'].value)
+    run(0.5)
+    assert [states[f'{joint}/position'].value for joint in ('shoulder', 'spindle')] == (
+        pytest.approx([0.0, 0.0], abs=1e-3)
     )

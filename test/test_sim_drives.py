@@ -123,10 +123,8 @@ def test_a_position_beyond_the_range_is_clamped_and_told():
 
 @pytest.mark.parametrize('multiplier, offset', [(-1.5, -0.002), (2.0, 0.01)])
 def test_a_mimic_joint_follows_with_multiplier_and_offset(multiplier, offset):
-    world, robot = arm(
-        ARM.replace('multiplier="-1.5" offset="-0.002"', f'multiplier="{multiplier}" '
-                    f'offset="{offset}"')
-    )  # fmt: skip
+    gear = f'multiplier="{multiplier}" offset="{offset}"'
+    world, robot = arm(ARM.replace('multiplier="-1.5" offset="-0.002"', gear))
     fingers = robot.joints(['finger', 'other_finger'])
     assert fingers.positions() == [0.0, offset]
     finger = robot.joints(['finger'])
@@ -141,8 +139,8 @@ def test_a_mimic_joint_follows_with_multiplier_and_offset(multiplier, offset):
 
 
 def test_mimic_is_switched_off_by_the_block():
-    world, robot = arm(ARM.replace('<joint name="other_finger">', '<joint name="other_finger" '
-                                   'mimic="false">'))  # fmt: skip
+    part = '<joint name="other_finger"'
+    world, robot = arm(ARM.replace(f'{part}>', f'{part} mimic="false">'))
     fingers = robot.joints(['finger', 'other_finger'])
     follow(world, robot.joints(['finger']), [0.03], 0.5)
     assert fingers.positions() == pytest.approx([0.03, 0.0], abs=1e-3)
@@ -256,8 +254,8 @@ def test_wheels_have_nothing_but_the_speed_servo():
 
 
 def test_wheels_driven_by_torque_accelerate_the_robot_as_newton_has_it():
-    drive = Drive(AMR.replace('<command_interface name="velocity"/>',
-                              '<command_interface name="effort"/>'))  # fmt: skip
+    command = '<command_interface name="{}"/>'
+    drive = Drive(AMR.replace(command.format('velocity'), command.format('effort')))
     torque, radius, mass, inertia = 0.1, 0.1, 7.0, 0.0025
     drive.wheels.command('effort', [torque] * 4)
     drive.world.step(500)
