@@ -414,8 +414,8 @@ def test_an_infinite_command_stops_its_joint_and_nothing_else(bad, enforce, name
     assert manager.snapshot.active_controllers == ('fake',)
     text = manager.resources.log.texts(Severity.ERROR)[0]
     assert text == (
-        f"The command 'j/{name}' is infinite, found {bad}; a finite number is needed. It is set "
-        f'to {stands}'
+        f"The command 'j/{name}' is {bad} by controller 'fake'; a finite number is needed. It is "
+        f'set to {stands}'
     )
 
 

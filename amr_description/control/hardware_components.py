@@ -4,12 +4,11 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import chain
-import math
 from typing import TYPE_CHECKING
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity, World
-from amr_description.control.interfaces import CommandInterface, LifecycleState, NANOSECONDS
-from amr_description.control.limits import JointLimiter, limiters_of, stopped
+from amr_description.control.interfaces import LifecycleState
+from amr_description.control.limits import JointLimiter, limiters_of
 from amr_description.control.owned_component import OwnedComponent
 from amr_description.errors import HardwareDeactivationError, HardwareError
 
@@ -161,31 +160,6 @@ class HardwareComponents:
         They are brought down, with their group; one that asked for it is only inactive.
         """
         return self._each('write', lambda owned: owned.write(time, period))
-
-    def enforce_limits(self, period: int) -> None:
-        """
-        Bound what the controllers have written, for ``period`` ns; before every :meth:`write`.
-
-        With ``enforce_command_limits`` commands are kept within the limits of their joints. In any
-        case an infinite one stops its joint: no component is ever given one.
-        """
-        for name, owned in self.components.items():
-            if not owned.is_available:
-                continue
-            for limiter in self._limiters.get(name, ()):
-                limiter.enforce(period / NANOSECONDS)
-            for command in owned.commands.values():
-                if math.isinf(command.value):
-                    self._stop(command)
-
-    def _stop(self, command: CommandInterface) -> None:
-        self.log(
-            Severity.ERROR,
-            f"The command '{command.name}' is infinite, found {command.value}; a finite number is "
-            f'needed. It is set to {stopped(command)}',
-            throttle=1.0,
-        )
-        command.value = stopped(command)
 
     def _each(self, action: str, do: Callable[[OwnedComponent], None]) -> list[str]:
         lost: list[str] = []

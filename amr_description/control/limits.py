@@ -203,9 +203,9 @@ def limiters_of(owned: OwnedComponent, robot: 'Robot | None', log: Log) -> list[
     return limiters
 
 
-def stopped(command: CommandInterface) -> float:
-    """Return what stands for a command that is no number: standing still, else no command."""
-    return 0.0 if command.interface in (VELOCITY, EFFORT, ACCELERATION, JERK) else math.nan
+def value_at_rest(interface: str) -> float:
+    """Return the command with which a joint stands still: 0.0, or none where it is not known."""
+    return 0.0 if interface in (VELOCITY, EFFORT, ACCELERATION, JERK) else math.nan
 
 
 def _clamp(value: float, lower: float, upper: float) -> float:

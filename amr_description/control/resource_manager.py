@@ -4,9 +4,10 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
+import math
 from typing import TYPE_CHECKING
 
-from amr_description.control.contracts import Log
+from amr_description.control.contracts import Log, Severity
 from amr_description.control.foreign_errors import describe
 from amr_description.control.hardware_components import HardwareComponents
 from amr_description.control.interfaces import (
@@ -14,8 +15,10 @@ from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
     LifecycleState,
+    NANOSECONDS,
     StateInterface,
 )
+from amr_description.control.limits import value_at_rest
 from amr_description.control.owned_component import by_name, OwnedComponent
 from amr_description.errors import HardwareError, InterfaceError
 
@@ -123,6 +126,34 @@ class ResourceManager(HardwareComponents):
             end = [name for name in stop if name in owned.commands]
             if owned.is_available and (begin or end):
                 yield owned, begin, end
+
+    def enforce_limits(self, period: int) -> None:
+        """
+        Bound what the controllers have written, for ``period`` ns; before every :meth:`write`.
+
+        With ``enforce_command_limits`` commands are kept within the limits of their joints. In any
+        case an infinite one stops its joint: no component is ever given one.
+        """
+        for name, owned in self.components.items():
+            if not owned.is_available:
+                continue
+            for limiter in self._limiters.get(name, ()):
+                limiter.enforce(period / NANOSECONDS)
+            for command in owned.commands.values():
+                if math.isinf(command.value):
+                    self._stop(command)
+
+    def _stop(self, command: CommandInterface) -> None:
+        still = value_at_rest(command.interface)
+        writer = self.claims.get(command.name)
+        by = f" by controller '{writer}'" if writer else ''
+        self.log(
+            Severity.ERROR,
+            f"The command '{command.name}' is {command.value}{by}; a finite number is needed. It "
+            f'is set to {still}',
+            throttle=1.0,
+        )
+        command.value = still
 
     # --- what controllers offer ---------------------------------------------------------------
 
