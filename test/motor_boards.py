@@ -1,14 +1,28 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A simulated motor board behind a pseudo-terminal, in a thread of the test, to be ill-treated."""
+"""A simulated motor board behind a pseudo-terminal, to be ill-treated; and a robot on it."""
 
 from contextlib import ExitStack
+from pathlib import Path
 from threading import Event, Thread
 
 from amr_description.hardware.simulated_motor_board import MotorConstants, SimulatedMotorBoard
+from amr_description.model.hardware_swap import swap_hardware
 from amr_description.nodes.motor_board import linked, pseudo_terminal, serve
 
+AMR = (Path(__file__).parents[1] / 'urdf' / 'amr.urdf').read_text()
+SIDES = {
+    'left_joints': 'joint_wheel_front_left joint_wheel_back_left',
+    'right_joints': 'joint_wheel_front_right joint_wheel_back_right',
+}
 QUICK = MotorConstants(time_constant=0.001, acceleration=1e5)
+
+
+def on_motor_board(port, **parameters):
+    """The text of the shipped description, driven by a motor board on a serial port."""
+    given = {'port': port, **SIDES, **parameters}
+    texts = {name: str(value) for name, value in given.items()}
+    return swap_hardware(AMR, 'amr_description/SerialBaseSystem', texts)
 
 
 class TamperedBoard(SimulatedMotorBoard):

@@ -11,9 +11,9 @@ import threading
 import time
 
 from control_fakes import collect, FakeLog, LEFT, MS, RIGHT, start
+from motor_boards import on_motor_board
 import pytest
 from running_programs import PATIENCE, Program
-from swapped_hardware import on_motor_board
 
 from amr_description.control.contracts import ControllerContext, Severity
 from amr_description.control.controller_manager import ControllerManager

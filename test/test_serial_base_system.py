@@ -10,10 +10,9 @@ import threading
 import time
 
 from control_fakes import FakeLog, MS
-from motor_boards import BoardOnPty, TamperedBoard
+from motor_boards import BoardOnPty, on_motor_board, SIDES, TamperedBoard
 import pytest
 import serial
-from swapped_hardware import on_motor_board, SERIAL_BASE, SIDES
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareDeactivationError, HardwareError
@@ -109,7 +108,7 @@ def drive(rig, board, left=5.0, right=-3.0):
 
 
 def test_found_by_its_name():
-    assert HARDWARE.find(SERIAL_BASE) is SerialBaseSystem
+    assert HARDWARE.find('amr_description/SerialBaseSystem') is SerialBaseSystem
 
 
 def test_interfaces_are_those_of_the_tag_in_its_order():
