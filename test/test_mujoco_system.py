@@ -6,102 +6,15 @@ import math
 
 from fixtures.sim.arm import arm
 from fixtures.sim.driving import AMR, Lines
+from fixtures.sim.fake_world import cell, FakeWorld, info_of, PERIOD, URDF, velocity
 import pytest
 
 from amr_description.control.contracts import Severity
-from amr_description.control.world import ImuReading
-from amr_description.errors import HardwareError, SimulationError
+from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.mujoco_system import MujocoSystem
-from amr_description.hardware.simulated_imu import INTERFACES
-from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.urdf import parse
 from amr_description.sim.world import MujocoWorld
-
-PERIOD = 10_000_000
-
-URDF = """
-<robot name="cart">
-  <link name="base"/><link name="a"/><link name="b"/><link name="c"/>
-  <joint name="ja" type="continuous"><parent link="base"/><child link="a"/></joint>
-  <joint name="jb" type="continuous"><parent link="base"/><child link="b"/></joint>
-  <joint name="jc" type="continuous"><parent link="base"/><child link="c"/></joint>
-  <ros2_control name="Cart" type="system">
-    <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-    <joint name="jb">
-      <command_interface name="velocity"/>
-      <state_interface name="velocity"/>
-      <state_interface name="position"/>
-    </joint>
-    <joint name="ja">
-      <command_interface name="velocity"/>
-      <state_interface name="effort"/>
-    </joint>
-    <joint name="jc"><state_interface name="position"/></joint>
-  </ros2_control>
-</robot>
-"""
-
-
-class FakeJoints:
-    """Each joint's last command, 'held' or 'free' is kept in the world's ``commands``."""
-
-    def __init__(self, world, names):
-        self.world, self.names = world, names
-
-    def positions(self):
-        return [self.world.state[name, 'position'] for name in self.names]
-
-    def velocities(self):
-        return [self.world.state[name, 'velocity'] for name in self.names]
-
-    def efforts(self):
-        return [self.world.state[name, 'effort'] for name in self.names]
-
-    def command(self, interface, values):
-        if not all(map(math.isfinite, values)):
-            raise SimulationError('not finite')
-        told = [(interface, value) for value in values]
-        self.world.commands.update(zip(self.names, told, strict=True))
-
-    def hold(self):
-        self.world.commands.update(dict.fromkeys(self.names, 'held'))
-
-    def release(self):
-        self.world.commands.update(dict.fromkeys(self.names, 'free'))
-
-
-class FakeWorld:
-    """Three joints; what is commanded is remembered."""
-
-    time = 0
-    reading = ImuReading((0.1, 0.2, 0.3, 0.9), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
-
-    def __init__(self, urdf=URDF):
-        interfaces = ('position', 'velocity', 'effort')
-        self.description = parse(urdf)
-        self.state = {(j, i): 0.0 for j in ('ja', 'jb', 'jc') for i in interfaces}
-        self.commands = {}
-        self.imus = []
-
-    def joints(self, names):
-        for name in names:
-            if (name, 'position') not in self.state:
-                raise SimulationError(f"there is no joint '{name}'")
-        return FakeJoints(self, names)
-
-    def imu(self, link, place):
-        self.imus.append((link, place))
-        return self.reading
-
-
-def velocity(value):
-    return ('velocity', value)
-
-
-def info_of(urdf=URDF):
-    return hardware_of(parse(urdf))[0]
 
 
 @pytest.fixture
@@ -115,10 +28,6 @@ def system(world):
     system.configure()
     system.activate()
     return system
-
-
-def cell(handles, name):
-    return next(handle for handle in handles if handle.name == name)
 
 
 def test_interfaces_are_those_of_the_tag_in_its_order(system):
@@ -373,75 +282,6 @@ def test_hold_joints_must_be_a_truth_value(world):
     urdf = URDF.replace('</plugin>', parameter('maybe'))
     with pytest.raises(HardwareError, match="'Cart': parameter 'hold_joints' is 'maybe'; true or"):
         MujocoSystem(info_of(urdf), Lines(), world)
-
-
-# --- inertial measurement units ------------------------------------------------------------------
-
-
-def with_imu(interfaces, mount='', parameters='', name='imu'):
-    states = ''.join(f'<state_interface name="{interface}"/>' for interface in interfaces)
-    sensor = f'<sensor name="{name}">{states}{parameters}</sensor></ros2_control>{mount}'
-    return URDF.replace('</ros2_control>', sensor)
-
-
-def imu_of(urdf):
-    world = FakeWorld(urdf)
-    return MujocoSystem(info_of(urdf), Lines(), world), world
-
-
-SENSOR = '<sensor name="imu" type="imu"><pose>1 2 3 0 0 0</pose></sensor>'
-MOUNT = f'<gazebo reference="b">{SENSOR}</gazebo>'
-
-
-def test_imu_states_in_the_order_of_the_tag():
-    system, world = imu_of(with_imu(INTERFACES, MOUNT))
-    assert [s.name for s in system.state_interfaces()][4:] == [f'imu/{i}' for i in INTERFACES]
-    system.configure()
-    expected = [0.1, 0.2, 0.3, 0.9, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
-    assert [s.value for s in system.state_interfaces()][4:] == expected
-    assert world.imus == [('b', Transform((1.0, 2.0, 3.0)))]
-    assert system.log.lines == []
-
-
-def test_imu_with_some_interfaces_only():
-    system, _ = imu_of(with_imu(['angular_velocity.z', 'orientation.w'], MOUNT))
-    system.read(0, PERIOD)
-    assert [s.value for s in system.state_interfaces()][4:] == [3.0, 0.9]
-
-
-@pytest.mark.parametrize(
-    'options, link',
-    [
-        ({'parameters': '<param name="link">a</param>'}, 'a'),
-        ({'parameters': '<param name="frame_id">c</param>'}, 'c'),
-        ({'name': 'base'}, 'base'),
-        ({'mount': MOUNT, 'parameters': '<param name="link">a</param>'}, 'b'),
-    ],
-)
-def test_where_an_imu_is_mounted(options, link):
-    system, world = imu_of(with_imu(['orientation.x'], **options))
-    system.read(0, PERIOD)
-    assert [where for where, _ in world.imus] == [link]
-
-
-@pytest.mark.parametrize(
-    'urdf, message',
-    [
-        (with_imu(['orientation.x']), "'imu': nothing says on which link it is mounted; write "),
-        (with_imu(['orientation.x']), 'one of: base, a, b, c'),
-        (
-            with_imu(['orientation.x'], parameters='<param name="link">nose</param>'),
-            "sensor 'imu': there is no link 'nose' to mount it on; there are: base, a, b, c",
-        ),
-        (
-            with_imu(['orientation.x', 'temperature'], MOUNT),
-            "sensor 'imu': state interface 'temperature' is asked; an IMU has: orientation.x, or",
-        ),
-    ],
-)
-def test_imu_that_cannot_be(urdf, message):
-    with pytest.raises(HardwareError, match=f"hardware component 'Cart': .*{message}"):
-        imu_of(urdf)
 
 
 # --- the table of plugins ------------------------------------------------------------------------
