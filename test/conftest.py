@@ -13,6 +13,7 @@ import signal
 import sys
 import tempfile
 
+from hypothesis import settings
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,6 +32,8 @@ LONGEST = (
     'test_cli_service', 'test_cli_topic', 'test_teleop', 'test_robot_state_publisher',
     'test_bringup_stop',
 )  # fmt: skip
+
+settings.load_profile('ci')  # everywhere the same numbers, and no deadline on a busy machine
 
 
 def take_domain() -> tuple[int, int]:
@@ -57,7 +60,12 @@ def take_domain() -> tuple[int, int]:
     raise RuntimeError(f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken')
 
 
-def pytest_configure():
+def pytest_configure(config):
+    # A background job starts with Ctrl-C ignored, which every child would inherit.
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    if has_workers(config):
+        return  # it starts no test; each worker finds the shell's domain forbidden, and takes one
     domain, KEPT['lock'] = take_domain()
     KEPT['logs'] = tempfile.TemporaryDirectory(prefix='amr-test-logs-')
     prefixes = [str(ROOT / 'install' / 'amr_description'), sys.prefix]
@@ -70,9 +78,11 @@ def pytest_configure():
             dict.fromkeys(prefix for prefix in (*prefixes, *known) if prefix)
         ),
     }
-    # A background job starts with Ctrl-C ignored, which every child would inherit.
-    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def has_workers(config):
+    """Whether this process only hands tests out to others, those of pytest-xdist (``-n``)."""
+    return bool(config.getoption('numprocesses', None))
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -87,10 +97,12 @@ def pytest_collection_modifyitems(config, items):
         items.sort(key=lambda item: rank.get(item.path.stem, len(rank)))
 
 
-def pytest_report_header():
-    return f'ROS_DOMAIN_ID={os.environ["ROS_DOMAIN_ID"]}, LOCALHOST'
+def pytest_report_header(config):
+    domain = 'of each worker' if has_workers(config) else os.environ['ROS_DOMAIN_ID']
+    return f'ROS_DOMAIN_ID={domain}, LOCALHOST'
 
 
-def pytest_unconfigure():
-    KEPT['logs'].cleanup()
-    os.close(KEPT['lock'])
+def pytest_unconfigure(config):
+    if not has_workers(config):
+        KEPT['logs'].cleanup()
+        os.close(KEPT['lock'])
