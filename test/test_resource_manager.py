@@ -344,11 +344,17 @@ def test_the_rate_of_a_component_is_at_most_the_managers(rate, shown):
 
 
 def test_a_sensor_is_not_written():
-    hardware = FakeHardware(['j'], type=HardwareType.SENSOR)
+    hardware = FakeHardware([], type=HardwareType.SENSOR)
     resources = bring_up(hardware)
     resources.read(0, MS)
     resources.write(0, MS)
     assert (hardware.count('read'), hardware.count('write')) == (1, 0)
+
+
+def test_a_sensor_with_commands_is_refused():
+    message = r"""'hardware' is of type "sensor", which is never written, and has the command.*'j/v"""
+    with pytest.raises(HardwareError, match=message):
+        bring_up(FakeHardware(['j'], type=HardwareType.SENSOR))
 
 
 def test_after_time_went_back_a_slow_component_is_due_at_once():

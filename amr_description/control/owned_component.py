@@ -30,11 +30,17 @@ class OwnedComponent:
     """A component with its lifecycle; the resource manager is the only one to move it."""
 
     def __init__(self, component: HardwareComponent, log: Log) -> None:
-        """Raises HardwareError where the component exports one name twice."""
+        """Raises HardwareError: it exports one name twice, or is a sensor with commands."""
         self.component = component
         self.info = component.info
         self.states = by_name(component.state_interfaces(), self.info.name)
         self.commands = by_name(component.command_interfaces(), self.info.name)
+        if self.info.type is HardwareType.SENSOR and self.commands:
+            raise HardwareError(
+                f"Hardware component '{self.info.name}' is of type \"sensor\", which is never "
+                f"written, and has the command interface '{min(self.commands)}'; it has to be of "
+                'type "actuator" or "system"'
+            )
         self.state = LifecycleState.UNCONFIGURED
         self._log = log
         self._last_read: int | None = None
