@@ -204,7 +204,21 @@ def test_released_joint_stands_still(dynamics):
     position, *_ = rig.read(*JA)
     rig.system.perform_command_mode_switch([], ['ja/velocity', 'relay/coil'])
     assert rig.read(*JA) == rig.read(*JA) == [position, 0.0, 0.0]
+    assert rig.commands['ja/velocity'].value == 0.0
     assert rig.read('relay/coil') == [1.0]
+
+
+def test_a_joint_that_changes_its_mode_does_not_go_back():
+    rig = Rig(calculate_dynamics='true')
+    rig.system.perform_command_mode_switch(['ja/position'], [])
+    rig.command('ja/position', 1.0)
+    rig.read()
+    rig.system.perform_command_mode_switch(['ja/velocity'], ['ja/position'])
+    assert rig.read(*JA) == [1.0, 0.0, 0.0], 'nothing is commanded yet'
+    rig.command('ja/velocity', 2.0)
+    rig.read()
+    rig.system.perform_command_mode_switch([], ['ja/velocity'])
+    assert rig.read(*JA) == rig.read(*JA) == [1.2, 0.0, 0.0]
 
 
 def test_two_modes_at_once_are_refused():

@@ -171,6 +171,7 @@ def test_a_stopped_drive_stands_and_its_pose_survives():
     stamps = [stamp for stamp in replay.joint_states if stamp >= at]
     assert {v for stamp in stamps for v in replay.joint_states[stamp].velocity} == {0.0}
     assert len({replay.joint_states[stamp].position for stamp in stamps}) == 1
+    assert {v for s, wheels in replay.wheels.items() if s >= at for v in wheels.values()} == {0.0}
     assert max(replay.odometry) < at
     go_on(replay)
     again = replay.time

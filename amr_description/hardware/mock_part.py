@@ -60,7 +60,6 @@ class MockPart:
 
     def stop(self) -> None:
         """Stand still where it is."""
-        self.mode = POSITION
         self._values[VELOCITY] = self._values[ACCELERATION] = 0.0
 
     def follow(self) -> None:

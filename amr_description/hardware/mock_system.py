@@ -29,6 +29,7 @@ from amr_description.control.interfaces import (
     POSITION,
     StateInterface,
 )
+from amr_description.control.limits import value_at_rest
 from amr_description.errors import HardwareError
 from amr_description.hardware.mock_part import MockPart, MODES
 from amr_description.model.hardware_info import ComponentType, HardwareInfo
@@ -109,9 +110,11 @@ class MockSystem(HardwareComponent):
         for joint, names in self._by_joint(stop).items():
             self._joints[joint].stop()
             for name in names:
-                self._joints[joint].commands[name].value = math.nan
+                if name != POSITION:
+                    self._joints[joint].commands[name].value = value_at_rest(name)
         for joint, names in self._by_joint(start).items():
-            self._joints[joint].mode = next((name for name in names if name in MODES), POSITION)
+            modes = [name for name in names if name in MODES]
+            self._joints[joint].mode = modes[0] if modes else self._joints[joint].mode
 
     def _by_joint(self, interfaces: Sequence[str]) -> dict[str, list[str]]:
         """Joint → the names of its commands among these."""
