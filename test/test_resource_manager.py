@@ -352,7 +352,7 @@ def test_a_sensor_is_not_written():
 
 
 def test_a_sensor_with_commands_is_refused():
-    message = r"""'hardware' is of type "sensor", which is never written, and has the command.*'j/v"""
+    message = r"""'hardware' is of type "sensor", which is never written, and has .*'j/v"""
     with pytest.raises(HardwareError, match=message):
         bring_up(FakeHardware(['j'], type=HardwareType.SENSOR))
 
