@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The verbs of ``ros2 control`` that look, against outputs of the genuine one."""
 
+import json
+
 from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
 from controller_manager_msgs.srv import ListHardwareInterfaces
-from fixtures.cli.commands import ros2
+from fixtures.cli.commands import HERE, ros2
 from lifecycle_msgs.msg import State
 from manager_host import ros_in_this_process, running_host
 import pytest
@@ -13,6 +15,9 @@ from amr_description.cli.control.chains import dot, tree
 from amr_description.cli.control.list_hardware_components import lines as component_lines
 from amr_description.cli.control.list_hardware_interfaces import lines as interface_lines
 
+RECORDED = json.loads((HERE / 'control_outputs.json').read_text())
+"""verb -> the lines that the original prints, with the tutorial's robot over mock hardware."""
+MOCK = 'mock_components/GenericSystem'
 FRONT, BACK = 'joint_wheel_front_left', 'joint_wheel_back_left'
 
 
@@ -177,18 +182,39 @@ def test_the_graph_has_every_controller_and_edge_once():
     ]
 
 
-def test_the_manager_is_asked(host):
-    def control(verb):
-        result = ros2('control', verb)
-        assert result.returncode == 0, result.stderr
-        return result.stdout.splitlines()
+def printed(verb):
+    result = ros2('control', *verb.split())
+    assert result.returncode == 0, result.stderr
+    return result.stdout.splitlines()
 
-    assert control('list_controller_types') == [
-        f'{"diff_drive_controller/DiffDriveController":71}'
-        'controller_interface::ChainableControllerInterface',
-        f'{"joint_state_broadcaster/JointStateBroadcaster":71}'
-        'controller_interface::ControllerInterface',
-    ]
-    assert control('list_hardware_interfaces')[1].endswith('/velocity [available] [claimed]')
-    assert control('list_hardware_components')[:2] == ['Hardware Component 1', '\tname: hardware']
-    assert control('view_controller_chains')[0] == 'diff_drive_controller [active]'
+
+def blocks(lines):
+    """Order counts in a title, and not below it: there the original has that of a hash table."""
+    found = {}
+    for line in lines:
+        if not line.startswith('\t\t'):
+            title = (line.strip(), len(found))
+            found[title] = []
+        else:
+            found[title].append(line)
+    return {title: sorted(items) for title, items in found.items()}
+
+
+def test_a_running_manager_is_told_of_as_the_genuine_one(host):
+    assert printed('list_controllers') == RECORDED['list_controllers']
+    assert printed('list_hardware_interfaces') == RECORDED['list_hardware_interfaces']
+    for verb in ('list_controllers -v', 'list_hardware_components -v'):
+        here = [
+            line.replace('name: hardware', 'name: AmrSystem').replace('a/Fake', MOCK)
+            for line in printed(verb)
+        ]
+        assert blocks(here) == blocks(RECORDED[verb])
+    assert set(printed('list_controller_types')) >= set(RECORDED['list_controller_types'])
+
+
+def test_chains_of_a_running_manager_are_shown(host):
+    tree = printed('view_controller_chains')
+    assert tree[0] == 'diff_drive_controller [active]'
+    assert tree[1].startswith('    -> hardware: joint_wheel_front_left/velocity, ')
+    assert tree[2:] == ['joint_state_broadcaster [active]']
+    assert printed('view_controller_chains --dot')[0] == 'digraph controllers {'

@@ -9,32 +9,6 @@ from rclpy.client import Client
 from rclpy.task import Future
 
 from amr_description.cli.session import Session
-from amr_description.errors import AmrError
-
-_ATTEMPTS = 3
-_TIMEOUT = 10.0  # s
-_SILENT = 1.0  # s; usual discovery is not worth a line
-
-
-def call(session: Session, name: str, service_type: Any, request: Any) -> Any:
-    """
-    Return the response of a service.
-
-    Waits for the service for ever, saying so; then three times 10 s for an answer.
-
-    :raises AmrError: No answer.
-    """
-    client = session.node.create_client(service_type, name)
-    try:
-        _wait_for_service(session, client, name)
-        for _ in range(_ATTEMPTS):
-            response = response_to(session, client, request, _TIMEOUT)
-            if response is not None:
-                return response
-            session.node.get_logger().warning(f'no answer from {name} for {_TIMEOUT:g} s')
-        raise AmrError(f'Could not successfully call service {name} after {_ATTEMPTS} attempts.')
-    finally:
-        session.node.destroy_client(client)
 
 
 def response_to(session: Session, client: Client, request: Any, timeout: float | None) -> Any:
@@ -69,12 +43,3 @@ def responses(
     for client in clients.values():
         session.node.destroy_client(client)
     return {name: future.result() for name, future in futures.items() if future.done()}
-
-
-def _wait_for_service(session: Session, client: Client, name: str) -> None:
-    if session.spin(client.service_is_ready, _SILENT):
-        return
-    log = session.node.get_logger()
-    log.info(f'waiting for service {name} to become available...')
-    while not session.spin(client.service_is_ready, _TIMEOUT):
-        log.warning(f'Could not contact service {name}')

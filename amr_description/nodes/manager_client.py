@@ -16,7 +16,6 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
 from amr_description.nodes.clients import ask_until_answered, call, NoAnswerError, wait_until
 from amr_description.nodes.manager_search import errors_of, ManagerSearch
@@ -38,16 +37,16 @@ class ManagerClient:
         timeout: float = 0.0,
         call_timeout: float = 10.0,
         silent: float = 0.0,
-        first: Any = srv.ListControllers,
+        first: Any = None,
     ) -> None:
         """
         Wait until the manager is there; ``manager``: its node, relative to the namespace.
 
         ``timeout``: s, 0 for ever. ``call_timeout``: s, for each of three waits for a response.
         ``silent``: for so long, s, waiting is not worth a line. ``first``: the type of the service
-        that is waited for, one that changes nothing. Raises ControllerError, which names what is
-        missing, when it does not come; NoAnswerError when it does not answer; ParameterError when
-        ``manager`` is no name.
+        that is waited for, one that takes no fields; default: ListControllers. Raises
+        ControllerError, which names what is missing, when the manager does not come; NoAnswerError
+        when it does not answer; ParameterError when ``manager`` is no name.
         """
         self._node = node
         self._call_timeout = call_timeout
@@ -56,29 +55,42 @@ class ManagerClient:
             self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
         self._search = ManagerSearch(node, self.name)
-        client = node.create_client(first, f'{self.name}/{_service_name(first)}')
+        first = first or srv.ListControllers
+        client = node.create_client(first, self._service(first))
         try:
             self._wait_for(client, timeout, silent)
             self._ask(client)
         finally:
             node.destroy_client(client)
 
+    def look(self, service_type: Any, **fields: Any) -> Any:
+        """
+        Return the response of a service that changes nothing; its name follows from its type.
+
+        ``fields``: of the request. Raises NoAnswerError.
+        """
+        client = self._node.create_client(service_type, self._service(service_type))
+        try:
+            return self._ask(client, **fields)
+        finally:
+            self._node.destroy_client(client)
+
     def states(self) -> dict[str, str]:
         """Name → state of every loaded controller."""
-        return {each.name: each.state for each in self._look(srv.ListControllers).controller}
+        return {each.name: each.state for each in self.look(srv.ListControllers).controller}
 
     def components(self) -> list[HardwareComponentState]:
         """Return the hardware components."""
-        return self._look(srv.ListHardwareComponents).component
+        return self.look(srv.ListHardwareComponents).component
 
     def typed_controllers(self) -> list[str]:
         """Names of the controllers that the manager's parameters hold a type for."""
-        listed = self._look(ListParameters).result.names
+        listed = self.look(ListParameters).result.names
         return sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
 
     def has_type(self, controller: str) -> bool:
         """Tell whether the manager's parameters hold a type for a controller."""
-        values = self._look(GetParameters, names=[f'{controller}.type']).values
+        values = self.look(GetParameters, names=[f'{controller}.type']).values
         return bool(values and values[0].string_value)
 
     def load(self, name: str) -> bool:
@@ -117,7 +129,11 @@ class ManagerClient:
     ) -> str | None:
         """Switch under STRICT; return ``None``, or why it failed."""
         response = self.request_switch(
-            activate, deactivate, Strictness.STRICT, timeout=timeout, activate_asap=activate_asap
+            activate,
+            deactivate,
+            srv.SwitchController.Request.STRICT,
+            timeout=timeout,
+            activate_asap=activate_asap,
         )
         if response.ok:
             return None
@@ -143,7 +159,7 @@ class ManagerClient:
             max(timeout, self._call_timeout),
             activate_controllers=list(activate),
             deactivate_controllers=list(deactivate),
-            strictness=int(strictness),
+            strictness=strictness,
             activate_asap=activate_asap,
             timeout=Duration(seconds=timeout).to_msg(),
         )
@@ -207,14 +223,6 @@ class ManagerClient:
                 raise ControllerError(
                     f'Could not contact service {service} within {timeout:g} s: {fault}'
                 )
-
-    def _look(self, service_type: Any, **fields: Any) -> Any:
-        """Call a service that changes nothing; return the response."""
-        client = self._node.create_client(service_type, self._service(service_type))
-        try:
-            return self._ask(client, **fields)
-        finally:
-            self._node.destroy_client(client)
 
     def _ask(self, client: Client, **fields: Any) -> Any:
         request = client.srv_type.Request(**fields)

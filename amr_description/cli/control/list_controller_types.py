@@ -16,9 +16,7 @@ def main(args: Namespace) -> int:
     """Print a line per type; 0."""
     from controller_manager_msgs.srv import ListControllerTypes
 
-    response = ask(
-        args, 'list_controller_types', ListControllerTypes, ListControllerTypes.Request()
-    )
+    response = ask(args, ListControllerTypes)
     for name, base_class in zip(response.types, response.base_classes, strict=True):
         print(f'{name:70} {base_class}')
     return 0

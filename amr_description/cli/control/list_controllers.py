@@ -37,7 +37,7 @@ def main(args: Namespace) -> int:
     """Print a line per controller; 0."""
     from controller_manager_msgs.srv import ListControllers
 
-    response = ask(args, 'list_controllers', ListControllers, ListControllers.Request())
+    response = ask(args, ListControllers)
     if not response.controller:
         print('No controllers are currently loaded!')
     for line in lines(response.controller, args):

@@ -32,9 +32,7 @@ def main(args: Namespace) -> int:
     """Print a block per component; 0."""
     from controller_manager_msgs.srv import ListHardwareComponents
 
-    response = ask(
-        args, 'list_hardware_components', ListHardwareComponents, ListHardwareComponents.Request()
-    )
+    response = ask(args, ListHardwareComponents)
     for number, component in enumerate(response.component, start=1):
         for line in lines(number, component, args.verbose):
             print(line)

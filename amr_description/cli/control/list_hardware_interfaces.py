@@ -23,9 +23,7 @@ def main(args: Namespace) -> int:
     """Print a line per interface, by name; 0."""
     from controller_manager_msgs.srv import ListHardwareInterfaces
 
-    response = ask(
-        args, 'list_hardware_interfaces', ListHardwareInterfaces, ListHardwareInterfaces.Request()
-    )
+    response = ask(args, ListHardwareInterfaces)
     for line in lines(response, args.verbose):
         print(line)
     return 0

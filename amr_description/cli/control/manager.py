@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from amr_description.nodes.manager_client import ManagerClient
 
 _DEFAULT = 'controller_manager'
-_CALL_TIMEOUT = 30.0  # s; once, as a change that is asked for twice is made twice
 _SILENT = 1.0  # s; usual discovery is not worth a line
 
 
@@ -47,31 +46,25 @@ def add_controller_argument(parser: ArgumentParser, purpose: str) -> None:
     )
 
 
-def ask(args: Namespace, service: str, service_type: Any, request: Any) -> Any:
+def ask(args: Namespace, service_type: Any) -> Any:
     """
-    Return the response of a service of the controller manager.
+    Return the response of a service of the controller manager that takes no fields.
 
-    :param service: Its name below that of the manager: ``list_controllers``.
     :raises AmrError: No answer.
     """
-    from amr_description.cli.service_calls import call
-    from amr_description.cli.session import open_session
-
-    with open_session(use_sim_time=args.use_sim_time, ros_args=args.ros_args) as session:
-        return call(session, f'{_name(session, args)}/{service}', service_type, request)
+    with open_manager(args, first=service_type) as manager:
+        return manager.look(service_type)
 
 
 @contextmanager
-def open_manager(
-    args: Namespace, *, call_timeout: float = _CALL_TIMEOUT
-) -> 'Iterator[ManagerClient]':
-    """Yield the controller manager once it is there; ``call_timeout``: s for each answer."""
+def open_manager(args: Namespace, first: Any = None) -> 'Iterator[ManagerClient]':
+    """Yield the controller manager once it is there; ``first``: as of ManagerClient."""
     from amr_description.cli.session import open_session
     from amr_description.nodes.manager_client import ManagerClient
 
     with open_session(use_sim_time=args.use_sim_time, ros_args=args.ros_args) as session:
         name = _name(session, args)
-        yield ManagerClient(session.node, name, call_timeout=call_timeout, silent=_SILENT)
+        yield ManagerClient(session.node, name, silent=_SILENT, first=first)
 
 
 def failure(text: str, reason: str) -> AmrError:

@@ -20,7 +20,6 @@ from amr_description.nodes.colors import BLUE, colored, RED
 
 _BEST_EFFORT, _STRICT = 1, 2  # the constants of controller_manager_msgs/srv/SwitchController
 _DEFAULT = 0  # the manager's own
-_MARGIN = 10.0  # s, beyond the time that the manager may take
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -59,7 +58,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Switch, and print the manager's message; 0."""
-    with open_manager(args, call_timeout=args.switch_timeout + _MARGIN) as manager:
+    with open_manager(args) as manager:
         response = manager.request_switch(
             args.activate,
             args.deactivate,

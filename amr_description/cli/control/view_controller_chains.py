@@ -25,7 +25,7 @@ def main(args: Namespace) -> int:
 
     from amr_description.cli.control.chains import dot, tree
 
-    response = ask(args, 'list_controllers', ListControllers, ListControllers.Request())
+    response = ask(args, ListControllers)
     if not response.controller and not args.dot:
         print('No controllers are currently loaded!')
     for line in dot(response.controller) if args.dot else tree(response.controller):
