@@ -335,6 +335,13 @@ def test_a_position_begins_where_the_joint_is_and_goes_on_from_the_command():
         assert cells['position'].value == pytest.approx(0.7), 'begins where the joint is, again'
 
 
+def test_only_numbers_with_a_point_are_bounded():
+    steps = CommandInterface('j', 'velocity', 9, data_type='int8')
+    limiter = JointLimiter('j', ARM, {steps.name: steps}, {}, FakeLog())
+    limiter.enforce(0.1)
+    assert steps.value == 9
+
+
 def test_jerk_is_bounded_and_what_has_no_rule_is_not():
     limiter, cells, _, _ = limiter_of(JointLimits(jerk=7.0), 'jerk', 'brightness')
     for cell in cells.values():

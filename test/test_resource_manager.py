@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Components, their interfaces and the claims on them; what happens when hardware fails."""
 
+from contextlib import suppress
 import math
 
 from control_fakes import bring_up, FakeHardware, FakeLog, MS
+from hypothesis import given, settings, strategies as st
 import pytest
 
 from amr_description.control.contracts import Severity
@@ -376,6 +378,69 @@ def test_a_component_that_cannot_begin_anew_is_brought_down():
     hardware.faults['reset'] = OSError('stuck')
     assert resources.reset(0) == ['hardware']
     assert states_of(resources) == {'hardware': UNCONFIGURED}
+
+
+# --- laws ----------------------------------------------------------------------------------------
+
+FROM = {
+    'configure': (UNCONFIGURED, INACTIVE),
+    'activate': (INACTIVE, ACTIVE),
+    'deactivate': (ACTIVE, INACTIVE),
+    'cleanup': (INACTIVE, UNCONFIGURED),
+    'shutdown': (UNCONFIGURED, FINALIZED),
+}
+
+
+class Recorded(FakeHardware):
+    """Remembers whether a call raised."""
+
+    def __init__(self, name):
+        super().__init__(['j'], name)
+        self.life = []
+
+    def meet(self, method, *arguments):
+        self.life.append((method, method in self.faults))
+        super().meet(method, *arguments)
+
+
+ACTIONS = st.sampled_from(['read', 'write', 'shut_down', *map(LifecycleState, range(1, 5))])
+FAULTS = st.lists(st.sampled_from([*FROM, 'read', 'write']), max_size=2)
+
+
+@settings(deadline=None, derandomize=True, max_examples=300)
+@given(st.lists(st.tuples(ACTIONS, FAULTS), max_size=12))
+def test_whatever_is_asked_and_whatever_fails_a_component_lives_its_life(requests):
+    hardware = Recorded('hardware')
+    resources = loaded(hardware)
+    for action, faults in requests:
+        hardware.faults = dict.fromkeys(faults, OSError('stuck'))
+        before = states_of(resources)['hardware']
+        hardware.life.clear()
+        if isinstance(action, LifecycleState):
+            with suppress(HardwareError):
+                resources.set_state('hardware', action)
+        elif action == 'shut_down':
+            resources.shut_down()
+        else:
+            failed = getattr(resources, action)(0, MS)
+            assert failed == (['hardware'] if (action, True) in hardware.life else [])
+        check_calls(hardware.life, before, states_of(resources)['hardware'], action)
+
+
+def check_calls(life, before, after, action):
+    """Each call was allowed where the component then was, and led where it is now."""
+    state = before
+    for method, failed in life:
+        if method in FROM:
+            begin, end = FROM[method]
+            assert state is begin, f'{method} while {state.label}'
+            given_up = action in ('read', 'write', 'shut_down')
+            state = end if not failed or given_up else state
+        else:
+            assert state in ((INACTIVE, ACTIVE) if method == 'read' else (ACTIVE,))
+    assert after is state
+    if before is FINALIZED:
+        assert (life, after) == ([], FINALIZED)
 
 
 # --- claims --------------------------------------------------------------------------------------

@@ -134,7 +134,8 @@ class JointLimiter:
         self.limits = limits
         self._joint = joint
         self._log = log
-        self._commands = [c for c in commands.values() if c.prefix == joint]
+        own = (command for command in commands.values() if command.prefix == joint)
+        self._commands = [c for c in own if c.data_type in ('double', 'float32')]
         self._states = {s.interface: s for s in states.values() if s.prefix == joint}
         self._before: dict[str, float | None] = {}
 
