@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The controller manager: its tick, the lifecycle of controllers, and what happens at a fault."""
 
+import contextlib
 import math
 import re
 import threading
@@ -442,6 +443,25 @@ def test_every_transition_is_told_as_it_begins_and_as_it_ends():
     ]
     manager.unload('fake')
     assert new() == ['unconfigured > finalized: ...', 'unconfigured > finalized: finalized']
+
+
+@pytest.mark.parametrize('doing', ['update', 'activate', 'deactivate'])
+def test_what_a_stranger_raises_is_one_line_and_where_it_was_raised_at_debug(doing):
+    log = FakeLog()
+    manager = make_manager(FakeHardware(['j']), log=log)
+    controller = FakeController(commands=['j/velocity'])
+    manager.load(controller, 'a/Type')
+    manager.configure('fake', None)
+    controller.faults[doing] = ZeroDivisionError('two\nlines')
+    with contextlib.suppress(ControllerError):
+        manager.switch(['fake'], [], Strictness.STRICT, 0)
+    run(manager, 1)
+    manager.shut_down(PERIOD)
+    (line,) = (text for text in log.texts(Severity.ERROR) if 'ZeroDivisionError' in text)
+    assert line.endswith('two lines')
+    (story,) = (text for severity, text in log.lines if severity is Severity.DEBUG)
+    assert 'Traceback' in story
+    assert 'control_fakes.py' in story
 
 
 # --- reset ---------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
+from amr_description.control.foreign_errors import log_traceback, one_line
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switch_execution import names_of, SwitchExecution
@@ -45,8 +46,9 @@ class Faults:
             self._log(
                 Severity.ERROR,
                 f'Caught exception of type : {type(error).__name__} while {doing} controller '
-                f"'{controller.name}': {error}",
+                f"'{controller.name}': {one_line(error)}",
             )
+            log_traceback(self._log, error)
         else:
             return True
         return False

@@ -5,7 +5,7 @@
 from collections.abc import Iterable
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity
-from amr_description.control.foreign_errors import describe
+from amr_description.control.foreign_errors import describe, log_traceback
 from amr_description.control.interfaces import Handle, LifecycleState, NANOSECONDS
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import HardwareType
@@ -154,6 +154,7 @@ class OwnedComponent:
             Severity.ERROR,
             f"{action} of hardware component '{self.info.name}' failed: {describe(error)}",
         )
+        log_traceback(self._log, error)
 
 
 def by_name[H: Handle](handles: Iterable[H], owner: str) -> dict[str, H]:

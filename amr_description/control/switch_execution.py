@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
-from amr_description.control.foreign_errors import describe
+from amr_description.control.foreign_errors import describe, log_traceback
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import Strictness, SwitchPlan
@@ -104,6 +104,7 @@ class SwitchExecution:
             self._log(
                 Severity.ERROR, f"Failed to activate '{controller.name}': {describe(error)}"
             )
+            log_traceback(self._log, error)
             return False
         return True
 
@@ -116,6 +117,7 @@ class SwitchExecution:
                     Severity.ERROR,
                     f"Failed to deactivate '{controller.name}' cleanly: {describe(error)}",
                 )
+                log_traceback(self._log, error)
 
 
 def names_of(controllers: Iterable[LoadedController]) -> str:

@@ -10,12 +10,11 @@ import queue
 import re
 import threading
 import time
-import traceback
 
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.foreign_errors import describe
+from amr_description.control.foreign_errors import describe, log_traceback
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 
@@ -67,7 +66,7 @@ def log_error(log: Log, error: Exception) -> str:
     """Say in one line what went wrong, and at DEBUG where; return the line."""
     line = ' '.join(describe(error).split())
     log(Severity.ERROR, line)
-    log(Severity.DEBUG, ''.join(traceback.format_exception(error)))
+    log_traceback(log, error)
     return line
 
 
