@@ -8,9 +8,9 @@ from control_fakes import collect, FakeLog, MS
 import pytest
 
 from amr_description.control.contracts import ControllerContext
-from amr_description.control.interfaces import NO_INTERFACES, StateInterface
+from amr_description.control.interfaces import IMU_INTERFACES, NO_INTERFACES, StateInterface
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.imu_sensor_broadcaster import ImuParameters, INTERFACES
+from amr_description.controllers.imu_sensor_broadcaster import ImuParameters
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.parameters import build, specs
 
@@ -23,7 +23,8 @@ LINEAR_ACCELERATION = (4.0, 5.0, 9.81)
 def gauges():
     values = (*ORIENTATION, *ANGULAR_VELOCITY, *LINEAR_ACCELERATION)
     return [
-        StateInterface('imu', name, value) for name, value in zip(INTERFACES, values, strict=True)
+        StateInterface('imu', name, value)
+        for name, value in zip(IMU_INTERFACES, values, strict=True)
     ]
 
 

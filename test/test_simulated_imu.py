@@ -6,9 +6,9 @@ from fixtures.sim.driving import Lines
 from fixtures.sim.fake_world import FakeWorld, info_of, PERIOD, URDF
 import pytest
 
+from amr_description.control.interfaces import IMU_INTERFACES
 from amr_description.errors import HardwareError
 from amr_description.hardware.mujoco_system import MujocoSystem
-from amr_description.hardware.simulated_imu import INTERFACES
 from amr_description.model.frames import Transform
 
 
@@ -28,8 +28,8 @@ MOUNT = f'<gazebo reference="b">{SENSOR}</gazebo>'
 
 
 def test_imu_states_in_the_order_of_the_tag():
-    system, world = imu_of(with_imu(INTERFACES, MOUNT))
-    assert [s.name for s in system.state_interfaces()][4:] == [f'imu/{i}' for i in INTERFACES]
+    system, world = imu_of(with_imu(IMU_INTERFACES, MOUNT))
+    assert [s.name for s in system.state_interfaces()][4:] == [f'imu/{i}' for i in IMU_INTERFACES]
     system.configure()
     expected = [0.1, 0.2, 0.3, 0.9, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
     assert [s.value for s in system.state_interfaces()][4:] == expected

@@ -28,6 +28,12 @@ VELOCITY = 'velocity'
 ACCELERATION = 'acceleration'
 EFFORT = 'effort'
 JERK = 'jerk'
+IMU_INTERFACES = (
+    *(f'orientation.{axis}' for axis in 'xyzw'),
+    *(f'angular_velocity.{axis}' for axis in 'xyz'),
+    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
+)
+"""The state interfaces of an inertial measurement unit: a unit quaternion, rad/s, m/s²."""
 
 NANOSECONDS = 1_000_000_000
 """Nanoseconds in a second: every time and period in ``control`` is an integer of nanoseconds."""

@@ -4,24 +4,23 @@
 imu_sensor_broadcaster/IMUSensorBroadcaster: what an inertial measurement unit reads, as ``~/imu``.
 
 The sensor is one of the ``<ros2_control>`` block with the ten state interfaces of
-:data:`INTERFACES`. Covariances are not measured: they are parameters.
+:data:`~amr_description.control.interfaces.IMU_INTERFACES`. Covariances are not measured: they are
+parameters.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from amr_description.control.contracts import Controller, Output, Port
-from amr_description.control.interfaces import CommandInterface, InterfaceRequest, StateInterface
+from amr_description.control.interfaces import (
+    CommandInterface,
+    IMU_INTERFACES,
+    InterfaceRequest,
+    StateInterface,
+)
 from amr_description.control.samples import ImuConstants, ImuSample
 from amr_description.errors import ControllerError
 from amr_description.parameters import parameter
-
-INTERFACES = (
-    *(f'orientation.{axis}' for axis in 'xyzw'),
-    *(f'angular_velocity.{axis}' for axis in 'xyz'),
-    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
-)
-"""A unit quaternion; rad/s; m/s²."""
 
 _ZEROS = (0.0,) * 9
 
@@ -51,7 +50,7 @@ class IMUSensorBroadcaster(Controller):
     def configure(self, parameters: ImuParameters) -> None:
         """Take over names and covariances."""
         self._request = InterfaceRequest.individual(
-            f'{parameters.sensor_name}/{interface}' for interface in INTERFACES
+            f'{parameters.sensor_name}/{interface}' for interface in IMU_INTERFACES
         )
         self._constants = ImuConstants(
             parameters.frame_id,
@@ -75,9 +74,9 @@ class IMUSensorBroadcaster(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the gauges."""
-        if len(states) != len(INTERFACES):
+        if len(states) != len(IMU_INTERFACES):
             raise ControllerError(
-                f'Expected {len(INTERFACES)} state interfaces, got {len(states)}'
+                f'Expected {len(IMU_INTERFACES)} state interfaces, got {len(states)}'
             )
         self._gauges = tuple(states)
 

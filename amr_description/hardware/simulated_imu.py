@@ -14,18 +14,13 @@ the start.
 
 from collections.abc import Iterable
 
-from amr_description.control.interfaces import StateInterface
+from amr_description.control.interfaces import IMU_INTERFACES, StateInterface
 from amr_description.control.world import ImuReading, World
 from amr_description.errors import HardwareError
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_sensors import gazebo_sensors_of, GazeboSensor
 from amr_description.model.hardware_info import ComponentInfo
 
-INTERFACES = (
-    *(f'orientation.{axis}' for axis in 'xyzw'),
-    *(f'angular_velocity.{axis}' for axis in 'xyz'),
-    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
-)
 _LINK_PARAMETERS = ('link', 'frame', 'frame_id')
 
 
@@ -36,14 +31,14 @@ class SimulatedImu:
         """Raises HardwareError for another interface, or if nothing says where it is mounted."""
         self._world = world
         for interface in info.state_interfaces:
-            if interface.name not in INTERFACES:
+            if interface.name not in IMU_INTERFACES:
                 raise HardwareError(
                     f"sensor '{info.name}': state interface '{interface.name}' is asked; an IMU "
-                    f'has: {", ".join(INTERFACES)}'
+                    f'has: {", ".join(IMU_INTERFACES)}'
                 )
         self._link, self._place = _mounting(info, world)
         self.states = [StateInterface(info.name, each.name) for each in info.state_interfaces]
-        self._indices = [INTERFACES.index(state.interface) for state in self.states]
+        self._indices = [IMU_INTERFACES.index(state.interface) for state in self.states]
 
     def read(self) -> None:
         """Bring the states up to date."""
@@ -55,12 +50,12 @@ class SimulatedImu:
 def is_imu(info: ComponentInfo, world: World) -> bool:
     """Whether a sensor of the block is an IMU: Gazebo has it as one, or its interfaces say so."""
     return _gazebo_sensor(info.name, world) is not None or any(
-        interface.name in INTERFACES for interface in info.state_interfaces
+        interface.name in IMU_INTERFACES for interface in info.state_interfaces
     )
 
 
 def _values(reading: ImuReading) -> tuple[float, ...]:
-    """In the order of INTERFACES."""
+    """In the order of IMU_INTERFACES."""
     return (*reading.orientation, *reading.angular_velocity, *reading.linear_acceleration)
 
 
