@@ -93,7 +93,7 @@ def test_nodes_say_sim_time_but_do_not_subscribe_to_the_clock(host):
         assert after % PERIOD == 0
 
 
-def test_a_slow_configure_does_not_keep_the_list_waiting(host):
+def test_a_slow_configure_keeps_nobody_waiting(host):
     assert host.client.load('slow')
     import strangers
 
@@ -102,11 +102,18 @@ def test_a_slow_configure_does_not_keep_the_list_waiting(host):
     ).call_async(srv.ConfigureController.Request(name='slow'))
     assert strangers.Slow.configuring.wait(5.0)
     assert host.client.states() == {'slow': 'unconfigured'}
+    reads = host.hardware.count('read')
+    host.activate('joint_state_broadcaster')
+    assert wait_until(
+        host.client_node, lambda: host.hardware.count('read') > reads + 2 or None, timeout=5.0
+    )
+    assert not host.client.unload('slow')
+    assert 'it is being configured' in host.client.reasons('slow')
     assert not future.done()
     strangers.Slow.let.set()
     rclpy.spin_until_future_complete(host.client_node, future, timeout_sec=5.0)
     assert future.result().ok
-    assert host.client.states() == {'slow': 'inactive'}
+    assert host.client.states()['slow'] == 'inactive'
 
 
 @pytest.mark.parametrize(
@@ -123,6 +130,37 @@ def test_a_controller_that_cannot_be_loaded_is_refused_with_the_reason(host, nam
     assert reason in host.client.reasons(name)
     assert host.client.states() == {}
     assert name not in host.client_node.get_node_names()
+
+
+@pytest.mark.parametrize(
+    ('entry', 'reason'),
+    [
+        ({'params_file': 'missing.yaml'}, "parameter file 'missing.yaml': No such file"),
+        ({'params_file': ['broken.yaml']}, 'broken.yaml:1:'),
+        ({'node_options_args': ['--ros-args', '-r', 'nonsense']}, 'nonsense'),
+        ({'node_options_args': ['-p', 'update_rate:=-1']}, "'update_rate' must be at least 0"),
+    ],
+)
+def test_what_cannot_be_given_to_a_controller_is_refused_with_the_reason(
+    host, entry, reason, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'broken.yaml').write_text('{')
+    host.client.set_parameters('slow', entry)
+    assert not host.client.load('slow')
+    assert reason in host.client.reasons('slow')
+    assert 'slow' not in host.client_node.get_node_names()
+
+
+def test_options_of_a_controller_hold_with_and_without_ros_args(host):
+    for name, words in (
+        ('slow', ['--ros-args', '-p', 'update_rate:=50', '--']),
+        ('joint_state_broadcaster', ['-p', 'update_rate:=50']),
+    ):
+        host.client.set_parameters(name, {'node_options_args': words})
+        assert host.client.load(name)
+    rates = [each.update_rate for each in host.manager_node.manager.snapshot.controllers]
+    assert rates == [50, 50]
 
 
 def test_a_parameter_is_checked_when_set_and_counts_at_the_next_configure(host):

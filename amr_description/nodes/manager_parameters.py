@@ -3,6 +3,7 @@
 """The parameters of a ``controller_manager`` node, as the manager needs them."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from rclpy.node import Node
@@ -19,7 +20,8 @@ from amr_description.nodes.node_parameters import (
     refuse_what_the_table_refuses,
     values,
 )
-from amr_description.nodes.ros_arguments import inherited
+from amr_description.nodes.parameter_files import read_parameter_file
+from amr_description.nodes.ros_arguments import inherited, ros_arguments
 from amr_description.nodes.runtime import argument_errors
 
 
@@ -42,6 +44,11 @@ class ManagerParameters:
             )
             declare_the_rest(node)
         refuse_what_the_table_refuses(node, ManagerTable)
+        if not self.start.handle_exceptions:
+            node.get_logger().warning(
+                'handle_exceptions is false; what raises an exception is taken down all the same, '
+                'and the others go on'
+            )
 
     @property
     def update_rate(self) -> int:
@@ -72,13 +79,19 @@ class ManagerParameters:
         return values(self._node, ControllerEntry, lone, prefix=prefix)
 
     def arguments_of(self, entry: ControllerEntry) -> list[str]:
-        """Return the manager's own arguments, then the controller's files and options."""
+        """
+        Return the manager's own arguments, then the controller's files and options.
+
+        Raises ParameterError: a file cannot be read.
+        """
+        for path in entry.params_file:
+            read_parameter_file(Path(path))  # rcl would not say where it is wrong
         uses_sim_time = self._get('use_sim_time')
         return [
             *inherited(self._arguments),
             *(argument for path in entry.params_file for argument in ('--params-file', path)),
             *(['-p', 'use_sim_time:=true'] if uses_sim_time else []),
-            *(option for option in entry.node_options_args if option != '--ros-args'),
+            *ros_arguments(['--ros-args', *entry.node_options_args]),
         ]
 
     def defaults(self) -> ManagerDefaults:
