@@ -21,8 +21,9 @@ from rclpy.serialization import deserialize_message, serialize_message
 
 INTERFACES = Path(__file__).parents[1] / 'interfaces'
 FIXTURES = Path(__file__).parent / 'fixtures' / 'interfaces'
-# The originals' hashes: control_msgs, simulation_interfaces and TFMessage as published by their
-# packages, the rest as built by CMake and by this build alike; pal_statistics_msgs by this build.
+# The originals' hashes: control_msgs, simulation_interfaces, TFMessage and those of other packages
+# as published, the rest as built by CMake and by this build alike; pal_statistics_msgs by this
+# build.
 HASHES = json.loads((FIXTURES / 'type_hashes.json').read_text())
 # Of a message or a part of a service or action: its constants, and the defaults of its fields,
 # which no hash tells.
@@ -47,15 +48,25 @@ def test_packages_are_whole():
     assert wanted == SOURCES
 
 
+def installed_hash(name):
+    share = Path(get_package_share_directory(name.split('/')[0]))
+    description = json.loads((share.parent / f'{name}.json').read_text())
+    hashes = {entry['type_name']: entry['hash_string'] for entry in description['type_hashes']}
+    return hashes[name]
+
+
 @pytest.mark.parametrize('package', PACKAGES)
 def test_types_have_the_hashes_of_the_originals(package):
-    share = Path(get_package_share_directory(package))
-    built = {}
-    for name in (name for name in SOURCES if name.startswith(f'{package}/')):
-        description = json.loads((share.parent / f'{name}.json').read_text())
-        hashes = {entry['type_name']: entry['hash_string'] for entry in description['type_hashes']}
-        built[name] = hashes[name]
-    assert built == {name: HASHES[name] for name in built}
+    names = [name for name in SOURCES if name.startswith(f'{package}/')]
+    built = {name: installed_hash(name) for name in names}
+    assert built == {name: HASHES[name] for name in names}
+
+
+def test_types_of_the_wheels_have_the_hashes_of_jazzy():
+    # A wheel that is pinned too loosely would bring a later distribution's.
+    others = [name for name in HASHES if name.split('/')[0] not in PACKAGES]
+    assert len(others) == 11
+    assert {name: installed_hash(name) for name in others} == {n: HASHES[n] for n in others}
 
 
 @pytest.mark.parametrize('name', SOURCES)

@@ -285,7 +285,20 @@ def test_the_dynamic_topic_can_be_switched_off():
     assert len(bench.controller.outputs()) == 1
 
 
-def test_every_parameter_is_read_only():
+def test_the_parameters_are_those_of_the_original():
+    table = {spec.name: (spec.type, spec.default) for spec in specs(BroadcasterParameters)}
+    assert table == {
+        'use_local_topics': ('bool', False),
+        'joints': ('string_array', ()),
+        'interfaces': ('string_array', ()),
+        'extra_joints': ('string_array', ()),
+        'map_interface_to_joint_state.position': ('string', 'position'),
+        'map_interface_to_joint_state.velocity': ('string', 'velocity'),
+        'map_interface_to_joint_state.effort': ('string', 'effort'),
+        'use_urdf_to_filter': ('bool', True),
+        'frame_id': ('string', 'base_link'),
+        'publish_dynamic_joint_states': ('bool', True),
+    }
     assert all(spec.read_only for spec in specs(BroadcasterParameters))
 
 
