@@ -59,17 +59,19 @@ def root_joint(robot: Robot) -> str:
 def build_robot(robot: Robot, log: Log) -> RobotSpec:
     """Build the spec of a sound robot; ``log`` is told what is left out. Raises SpawnError."""
     controlled = [joint for hardware in hardware_of(robot) for joint in hardware.joints]
-    commands = {
-        joint.name: tuple(interface.name for interface in joint.command_interfaces)
-        for joint in controlled
-    }
+    commands: dict[str, tuple[str, ...]] = {}
+    for joint in controlled:
+        # Two blocks may share a joint.
+        names = tuple(interface.name for interface in joint.command_interfaces)
+        commands[joint.name] = commands.get(joint.name, ()) + names
     try:
         spec = mujoco.MjSpec.from_string(_prepared_xml(robot, log))
         if robot.root.name != WORLD_LINK:
             spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
         for joint, interfaces in commands.items():
-            # An interface without an actuator is refused by the hardware component that has it.
-            add_actuators(spec, robot.joint(joint), interfaces)
+            # What has no actuator is refused by the hardware component that asks for it.
+            if robot.joint(joint).has_position:
+                add_actuators(spec, robot.joint(joint), interfaces)
         _couple_mimics(spec, [joint.name for joint in controlled if joint.mimic is None])
         wheels = find_wheels(robot, [j for j, names in commands.items() if VELOCITY in names])
         treads = tuple(_make_tread(spec, wheel) for wheel in wheels)
