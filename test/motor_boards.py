@@ -8,7 +8,7 @@ from threading import Event, Thread
 
 from amr_description.hardware.simulated_motor_board import MotorConstants, SimulatedMotorBoard
 from amr_description.model.hardware_swap import swap_hardware
-from amr_description.nodes.motor_board import linked, pseudo_terminal, serve
+from amr_description.nodes.motor_board import linked, PseudoTerminal, serve
 
 AMR = (Path(__file__).parents[1] / 'urdf' / 'amr.urdf').read_text()
 SIDES = {
@@ -54,11 +54,12 @@ class BoardOnPty:
     def __init__(self, link=None, board=None):
         self.board = board or TamperedBoard()
         self._exits = ExitStack()
-        line, self.port = self._exits.enter_context(pseudo_terminal())
+        terminal = self._exits.enter_context(PseudoTerminal())
+        self.port = terminal.port
         if link is not None:
             self._exits.enter_context(linked(link, self.port))
         unplugged = Event()
-        thread = Thread(target=serve, args=(self.board, line, unplugged.is_set))
+        thread = Thread(target=serve, args=(self.board, terminal.line, unplugged.is_set))
         self._exits.callback(thread.join)
         self._exits.callback(unplugged.set)
         thread.start()

@@ -137,9 +137,9 @@ class Robot:
         self.time = 0
 
     def states(self):
-        """The different velocities that the wheels show."""
+        """The different velocities that the wheels show, rad/s."""
         cells = self.resources.components[NAME].states
-        return {cell.value for name, cell in cells.items() if name.endswith('velocity')}
+        return {round(cell.value, 3) for name, cell in cells.items() if name.endswith('velocity')}
 
     def commands(self):
         return [cell.value for cell in self.resources.components[NAME].commands.values()]
@@ -179,10 +179,10 @@ def robot(tmp_path):
 
 
 def test_drives_as_commanded(robot):
-    robot.turn_until(lambda: robot.odometry[-1].heading > 0.5, 0.5, 1.0)
-    last = robot.odometry[-1]
-    assert last.linear == pytest.approx(0.5, rel=0.2)
-    assert last.angular == pytest.approx(1.0, rel=0.2)
+    wheels = {3.5, 6.5}  # (0.5 ∓ 1.0 · 0.3 / 2) / 0.1
+    robot.turn_until(lambda: robot.states() == wheels, 0.5, 1.0)
+    robot.turn_until(lambda: robot.pose()[2] > 0.5, 0.5, 1.0)
+    assert robot.pose()[0] > 0.0 < robot.pose()[1]
 
 
 def test_an_inactive_component_lets_the_board_disarm(robot):
@@ -200,7 +200,18 @@ def test_an_owner_who_hangs_is_stopped_by_the_watchdog_and_may_go_on(robot):
     assert robot.controller is LifecycleState.ACTIVE
 
 
-@pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGKILL])
+def test_is_not_unplugged_from_a_robot_that_is_shut_down_with_it(robot):
+    """Ctrl-C goes to all programs of a bring-up at once."""
+    robot.board.signal(signal.SIGINT)
+    far = robot.pose()[0] + 0.05
+    robot.turn_until(lambda: robot.pose()[0] > far, 0.5)
+    robot.manager.shut_down(robot.time)
+    assert robot.board.end() == 0
+    assert robot.log.texts(Severity.ERROR) == []
+    assert not robot.link.is_symlink()
+
+
+@pytest.mark.parametrize('signum', [signal.SIGTERM, signal.SIGKILL])
 def test_unplugged_while_driving_and_plugged_in_again(robot, signum):
     robot.board.end(signum)
     robot.turn_until(lambda: robot.hardware is LifecycleState.UNCONFIGURED, 0.5)

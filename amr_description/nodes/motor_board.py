@@ -4,8 +4,12 @@
 The executable ``motor_board``: a simulated motor board behind a serial port, until Ctrl-C.
 
 The port is a pseudo-terminal, with a link of a stable name to it, for
-``amr_description/SerialBaseSystem`` to open. Ending the program is pulling the plug. It needs no
-ROS: what it speaks stands in :mod:`amr_description.hardware.serial_protocol`.
+``amr_description/SerialBaseSystem`` to open. It needs no ROS: what it speaks stands in
+:mod:`amr_description.hardware.serial_protocol`.
+
+Ending the program is pulling the plug. On SIGINT, which Ctrl-C sends to a whole bring-up, it lasts
+until the host has closed the port, two seconds at most: a robot that is shut down is not
+unplugged.
 """
 
 import argparse
@@ -14,10 +18,13 @@ from contextlib import contextmanager, suppress
 import os
 from pathlib import Path
 import select
+import signal
 import sys
 import tempfile
+import threading
 import time
 import tty
+from typing import Self
 
 from amr_description.errors import AmrError, UsageError
 from amr_description.hardware.simulated_motor_board import SimulatedMotorBoard
@@ -25,19 +32,26 @@ from amr_description.nodes.stop_requests import StopRequested, StopRequests
 
 _STEP = 0.005
 """s: the motors move at least so often."""
+_GRACE = 2.0
+"""s: so long a host may take to close the port after SIGINT."""
 
 
 def main(args: list[str] | None = None) -> int:
     """Run the board; return its exit code, 0 when it was asked to stop."""
     options = _parser().parse_args(_without_ros_arguments(sys.argv[1:] if args is None else args))
     try:
-        with StopRequests(wake=lambda: None) as stop, pseudo_terminal() as (line, port):
-            ended: list[bool] = []
-            with linked(options.link, port), stop.on_stop(lambda: ended.append(True)):
-                _say(f'on {port}, linked as {options.link}')
-                serve(SimulatedMotorBoard(_say), line, until=lambda: bool(ended))
+        with StopRequests(wake=lambda: None) as stop, PseudoTerminal() as terminal:
+            asked = threading.Event()
+            with linked(options.link, terminal.port), stop.on_stop(asked.set):
+                _say(f'on {terminal.port}, linked as {options.link}')
+                board = SimulatedMotorBoard(_say)
+                serve(board, terminal.line, until=asked.is_set)
+                if stop.signum == signal.SIGINT:
+                    terminal.let_go()
+                    deadline = time.monotonic() + _GRACE
+                    serve(board, terminal.line, until=lambda: time.monotonic() > deadline)
     except StopRequested:
-        pass  # before it was at work
+        pass  # before it was at work, or in haste
     except AmrError as error:
         print(f'motor_board: {error}', file=sys.stderr)
         return error.exit_code
@@ -77,18 +91,33 @@ def default_link() -> Path:
     return Path(tempfile.gettempdir(), f'amr_description-{os.getuid()}', 'motor_board')
 
 
-@contextmanager
-def pseudo_terminal() -> Iterator[tuple[int, str]]:
-    """Open a raw pseudo-terminal; yields the board's end of the line and the host's port."""
-    line, port = os.openpty()
-    try:
+class PseudoTerminal:
+    """
+    A raw line with two ends; close it by leaving its ``with``.
+
+    ``line``: the board's end, a file. ``port``: the path of the host's end.
+    """
+
+    def __init__(self) -> None:
+        self.line, slave = os.openpty()
+        self.port = os.ttyname(slave)
         # Kept open here, the port stays raw, and the line well, while no host has opened it.
-        tty.setraw(port)
-        os.set_blocking(line, False)
-        yield line, os.ttyname(port)
-    finally:
-        os.close(port)
-        os.close(line)
+        self._slave: int | None = slave
+        tty.setraw(slave)
+        os.set_blocking(self.line, False)
+
+    def let_go(self) -> None:
+        """Have the line hang up when no host has it open (any more)."""
+        if self._slave is not None:
+            os.close(self._slave)
+        self._slave = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.let_go()
+        os.close(self.line)
 
 
 @contextmanager
@@ -122,18 +151,23 @@ def _is_terminal(target: str) -> bool:
 
 
 def serve(board: SimulatedMotorBoard, line: int, until: Callable[[], bool]) -> None:
-    """Turn the motors in real time, and answer what comes in on the file ``line``."""
+    """
+    Turn the motors in real time, and answer what comes in on the file ``line``.
+
+    Returns when ``until()``, which is asked every few ms, or when the line is hung up.
+    """
     before = time.monotonic()
-    while not until():
-        ready, _, _ = select.select([line], [], [], _STEP)
-        heard = os.read(line, 4096) if ready else b''
-        now = time.monotonic()
-        board.advance(now - before)
-        before = now
-        answer = board.hear(heard)
-        if answer:
-            with suppress(BlockingIOError):  # the host reads nothing: a wire keeps nothing either
-                os.write(line, answer)
+    with suppress(OSError):  # EIO: hung up
+        while not until():
+            ready, _, _ = select.select([line], [], [], _STEP)
+            heard = os.read(line, 4096) if ready else b''
+            now = time.monotonic()
+            board.advance(now - before)
+            before = now
+            answer = board.hear(heard)
+            if answer:
+                with suppress(BlockingIOError):  # nobody reads it; a wire keeps nothing either
+                    os.write(line, answer)
 
 
 if __name__ == '__main__':
