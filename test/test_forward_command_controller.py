@@ -4,7 +4,7 @@
 
 import math
 
-from control_fakes import FakeHardware, FakeLog, make_manager, MS, start, WHEELS
+from control_fakes import FakeHardware, FakeLog, LEFT, make_manager, MS, RIGHT, start, WHEELS
 from hypothesis import given, strategies
 import pytest
 
@@ -39,7 +39,7 @@ class Bench:
             values |= {'interface_name': interface} if type_name == FORWARD else {}
         self.controller.configure(build(found.parameters_type, values))
         names = self.controller.command_interfaces().names
-        self.handles = [CommandInterface(*name.rsplit('/', 1)) for name in names]
+        self.handles = [CommandInterface(*name.split('/', 1)) for name in names]
         (self.port,) = self.controller.inputs()
         self.activate()
 
@@ -137,7 +137,13 @@ def test_only_finite_commands_of_the_right_size_ever_arrive(commands):
 
 @pytest.mark.parametrize(
     ('interface', 'rest'),
-    [('velocity', 0.0), ('effort', 0.0), ('acceleration', 0.0), ('position', math.nan)],
+    [
+        ('velocity', 0.0),
+        ('effort', 0.0),
+        ('acceleration', 0.0),
+        ('position', math.nan),
+        ('linear/velocity', 0.0),  # a reference of another controller
+    ],
 )
 @pytest.mark.parametrize('ending', ['deactivate', 'reset'])
 def test_nothing_goes_on_moving_by_itself(interface, rest, ending):
@@ -201,5 +207,34 @@ def test_under_a_manager_the_wheels_turn_as_told_and_stop_with_the_controller():
     manager.tick(10 * MS)
     assert list(hardware.written.values()) == [1.0, 2.0, 3.0, 4.0]
     manager.switch([], ['wheels'], Strictness.STRICT, 20 * MS)
+    manager.tick(20 * MS)
+    assert list(hardware.written.values()) == [0.0] * 4
+
+
+def test_it_can_stand_before_a_diff_drive_controller():
+    hardware = FakeHardware()
+    manager = make_manager(hardware)
+    geometry = {'wheel_separation': 0.3, 'wheel_radius': 0.1}
+    for name, type_name, values in (
+        (
+            'drive',
+            'diff_drive_controller/DiffDriveController',
+            {'left_wheel_names': LEFT, 'right_wheel_names': RIGHT, **geometry},
+        ),
+        (
+            'forward',
+            MULTI,
+            {'joint': 'drive', 'interface_names': ['linear/velocity', 'angular/velocity']},
+        ),
+    ):
+        found = CONTROLLERS.find(type_name)
+        manager.load(found(ControllerContext(name, FakeLog())), type_name)
+        forward = manager.configure(name, build(found.parameters_type, values))
+    manager.switch(['drive', 'forward'], [], Strictness.STRICT, 0)
+    (port,) = forward.inputs()
+    assert port.put(CommandsSample((0.5, 0.0)))
+    manager.tick(10 * MS)
+    assert list(hardware.written.values()) == pytest.approx([0.5 / 0.1] * 4)
+    manager.switch([], ['drive', 'forward'], Strictness.STRICT, 20 * MS)
     manager.tick(20 * MS)
     assert list(hardware.written.values()) == [0.0] * 4

@@ -151,7 +151,8 @@ class ForwardControllersBase(Controller):
     def _forget_command(self) -> None:
         self._in_force = ()
         for handle in self._handles:
-            handle.value = 0.0 if handle.interface in _RATES else _NO_COMMAND
+            kind = handle.interface.rpartition('/')[2]  # of a reference: linear/velocity
+            handle.value = 0.0 if kind in _RATES else _NO_COMMAND
 
 
 class ForwardCommandController(ForwardControllersBase):
