@@ -18,6 +18,13 @@ from amr_description.cli.control.list_hardware_interfaces import lines as interf
 RECORDED = json.loads((HERE / 'control_outputs.json').read_text())
 """verb -> the lines that the original prints, with the tutorial's robot over mock hardware."""
 MOCK = 'mock_components/GenericSystem'
+FORWARD = 'forward_command_controller/ForwardCommandController'
+AHEAD = """
+ahead:
+  ros__parameters:
+    joints: [diff_drive_controller/linear, diff_drive_controller/angular]
+    interface_name: velocity
+"""
 FRONT, BACK = 'joint_wheel_front_left', 'joint_wheel_back_left'
 
 
@@ -212,9 +219,22 @@ def test_a_running_manager_is_told_of_as_the_genuine_one(host):
     assert set(printed('list_controller_types')) >= set(RECORDED['list_controller_types'])
 
 
-def test_chains_of_a_running_manager_are_shown(host):
+def test_a_chain_of_a_running_manager_is_shown(host, tmp_path):
+    file = tmp_path / 'ahead.yaml'
+    file.write_text(AHEAD)
+    host.client.set_parameters('ahead', {'type': FORWARD, 'params_file': [str(file)]})
+    host.activate('ahead')
+    links = ['diff_drive_controller/linear/velocity', 'diff_drive_controller/angular/velocity']
+    listed = printed('list_controllers --chained-interfaces --claimed-interfaces')
+    assert listed[0].split() == ['ahead', FORWARD, 'active']
+    below = [f'\t\t{link}' for link in links]
+    assert listed[1:7] == ['\tclaimed interfaces:', *below, '\tchained to interfaces:', *below]
+    commands = printed('list_hardware_interfaces')[1:3]
+    assert commands == [f'\t{link} [available] [claimed]' for link in sorted(links)]
     tree = printed('view_controller_chains')
-    assert tree[0] == 'diff_drive_controller [active]'
-    assert tree[1].startswith('    -> hardware: joint_wheel_front_left/velocity, ')
-    assert tree[2:] == ['joint_state_broadcaster [active]']
+    start = tree.index('ahead [active]')
+    chain = tree[start + 1 : start + 3]
+    assert chain[0] == f'    -> diff_drive_controller [active]: {", ".join(links)}'
+    assert chain[1].startswith('        -> hardware: joint_wheel_front_left/velocity, ')
+    assert set(tree) - {tree[start], *chain} == {'joint_state_broadcaster [active]'}
     assert printed('view_controller_chains --dot')[0] == 'digraph controllers {'

@@ -10,6 +10,7 @@ from fixtures.cli.commands import ros2, started
 import pytest
 
 from amr_description.cli.packages import executables_of, packages, prefix_of
+from amr_description.cli.run import STAND_INS
 from amr_description.errors import AmrError
 
 PYTHON = f'#!{sys.executable}\n'
@@ -169,6 +170,12 @@ def test_a_stand_in_has_the_names_of_the_original_unless_told_otherwise(only_our
     assert result.stdout == (
         'our talker --ros-args -r __node:=mine --ros-args -r __node:=talker -r topic:=chatter\n'
     )
+
+
+def test_every_program_of_ros2_control_has_a_stand_in():
+    programs = {'hardware_spawner', 'ros2_control_node', 'spawner', 'unspawner'}
+    ours = {STAND_INS['controller_manager', program] for program in programs}
+    assert ours <= {path.name for path in executables_of('amr_description')}
 
 
 def test_a_stand_in_that_does_not_exist_yet_is_told(only_ours):
