@@ -3,8 +3,8 @@
 """
 The ``controller_manager`` node of one robot, over the pure manager of ``control``.
 
-Its services (``manager_services.py``) and parameters (``manager_parameters.py``) stand apart; here
-is what a request does: nodes and topics on the ROS thread, the rest on the owner's.
+Here is how it comes to life, and how it ends. Its services (``manager_services.py``), what they do
+(``manager_requests.py``) and its parameters (``manager_parameters.py``) stand apart.
 """
 
 from collections.abc import Sequence
@@ -13,26 +13,20 @@ from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity, World
 from amr_description.control.controller_manager import ControllerManager
-from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.switching import Strictness
-from amr_description.controllers import CONTROLLERS
-from amr_description.errors import AmrError, ControllerError
 from amr_description.hardware import HARDWARE
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.nodes.bridge import ControllerNode
 from amr_description.nodes.component_node import ComponentNode
-from amr_description.nodes.controller_libraries import reload_modules
 from amr_description.nodes.manager_parameters import ManagerParameters
+from amr_description.nodes.manager_requests import ManagerRequests
 from amr_description.nodes.manager_services import ManagerServices
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.node_parameters import let_parameter_events_be_overridden
 from amr_description.nodes.outgoing import Outgoing
 from amr_description.nodes.owner import Owner
 from amr_description.nodes.ros_arguments import inherited
-from amr_description.nodes.runtime import argument_errors
-from amr_description.nodes.threads import run_in_thread
 
 NODE_NAME = 'controller_manager'
 
@@ -62,8 +56,7 @@ class ControllerManagerNode:
         self._logs = logs
         self._robot: Robot | None = None
         self._hardware: Sequence[tuple[HardwareInfo, ComponentNode]] = ()
-        self._controllers: dict[str, ControllerNode] = {}
-        self._modules: set[str] = set()
+        self._requests: ManagerRequests | None = None
         self._arguments = arguments
         self.node: Node = outgoing.make_node(
             NODE_NAME, namespace, arguments, allow_undeclared_parameters=True
@@ -142,11 +135,21 @@ class ControllerManagerNode:
             'Resource Manager has been successfully initialized. Starting Controller Manager '
             'services...',
         )
-        ManagerServices(self)
+        self._requests = ManagerRequests(
+            self.node,
+            self.log,
+            self.parameters,
+            self.manager,
+            robot=self._robot,
+            owner=self._owner,
+            outgoing=self._outgoing,
+            logs=self._logs,
+        )
+        ManagerServices(self._requests)
 
     def nodes(self) -> list[Node]:
         """This node and those of its components and controllers."""
-        others = [*(node for _, node in self._hardware), *self._controllers.values()]
+        others = [*(node for _, node in self._hardware), *self._controllers()]
         return [self.node, *(each.node for each in others)]
 
     def forget_hardware(self) -> None:
@@ -157,141 +160,10 @@ class ControllerManagerNode:
 
     def destroy(self) -> None:
         """Remove all nodes; the owner must have stopped, or dropped the manager, before."""
-        for controller in self._controllers.values():
+        for controller in self._controllers():
             controller.destroy()
         self.forget_hardware()
         self._outgoing.destroy_node(self.node)
 
-    # --- what the services do; coroutines of the ROS thread --------------------------------------
-
-    async def load(self, name: str) -> None:
-        """Make the controller and its node here, and let the owner take it in."""
-        if name in self._controllers:
-            raise ControllerError(
-                f"A controller named '{name}' was already loaded inside the controller manager"
-            )
-        entry = self.parameters.entry_of(name)
-        self.log(Severity.INFO, f"Loading controller : '{name}' of type '{entry.type}'")
-        try:
-            controller_class = CONTROLLERS.find(entry.type)
-        except ControllerError as error:
-            raise ControllerError(
-                f"Loader for controller '{name}' (type '{entry.type}') not found. {error}"
-            ) from error
-        self._modules.add(controller_class.__module__)
-        arguments = self.parameters.arguments_of(entry)
-        self.log(Severity.INFO, f"Loading controller '{name}'")
-        self.log(
-            Severity.INFO, f"Controller '{name}' node arguments: --ros-args {' '.join(arguments)} "
-        )
-        with argument_errors():
-            bridge = ControllerNode(
-                name,
-                controller_class,
-                arguments,
-                namespace=self.node.get_namespace(),
-                update_rate=self.parameters.update_rate,
-                robot=self._robot,
-                outgoing=self._outgoing,
-                logs=self._logs,
-            )
-        # Before the owner is asked: others may see the controller in the list at once.
-        self._controllers[name] = bridge
-        self.node.executor.add_node(bridge.node)
-        try:
-            await self._owner.submit(
-                lambda: self.manager.load(
-                    bridge.controller, entry.type, entry.fallback_controllers, bridge.watch
-                )
-            )
-        except Exception:
-            self._forget(name)
-            raise
-
-    async def configure(self, name: str) -> None:
-        """
-        Configure a controller and make its topics. Raises ControllerError, ParameterError.
-
-        What takes long, the controller's own part, neither the owner nor this thread waits for.
-        """
-        bridge = self._controllers.get(name)
-        if bridge is None:
-            raise ControllerError(
-                f"Could not configure controller with name '{name}' because no controller with "
-                'this name exists'
-            )
-        self.log(Severity.INFO, f"Configuring controller: '{name}'")
-        parameters = bridge.parameters()
-        try:
-            configuring = await self._owner.submit(lambda: self.manager.begin_configure(name))
-            await run_in_thread(
-                lambda: configuring.run(parameters), self.node.executor, f'configure {name}'
-            )
-            await self._owner.submit(lambda: self.manager.finish_configure(configuring))
-        except AmrError:
-            states = {each.name: each.state for each in self.manager.snapshot.controllers}
-            if states.get(name) is LifecycleState.UNCONFIGURED:
-                bridge.disconnect()
-            raise
-        if self._controllers.get(name) is not bridge:
-            return  # it was unloaded since
-        try:
-            with argument_errors():
-                bridge.connect()
-        except Exception:
-            await self.cleanup(name)
-            raise
-
-    async def cleanup(self, name: str) -> None:
-        """Bring a controller back to unconfigured, without topics. Raises ControllerError."""
-        await self._owner.submit(lambda: self.manager.cleanup(name))
-        if name in self._controllers:  # and was not unloaded since
-            self._controllers[name].disconnect()
-
-    async def unload(self, name: str) -> None:
-        """Remove a controller and its node. Raises ControllerError."""
-        await self._owner.submit(lambda: self.manager.unload(name))
-        self._forget(name)
-
-    async def reload_libraries(self, *, force: bool) -> None:
-        """Unload every controller, and import anew what they were made of."""
-        active = self.manager.snapshot.active_controllers
-        if active and not force:
-            raise ControllerError(
-                'Cannot reload controller libraries because there are still active controllers: '
-                f'{", ".join(active)}; deactivate them, or ask with force_kill'
-            )
-        if active:
-            await self._owner.submit(
-                lambda: self.manager.switch([], active, Strictness.STRICT, self._owner.loop.time)
-            )
-        for name in list(self._controllers):
-            await self.unload(name)
-        reload_modules(self._modules)
-
-    async def switch(
-        self, activate: Sequence[str], deactivate: Sequence[str], strictness: int, timeout: int
-    ) -> str:
-        """Switch controllers, as in the request; ``timeout``: ns. Raises ControllerError."""
-        defaults = self.parameters.defaults()
-
-        def switch() -> str:
-            self.manager.defaults = defaults
-            time = self._owner.loop.time
-            return self.manager.switch(activate, deactivate, strictness, time, timeout)
-
-        message = await self._owner.submit(switch)
-        self.log(Severity.INFO, message)
-        return message
-
-    async def set_component_state(self, name: str, state: LifecycleState) -> None:
-        """Bring a hardware component to a state. Raises HardwareError."""
-        await self._owner.submit(
-            lambda: self.manager.set_component_state(name, state, self._owner.loop.time)
-        )
-
-    def _forget(self, name: str) -> None:
-        """Remove the node of a controller that the manager does not know, or no longer."""
-        bridge = self._controllers.pop(name)
-        self.node.executor.remove_node(bridge.node)
-        bridge.destroy()
+    def _controllers(self) -> list[ControllerNode]:
+        return list(self._requests.controllers.values()) if self._requests else []

@@ -8,7 +8,7 @@ owner, so that nothing here ever blocks the executor: a slow configure delays no
 """
 
 from collections.abc import Awaitable
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from controller_manager_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -22,10 +22,8 @@ from amr_description.nodes.manager_messages import (
     controller_message,
     interface_message,
 )
+from amr_description.nodes.manager_requests import ManagerRequests
 from amr_description.nodes.node_log import log_error
-
-if TYPE_CHECKING:
-    from amr_description.nodes.controller_manager_node import ControllerManagerNode
 
 _QOS = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 _BASE_CLASS = 'controller_interface::ControllerInterface'
@@ -35,7 +33,7 @@ _CHAINABLE_BASE_CLASS = 'controller_interface::ChainableControllerInterface'
 class ManagerServices:
     """Requests in, responses out; ``work`` is what does them."""
 
-    def __init__(self, work: 'ControllerManagerNode') -> None:
+    def __init__(self, work: ManagerRequests) -> None:
         """Make the services: whoever waits for them finds a manager that is ready."""
         self._work = work
         self._node = work.node

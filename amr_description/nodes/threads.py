@@ -11,21 +11,19 @@ from rclpy.task import Future
 
 def run_in_thread(call: Callable[[], None], executor: Executor, name: str) -> Future:
     """
-    Make a call in a new thread called ``name``; await its end in an async callback.
+    Make a call in a new thread called ``name``; await its end, however it ends, in an async
+    callback.
 
-    What the call raises, the future raises. The thread is a daemon: a call that never returns
-    does not keep the process from ending.
+    The thread is a daemon: a call that never returns does not keep the process from ending.
     """
     future = Future(executor=executor)
 
     def run() -> None:
         try:
             call()
-        except Exception as error:  # belongs to whoever awaits it
-            future.set_exception(error)
-        else:
+        finally:
             future.set_result(None)
-        executor.wake()  # a task that awaits is looked at only when the executor wakes
+            executor.wake()  # a task that awaits is looked at only when the executor wakes
 
     threading.Thread(target=run, name=name, daemon=True).start()
     return future
