@@ -24,7 +24,7 @@ from amr_description.control.interfaces import (
 from amr_description.control.world import JointGroup, World
 from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware.command_modes import CommandModes
-from amr_description.hardware.simulated_imu import is_imu, SimulatedImu
+from amr_description.hardware.simulated_imu import imus_of
 from amr_description.model.gazebo_tag import gazebo_plugins_of
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
 
@@ -76,16 +76,17 @@ class MujocoSystem(HardwareComponent):
                     EFFORT: group.efforts,
                 }[interface]
                 self._sources.append((cells, read))
-        self._imus = [SimulatedImu(s, world) for s in self.info.sensors if is_imu(s, world)]
-        self._tell_what_is_left_out(world)
+        self._imus = imus_of(self.info, world)
+        self._tell_what_is_left_out()
         self._states += [state for imu in self._imus for state in imu.states]
         self._modes = CommandModes(self._commands)
         self._followers: list[_Follower] = []
         self._idle: tuple[str, ...] = ()
         self._idle_group = world.joints(self._modes.joints)
 
-    def _tell_what_is_left_out(self, world: World) -> None:
-        others = [sensor for sensor in self.info.sensors if not is_imu(sensor, world)]
+    def _tell_what_is_left_out(self) -> None:
+        simulated = [imu.info for imu in self._imus]
+        others = [sensor for sensor in self.info.sensors if sensor not in simulated]
         for component in (*others, *self.info.gpios):
             self.log(
                 Severity.WARN,

@@ -7,6 +7,8 @@ The simulated world, and the only package that imports MuJoCo.
 ``world``           :class:`MujocoWorld`: spawn, remove, step, reset; the one to start from
 ``robot_view``      what a hardware component sees of it: one robot, by its URDF's names
 ``joint_group``     some joints of one robot, cheap to read and command in the tick
+``array_views``     … by views into MuJoCo's arrays
+``efforts``         … the force that reaches a joint from its actuators
 ``engine``          the MuJoCo model and its state; integer time; survives a recompile
 ``stepping``        control period → physics step
 ``world_file``      a world's name or path → MuJoCo spec, with the measured solver options
