@@ -224,11 +224,12 @@ def test_a_chain_of_a_running_manager_is_shown(host, tmp_path):
     file.write_text(AHEAD)
     host.client.set_parameters('ahead', {'type': FORWARD, 'params_file': [str(file)]})
     host.activate('ahead')
-    links = ['diff_drive_controller/linear/velocity', 'diff_drive_controller/angular/velocity']
+    names = ['linear/velocity', 'angular/velocity']
+    links = [f'diff_drive_controller/{name}' for name in names]
     listed = printed('list_controllers --chained-interfaces --claimed-interfaces')
     assert listed[0].split() == ['ahead', FORWARD, 'active']
-    below = [f'\t\t{link}' for link in links]
-    assert listed[1:7] == ['\tclaimed interfaces:', *below, '\tchained to interfaces:', *below]
+    claimed, chained = ([f'\t\t{name}' for name in each] for each in (links, names))
+    assert listed[1:7] == ['\tclaimed interfaces:', *claimed, '\tchained to interfaces:', *chained]
     commands = printed('list_hardware_interfaces')[1:3]
     assert commands == [f'\t{link} [available] [claimed]' for link in sorted(links)]
     tree = printed('view_controller_chains')
