@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """amr_description/SerialBaseSystem against a board on a pseudo-terminal, well and ill-treated."""
 
+from contextlib import suppress
 import errno
 import math
 import os
@@ -10,6 +11,7 @@ import threading
 import time
 
 from control_fakes import FakeLog, MS
+from hypothesis import given, strategies as st
 from motor_boards import BoardOnPty, on_motor_board, SIDES, TamperedBoard
 import pytest
 import serial
@@ -19,7 +21,17 @@ from amr_description.errors import HardwareDeactivationError, HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.serial_base_system import SerialBaseSystem
 from amr_description.hardware.serial_lines import encode, LineReader
-from amr_description.hardware.serial_protocol import Disarm, Get, Hello, Mode, Refused, Set
+from amr_description.hardware.serial_protocol import (
+    Arm,
+    Board,
+    Disarm,
+    Get,
+    Hello,
+    Mode,
+    Refused,
+    Set,
+    State,
+)
 from amr_description.hardware.simulated_motor_board import MotorConstants
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
@@ -68,6 +80,21 @@ class Rig:
         sides = [{v for n, v in values.items() if side in n} for side in ('left', 'right')]
         assert [len(side) for side in sides] == [1, 1], 'joints of a side differ'
         return tuple(value for (value,) in sides)
+
+
+class Wire:
+    """In the place of SerialBoard: keeps the velocities that are sent."""
+
+    description = Board(1, 1, 'none', 4096, 30.0)
+
+    def __init__(self, _parameters, _component):
+        self.sent = []
+
+    def ask(self, _kind, *_values):
+        return State(1, 0, 0, 0, 0.0, 0.0, Mode.ARMED)
+
+    def post(self, _kind, left, right):
+        self.sent.append((left, right))
 
 
 def threads():
@@ -303,6 +330,26 @@ def test_no_command_is_no_command(rig, board):
     rig.turn_until(lambda: rig.state('velocity') == (5.0, 2.0), board)
 
 
+@given(
+    st.lists(st.floats(), min_size=4, max_size=4),
+    st.floats(0.1, 100.0),
+    st.floats(0.1, 50.0) | st.floats(-50.0, -0.1),
+)
+def test_whatever_is_commanded_the_wire_carries_finite_and_bounded_speeds(values, most, gear):
+    rig = Rig('/dev/nowhere', max_velocity=most, left_reduction=gear)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr('amr_description.hardware.serial_base_system.SerialBoard', Wire)
+        rig.start()
+    for wish, (name, command) in zip(values, rig.commands.items(), strict=True):
+        command.value = values[0] if 'left' in name else wish
+    with suppress(HardwareDeactivationError):
+        rig.system.write(0, 10 * MS)
+    for left, right in rig.system._board.sent:
+        assert encode(Set(1, left, right))
+        assert max(abs(left), abs(right)) <= 30.0 * (1 + 1e-12)
+        assert max(abs(left / gear), abs(right)) <= most * (1 + 1e-12)
+
+
 @pytest.mark.parametrize('bad', [math.inf, -math.inf])
 def test_nothing_infinite_reaches_the_wire(rig, board, bad):
     drive(rig, board)
@@ -325,6 +372,21 @@ def test_a_side_that_changes_hands_stops(rig, board):
     drive(rig, board, 5.0, 3.0)
     rig.system.perform_command_mode_switch([], [n for n in rig.commands if 'left' in n])
     rig.turn_until(lambda: rig.state('velocity') == (0.0, 3.0), board)
+
+
+def test_what_waited_for_a_stuck_line_moves_nothing_after_the_next_arm(rig, board):
+    drive(rig, board)
+    board.tamper = lambda answer: b''
+    board.heard.clear()
+    while len(heard(board)) < 2:
+        rig.system.write(0, 10 * MS)
+    rig.system.write(0, 10 * MS)  # waits, as two have no answer yet
+    board.tamper = lambda answer: answer
+    rig.system.deactivate()
+    rig.system.activate()
+    armed_at = board._uptime
+    wait_until(lambda: board._uptime > armed_at + 0.1)  # a lost answer is given up after 50 ms
+    assert [type(message) for message in heard(board)][-2:] == [Disarm, Arm]
 
 
 def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
