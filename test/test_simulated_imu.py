@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """An inertial measurement unit in the ``<ros2_control>`` block of a simulated robot."""
 
-from fixtures.sim.driving import Lines
+import math
+
+from fixtures.sim.driving import AMR, Drive, Lines
 from fixtures.sim.fake_world import FakeWorld, info_of, PERIOD, URDF
 import pytest
 
@@ -10,6 +12,7 @@ from amr_description.control.interfaces import IMU_INTERFACES
 from amr_description.errors import HardwareError
 from amr_description.hardware.mujoco_system import MujocoSystem
 from amr_description.model.frames import Transform
+from amr_description.model.ros2_control_tag import hardware_of
 
 
 def with_imu(interfaces, mount='', parameters='', name='imu'):
@@ -76,3 +79,26 @@ def test_where_an_imu_is_mounted(options, link):
 def test_imu_that_cannot_be(urdf, message):
     with pytest.raises(HardwareError, match=f"hardware component 'Cart': .*{message}"):
         imu_of(urdf)
+
+
+def test_component_of_nothing_but_an_imu_in_the_simulator():
+    states = ''.join(f'<state_interface name="{interface}"/>' for interface in IMU_INTERFACES)
+    plugin = '<hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>'
+    block = (
+        f'<ros2_control name="Imu" type="sensor">{plugin}<sensor name="imu">{states}'
+        '<param name="frame_id">base_link</param></sensor></ros2_control></robot>'
+    )
+    drive = Drive(AMR.replace('</robot>', block))
+    system = MujocoSystem(hardware_of(drive.robot.description)[-1], Lines(), drive.robot)
+    system.configure()
+    system.activate()
+    drive.run(0.0, 1.0, 2.0)
+    system.read(drive.world.time, PERIOD)
+    system.write(drive.world.time, PERIOD)
+    values = {state.interface: state.value for state in system.state_interfaces()}
+    _, rates = drive.robot.velocity('base_link')
+    assert values['angular_velocity.z'] == pytest.approx(rates[2]) == pytest.approx(1.0, rel=0.05)
+    assert values['linear_acceleration.z'] == pytest.approx(9.81, abs=0.05)
+    assert 2.0 * math.atan2(values['orientation.z'], values['orientation.w']) == (
+        pytest.approx(drive.yaw, abs=1e-6)
+    )
