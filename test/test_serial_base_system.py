@@ -535,6 +535,22 @@ def test_hears_only_noise(rig, board, monkeypatch):
     is_lost(rig, board, r'has not told its state for 0.25 s, but refused \d+ lines \(CHECKSUM\);')
 
 
+@pytest.mark.parametrize(
+    ('error', 'text'),
+    [
+        (serial.SerialTimeoutException('Write timeout'), 'takes no more bytes; check'),
+        (RuntimeError('a bug'), r'cannot be talked to \(RuntimeError: a bug\); check'),
+    ],
+)
+def test_cannot_be_written_to(rig, board, monkeypatch, error, text):
+    def fail(_data):
+        raise error
+
+    drive(rig, board)
+    monkeypatch.setattr(rig.system._board._link._serial, 'write', fail)
+    is_lost(rig, board, text)
+
+
 def test_says_much_noise(rig, board):
     drive(rig, board)
     board.tamper = lambda answer: b'\x00noise\n' + answer if answer else b''
