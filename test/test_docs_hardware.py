@@ -13,6 +13,7 @@ import time
 from control_fakes import collect, FakeLog, MS, start
 import pytest
 
+from amr_description.bringup.stacks import STACKS
 from amr_description.control.contracts import ControllerContext, HardwareComponent, Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
@@ -170,6 +171,12 @@ def test_every_executable_of_the_page_is_there():
     used = re.findall(r'ros2 run amr_description (\w+)', PAGE)
     assert used
     assert all(f"'{name} = amr_description." in setup for name in used)
+
+
+def test_every_stack_of_the_page_is_there():
+    assert (
+        set(re.findall(r'ros2 launch amr_description (\w+)', PAGE)) == {'serial'} <= STACKS.keys()
+    )
 
 
 def test_the_block_for_the_shipped_robot_is_right():
