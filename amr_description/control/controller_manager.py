@@ -106,6 +106,7 @@ class ControllerManager:
 
     def shut_down(self, time: int) -> None:
         """End: deactivate the controllers, write once more, then stop and close the hardware."""
+        self._log(Severity.INFO, 'Shutdown request received....')
         self._log(Severity.INFO, 'Shutting down all controllers in the controller manager.')
         for loaded in self._controllers.active:
             self._log(Severity.INFO, f"Deactivating controller '{loaded.name}'")
@@ -119,6 +120,7 @@ class ControllerManager:
                 loaded.finalize()
         self.resources.shut_down()
         self.refresh()
+        self._log(Severity.INFO, 'Shutting down the controller manager.')
 
     def _abandon(self, components: Sequence[str], time: int) -> None:
         """Deactivate what used components that have just gone."""
