@@ -48,9 +48,7 @@ VALUES_OF_THE_RUN = {'params_file', 'robot_description'}
 LINES_THAT_DIFFER = {
     # There is no pluginlib behind it: the statistics of a component need no registration.
     'Registering statistics for : AmrSystem',
-    # Of the stand-alone node's thread.
-    'Using Steady (Monotonic) clock for triggering controller manager cycles.',
-    'Spawning controller_manager RT thread with scheduler priority: 50',
+    # Only where Linux allows it.
     'Successful set up FIFO RT scheduling policy with priority 50.',
 }
 

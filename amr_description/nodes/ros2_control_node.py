@@ -26,6 +26,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
+from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
 from amr_description.errors import ParameterError
@@ -75,6 +76,11 @@ class StandAlone:
     def start(self) -> None:
         """Wait for a robot, and let time begin."""
         DescriptionSource(self.node, self._log, self._bring_up)
+        self._log(
+            Severity.INFO,
+            f'Spawning {self.node.get_name()} RT thread with scheduler priority: '
+            f'{self._priority}',
+        )
         self.owner.start()
 
     def close(self) -> None:
@@ -92,14 +98,18 @@ class StandAlone:
 
     def _make_loop(self) -> Loop:
         rate = self._manager.parameters.update_rate
-        self.node.get_logger().info(f'update rate is {rate} Hz')
+        self._log(Severity.INFO, f'update rate is {rate} Hz')
         if self.node.get_parameter('use_sim_time').value:
             clock = HeardClock(self._mailbox)
         else:
+            self._log(
+                Severity.INFO,
+                'Using Steady (Monotonic) clock for triggering controller manager cycles.',
+            )
             manages = self._manages_overruns
             clock = MachineClock(self._mailbox, self._log, rate, manages_overruns=manages)
-            self.node.get_logger().info(
-                f'Overruns handling is : {"enabled" if manages else "disabled"}'
+            self._log(
+                Severity.INFO, f'Overruns handling is : {"enabled" if manages else "disabled"}'
             )
         self._clock = clock
         loop = Loop(clock, clock, self._mailbox, self._outgoing, self._period)
