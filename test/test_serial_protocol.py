@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The line protocol of the motor board: laws of its lines."""
 
+from dataclasses import fields
 import math
+import re
 
 from hypothesis import example, given, strategies as st
 import pytest
 
 from amr_description.errors import HardwareError
+from amr_description.hardware import serial_protocol
 from amr_description.hardware.serial_lines import decode, encode, LineReader
 from amr_description.hardware.serial_protocol import (
     Arm,
@@ -18,13 +21,17 @@ from amr_description.hardware.serial_protocol import (
     GREATEST_VELOCITY,
     Hello,
     LONGEST_LINE,
+    LONGEST_WATCHDOG,
     Mode,
     Reason,
     Refused,
     Set,
+    SHORTEST_WATCHDOG,
     State,
+    VERSION,
 )
 
+DOC = serial_protocol.__doc__
 U16 = st.integers(0, 2**16 - 1)
 U32 = st.integers(0, 2**32 - 1)
 I32 = st.integers(-(2**31), 2**31 - 1)
@@ -141,6 +148,20 @@ def test_nothing_is_read_into_a_lower_case_crc_or_a_carriage_return():
     assert decode(line) == Get(int(line[5:-5]))
     assert decode(line[:-4] + line[-4:].lower()).reason is Reason.CHECKSUM
     assert decode(line + b'\r').reason is Reason.CHECKSUM
+
+
+def test_the_page_lists_every_line_with_its_fields():
+    cells = re.findall('^``([A-Z<][^`]*)``(?:  |$)', DOC, re.MULTILINE)
+    lines = '\n'.join(cells).replace('\n<', '<').splitlines()
+    listed = {line.split(',')[0]: line.count('<') for line in lines}
+    kinds = (Hello, Get, Arm, Set, Disarm, Board, State, Error)
+    assert listed == {kind.__name__.upper(): len(fields(kind)) for kind in kinds}
+
+
+def test_the_page_has_the_numbers_of_the_code():
+    assert f'version {VERSION}.' in DOC
+    assert f'at most {LONGEST_LINE} bytes' in DOC
+    assert f'``watchdog``: {SHORTEST_WATCHDOG} to {LONGEST_WATCHDOG} ms' in DOC
 
 
 def test_a_firmware_may_print_a_negative_zero():

@@ -26,9 +26,8 @@ class SerialBoard:
         """Open the port and make the acquaintance. Raises HardwareError, the port closed."""
         self._parameters = parameters
         self._component = component
-        self._numbers = itertools.count(
-            secrets.randbelow(2**16)
-        )  # not those of the host before us
+        # Not the numbers of the host before us, whose answers may wait in the line.
+        self._numbers = itertools.count(secrets.randbelow(2**16))
         self._link = SerialLink(parameters.port, parameters.baud_rate, parameters.answer_timeout)
         try:
             self.description = self._meet()
