@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a manager makes of what it hears on robot_description."""
 
+import threading
+
 from control_fakes import FakeLog
 from manager_host import ros_in_this_process
 import pytest
@@ -12,7 +14,9 @@ from std_msgs.msg import String
 
 from amr_description.errors import HardwareError
 from amr_description.model.urdf import parse
+from amr_description.nodes.clients import wait_until
 from amr_description.nodes.description_source import DescriptionSource
+from amr_description.nodes.ros2_control_node import StandAlone
 
 GOOD = """<robot name="cart"><link name="base"/><ros2_control name="Cart" type="system"><hardware>
 <plugin>mock_components/GenericSystem</plugin></hardware></ros2_control></robot>"""
@@ -96,3 +100,42 @@ def test_a_spawned_robot_is_only_contradicted_by_another_description(wire):
     assert wire.log.texts() == []
     wire.publisher.publish(String(data=GOOD.replace('cart', 'other')))
     wire.said(IGNORED)
+
+
+def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothing(capfd):
+    with ros_in_this_process():
+        executor = SingleThreadedExecutor()
+        robot = StandAlone(executor, [])
+        thread = threading.Thread(target=executor.spin)
+        onlooker = Node('onlooker')
+        qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        publisher = onlooker.create_publisher(String, '/robot_description', qos)
+        lines = []
+
+        def service_names():
+            return {name for name, _ in onlooker.get_service_names_and_types()}
+
+        def refused():
+            lines.extend(capfd.readouterr().err.splitlines())
+            return any(FAILED in line for line in lines) or None
+
+        try:
+            robot.start()
+            thread.start()
+            publisher.publish(String(data=GOOD.replace('mock_components', 'no_such_package')))
+            assert wait_until(onlooker, refused, timeout=10.0)
+            assert any("'no_such_package/GenericSystem' is not known" in line for line in lines)
+            assert '/controller_manager/list_controllers' not in service_names()
+            assert 'cart' not in onlooker.get_node_names()
+            publisher.publish(String(data=GOOD))
+            assert wait_until(
+                onlooker,
+                lambda: '/controller_manager/list_controllers' in service_names() or None,
+                timeout=10.0,
+            )
+            assert 'cart' in onlooker.get_node_names()
+        finally:
+            executor.shutdown()
+            thread.join()
+            robot.close()
+            onlooker.destroy_node()
