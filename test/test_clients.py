@@ -10,6 +10,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
+from ros_processes import PATIENCE
 from std_srvs.srv import Trigger
 
 from amr_description.nodes.clients import ask_until_answered, call, NoAnswerError
@@ -22,11 +23,14 @@ class Server(Node):
         super().__init__('server')
         self.requests = 0
         self.answer = Future()
+        self.leaves = False
         group = ReentrantCallbackGroup()
-        self.create_service(Trigger, 'slow', self.serve, callback_group=group)
+        self.service = self.create_service(Trigger, 'slow', self.serve, callback_group=group)
 
     async def serve(self, _, response):
         self.requests += 1
+        if self.leaves:
+            self.destroy_service(self.service)
         response.message = await self.answer
         return response
 
@@ -100,6 +104,13 @@ def test_a_single_wait_has_words_of_its_own(server, caller):
 def test_a_service_that_is_not_there_is_told(caller):
     with pytest.raises(NoAnswerError, match=r'^service /slow is not there after 0\.1 s; '):
         trigger(caller, timeout=0.1)
+
+
+def test_a_server_that_goes_away_is_not_waited_for(server, caller):
+    server.leaves = True
+    with pytest.raises(NoAnswerError, match='^service /slow went away before it answered$'):
+        trigger(caller, timeout=PATIENCE)
+    server.answer.set_result('late')
 
 
 def test_a_question_is_asked_until_it_is_answered(server, caller):

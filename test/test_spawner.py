@@ -13,7 +13,7 @@ from ros_processes import command, environment, PATIENCE, run
 from running_programs import Program
 
 from amr_description.errors import ControllerError, ParameterError
-from amr_description.nodes.clients import call
+from amr_description.nodes.clients import call, NoAnswerError
 from amr_description.nodes.spawner import Spawner
 from amr_description.nodes.spawner_arguments import parse
 
@@ -259,6 +259,29 @@ def test_there_may_be_nothing_left_to_unload(host, spawner, said):
     spawner(JOINTS, '-u').unload()
     assert said() == ['No active controllers to unload.']
     assert host.client.states() == {DRIVE: 'active'}
+
+
+class GoneManager:
+    """Goes before it answers, if it is asked anything."""
+
+    name = '/controller_manager'
+
+    def __init__(self, *presence):
+        self.presence = iter(presence)
+
+    def is_there(self):
+        return next(self.presence)
+
+    def states(self):
+        raise NoAnswerError('it went away')
+
+
+def test_controllers_of_a_manager_that_is_gone_need_no_unloading(voice):
+    for presence in ((False,), (True, False)):
+        Spawner(voice, GoneManager(*presence), parse([JOINTS, '-u'])).unload()
+        assert voice.said() == ['/controller_manager is gone, and its controllers with it']
+    with pytest.raises(NoAnswerError, match='it went away'):
+        Spawner(voice, GoneManager(True, True), parse([JOINTS, '-u'])).unload()
 
 
 def test_a_stop_during_the_spawning_ends_it_before_the_next(host, spawner):

@@ -9,8 +9,10 @@ from typing import Any
 import rclpy
 from rclpy.client import Client
 from rclpy.node import Node
+from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import AmrError
+from amr_description.nodes.runtime import argument_errors
 
 _POLL = 0.05
 """s: how soon a change of the graph is seen; messages and responses are seen at once."""
@@ -18,6 +20,13 @@ _POLL = 0.05
 
 class NoAnswerError(AmrError):
     """A service did not answer in time."""
+
+
+def client_node(name: str) -> Node:
+    """Make the node of such a program. Raises ParameterError: ``name`` is none."""
+    with argument_errors():
+        validate_node_name(name)  # Node() does so too, but leaves a warning behind
+        return Node(name)
 
 
 def wait_until[Result](
@@ -60,7 +69,7 @@ def ask_until_answered(
     pending = [client.call_async(request)]
     return _answer(
         node,
-        client.srv_name,
+        client,
         lambda: next((future.result() for future in pending if future.done()), None),
         lambda: pending.append(client.call_async(request)),
         timeout=timeout,
@@ -82,7 +91,7 @@ def call(
 
     ``attempts``: how often to wait ``timeout`` s for the response. Each wait that is in vain is
     told, in the words of ros2_control. The request is not sent again: what it asks for would be
-    done again, by a server that is only slow.
+    done again, by a server that is only slow. A server that goes away ends the wait.
     """
     client = node.create_client(service_type, name)
     try:
@@ -95,19 +104,18 @@ def call_with(
     node: Node, client: Client, request: Any, *, timeout: float = 10.0, attempts: int = 1
 ) -> Any:
     """As :func:`call`, with a client that is there already."""
-    name = client.srv_name
 
     def ready() -> bool | None:
         return client.service_is_ready() or None
 
     if not wait_until(node, ready, timeout=timeout):
         raise NoAnswerError(
-            f'service {name} is not there after {timeout:g} s; is its node running?'
+            f'service {client.srv_name} is not there after {timeout:g} s; is its node running?'
         )
     future = client.call_async(request)
     return _answer(
         node,
-        name,
+        client,
         lambda: future.result() if future.done() else None,
         timeout=timeout,
         attempts=attempts,
@@ -116,7 +124,7 @@ def call_with(
 
 def _answer(
     node: Node,
-    service: str,
+    client: Client,
     answered: Callable[[], Any | None],
     each_second: Callable[[], object] = lambda: None,
     *,
@@ -124,8 +132,20 @@ def _answer(
     attempts: int,
 ) -> Any:
     """Wait for the response of a service. Raises NoAnswerError."""
+    service, was_there = client.srv_name, False
+
+    def answered_or_gone() -> Any | None:
+        nonlocal was_there
+        if (response := answered()) is not None:
+            return response
+        is_there = client.service_is_ready()
+        if was_there and not is_there:
+            raise NoAnswerError(f'service {service} went away before it answered')
+        was_there = is_there
+        return None
+
     for attempt in range(1, attempts + 1):
-        response = wait_until(node, answered, each_second, timeout=timeout)
+        response = wait_until(node, answered_or_gone, each_second, timeout=timeout)
         if response is not None:
             return response
         if attempts > 1:

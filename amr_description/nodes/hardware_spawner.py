@@ -23,9 +23,10 @@ from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
 from amr_description.errors import HardwareError
+from amr_description.nodes.clients import client_node
 from amr_description.nodes.colors import colored, GREEN, YELLOW
 from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.runtime import argument_errors, program, ros
+from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.spawner_arguments import seconds
 
 _TARGETS = {
@@ -112,8 +113,7 @@ def spawn(args: list[str] | None) -> None:
     with ros(args):
         words = sys.argv if args is None else ['hardware_spawner', *args]
         options = parser().parse_args(remove_ros_args(words)[1:])
-        with argument_errors():
-            node = Node('hardware_spawner')
+        node = client_node('hardware_spawner')
         try:
             manager = ManagerClient(
                 node,

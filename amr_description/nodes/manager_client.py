@@ -24,6 +24,8 @@ from amr_description.nodes.runtime import argument_errors
 _EVERY = 10.0
 """s: how often it is said that the manager is still not there."""
 _ATTEMPTS = 3
+_LONGEST = 2.0**31 - 1.0
+"""s: what a builtin_interfaces/Duration can say."""
 
 
 class ManagerClient:
@@ -62,6 +64,10 @@ class ManagerClient:
             self._ask(client)
         finally:
             node.destroy_client(client)
+
+    def is_there(self) -> bool:
+        """Tell whether it is still there."""
+        return self._node.count_services(self._service(srv.ListControllers)) > 0
 
     def look(self, service_type: Any, **fields: Any) -> Any:
         """
@@ -161,7 +167,7 @@ class ManagerClient:
             deactivate_controllers=list(deactivate),
             strictness=strictness,
             activate_asap=activate_asap,
-            timeout=Duration(seconds=timeout).to_msg(),
+            timeout=Duration(seconds=min(timeout, _LONGEST)).to_msg(),
         )
 
     def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
@@ -252,6 +258,8 @@ class ManagerClient:
         return f'{self.name}/{_service_name(service_type)}'
 
     def _explained(self, error: NoAnswerError) -> NoAnswerError:
+        if not self.is_there():
+            return error
         fault = self._search.clock_fault() or f'{self.name} may be stopped, or busy: see its log'
         return NoAnswerError(f'{error} {fault}')
 

@@ -24,12 +24,12 @@ import threading
 
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
-from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.nodes.clients import client_node, NoAnswerError
 from amr_description.nodes.colors import BLUE, colored, CYAN, GREEN, YELLOW
 from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.runtime import argument_errors, program, ros
+from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.spawner_arguments import ControllerPlan, parse, SpawnOptions
 from amr_description.nodes.spawner_files import (
     controller_entries,
@@ -81,6 +81,17 @@ class Spawner:
 
     def unload(self) -> None:
         """Deactivate and unload what is there of them. Raises ControllerError: not all went."""
+        try:
+            if self._manager.is_there():
+                self._unload()
+                return
+        except NoAnswerError:
+            if self._manager.is_there():
+                raise
+        # As when a Ctrl-C ends a whole stack.
+        self._log.info(f'{self._manager.name} is gone, and its controllers with it')
+
+    def _unload(self) -> None:
         states = self._manager.states()
         loaded = [plan.name for plan in self._options.plans if plan.name in states]
         active = [name for name in loaded if states[name] == 'active']
@@ -161,10 +172,7 @@ def spawn(args: list[str] | None) -> None:
     with ros(args) as stop:
         words = ['spawner', *args] if args is not None else sys.argv
         options = parse(remove_ros_args(words)[1:])
-        with argument_errors():
-            name = f'spawner_{options.plans[0].name}'
-            validate_node_name(name)  # Node() does so too, but leaves a warning behind
-            node = Node(name)
+        node = client_node(f'spawner_{options.plans[0].name}')
         try:
             manager = ManagerClient(
                 node,

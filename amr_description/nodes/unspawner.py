@@ -16,11 +16,11 @@ import sys
 
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
-from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import ControllerError
+from amr_description.nodes.clients import client_node
 from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.runtime import argument_errors, program, ros
+from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.spawner_arguments import seconds
 
 
@@ -70,10 +70,7 @@ def unspawn(args: list[str] | None) -> None:
     with ros(args):
         words = sys.argv if args is None else ['unspawner', *args]
         options = parser().parse_args(remove_ros_args(words)[1:])
-        with argument_errors():
-            name = f'unspawner_{options.controller_names[0]}'
-            validate_node_name(name)  # Node() does so too, but leaves a warning behind
-            node = Node(name)
+        node = client_node(f'unspawner_{options.controller_names[0]}')
         try:
             manager = ManagerClient(node, options.controller_manager)
             unload(node, manager, options.controller_names, options.switch_timeout)
