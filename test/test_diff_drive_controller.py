@@ -7,10 +7,12 @@ The bench is that of the upstream tests: separation 1 m, radius 0.1 m, one wheel
 at 0.1 and 0.2.
 """
 
+import cmath
 import math
 import random
 
 from control_fakes import collect, FakeLog, MS, nan_for_none, VECTORS
+from hypothesis import given, settings, strategies as st
 import pytest
 
 from amr_description.control.contracts import ControllerContext, Severity
@@ -108,26 +110,67 @@ class Bench:
 # --- laws ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize('seed', range(10))
-def test_odometry_of_wheels_that_obey_is_the_command(seed):
-    dice = random.Random(seed)
+def closed_form(legs):
+    """(position as x + iy, heading) after twists (v, w) that each hold for t seconds."""
+    position, heading = 0j, 0.0
+    for v, w, t in legs:
+        turn = w * t
+        chord = v * t if abs(turn) < 1e-12 else v * (cmath.exp(1j * turn) - 1.0) / (1j * w)
+        position += cmath.exp(1j * heading) * chord
+        heading += turn
+    return position, heading
+
+
+speeds = st.floats(-2.0, 2.0).filter(lambda value: value == 0.0 or abs(value) > 1e-4)
+sizes = st.floats(0.5, 2.0)
+
+
+@settings(deadline=None, derandomize=True, max_examples=60)
+@given(
+    st.lists(st.tuples(speeds, speeds, st.integers(1, 40)), min_size=1, max_size=6),
+    st.fixed_dictionaries(
+        {
+            'wheel_separation': sizes,
+            'wheel_radius': sizes,
+            'wheel_separation_multiplier': sizes,
+            'left_wheel_radius_multiplier': sizes,
+            'right_wheel_radius_multiplier': sizes,
+        }
+    ),
+    st.sampled_from(('position', 'velocity', None)),
+)
+def test_odometry_of_random_commands_equals_its_closed_form(legs, values, feedback):
+    """Wheels that obey at once; from positions, from velocities and in open loop."""
     bench = Bench(
-        wheel_separation=dice.uniform(0.1, 2.0),
-        wheel_radius=dice.uniform(0.02, 0.5),
-        wheel_separation_multiplier=dice.uniform(0.5, 2.0),
-        left_wheel_radius_multiplier=dice.uniform(0.9, 1.1),
-        right_wheel_radius_multiplier=dice.uniform(0.9, 1.1),
+        **values,
         publish_rate=1000.0,
         velocity_rolling_window_size=1,
-    ).activate()
-    twist = dice.uniform(-1.0, 1.0), dice.uniform(-2.0, 2.0)
-    for _ in range(50):
-        bench.drive(*twist)
-        for state, command in zip(bench.states['position'], bench.wheels, strict=True):
-            state.value += command * PERIOD / NANOSECONDS
+        open_loop=feedback is None,
+        position_feedback=feedback == 'position',
+    ).activate(feedback)
+    for states in bench.states.values():
+        for state in states:
+            state.value = 0.0
+    for v, w, ticks in legs:
+        for _ in range(ticks):
+            bench.drive(v, w)
+            for position, velocity, command in zip(
+                bench.states['position'], bench.states['velocity'], bench.wheels, strict=True
+            ):
+                position.value += command * PERIOD / NANOSECONDS
+                velocity.value = command
     found = bench.odom[-1]
-    assert (found.linear, found.angular) == pytest.approx(twist, abs=1e-9)
-    assert found.heading == pytest.approx(twist[1] * 49 * PERIOD / NANOSECONDS, abs=1e-9)
+    if feedback is not None:
+        # What the wheels did after the last command is seen at the next update.
+        assert found.stamp == bench.time
+        bench.drive(0.0)
+        found = bench.odom[-1]
+    position, heading = closed_form(
+        [(v, w, ticks * PERIOD / NANOSECONDS) for v, w, ticks in legs]
+    )
+    assert (found.x, found.y) == pytest.approx((position.real, position.imag), abs=1e-9)
+    assert found.heading == pytest.approx(heading, abs=1e-9)
+    assert (found.linear, found.angular) == pytest.approx(legs[-1][:2], abs=1e-9)
 
 
 def test_a_mirrored_command_gives_mirrored_wheels():
