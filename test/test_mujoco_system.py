@@ -92,6 +92,16 @@ def test_released_joint_is_held_and_the_others_go_on(system, world):
     assert world.commands == {'jb': 'held', 'ja': velocity(5.0)}
 
 
+def test_an_idle_joint_is_held_anew_at_every_write(system, world):
+    # So that one which an overload has moved is brought back.
+    jb, _ = system.command_interfaces()
+    jb.value = 1.0
+    system.write(0, PERIOD)
+    world.commands.clear()
+    system.write(0, PERIOD)
+    assert world.commands == {'jb': velocity(1.0), 'ja': 'held'}
+
+
 def test_infinite_command_stops_everything_and_fails(system, world):
     jb, ja = system.command_interfaces()
     jb.value = 5.0

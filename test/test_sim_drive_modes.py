@@ -64,6 +64,39 @@ def test_a_moving_joint_is_taken_over_at_its_speed(urdf):
     assert lift.velocities() == pytest.approx([0.0], abs=1e-4)
 
 
+@pytest.mark.parametrize('mode, value', [('velocity', 2.0), ('effort', 0.2)])
+def test_a_turning_joint_is_stopped_without_swinging_back(mode, value):
+    world, robot = arm()
+    spindle = robot.joints(['spindle'])
+    spindle.command(mode, [value])
+    world.step(500)
+    assert spindle.velocities() == pytest.approx([2.0], rel=1e-3)
+    (before,) = spindle.positions()
+    spindle.hold()
+    slowest = 2.0
+    for _ in range(200):
+        world.step(1)
+        slowest = min(slowest, *spindle.velocities())
+    assert slowest > -1e-6
+    assert spindle.positions()[0] - before == pytest.approx(2.0 * 0.04, rel=0.05)
+
+
+def test_a_joint_held_near_the_end_of_its_range_does_not_press_against_it():
+    world, robot = arm()
+    lift = robot.joints(['lift'])
+    follow(world, lift, [0.49], 2.0)
+    lift.command('effort', [100.0])
+    world.step(6)
+    (position,), (velocity,) = lift.positions(), lift.velocities()
+    # Where the speed would carry it is beyond the end.
+    assert 0.49 < position < 0.5 < position + velocity * 0.04
+    lift.hold()
+    world.step(500)
+    assert lift.positions() == pytest.approx([0.5], abs=1e-4)
+    # Measured: 38 N, of which 20 are the load; it could press with 100.
+    assert lift.efforts()[0] < 50.0
+
+
 def test_a_turning_joint_is_taken_over_at_its_speed():
     world, robot = arm()
     spindle = robot.joints(['spindle'])

@@ -231,6 +231,20 @@ def test_effort_told_is_the_effort_that_acts():
             assert spindle.efforts() == pytest.approx([SPINDLE_INERTIA * acceleration], abs=1e-6)
 
 
+def test_effort_told_is_the_effort_that_acts_also_at_the_velocity_limit():
+    world, robot = arm(FREE_LIFT)
+    lift = robot.joints(['lift'])
+    lift.command('position', [0.4])
+    for _ in range(300):
+        (before,) = lift.velocities()
+        world.step(1)
+        acceleration = (lift.velocities()[0] - before) / STEP
+        force = LIFT_MASS * (acceleration + GRAVITY)
+        # Not while it still stands at the end of its range, which carries it.
+        if lift.positions()[0] > 0.001:
+            assert lift.efforts() == pytest.approx([force], abs=1e-6)
+
+
 @pytest.mark.parametrize(
     'joint, interface, value, message',
     [
