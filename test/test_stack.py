@@ -18,15 +18,18 @@ from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 import pytest
 import rclpy
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from ros_processes import PATIENCE
+from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import GetEntityState
 from tf2_msgs.msg import TFMessage
 
 from amr_description.model.frames import yaw_of
 from amr_description.nodes.clients import call, wait_until
 from amr_description.nodes.manager_client import ManagerClient
+from amr_description.sim.actuators import FASTEST_JOINT
 
 PERIOD = 0.05
 """s between two commands."""
@@ -82,6 +85,11 @@ class Driver(Node):
         timer = self.create_timer(PERIOD, lambda: self.publisher.publish(command))
         assert wait_until(self, lambda: until() or None, lambda: None, every=9.0, timeout=PATIENCE)
         self.destroy_timer(timer)
+
+    def wait(self, condition):
+        assert wait_until(
+            self, lambda: condition() or None, lambda: None, every=9.0, timeout=PATIENCE
+        )
 
     def stop(self):
         """Command zero until odometry is at rest."""
@@ -184,6 +192,38 @@ def test_silence_brakes(driver):
     )
     stamp = driver.odometry[-1].header.stamp
     assert (stamp.sec, stamp.nanosec) > (last_stamp.sec, last_stamp.nanosec)
+
+
+HUGE = 1.7e308
+"""m/s; finite, but the wheels' speeds that follow from it are not."""
+
+
+@pytest.mark.parametrize('value', [math.nan, -math.inf, HUGE, -1e30])
+@pytest.mark.parametrize('age', [0.0, 3.0, -3600.0, math.inf], ids='age {} s'.format)
+def test_no_command_makes_a_wheel_run_away(driver, value, age):
+    """Last, as the robot may be anywhere afterwards; age inf: no stamp."""
+    states = []
+    subscription = driver.create_subscription(JointState, '/joint_states', states.append, 100)
+    command = TwistStamped()
+    command.twist.linear.x = command.twist.angular.z = value
+    if math.isfinite(age):
+        stamp = driver.get_clock().now() - Duration(seconds=age)
+        command.header.stamp = stamp.to_msg()
+    for _ in range(5):
+        driver.publisher.publish(command)
+        heard = len(states)
+        driver.wait(lambda: len(states) > heard + 1)  # noqa: B023
+    driver.destroy_subscription(subscription)
+    speeds = [speed for state in states for speed in state.velocity]
+    assert all(abs(speed) <= FASTEST_JOINT * 1.05 for speed in speeds)
+    assert all(math.isfinite(part) for part in driver.pose)
+
+
+def test_after_all_that_it_drives(driver):
+    manager = ManagerClient(driver, 'controller_manager', timeout=PATIENCE)
+    assert set(manager.states().values()) == {'active'}
+    driver.stop()
+    driver.drive(0.5, 0.0, lambda: driver.speed > 0.45)
 
 
 class Turned:
