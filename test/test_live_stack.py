@@ -70,13 +70,19 @@ def seen(tmp_path_factory):
     try:
         with running_stack(tmp_path_factory.mktemp('stack'), LIVE['urdf']) as log:
 
-            def complete():
-                # Discovery takes its time: what is there is looked at once nothing lacks.
-                lacking = set(LIVE['services']) - set(graph.services())
-                lacking |= set(LIVE['topics']) - STILL_TO_COME - set(graph.topics())
-                return not lacking or None
+            def settled():
+                # Discovery takes its time: what has come is seen later, and what has gone too.
+                names = {name.rpartition('/')[2] for name in LIVE['nodes']}
+                topics = graph.topics()
+                ends = {end[0] for t in topics.values() for end in (*t['pub'], *t['sub'])}
+                return (
+                    graph.nodes() == sorted(LIVE['nodes'])
+                    and graph.services().keys() == LIVE['services'].keys()
+                    and topics.keys() >= LIVE['topics'].keys() - STILL_TO_COME
+                    and ends == names
+                ) or None
 
-            wait_until(node, complete, timeout=20.0)
+            wait_until(node, settled, timeout=20.0)
             seen = Seen(graph, log)
     finally:
         node.destroy_node()

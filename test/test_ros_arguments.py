@@ -31,7 +31,8 @@ def test_name_and_namespace_do_not_go_on(identity):
 
 def test_everything_else_goes_on():
     words = ['-r', 'amr:odom:=/odom', '--disable-rosout-logs', '-p', 'rate:=5']
-    words += ['--params-file', 'f.yaml', '--enable-stdout-logs', '-e', '/enclave', '--log-config-file', 'log']
+    words += ['--params-file', 'f.yaml', '--enable-stdout-logs', '-e', '/enclave']
+    words += ['--log-config-file', 'log']
     assert inherited(words) == words
 
 

@@ -78,8 +78,7 @@ class StandAlone:
         DescriptionSource(self.node, self._log, self._bring_up)
         self._log(
             Severity.INFO,
-            f'Spawning {self.node.get_name()} RT thread with scheduler priority: '
-            f'{self._priority}',
+            f'Spawning {self.node.get_name()} RT thread with scheduler priority: {self._priority}',
         )
         self.owner.start()
 

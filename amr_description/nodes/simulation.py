@@ -232,5 +232,3 @@ class Simulation:
 
 def _period_of(rate: int) -> int:
     return round(NANOSECONDS / rate)
-
-
