@@ -29,6 +29,13 @@ def test_name_and_namespace_do_not_go_on(identity):
     assert inherited(words) == ['-r', '/tf:=tf', '--log-level', 'debug']
 
 
+def test_the_description_is_the_managers_alone():
+    words = '-r robot_description:=/urdf -p robot_description:=x -r a:=b'.split()
+    assert inherited(words) == ['-r', 'a:=b']
+    remap = ['-r', 'robot_description:=/urdf']
+    assert inherited(remap, with_parameters=False) == remap
+
+
 def test_everything_else_goes_on():
     words = ['-r', 'amr:odom:=/odom', '--disable-rosout-logs', '-p', 'rate:=5']
     words += ['--params-file', 'f.yaml', '--enable-stdout-logs', '-e', '/enclave']

@@ -13,6 +13,7 @@ rcl's grammar, between ``--ros-args`` and ``--`` (or the end)::
 from collections.abc import Iterator, Sequence
 
 _IDENTITY = ('__node:=', '__name:=', '__ns:=')
+_RULES = ('-r', '--remap', '-p', '--param')
 _WITHOUT_VALUE = ('--enable-', '--disable-')
 
 
@@ -35,13 +36,15 @@ def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list
     Return what of a node's ROS arguments goes on to the nodes that it makes.
 
     Not its name and namespace, which would make all of them namesakes. ``with_parameters``: its
-    parameters and parameter files too, as a controller manager's go to its controllers.
+    parameters and parameter files too, as a controller manager's go to its controllers, all but
+    where it has its ``robot_description`` from.
     """
+    own = (*_IDENTITY, 'robot_description:=') if with_parameters else _IDENTITY
     kept: list[str] = []
     for flag, *value in _flags(arguments):
-        is_identity = flag in ('-r', '--remap') and _remapped(value).startswith(_IDENTITY)
+        is_own = flag in _RULES and _remapped(value).startswith(own)
         is_parameter = flag in ('-p', '--param', '--params-file')
-        if not is_identity and (with_parameters or not is_parameter):
+        if not is_own and (with_parameters or not is_parameter):
             kept += [flag, *value]
     return kept
 
