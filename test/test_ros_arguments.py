@@ -30,7 +30,7 @@ def test_name_and_namespace_do_not_go_on(identity):
 
 
 def test_the_description_is_the_managers_alone():
-    words = '-r robot_description:=/urdf -p robot_description:=x -r a:=b'.split()
+    words = ['-r', 'robot_description:=/urdf', '-p', 'robot_description:=x', '-r', 'a:=b']
     assert inherited(words) == ['-r', 'a:=b']
     remap = ['-r', 'robot_description:=/urdf']
     assert inherited(remap, with_parameters=False) == remap
