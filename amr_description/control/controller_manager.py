@@ -7,7 +7,7 @@ Every method runs on the owner's thread. Other threads read :attr:`ControllerMan
 immutable object that is replaced as a whole.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 import math
 from typing import Any
 
@@ -19,8 +19,10 @@ from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
 from amr_description.control.loaded_controller import LoadedController, look_away, Watch
 from amr_description.control.manager_defaults import ManagerDefaults
+from amr_description.control.overruns import overrun_text
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshots import ManagerSnapshot
+from amr_description.control.statistics import RunningStatistic
 from amr_description.control.switch_execution import names_of, SwitchExecution
 from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness, Switching
 from amr_description.control.taking_snapshots import take_snapshot
@@ -59,6 +61,14 @@ class ControllerManager:
         self._execution = SwitchExecution(self._controllers, resources, log)
         self._faults = Faults(self._controllers, resources, self._execution, log)
         self._last_tick: int | None = None
+        self.periodicity = RunningStatistic()
+        """One over the time between two ticks, Hz."""
+        self.warns_of_overruns = False
+        """Whether a tick that takes longer than its period is told of; by the stopwatch."""
+        self.on_change: Callable[[ManagerSnapshot], None] = lambda _: None
+        """Called with every new snapshot."""
+        self.on_tick: Callable[[int], None] | None = None
+        """Called after every tick, with its time, ns."""
         self.snapshot = ManagerSnapshot()
         self.refresh()
 
@@ -73,7 +83,23 @@ class ControllerManager:
         self.next_tick = time - time % self.period + self.period
         last, self._last_tick = self._last_tick, time
         period = self.period if last is None else time - last
+        stopwatch = self.resources.stopwatch
+        begin = stopwatch()
         self._abandon(self.resources.read(time, period), time)
+        after_read = stopwatch()
+        self._update(time, period)
+        after_update = stopwatch()
+        self._write(time, period)
+        end = stopwatch()
+        if last is not None and period > 0:
+            self.periodicity.add(NANOSECONDS / period)
+        if self.warns_of_overruns and end - begin > self.period:
+            update = after_update - after_read
+            self._warn_of_overrun(after_read - begin, update, end - after_update)
+        if self.on_tick is not None:
+            self.on_tick(time)
+
+    def _update(self, time: int, period: int) -> None:
         survives, nominal = self._faults.survives, self.period
         failed = [
             controller
@@ -84,6 +110,8 @@ class ControllerManager:
             self._faults.replace(failed, 'update', time)
             self.refresh()
         self.resources.enforce_limits(period)
+
+    def _write(self, time: int, period: int) -> None:
         gone = self.resources.write(time, period)
         if self.defaults.deactivate_controllers_on_hardware_self_deactivate:
             self._abandon(gone, time)
@@ -92,6 +120,10 @@ class ControllerManager:
             failed = [name for name in gone if states[name] is not LifecycleState.INACTIVE]
             self._faults.abandon(failed, time)
             self.refresh()
+
+    def _warn_of_overrun(self, *durations: int) -> None:
+        expected = 1e6 / self.update_rate
+        self._log(Severity.WARN, overrun_text(expected, *durations), throttle=1.0)
 
     def reset(self, time: int) -> None:
         """Time went back to ``time`` (ns): all stays as it is and begins anew."""
@@ -154,7 +186,10 @@ class ControllerManager:
                 f"Controller '{name}' cannot be a fallback controller for itself."
             )
         stride = stride_of(controller, self.update_rate, self._log)
-        self._controllers.add(LoadedController(controller, type_name, stride, fallbacks, watch))
+        stopwatch = self.resources.stopwatch
+        self._controllers.add(
+            LoadedController(controller, type_name, stride, fallbacks, watch, stopwatch)
+        )
         self.refresh()
 
     def configure(self, name: str, parameters: Any) -> Controller:
@@ -298,6 +333,12 @@ class ControllerManager:
     def refresh(self) -> None:
         """Take a new snapshot, after anything has changed."""
         self.snapshot = take_snapshot(self._controllers, self.resources, self.update_rate)
+        self.on_change(self.snapshot)
+
+    @property
+    def loaded(self) -> tuple[LoadedController, ...]:
+        """The controllers in the order of their updates; on the owner's thread."""
+        return tuple(self._controllers)
 
     def is_loaded(self, name: str) -> bool:
         """Tell whether a controller of that name is there."""

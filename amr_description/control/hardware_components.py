@@ -10,6 +10,7 @@ from amr_description.control.contracts import HardwareComponent, Log, Severity, 
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.limits import JointLimiter, limiters_of
 from amr_description.control.owned_component import OwnedComponent
+from amr_description.control.statistics import standing_still, Stopwatch
 from amr_description.errors import HardwareDeactivationError, HardwareError
 
 if TYPE_CHECKING:
@@ -21,10 +22,18 @@ class HardwareComponents:
     """All components of one robot, in the order of its description."""
 
     def __init__(
-        self, log: Log, robot: 'Robot | None' = None, enforce_command_limits: bool = False
+        self,
+        log: Log,
+        robot: 'Robot | None' = None,
+        enforce_command_limits: bool = False,
+        stopwatch: Stopwatch = standing_still,
     ) -> None:
-        """``robot``: where the limits of the joints are from; else only from parameters."""
+        """
+        ``robot``: where the limits of the joints are from; else only from parameters.
+        ``stopwatch``: measures how long everything takes.
+        """
         self.log = log
+        self.stopwatch = stopwatch
         self.components: dict[str, OwnedComponent] = {}
         self._robot = robot
         self._enforces_limits = enforce_command_limits
@@ -52,7 +61,7 @@ class HardwareComponents:
 
     def add(self, component: HardwareComponent) -> None:
         """Take a component and its interfaces. Raises HardwareError where a name is taken."""
-        owned = OwnedComponent(component, self.log)
+        owned = OwnedComponent(component, self.log, self.stopwatch)
         name = owned.info.name
         if name in self.components:
             raise HardwareError(f"Hardware component '{name}' is there twice")

@@ -15,6 +15,7 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.statistics import RunningCycleStatistic, standing_still, Stopwatch
 from amr_description.errors import ControllerError
 
 type Watch = Callable[[LifecycleState, LifecycleState, LifecycleState | None], None]
@@ -31,6 +32,7 @@ class LoadedController:
 
     ``stride``: it is updated at every so manieth tick of the manager. ``fallbacks``: the names of
     the controllers that are started when it fails. ``watch``: is told of every transition.
+    ``stopwatch``: measures its updates.
     """
 
     def __init__(
@@ -40,8 +42,12 @@ class LoadedController:
         stride: int,
         fallbacks: Iterable[str] = (),
         watch: Watch = look_away,
+        stopwatch: Stopwatch = standing_still,
     ) -> None:
         self._watch = watch
+        self._stopwatch = stopwatch
+        self.statistic = RunningCycleStatistic()
+        """Of its updates since it was activated."""
         self.fallbacks = tuple(fallbacks)
         self.controller = controller
         self.type = type_name
@@ -155,6 +161,7 @@ class LoadedController:
             raise
         self._last_update = None
         self._ticks = 0
+        self.statistic.reset()
         for port in self.controller.inputs():
             port.open()
         resources.offer(self.name, self.references, self.exported_states)
@@ -162,10 +169,9 @@ class LoadedController:
 
     def update(self, time: int, nominal_period: int) -> None:
         """
-        Update it if it is due at this tick; ``nominal_period`` of the manager, ns.
+        Update it if it is due at this tick, and measure that.
 
-        Whoever measures how often and for how long controllers run does it here, around the one
-        call of ``Controller.update``.
+        ``nominal_period``: of the manager, ns.
         """
         is_due = self._ticks % self.stride == 0
         self._ticks += 1
@@ -173,7 +179,9 @@ class LoadedController:
             return
         last, self._last_update = self._last_update, time
         period = nominal_period * self.stride if last is None else time - last
+        begin = self._stopwatch()
         self.controller.update(time, period)
+        self.statistic.add(self._stopwatch() - begin, None if last is None else period)
 
     def deactivate(self, resources: ResourceManager, time: int) -> None:
         """Active → inactive: actuators safe, claims and offers taken back, inputs closed."""

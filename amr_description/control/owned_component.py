@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from amr_description.control.contracts import HardwareComponent, Log, Severity
 from amr_description.control.foreign_errors import describe, log_traceback
 from amr_description.control.interfaces import Handle, LifecycleState, NANOSECONDS
+from amr_description.control.statistics import RunningCycleStatistic, standing_still, Stopwatch
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import HardwareType
 
@@ -27,21 +28,34 @@ _TRANSITIONS = {
 
 
 class OwnedComponent:
-    """A component with its lifecycle; the resource manager is the only one to move it."""
+    """
+    A component with its lifecycle; the resource manager is the only one to move it.
 
-    def __init__(self, component: HardwareComponent, log: Log) -> None:
+    ``stopwatch``: measures how long reading and writing it takes.
+    """
+
+    def __init__(
+        self, component: HardwareComponent, log: Log, stopwatch: Stopwatch = standing_still
+    ) -> None:
         """Raises HardwareError: it exports one name twice, or is a sensor with commands."""
         self.component = component
         self.info = component.info
         self.states = by_name(component.state_interfaces(), self.info.name)
         self.commands = by_name(component.command_interfaces(), self.info.name)
-        if self.info.type is HardwareType.SENSOR and self.commands:
+        self.is_sensor = self.info.type is HardwareType.SENSOR
+        """True: it is never written."""
+        if self.is_sensor and self.commands:
             raise HardwareError(
                 f"Hardware component '{self.info.name}' is of type \"sensor\", which is never "
                 f"written, and has the command interface '{min(self.commands)}'; it has to be of "
                 'type "actuator" or "system"'
             )
         self.state = LifecycleState.UNCONFIGURED
+        self.read_statistic = RunningCycleStatistic()
+        """Of its reads since it was activated."""
+        self.write_statistic = RunningCycleStatistic()
+        """Likewise of its writes."""
+        self._stopwatch = stopwatch
         self._log = log
         self._last_read: int | None = None
         self._last_write: int | None = None
@@ -101,6 +115,9 @@ class OwnedComponent:
         getattr(self.component, transition)()
         self.state = following
         self._last_read = self._last_write = None
+        if following is LifecycleState.ACTIVE:
+            self.read_statistic.reset()
+            self.write_statistic.reset()
         self._log(Severity.INFO, f"Successful '{transition}' of hardware '{self.info.name}'")
 
     # --- input and output ---------------------------------------------------------------------
@@ -113,19 +130,29 @@ class OwnedComponent:
         """
         if not self.is_available:
             return
-        elapsed = self._elapsed(self._last_read, time, period)
-        if elapsed is not None:
-            self._last_read = time
-            self.component.read(time, elapsed)
+        last = self._last_read
+        elapsed = self._elapsed(last, time, period)
+        if elapsed is None:
+            return
+        self._last_read = time
+        begin = self._stopwatch()
+        self.component.read(time, elapsed)
+        duration = self._stopwatch() - begin
+        self.read_statistic.add(duration, None if last is None else time - last)
 
     def write(self, time: int, period: int) -> None:
         """Write it if it is active, no mere sensor, and due; else as :meth:`read`."""
-        if self.state is not LifecycleState.ACTIVE or self.info.type is HardwareType.SENSOR:
+        if self.state is not LifecycleState.ACTIVE or self.is_sensor:
             return
-        elapsed = self._elapsed(self._last_write, time, period)
-        if elapsed is not None:
-            self._last_write = time
-            self.component.write(time, elapsed)
+        last = self._last_write
+        elapsed = self._elapsed(last, time, period)
+        if elapsed is None:
+            return
+        self._last_write = time
+        begin = self._stopwatch()
+        self.component.write(time, elapsed)
+        duration = self._stopwatch() - begin
+        self.write_statistic.add(duration, None if last is None else time - last)
 
     def _elapsed(self, last: int | None, time: int, period: int) -> int | None:
         """

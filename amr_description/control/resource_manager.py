@@ -20,6 +20,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.limits import value_at_rest
 from amr_description.control.owned_component import by_name, OwnedComponent
+from amr_description.control.statistics import standing_still, Stopwatch
 from amr_description.errors import HardwareError, InterfaceError
 
 if TYPE_CHECKING:
@@ -30,10 +31,14 @@ class ResourceManager(HardwareComponents):
     """The components of one robot, their interfaces and the claims on them."""
 
     def __init__(
-        self, log: Log, robot: 'Robot | None' = None, enforce_command_limits: bool = False
+        self,
+        log: Log,
+        robot: 'Robot | None' = None,
+        enforce_command_limits: bool = False,
+        stopwatch: Stopwatch = standing_still,
     ) -> None:
-        """``robot``: where the limits of the joints are from; else only from parameters."""
-        super().__init__(log, robot, enforce_command_limits)
+        """See the base."""
+        super().__init__(log, robot, enforce_command_limits, stopwatch)
         self.claims: dict[str, str] = {}
         """Command interface → the controller that holds it."""
         self.lends_commands_of_inactive = False

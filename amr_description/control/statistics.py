@@ -1,0 +1,122 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How long something takes and how regularly it runs: numbers that are kept as they come.
+
+Nothing here knows the time: whoever measures is handed a :data:`Stopwatch`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+
+from amr_description.control.interfaces import NANOSECONDS
+
+type Stopwatch = Callable[[], int]
+"""Returns ns since some instant; it never goes back."""
+
+
+def standing_still() -> int:
+    """A stopwatch for whoever does not ask how long anything takes: 0, always."""
+    return 0
+
+
+@dataclass(frozen=True, slots=True)
+class Statistic:
+    """What is known of the samples of one quantity, in its unit; all NaN while there is none."""
+
+    count: int = 0
+    mean: float = math.nan
+    standard_deviation: float = math.nan
+    """Of these samples (population): √(Σ(x − mean)² / count)."""
+    minimum: float = math.nan
+    maximum: float = math.nan
+    latest: float = math.nan
+
+
+class RunningStatistic:
+    """
+    Takes samples one by one, in constant space.
+
+    Welford's algorithm: unlike Σx² − (Σx)²/n it loses no digits where the samples are large and
+    close together, as rates are. (Welford, Technometrics 4(3), 1962; Knuth, TAOCP 2, 4.2.2.)
+    """
+
+    __slots__ = ('_count', '_mean', '_squares', '_minimum', '_maximum', '_latest')
+
+    def __init__(self) -> None:
+        self.reset()
+
+    def add(self, sample: float) -> None:
+        """Take in a sample, which is finite."""
+        self._count = count = self._count + 1
+        self._latest = sample
+        deviation = sample - self._mean
+        if deviation:  # a rate in simulated time is the same every time
+            self._mean = mean = self._mean + deviation / count
+            self._squares += deviation * (sample - mean)
+            if sample < self._minimum:
+                self._minimum = sample
+            if sample > self._maximum:
+                self._maximum = sample
+        elif count == 1:
+            self._minimum = self._maximum = sample
+
+    def reset(self) -> None:
+        """Forget all samples."""
+        self._count = 0
+        self._mean = self._squares = 0.0
+        self._minimum, self._maximum = math.inf, -math.inf
+        self._latest = math.nan
+
+    def result(self) -> Statistic:
+        """Return what is known now."""
+        if not self._count:
+            return Statistic()
+        return Statistic(
+            self._count,
+            self._mean,
+            math.sqrt(self._squares / self._count),
+            self._minimum,
+            self._maximum,
+            self._latest,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class CycleStatistic:
+    """Of something that runs again and again."""
+
+    execution_time: Statistic = Statistic()
+    """How long it took, µs."""
+    periodicity: Statistic = Statistic()
+    """One over the time since it ran last, Hz."""
+
+
+class RunningCycleStatistic:
+    """Takes one measurement a cycle; see :class:`CycleStatistic`."""
+
+    __slots__ = ('_execution_time', '_periodicity')
+
+    def __init__(self) -> None:
+        self._execution_time = RunningStatistic()
+        self._periodicity = RunningStatistic()
+
+    def add(self, duration: int, period: int | None) -> None:
+        """
+        Take in a cycle that took ``duration``, ``period`` after the one before; ns.
+
+        ``period``: None for the first, which has none.
+        """
+        self._execution_time.add(duration / 1000)
+        if period is not None and period > 0:
+            self._periodicity.add(NANOSECONDS / period)
+
+    def reset(self) -> None:
+        """Forget all cycles."""
+        self._execution_time.reset()
+        self._periodicity.reset()
+
+    def result(self) -> CycleStatistic:
+        """Return what is known now."""
+        return CycleStatistic(self._execution_time.result(), self._periodicity.result())
