@@ -80,6 +80,10 @@ def test_a_load_that_fails_says_why(host, tmp_path):
     assert control('load_controller', 'nobody', 'no.yaml') == failed(
         'Controller parameter file : no.yaml does not exist, Aborting!'
     )
+    (tmp_path / 'other.yaml').write_text('other: {ros__parameters: {}}')
+    code, said, error = control('load_controller', JOINTS, str(tmp_path / 'other.yaml'))
+    assert (code, said) == (1, '')
+    assert error.startswith(f'Controller : {JOINTS} parameters not found in parameter files : [')
     code, said, error = control('load_controller', 'broken')
     assert 'ValueError: a stranger made a mistake' not in said
     assert error.startswith(f'Failed loading controller broken {LOGS}: ')

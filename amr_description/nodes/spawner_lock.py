@@ -29,19 +29,24 @@ def alone_with(node: Node, manager: str, controllers: Sequence[str]) -> Iterator
     The locks are files in ``$ROS_HOME/locks`` (``~/.ros/locks``), and end with the process. Where
     that folder cannot be written the spawner does without.
     """
-    home = Path(os.environ.get('ROS_HOME') or Path.home() / '.ros')
     place = f'{node.context.get_domain_id()}{manager.replace("/", ".")}'
     with ExitStack() as stack:
         for name in sorted(set(controllers)):  # in one order, so that no two wait in a circle
-            path = home / 'locks' / f'spawner.{place}.{name}.lock'
             try:
-                path.parent.mkdir(parents=True, exist_ok=True)
+                path = _folder() / f'spawner.{place}.{name}.lock'
                 file = stack.enter_context(path.open('a'))
-            except OSError as error:
+            except (OSError, RuntimeError) as error:
                 node.get_logger().debug(f'without a lock: {error}')
                 continue
             _lock(node, file.fileno(), f'controller {name} of {manager} ({path})')
         yield
+
+
+def _folder() -> Path:
+    """Return the folder of the locks. Raises OSError; RuntimeError where nobody has a home."""
+    folder = Path(os.environ.get('ROS_HOME') or Path.home() / '.ros') / 'locks'
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
 
 
 def _lock(node: Node, descriptor: int, what: str) -> None:
