@@ -1,6 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which hardware component owns which interface, and which controller has claimed it."""
+"""
+Which hardware component owns which interface, and which controller has claimed it.
+
+Where this departs from ros2_control 4.x: an infinite command stops its joint, with an ERROR that
+names the controller. There it goes to the hardware, whose component refuses it and is brought
+down: one message with a speed of 1e308 m/s would end the robot.
+"""
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
