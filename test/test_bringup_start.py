@@ -6,9 +6,12 @@ import os
 from pathlib import Path
 import re
 import signal
+import subprocess
+import sys
 
 from fixtures.bringup.running import Bringup, STACKS
 import pytest
+from running_programs import ENVIRONMENT, PATIENCE
 
 IN_ORDER = str(STACKS / 'in_order.py')
 CHATTY = str(STACKS / 'chatty.py')
@@ -145,7 +148,35 @@ def test_long_lines_are_cut_and_prefixed(tmp_path):
             if line.startswith('[step-1] ')
         ]
         assert len(pieces) > 1
-        assert ''.join(pieces) == text
+        assert [piece for piece in pieces if piece.strip('x')] == []
+        assert sum(map(len, pieces)) == len(text)
+
+
+SIGNALLED = """
+from pathlib import Path
+import signal, sys
+from amr_description.bringup.console import Console
+from amr_description.bringup.log_folder import LogFolder
+
+console = Console(sys.stdout, LogFolder(Path(sys.argv[1]), 'run'), colour=False)
+signal.signal(signal.SIGALRM, lambda *_: print('signal', file=sys.stderr))
+signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)
+console.output('step-1', 'x' * 100_000)
+signal.setitimer(signal.ITIMER_REAL, 0)
+"""
+
+
+@pytest.mark.parametrize('unbuffered', ['', '1'])
+def test_a_signal_while_nobody_reads_costs_no_output(tmp_path, unbuffered):
+    command = [sys.executable, '-c', SIGNALLED, str(tmp_path)]
+    env = os.environ | ENVIRONMENT | {'PYTHONUNBUFFERED': unbuffered}
+    with subprocess.Popen(
+        command, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        for _ in range(3):
+            assert process.stderr.readline() == 'signal\n'
+        said, _ = process.communicate(timeout=PATIENCE)
+    assert said == f'[step-1] {"x" * 100_000}\n'
 
 
 def test_log_files_hold_what_the_screen_showed(tmp_path):

@@ -4,6 +4,7 @@
 
 from collections.abc import Callable, Mapping
 import contextlib
+import io
 import itertools
 import time
 from typing import Literal, TextIO
@@ -30,6 +31,18 @@ def wants_colour(screen: TextIO, environment: Mapping[str, str]) -> bool:
     return screen.isatty()
 
 
+def _with_buffer(screen: TextIO) -> TextIO:
+    """
+    Return ``screen`` with a buffer, if it has none (``python -u``, PYTHONUNBUFFERED).
+
+    Without one, Python drops what is left of a write that a signal cuts short: a child ends while
+    a full pipe waits for its reader.
+    """
+    if not isinstance(getattr(screen, 'buffer', None), io.RawIOBase):
+        return screen
+    return open(screen.fileno(), 'w', encoding=screen.encoding, closefd=False)
+
+
 class Console:
     """The screen and the log files of one run; all lines go through here, one at a time."""
 
@@ -41,7 +54,7 @@ class Console:
         colour: bool,
     ) -> None:
         """Write to ``screen`` and below ``folder``."""
-        self._screen: TextIO | None = screen
+        self._screen: TextIO | None = _with_buffer(screen)
         self._folder = folder
         self._colour = colour
         self.on_screen_lost: Callable[[], None] = lambda: None
@@ -50,7 +63,7 @@ class Console:
         self._free_colours = itertools.cycle(_NAME_COLOURS)
         self._log_failure_told = False
         with contextlib.suppress(AttributeError):  # not a TextIOWrapper
-            screen.reconfigure(errors='backslashreplace')
+            self._screen.reconfigure(errors='backslashreplace')
 
     def say(self, level: Level, name: str, text: str) -> None:
         """Print ``[INFO] [name]: text``."""
