@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 
+from running_programs import REMARK
+
 ROOT = Path(__file__).parents[1]
 PATIENCE = 30.0
 """s: how long a test waits for what should take a second, on a busy machine."""
@@ -21,8 +23,8 @@ def command(executable: str, *arguments: str) -> list[str]:
 
 
 def run(executable: str, *arguments: str) -> subprocess.CompletedProcess:
-    """Run a node that ends by itself; what it says is in ``stderr``."""
-    return subprocess.run(
+    """Run a node that ends by itself; what it says, but Fast DDS, is in ``stderr``."""
+    result = subprocess.run(
         command(executable, *arguments),
         capture_output=True,
         text=True,
@@ -30,6 +32,8 @@ def run(executable: str, *arguments: str) -> subprocess.CompletedProcess:
         check=False,
         env=environment(),
     )
+    result.stderr = REMARK.sub('', result.stderr)
+    return result
 
 
 @contextmanager
