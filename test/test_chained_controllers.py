@@ -365,19 +365,42 @@ def test_a_fallback_that_is_active_already_stays_so():
     assert bench.lifecycle('tail') == []
 
 
-@pytest.mark.parametrize('gone', ['unload', 'fail'])
-def test_a_fallback_that_cannot_start_is_logged_and_the_actuators_are_safe(gone):
+@pytest.mark.parametrize(
+    ('do', 'why'),
+    [
+        (None, "following controller with name 'tail' is not active"),
+        ('unload', "name 'side' because no controller with this name exists"),
+        ('cleanup', "name 'side' is in 'unconfigured' state"),
+    ],
+)
+def test_a_fallback_that_cannot_start_is_logged_and_the_actuators_are_safe(do, why):
     bench = Bench(fallbacks={'other': ['side']})
     bench.switch('tail other')
     bench.manager.tick(0)
-    if gone == 'unload':
-        bench.manager.unload('side')
+    if do:
+        getattr(bench.manager, do)('side')
     bench.controllers['other'].faults['update'] = ControllerError('too hot')
     bench.manager.tick(PERIOD)
     assert bench.active == set()
     assert bench.hardware.written['a'] == 0.0
-    is_said = any('following controller' in text for text in bench.log.texts(Severity.ERROR))
-    assert is_said == (gone == 'fail')
+    last = bench.log.texts(Severity.ERROR)[-1]
+    assert last.startswith('Could not activate the fallback controllers: ')
+    assert why in last
+
+
+def test_a_fallback_that_wants_all_takes_all():
+    bench = Bench()
+    greedy, risky = FakeController('greedy'), FakeController('risky')
+    greedy.requests = ALL_INTERFACES, greedy.requests[1]
+    bench.manager.load(greedy, 'a/Type')
+    bench.manager.load(risky, 'a/Type', ['greedy'])
+    for name in ('greedy', 'risky'):
+        bench.manager.configure(name, None)
+    bench.switch('risky middle tail')
+    risky.faults['update'] = ControllerError('too hot')
+    bench.manager.tick(0)
+    assert bench.active == {'greedy'}
+    assert bench.manager.resources.claims == {'a/velocity': 'greedy', 'b/velocity': 'greedy'}
 
 
 def test_a_controller_cannot_be_its_own_fallback(bench):

@@ -7,7 +7,7 @@ A controller goes down together with its chain: with those that need it, and wit
 commands, which would otherwise obey nobody.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
@@ -68,7 +68,8 @@ class Faults:
             f'Deactivating controllers : [ {names_of(down)} ] as their {doing} resulted in an '
             'error!',
         )
-        fallbacks = self._fallbacks_of(failed)
+        gone = {controller.name for controller in failed}
+        fallbacks = dict.fromkeys(name for c in failed for name in c.fallbacks if name not in gone)
         in_the_way = [c for c in self._in_the_way_of(fallbacks) if c not in down]
         if in_the_way:
             self._log(
@@ -103,25 +104,28 @@ class Faults:
             )
         self._execution.drop(orphans, time)
 
-    def _fallbacks_of(self, failed: Sequence[LoadedController]) -> list[LoadedController]:
-        """The fallbacks of those that failed that are there and that have not failed as well."""
-        names = dict.fromkeys(name for controller in failed for name in controller.fallbacks)
-        found = [self._controllers.get(name) for name in names]
-        return [each for each in found if each is not None and each not in failed]
-
-    def _in_the_way_of(self, fallbacks: Sequence[LoadedController]) -> list[LoadedController]:
-        needed = {name for each in fallbacks for name in each.ends.commands}
+    def _in_the_way_of(self, fallbacks: Collection[str]) -> list[LoadedController]:
+        commands = self._resources.available_commands()
+        needed = {
+            name
+            for each in self._controllers
+            if each.name in fallbacks and each.is_configured
+            for name in each.wanted(commands, ())[0]
+        }
         return self._controllers.active_chains_of(
-            controller
-            for controller in self._controllers.active
-            if controller not in fallbacks and needed.intersection(controller.required_commands)
+            each
+            for each in self._controllers.active
+            if each.name not in fallbacks and needed.intersection(each.required_commands)
         )
 
-    def _start(self, fallbacks: Sequence[LoadedController], time: int) -> None:
-        self._log(Severity.ERROR, f'Activating fallback controllers : [ {names_of(fallbacks)} ]')
-        starting = [each.name for each in fallbacks if not each.is_active]
+    def _start(self, fallbacks: Collection[str], time: int) -> None:
+        self._log(
+            Severity.ERROR, f'Activating fallback controllers : [ {" ".join(fallbacks)} ]'
+        )
+        active = {each.name for each in self._controllers.active}
+        starting = [name for name in fallbacks if name not in active]
         switching = Switching(self._controllers, self._resources, Strictness.STRICT, self._log)
         try:
             self._execution.carry_out(switching.plan(starting, ()), Strictness.STRICT, time)
         except ControllerError as error:
-            self._log(Severity.ERROR, str(error))
+            self._log(Severity.ERROR, f'Could not activate the fallback controllers: {error}')
