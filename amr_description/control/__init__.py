@@ -25,7 +25,8 @@ ros2_control's heart. Knows no ROS, no simulator, no clock; one thread, the owne
 ``switch_execution.py``     … and how it is done
 ``faults.py``               what becomes of controllers that fail; fallbacks
 ``manager_defaults.py``     what the parameters ``defaults.…`` decide
-``controller_manager.py``   load, configure, switch; read -> update -> write
+``lifecycles.py``           load, configure, clean up, unload
+``controller_manager.py``   switch; read -> update -> write
 ``foreign_errors.py``       what a stranger's controller or component raises, as one line
 
 ``snapshots.py``            what other threads may read of a manager

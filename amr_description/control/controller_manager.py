@@ -7,30 +7,21 @@ Every method runs on the owner's thread. Other threads read :attr:`ControllerMan
 immutable object that is replaced as a whole.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 import math
-from typing import Any
 
-from amr_description.control.configuring import Configuring
-from amr_description.control.contracts import Controller, Log, Severity
-from amr_description.control.controller_list import ControllerList
-from amr_description.control.faults import Faults
-from amr_description.control.foreign_errors import describe
+from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
-from amr_description.control.loaded_controller import LoadedController, look_away, Watch
+from amr_description.control.lifecycles import ControllerLifecycles
 from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.overruns import overrun_text
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.snapshots import ManagerSnapshot
 from amr_description.control.statistics import RunningStatistic
-from amr_description.control.switch_execution import names_of, SwitchExecution
+from amr_description.control.switch_execution import names_of
 from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness, Switching
-from amr_description.control.taking_snapshots import take_snapshot
-from amr_description.control.update_stride import stride_of
-from amr_description.errors import ControllerError
 
 
-class ControllerManager:
+class ControllerManager(ControllerLifecycles):
     """Runs the controllers of one robot at ``update_rate`` Hz."""
 
     def __init__(
@@ -47,30 +38,21 @@ class ControllerManager:
         """
         self.defaults = defaults = defaults or ManagerDefaults()
         """May be replaced while it runs, as a parameter is set."""
-        self.resources = resources
+        super().__init__(resources, update_rate, log)
         resources.lends_commands_of_inactive = (
             defaults.allow_controller_activation_with_inactive_hardware
         )
-        self.update_rate = update_rate
         self.period = period or round(NANOSECONDS / update_rate)
         """Nominal time between two ticks, ns."""
         self.next_tick = 0
         """The instant of the next tick, ns: a multiple of the period, if nothing came late."""
-        self._log = log
-        self._controllers = ControllerList()
-        self._execution = SwitchExecution(self._controllers, resources, log)
-        self._faults = Faults(self._controllers, resources, self._execution, log)
         self._last_tick: int | None = None
         self.periodicity = RunningStatistic()
         """One over the time between two ticks, Hz."""
         self.warns_of_overruns = False
         """Whether a tick that takes longer than its period is told of; by the stopwatch."""
-        self.on_change: Callable[[ManagerSnapshot], None] = lambda _: None
-        """Called with every new snapshot."""
         self.on_tick: Callable[[int], None] | None = None
         """Called after every tick, with its time, ns."""
-        self.snapshot = ManagerSnapshot()
-        self.refresh()
 
     # --- the tick -----------------------------------------------------------------------------
 
@@ -160,118 +142,6 @@ class ControllerManager:
             self._faults.abandon(components, time)
             self.refresh()
 
-    # --- load, configure, unload --------------------------------------------------------------
-
-    def load(
-        self,
-        controller: Controller,
-        type_name: str,
-        fallbacks: Iterable[str] = (),
-        watch: Watch = look_away,
-    ) -> None:
-        """
-        Take a controller that was made elsewhere.
-
-        ``fallbacks``: the controllers to start when it fails. ``watch``: is told of every
-        transition. Raises ControllerError: name, rate or fallbacks.
-        """
-        name = controller.context.name
-        if name in self._controllers:
-            raise ControllerError(
-                f"A controller named '{name}' was already loaded inside the controller manager"
-            )
-        fallbacks = tuple(fallbacks)
-        if name in fallbacks:
-            raise ControllerError(
-                f"Controller '{name}' cannot be a fallback controller for itself."
-            )
-        stride = stride_of(controller, self.update_rate, self._log)
-        stopwatch = self.resources.stopwatch
-        self._controllers.add(
-            LoadedController(controller, type_name, stride, fallbacks, watch, stopwatch)
-        )
-        self.refresh()
-
-    def configure(self, name: str, parameters: Any) -> Controller:
-        """Configure, from inactive again; return the controller. Raises ControllerError."""
-        configuring = self.begin_configure(name)
-        configuring.run(parameters)
-        return self.finish_configure(configuring)
-
-    def begin_configure(self, name: str) -> Configuring:
-        """
-        Check, clean up what is inactive, and set the controller aside. Raises ControllerError.
-
-        Until :meth:`finish_configure` nothing else can be asked of it, so that any thread may
-        ``run`` what this returns.
-        """
-        loaded = self._find(name, 'configure')
-        if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
-            raise ControllerError(
-                f"Controller '{name}' can not be configured from '{loaded.state.label}' state."
-            )
-        self._clean_up(loaded)
-        loaded.is_busy = True
-        self.refresh()
-        return Configuring(loaded)
-
-    def finish_configure(self, configuring: Configuring) -> Controller:
-        """
-        Take the controller in again: inactive, or unconfigured where its ``configure`` raised.
-
-        Raises ControllerError.
-        """
-        loaded = configuring.loaded
-        loaded.is_busy = False
-        try:
-            with configuring.transition:
-                if configuring.failure is not None:
-                    raise configuring.failure
-                self._settle(loaded)
-        except Exception as error:  # a foreign controller may raise anything
-            raise ControllerError(
-                f"Failed to configure controller '{loaded.name}': {describe(error)}"
-            ) from error
-        finally:
-            self.refresh()
-        return loaded.controller
-
-    def _settle(self, loaded: LoadedController) -> None:
-        loaded.settle(self.resources)
-        try:
-            self._controllers.link()
-        except ControllerError:
-            loaded.unsettle()
-            raise
-
-    def cleanup(self, name: str) -> None:
-        """Bring an inactive controller back to unconfigured. Raises ControllerError."""
-        loaded = self._find(name, 'cleanup')
-        if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
-            raise ControllerError(
-                f"Controller '{name}' can not be cleaned-up from '{loaded.state.label}' state."
-            )
-        self._clean_up(loaded)
-        self.refresh()
-
-    def unload(self, name: str) -> None:
-        """Remove a controller that is not active. Raises ControllerError."""
-        loaded = self._find(name, 'unload')
-        if loaded.is_active:
-            raise ControllerError(
-                f"Could not unload controller with name '{name}' because it is still active"
-            )
-        self._clean_up(loaded)
-        loaded.finalize()
-        self._controllers.remove(name)
-        self.refresh()
-
-    def _clean_up(self, controller: LoadedController) -> None:
-        """Inactive → unconfigured, which it is whatever its ``cleanup`` raises."""
-        if controller.state is LifecycleState.INACTIVE:
-            self._faults.survives('cleaning up', controller, controller.cleanup)
-            self._controllers.link()
-
     # --- switch -------------------------------------------------------------------------------
 
     def switch(
@@ -327,33 +197,3 @@ class ControllerManager:
         finally:
             self._abandon([name], time)
             self.refresh()
-
-    # --- helpers ------------------------------------------------------------------------------
-
-    def refresh(self) -> None:
-        """Take a new snapshot, after anything has changed."""
-        self.snapshot = take_snapshot(self._controllers, self.resources, self.update_rate)
-        self.on_change(self.snapshot)
-
-    @property
-    def loaded(self) -> tuple[LoadedController, ...]:
-        """The controllers in the order of their updates; on the owner's thread."""
-        return tuple(self._controllers)
-
-    def is_loaded(self, name: str) -> bool:
-        """Tell whether a controller of that name is there."""
-        return name in self._controllers
-
-    def _find(self, name: str, verb: str) -> LoadedController:
-        loaded = self._controllers.get(name)
-        if loaded is None:
-            raise ControllerError(
-                f"Could not {verb} controller with name '{name}' because no controller with this "
-                'name exists'
-            )
-        if loaded.is_busy:
-            raise ControllerError(
-                f"Could not {verb} controller with name '{name}' because it is being configured; "
-                'ask again when that has ended'
-            )
-        return loaded
