@@ -14,7 +14,6 @@ The simulated world, and the only package that imports MuJoCo.
 ``world_file``      a world's name or path → MuJoCo spec, with the measured solver options
 ``robot_spec``      a URDF → MuJoCo spec of one robot
 ``meshes``          the mesh files of a URDF, found and judged
-``wheels``          which links are wheels
 ``actuators``       command interface → MuJoCo actuators
 ``drives``          which of a joint's actuators act
 ``initial_state``   where joints begin

@@ -21,13 +21,13 @@ from amr_description.errors import SpawnError
 from amr_description.model.findings import raise_error
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.wheels import find_wheels, Wheel
 from amr_description.model.xml_source import parse_xml
 from amr_description.sim.actuators import add_actuators
 from amr_description.sim.faults import one_line
 from amr_description.sim.initial_state import initial_states, JointState
 from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
-from amr_description.sim.wheels import find_wheels, Wheel
 
 WORLD_LINK = 'world'
 """A robot whose root has this name stands fixed."""

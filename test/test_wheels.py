@@ -6,7 +6,7 @@ from fixtures.sim.driving import AMR, LEFT, RIGHT
 import pytest
 
 from amr_description.model.urdf import parse
-from amr_description.sim.wheels import find_wheels, Wheel
+from amr_description.model.wheels import find_wheels, Wheel
 
 ONE_WHEEL = """
 <robot name="cart">
