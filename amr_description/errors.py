@@ -15,6 +15,11 @@ Every error that this package raises on purpose.
     │       └── HardwareDeactivationError  it asks, out of write(), to be made inactive
     ├── SimulationError      the simulated world cannot do what was asked
     │   └── SpawnError       an entity cannot be spawned; carries simulation_interfaces' code
+    ├── TransformException   a transform between two frames cannot be had; the names are tf2's
+    │   ├── LookupException         a frame is unknown, or its tree has a loop
+    │   ├── ConnectivityException   the frames are in different trees
+    │   ├── ExtrapolationException  nothing is known about that time
+    │   └── InvalidArgumentException  a name or a transform cannot be used
     ├── BringupError         a stack is malformed, or one of its steps failed
     └── UsageError           a command line cannot be understood (exit code 2, as argparse)
 
@@ -72,6 +77,26 @@ class SpawnError(SimulationError):
     def __init__(self, message: str, code: int) -> None:
         super().__init__(message)
         self.code = code
+
+
+class TransformException(AmrError):  # noqa: N818 - these five are called so in tf2
+    """A transform between two frames cannot be had."""
+
+
+class LookupException(TransformException):
+    """A frame is unknown, or the frames above it form a loop."""
+
+
+class ConnectivityException(TransformException):
+    """The two frames are in different trees."""
+
+
+class ExtrapolationException(TransformException):
+    """A transform is known, but not at that time."""
+
+
+class InvalidArgumentException(TransformException):
+    """The name of a frame, or a transform, cannot be used."""
 
 
 class BringupError(AmrError):

@@ -96,6 +96,29 @@ def test_matrix_round_trip_at_half_turns(axis, angle):
     assert_same(Transform.from_matrix(turn.to_matrix()), turn)
 
 
+def test_interpolation_begins_and_ends_where_it_should(chance):
+    a, b = random_transform(chance), random_transform(chance)
+    assert_same(a.interpolate(b, 0.0), a)
+    assert_same(a.interpolate(b, 1.0), b)
+    assert_same(a.interpolate(a, 0.3), a)
+
+
+def test_interpolation_is_the_same_from_the_other_end(chance):
+    a, b, ratio = random_transform(chance), random_transform(chance), chance.random()
+    assert_same(a.interpolate(b, ratio), b.interpolate(a, 1.0 - ratio))
+
+
+@pytest.mark.parametrize('angle', [0.0, 1e-17, 1e-12, 1e-7, 0.5, 3.0, math.pi - 1e-9, 4.0])
+def test_slerp_turns_evenly_on_the_shorter_arc(angle, chance):
+    axis, ratio, start = random_vector(chance), chance.random(), random_quaternion(chance)
+    end = frames.multiply(start, frames.quaternion_from_axis_angle(axis, angle))
+    shorter = math.remainder(angle, math.tau)
+    part = frames.quaternion_from_axis_angle(axis, ratio * shorter)
+    turned = frames.slerp(start, end, ratio)
+    assert math.hypot(*turned) == pytest.approx(1.0, abs=1e-15)
+    assert_same(Transform(rotation=turned), Transform(rotation=frames.multiply(start, part)))
+
+
 def rotation_about(axis, angle):
     """Return the textbook matrix of a turn about one coordinate axis."""
     c, s = math.cos(angle), math.sin(angle)

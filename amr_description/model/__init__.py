@@ -17,6 +17,11 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 ``gazebo_tag.py``                   ``<gazebo>`` plugins: ``gazebo_plugins_of(robot)``
 ``gazebo_sensors.py``               ``<gazebo>`` sensors: ``gazebo_sensors_of(robot)``
 
+``transform_buffer.py``             frames over time, as tf2's buffer: ``lookup(target, source)``
+``frame_tree.py``                   … which frame is in which
+``transform_cache.py``              … where one frame was, and interpolation
+``transform_input.py``              … what is taken in, and who quarrels about a frame
+
 ``checks.py``                       the checker: ``RULES``, ``examine``, ``require_sound``
 ``rules_mass.py`` …                 … its rules, by what they judge
 ``subject.py``                      … what a rule may look at

@@ -34,6 +34,8 @@ IDENTITY_QUATERNION: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 # Below this cosine of the pitch, roll and yaw turn about one axis and only their sum can be told.
 _GIMBAL_LOCK_COSINE = 1e-9
+# rad: below it two rotations are one, and the sine that slerp divides by is lost.
+_NO_ANGLE = 1e-15
 
 
 def wxyz_from_xyzw(rotation: Quaternion) -> Quaternion:
@@ -137,6 +139,33 @@ def matrix_from_quaternion(rotation: Quaternion) -> Matrix3:
     )
 
 
+def normalize(rotation: Quaternion) -> Quaternion:
+    """Return the unit quaternion of the same direction; ZeroDivisionError for all zeros."""
+    x, y, z, w = rotation
+    length = math.hypot(x, y, z, w)
+    return (x / length, y / length, z / length, w / length)
+
+
+def slerp(start: Quaternion, end: Quaternion, ratio: float) -> Quaternion:
+    """
+    Return the rotation on the shorter arc, at ``ratio`` (0 … 1) of the way; constant speed.
+
+    K. Shoemake, Animating rotation with quaternion curves, 1985. The angle comes from the sum and
+    the difference of the two, which loses no digits near 0 as an arc cosine does.
+    """
+    cosine = sum(a * b for a, b in zip(start, end, strict=True))
+    sign = math.copysign(1.0, cosine)  # end and -end are one rotation: take the nearer
+    apart = math.hypot(*(sign * b - a for a, b in zip(start, end, strict=True)))
+    together = math.hypot(*(sign * b + a for a, b in zip(start, end, strict=True)))
+    angle = 2.0 * math.atan2(apart, together)
+    if angle < _NO_ANGLE:
+        return start
+    of_start = math.sin((1.0 - ratio) * angle) / math.sin(angle)
+    of_end = sign * math.sin(ratio * angle) / math.sin(angle)
+    x, y, z, w = (of_start * a + of_end * b for a, b in zip(start, end, strict=True))
+    return normalize((x, y, z, w))
+
+
 def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
     """
     Return the unit quaternion, w ≥ 0, of a rotation matrix (the upper left 3×3 of ``matrix``).
@@ -198,6 +227,13 @@ class Transform:
         back = conjugate(self.rotation)
         x, y, z = rotate(back, self.translation)
         return Transform((-x, -y, -z), back)
+
+    def interpolate(self, other: 'Transform', ratio: float) -> 'Transform':
+        """Return the transform at ``ratio`` (0 … 1) of the way: straight, turning evenly."""
+        (ax, ay, az), (bx, by, bz) = self.translation, other.translation
+        keep = 1.0 - ratio
+        place = (keep * ax + ratio * bx, keep * ay + ratio * by, keep * az + ratio * bz)
+        return Transform(place, slerp(self.rotation, other.rotation, ratio))
 
     def apply(self, point: Vector) -> Vector:
         """Return ``point`` in the target frame; a direction needs :func:`rotate` instead."""
