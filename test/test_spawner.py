@@ -193,7 +193,8 @@ def test_a_file_that_does_not_speak_of_a_controller_is_told(host, spawner, said,
     file.write_text('other: {ros__parameters: {gain: 1.0}}')
     text = f"parameters not found in parameter files : ['{file}']"
     spawner(JOINTS, '-p', str(file)).spawn()
-    assert said() == [f'Controller : {JOINTS} {text}', *activated(JOINTS)]
+    told = f'Controller : {JOINTS} {text}; the manager knows its type'
+    assert said() == [told, *activated(JOINTS)]
     with pytest.raises(ParameterError, match='^Controller : nobody parameters not found in par'):
         spawner('nobody', '-p', str(file)).spawn()
 

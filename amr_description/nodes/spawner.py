@@ -153,7 +153,7 @@ class Spawner:
         if plan.files and not entries:
             if not self._manager.has_type(name):
                 raise ParameterError(not_found(name, files))
-            self._log.warning(_yellow(not_found(name, files)))
+            self._log.info(f'{not_found(name, files)}; the manager knows its type')
         parameters |= manager_parameters(name, entries)
         self._manager.set_parameters(name, parameters)
         for key, value in parameters.items():
