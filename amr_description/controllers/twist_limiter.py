@@ -23,7 +23,8 @@ class TwistLimiter:
         self, linear: RateLimiter, angular: RateLimiter, *, keeps_curvature: bool = False
     ) -> None:
         """Begin at rest."""
-        self._limiters = (linear, angular)
+        self._linear = linear
+        self._angular = angular
         self._keeps_curvature = keeps_curvature
         self.forget()
 
@@ -40,13 +41,11 @@ class TwistLimiter:
         return limited
 
     def _limit_each(self, twist: Twist, dt: float) -> Twist:
-        linear, angular = (
-            limiter.limit(value, last, before, dt)
-            for limiter, value, last, before in zip(
-                self._limiters, twist, self._last, self._before_last, strict=True
-            )
+        (last_v, last_w), (before_v, before_w) = self._last, self._before_last
+        return (
+            self._linear.limit(twist[0], last_v, before_v, dt),
+            self._angular.limit(twist[1], last_w, before_w, dt),
         )
-        return linear, angular
 
     def _scaled(self, twist: Twist, limited: Twist) -> Twist:
         """
