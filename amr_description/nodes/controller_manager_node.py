@@ -8,6 +8,7 @@ Here is how it comes to life, and how it ends. Its services (``manager_services.
 """
 
 from collections.abc import Sequence
+from time import monotonic_ns
 
 from rclpy.node import Node
 
@@ -22,6 +23,7 @@ from amr_description.nodes.component_node import ComponentNode
 from amr_description.nodes.manager_parameters import ManagerParameters
 from amr_description.nodes.manager_requests import ManagerRequests
 from amr_description.nodes.manager_services import ManagerServices
+from amr_description.nodes.manager_topics import ManagerTopics
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.node_parameters import let_parameter_events_be_overridden
 from amr_description.nodes.outgoing import Outgoing
@@ -65,6 +67,7 @@ class ControllerManagerNode:
         try:
             let_parameter_events_be_overridden(self.node)
             self.parameters = ManagerParameters(self.node, arguments)
+            self._topics = ManagerTopics(self.node, owner, outgoing, self.parameters)
         except Exception:
             self.destroy()
             raise
@@ -76,6 +79,7 @@ class ControllerManagerNode:
         May be called again after a failure.
         """
         self.forget_hardware()
+        self._topics.expect_hardware()
         self._robot = robot
         self._hardware = [
             (
@@ -105,7 +109,7 @@ class ControllerManagerNode:
                 Severity.INFO,
                 'Enforcing command limits is disabled. Command limits from URDF will be ignored.',
             )
-        resources = ResourceManager(self.log, self._robot, enforce)
+        resources = ResourceManager(self.log, self._robot, enforce, monotonic_ns)
         try:
             for info, node in self._hardware:
                 resources.load(info, HARDWARE.find, world, node.log)
@@ -124,6 +128,9 @@ class ControllerManagerNode:
             period,
             self.parameters.defaults(),
         )
+        for name in resources.components:
+            self.log(Severity.INFO, f'Registering statistics for : {name}')
+        self._topics.watch(self.manager, may_overrun=world is None)
         return self.manager
 
     def start(self) -> None:

@@ -4,6 +4,7 @@
 
 from dataclasses import dataclass
 
+from amr_description.control.thresholds import Diagnostics
 from amr_description.parameters import group, parameter
 
 
@@ -48,74 +49,10 @@ class Overruns:
 
 
 @dataclass(frozen=True)
-class RateLimits:
-    """Deviations of a rate."""
-
-    warn: float = parameter(5.0, 'Deviation to warn of', unit='Hz')
-    error: float = parameter(10.0, 'Deviation that is an error', unit='Hz')
-
-
-@dataclass(frozen=True)
-class TimeLimits:
-    """Mean times."""
-
-    warn: float = parameter(1000.0, 'Execution time to warn of', unit='µs')
-    error: float = parameter(2000.0, 'Execution time that is an error', unit='µs')
-
-
-@dataclass(frozen=True)
-class SpreadLimits:
-    """Standard deviations of times."""
-
-    warn: float = parameter(100.0, 'Deviation to warn of', unit='µs')
-    error: float = parameter(200.0, 'Deviation that is an error', unit='µs')
-
-
-@dataclass(frozen=True)
-class Periodicity:
-    """How regularly something runs."""
-
-    mean_error: RateLimits = group('mean_error', RateLimits)
-    standard_deviation: RateLimits = group('standard_deviation', RateLimits)
-
-
-@dataclass(frozen=True)
-class ExecutionTime:
-    """How long something takes."""
-
-    mean_error: TimeLimits = group('mean_error', TimeLimits)
-    standard_deviation: SpreadLimits = group('standard_deviation', SpreadLimits)
-
-
-@dataclass(frozen=True)
-class ManagerThresholds:
-    """Of the manager's own loop."""
-
-    periodicity: Periodicity = group('periodicity', Periodicity)
-
-
-@dataclass(frozen=True)
-class Thresholds:
-    """Of controllers, or of hardware components."""
-
-    periodicity: Periodicity = group('periodicity', Periodicity)
-    execution_time: ExecutionTime = group('execution_time', ExecutionTime)
-
-
-@dataclass(frozen=True)
-class Diagnostics:
-    """From where on ``/diagnostics`` speaks of a warning, and of an error."""
-
-    controller_manager: ManagerThresholds = group('controller_manager', ManagerThresholds)
-    controllers: Thresholds = group('controllers', Thresholds)
-    hardware_components: Thresholds = group('hardware_components', Thresholds)
-
-
-@dataclass(frozen=True)
 class DiagnosticUpdater:
     """How ``/diagnostics`` is published."""
 
-    period: float = parameter(1.0, 'Time between two messages', unit='s')
+    period: float = parameter(1.0, 'Time between two messages', unit='s', above=0.0)
     use_fqn: bool = parameter(False, 'Name the node with its namespace')
 
 

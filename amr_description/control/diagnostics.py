@@ -1,0 +1,231 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a controller manager says of its health: three tasks, each with a level, a line, and values.
+
+Texts, keys and rules are those of controller_manager 4.x and of its diagnostic_updater. The mean
+of an execution time is compared with zero, that of a rate with the rate that was asked for. Who
+runs at the manager's own rate has no rate of its own to be judged by.
+"""
+
+import enum
+
+from amr_description.control.interfaces import LifecycleState
+from amr_description.control.measurements import Measurements
+from amr_description.control.statistics import CycleStatistic, Statistic
+from amr_description.control.thresholds import Diagnostics, ManagerThresholds, Thresholds
+
+HARDWARE_ID = 'ros2_control'
+
+
+class Level(enum.IntEnum):
+    """As in ``diagnostic_msgs/msg/DiagnosticStatus``."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+
+
+class Report:
+    """What one task says."""
+
+    def __init__(self) -> None:
+        self.level = Level.OK
+        self.message = ''
+        self.values: list[tuple[str, str]] = []
+
+    def add(self, key: str, value: str) -> None:
+        """Tell one fact."""
+        self.values.append((key, value))
+
+    def merge(self, level: Level, message: str) -> None:
+        """Take in another line: problems are joined by a semicolon, and leave no good news."""
+        if level and self.level:
+            self.message += f'; {message}'
+        elif level > self.level or not self.message:
+            self.message = message
+        self.level = max(level, self.level)
+
+
+class _Judge:
+    """Compares cycles with thresholds, and keeps who failed."""
+
+    def __init__(self, report: Report, thresholds: Thresholds, manager_rate: int) -> None:
+        self._report = report
+        self._thresholds = thresholds
+        self._manager_rate = manager_rate
+        self._level = Level.OK
+        self._slow: list[str] = []
+        self._irregular: list[str] = []
+
+    def consider(self, name: str, cycle: str, rate: int, found: CycleStatistic) -> None:
+        """Tell of ``<name><cycle>``, which should run at ``rate`` Hz."""
+        limits = self._thresholds.execution_time
+        self._report.add(f'{name}{cycle}.execution_time', _described(found.execution_time, 'us'))
+        if rate != self._manager_rate:
+            self._consider_rate(name, cycle, rate, found.periodicity)
+        mean, deviation = found.execution_time.mean, found.execution_time.standard_deviation
+        level = max(
+            _level_of(mean, limits.mean_error.warn, limits.mean_error.error),
+            _level_of(
+                deviation, limits.standard_deviation.warn, limits.standard_deviation.error
+            ),
+        )
+        if level:
+            self._slow.append(name)  # a component that reads and writes slowly is there twice
+        self._level = max(level, self._level)
+
+    def _consider_rate(self, name: str, cycle: str, rate: int, found: Statistic) -> None:
+        described = f'{_described(found, "Hz")} -> Desired : {rate} Hz'
+        self._report.add(f'{name}{cycle}.periodicity', described)
+        level = _level_of_rate(found, rate, self._thresholds)
+        if level and name not in self._irregular:
+            self._irregular.append(name)
+        self._level = max(level, self._level)
+
+    def conclude(self) -> None:
+        """Say who failed."""
+        for what, names in (('execution', self._slow), ('periodicity', self._irregular)):
+            if names:
+                listed = ''.join(f'{name} ' for name in names)
+                text = f'\nHigh {what} jitter or mean error : [ {listed}]'
+                self._report.merge(self._level, text)
+
+
+def controllers_activity(measured: Measurements | None, thresholds: Diagnostics) -> Report:
+    """Tell of every controller; ``measured``: None while there is no hardware."""
+    report = Report()
+    controllers = measured.snapshot.controllers if measured else ()
+    judge = _Judge(report, thresholds.controllers, measured.update_rate if measured else 0)
+    for controller in controllers:
+        report.add(f'{controller.name}.state', controller.state.label)
+        if controller.state is LifecycleState.ACTIVE:
+            found = measured.updates[controller.name]
+            judge.consider(controller.name, '', controller.update_rate, found)
+    are_active = all(each.state is LifecycleState.ACTIVE for each in controllers)
+    report.merge(
+        Level.OK,
+        'All controllers are active' if are_active else 'Not all controllers are active',
+    )
+    judge.conclude()
+    if not measured or not _has_active_hardware(measured):
+        report.merge(
+            Level.ERROR, 'No hardware components are currently active to activate controllers'
+        )
+    elif not controllers:
+        report.merge(Level.WARN, 'No controllers are currently loaded')
+    return report
+
+
+def hardware_components_activity(
+    measured: Measurements | None, thresholds: Diagnostics
+) -> Report:
+    """Tell of every component; likewise."""
+    report = Report()
+    if not measured:
+        report.merge(Level.ERROR, 'Resource manager is not yet initialized!')
+        return report
+    components = measured.snapshot.components
+    if not components:
+        report.merge(Level.ERROR, 'No hardware components are loaded!')
+        return report
+    if not _has_active_hardware(measured):
+        report.merge(Level.WARN, 'No hardware components are currently active')
+        return report
+    are_active = all(each.state is LifecycleState.ACTIVE for each in components)
+    some = 'Not all hardware components are active'
+    report.merge(Level.OK, 'All hardware components are active' if are_active else some)
+    judge = _Judge(report, thresholds.hardware_components, measured.update_rate)
+    for component in components:
+        name = component.name
+        report.add(f'{name}.state', component.state.label)
+        if component.state is not LifecycleState.ACTIVE:
+            continue
+        judge.consider(name, '.read_cycle', component.rate, measured.reads[name])
+        if name in measured.writes:
+            judge.consider(name, '.write_cycle', component.rate, measured.writes[name])
+    judge.conclude()
+    return report
+
+
+def controller_manager_activity(
+    measured: Measurements | None,
+    thresholds: Diagnostics,
+    update_rate: int,
+    has_description: bool,
+) -> Report:
+    """Tell of the manager's own cycle at ``update_rate`` Hz; likewise."""
+    report = Report()
+    found = measured.periodicity if measured else Statistic()
+    report.add('update_rate', str(update_rate))
+    report.add('periodicity.average', f'{found.mean:f}')
+    report.add('periodicity.standard_deviation', f'{found.standard_deviation:f}')
+    report.add('periodicity.min', f'{found.minimum:f}')
+    report.add('periodicity.max', f'{found.maximum:f}')
+    if not measured:
+        if has_description:
+            report.merge(Level.ERROR, 'Resource Manager is not initialized properly!')
+        else:
+            report.merge(Level.WARN, 'Waiting for robot description....')
+        return report
+    report.merge(Level.OK, 'Controller Manager is running')
+    report.merge(
+        _level_of_rate(found, update_rate, thresholds.controller_manager),
+        f'Controller Manager has bad periodicity : {found.mean:f} Hz. Expected consistent '
+        f'{update_rate} Hz',
+    )
+    return report
+
+
+def reports(
+    measured: Measurements | None,
+    thresholds: Diagnostics,
+    update_rate: int,
+    *,
+    has_description: bool = True,
+) -> dict[str, Report]:
+    """
+    Return the reports of all tasks, by their names.
+
+    ``measured``: None while there is no hardware; ``has_description``: whether it should be there.
+    """
+    return {
+        'Controllers Activity': controllers_activity(measured, thresholds),
+        'Hardware Components Activity': hardware_components_activity(measured, thresholds),
+        'Controller Manager Activity': controller_manager_activity(
+            measured, thresholds, update_rate, has_description
+        ),
+    }
+
+
+def _has_active_hardware(measured: Measurements) -> bool:
+    components = measured.snapshot.components
+    return any(component.state is LifecycleState.ACTIVE for component in components)
+
+
+def _described(found: Statistic, unit: str) -> str:
+    return (
+        f'Avg: {found.mean:.2f} [{found.minimum:.2f} - {found.maximum:.2f}] {unit}, '
+        f'StdDev: {found.standard_deviation:.2f}'
+    )
+
+
+def _level_of_rate(
+    found: Statistic, rate: int, thresholds: Thresholds | ManagerThresholds
+) -> Level:
+    limits = thresholds.periodicity
+    return max(
+        _level_of(abs(found.mean - rate), limits.mean_error.warn, limits.mean_error.error),
+        _level_of(
+            found.standard_deviation,
+            limits.standard_deviation.warn,
+            limits.standard_deviation.error,
+        ),
+    )
+
+
+def _level_of(value: float, warn: float, error: float) -> Level:
+    """Return how bad a value is; one that is not known yet (NaN) is not bad."""
+    if value > error:
+        return Level.ERROR
+    return Level.WARN if value > warn else Level.OK
