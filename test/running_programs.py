@@ -18,7 +18,7 @@ ENVIRONMENT = {
 }
 # Fast DDS complains about locks in /dev/shm that others hold, or left when they were killed: its
 # ports there are one range for all domains. Nothing is wrong then, and it takes the next one.
-REMARK = re.compile(r'.*RTPS_TRANSPORT_SHM.*\n')
+REMARK = re.compile(r'^.*RTPS_TRANSPORT_SHM.*\n', re.MULTILINE)
 # Makes the terminal at stdin the controlling one, as a terminal emulator does, and has the signals
 # at their defaults, which a test run in the background would not pass on.
 _TAKE_TERMINAL = """
