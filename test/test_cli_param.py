@@ -13,12 +13,12 @@ HAND = '/left/hand'
 RENAMED = '--ros-args -r __node:={}'
 BIG = 100_000
 
-# The program with its patience cut short.
+# The program with its patience cut short, but long enough for those who do answer.
 IMPATIENT = """\
 import sys
 from amr_description.cli.main import main
 from amr_description.cli.param import requests
-requests._RESPONSE_TIMEOUT = 0.1
+requests._RESPONSE_TIMEOUT = 1.5
 sys.exit(main('ros2', sys.argv[1:]))
 """
 
