@@ -43,6 +43,7 @@ HOMES = {
     'mujoco': {'sim'},
     'websockets': {'viewer'},
     'serial': {'hardware'},
+    'xacro': {'model'},
 }
 MESSAGE_HOMES = {'nodes', 'cli'}
 IMPURE = {

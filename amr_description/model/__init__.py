@@ -8,6 +8,7 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 ``robot.py``                        Robot, Link, Joint, Inertial, shapes: the result of reading
 ``hardware_info.py``                HardwareInfo and its interfaces: likewise
 
+``description_file.py``             file -> URDF text, xacro expanded
 ``urdf.py``                         URDF -> Robot: ``parse(text, source)``, ``load(path)``
 ``urdf_links.py``                   … its ``<link>`` and ``<material>`` elements
 ``urdf_joints.py``                  … its ``<joint>`` elements
