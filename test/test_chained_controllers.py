@@ -363,6 +363,18 @@ def test_a_fallback_that_is_active_already_stays_so():
     bench.manager.tick(0)
     assert bench.active == {'tail'}
     assert bench.lifecycle('tail') == []
+    assert len(bench.log.texts(Severity.ERROR)) == 3
+    assert bench.log.texts(Severity.ERROR)[-1].startswith('Activating fallback')
+
+
+def test_a_fallback_that_fails_in_the_same_tick_is_not_started_again():
+    bench = Bench(fallbacks={'reader': ['tail']})
+    bench.switch('tail reader')
+    for name in ('tail', 'reader'):
+        bench.controllers[name].faults['update'] = ControllerError('too hot')
+    bench.manager.tick(0)
+    assert bench.active == set()
+    assert not any('fallback' in text for text in bench.log.texts(Severity.ERROR))
 
 
 @pytest.mark.parametrize(
@@ -428,6 +440,16 @@ def test_fallbacks_must_be_configured_before_the_activation():
     assert bench.refuses(message, 'side')
 
 
+def test_a_fallback_must_not_count_on_what_goes_in_the_same_request():
+    bench = Bench(fallbacks={'risky': ['other']})
+    bench.manager.load(FakeController('risky'), 'a/Type', ['other'])
+    bench.manager.configure('risky', None)
+    bench.switch('tail')
+    message = "fallback controller's : 'other' command .* currently available! Missing: tail/x$"
+    assert bench.refuses(message, 'risky', 'tail')
+    bench.switch('risky')
+
+
 # --- what is offered -----------------------------------------------------------------------------
 
 
@@ -459,6 +481,25 @@ def test_whoever_wants_all_gets_what_is_there_but_not_its_own(bench):
         bench.switch('greedy', 'greedy' if 'greedy' in bench.active else '')
         assert set(bench['greedy'].claimed) == {'a/velocity', 'b/velocity'}
         assert 'greedy/own' not in bench['greedy'].required_states
+
+
+def test_whoever_wants_all_can_be_commanded_from_the_first():
+    bench = Bench()
+    greedy = FakeChainable('greedy')
+    greedy.requests = ALL_INTERFACES, greedy.requests[1]
+    for controller in (greedy, FakeController('pilot', ['greedy/x'])):
+        bench.manager.load(controller, 'a/Type')
+        bench.manager.configure(controller.context.name, None)
+    bench.switch('pilot greedy')
+    assert (bench.active, bench.chained) == ({'pilot', 'greedy'}, {'greedy'})
+
+
+def test_a_mode_that_a_controller_keeps_no_account_of_is_kept_for_it(bench):
+    bench.controllers['tail'].set_chained_mode = lambda is_chained: None
+    bench.switch('tail middle')
+    assert bench.chained == {'tail'}
+    bench.switch('', 'middle')
+    assert bench.chained == set()
 
 
 @pytest.mark.parametrize(

@@ -75,14 +75,32 @@ def test_from_rest_it_speeds_up_along_the_arc_until_it_drives_what_it_can(
 
 
 @law
-@given(without_jerk, without_jerk, twists, dts)
-def test_it_brakes_along_the_arc(linear, angular, command, dt):
+@given(without_jerk, without_jerk, twists, dts, st.just(0.0) | st.floats(0.01, 0.99))
+def test_it_slows_down_and_brakes_along_the_arc(linear, angular, command, dt, share):
     limiter = TwistLimiter(linear, angular, keeps_curvature=True)
     for _ in range(50):
         first = limiter.limit(command, dt)
-    for _ in range(50):
-        v, w = limiter.limit((0.0, 0.0), dt)
+    last = first
+    for _ in range(100):
+        v, w = limiter.limit((share * first[0], share * first[1]), dt)
         assert v * first[1] == pytest.approx(w * first[0], abs=1e-9)
+        assert abs(v) <= abs(last[0]) + 1e-9
+        assert abs(w) <= abs(last[1]) + 1e-9
+        last = v, w
+
+
+@law
+@given(limiters, limiters, twists, twists, dts)
+def test_no_component_is_driven_faster_than_it_was_or_is_told(linear, angular, first, then, dt):
+    """Whatever the arc may ask for; a jerk limit may carry one on for a moment."""
+    assume(math.isnan(linear.max_jerk) and math.isnan(angular.max_jerk))
+    limiter = TwistLimiter(linear, angular, keeps_curvature=True)
+    last = limiter.limit(first, dt)
+    for _ in range(30):
+        found = limiter.limit(then, dt)
+        for now, before, told in zip(found, last, then, strict=True):
+            assert abs(now) <= max(abs(before), abs(told)) + 1e-9
+        last = found
 
 
 @law
@@ -118,3 +136,20 @@ def test_on_to_another_arc_each_component_goes_as_fast_as_it_may():
     for _ in range(10):
         limiter.limit((1.0, 0.0), 0.1)
     assert limiter.limit((0.0, 1.0), 0.1) == pytest.approx((0.9, 1.0))
+
+
+@pytest.mark.parametrize(
+    ('then', 'found'),
+    [
+        ((-0.01, 0.5), (1.9, 0.0)),  # first to rest: until then no reverse arc is driven
+        ((0.01, 0.5), (1.9, 0.5)),  # and no turn is made for an arc that is 190 times as wide
+        ((1.0, 0.5), (1.9, 0.5)),
+    ],
+)
+def test_while_it_brakes_from_straight_on(then, found):
+    limiter = TwistLimiter(
+        RateLimiter(max_acceleration=1.0), RateLimiter(), keeps_curvature=True
+    )
+    for _ in range(30):
+        limiter.limit((2.0, 0.0), 0.1)
+    assert limiter.limit(then, 0.1) == pytest.approx(found)

@@ -14,6 +14,7 @@ type Twist = tuple[float, float]
 """m/s along x, rad/s about z."""
 
 _AT_REST = (0.0, 0.0)
+_ROUNDING = 1e-9
 
 
 class TwistLimiter:
@@ -51,14 +52,19 @@ class TwistLimiter:
         """
         Scale the command by what is left of its more limited component, between 0 and 1.
 
-        Rest has no curvature: on the way there it is that of the motion, and the component that
-        brakes slower decides.
+        Where none falls short of the command, and one is still faster, that one decides instead,
+        as far as the other does not gain on the twist before. Rest has no curvature: on the way
+        there it is that of the motion.
         """
         if twist == _AT_REST:
             kept = [a / b for a, b in zip(limited, self._last, strict=True) if b]
-            base, factor = self._last, max(kept, default=0.0)
-        else:
-            base = twist
-            factor = min(a / b for a, b in zip(limited, twist, strict=True) if b)
-        factor = min(max(factor, 0.0), 1.0)
-        return factor * base[0], factor * base[1]
+            return _times(self._last, max(kept, default=0.0))
+        left = [a / b for a, b in zip(limited, twist, strict=True) if b]
+        if min(left) > 1.0 - _ROUNDING:
+            before = [a / b for a, b in zip(self._last, twist, strict=True) if b]
+            return _times(twist, max(1.0, min(max(left), *before)))
+        return _times(twist, max(min(left), 0.0))
+
+
+def _times(twist: Twist, factor: float) -> Twist:
+    return factor * twist[0], factor * twist[1]
