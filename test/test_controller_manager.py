@@ -20,6 +20,7 @@ from control_fakes import (
 import pytest
 
 from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import ALL_INTERFACES, LifecycleState
 from amr_description.control.samples import TwistSample
 from amr_description.control.switching import Strictness
@@ -116,6 +117,16 @@ def test_the_next_tick_is_the_next_multiple_of_the_period_even_after_a_late_one(
         assert manager.next_tick == following * MS
         assert not manager.is_due(following * MS - 1)
         assert manager.is_due(following * MS)
+
+
+@pytest.mark.parametrize('anew', [ControllerManager.begin, ControllerManager.reset])
+def test_time_that_begins_between_two_ticks_begins_with_a_whole_period(anew):
+    manager = make_manager()
+    run(manager, 3)
+    for time, first in ((4 * MS, 10 * MS), (123_456_789, 130 * MS), (50 * MS, 50 * MS), (0, 0)):
+        anew(manager, time)
+        assert manager.next_tick == first
+        assert manager.is_due(time) is (time == first)
 
 
 def test_the_world_may_give_the_period():

@@ -107,10 +107,18 @@ class ControllerManager(ControllerLifecycles):
         expected = 1e6 / self.update_rate
         self._log(Severity.WARN, overrun_text(expected, *durations), throttle=1.0)
 
+    def begin(self, time: int) -> None:
+        """
+        Time begins at ``time`` (ns): the first tick is that at the next multiple of the period.
+
+        One at once would leave the second a period that is no period, of a millisecond perhaps.
+        """
+        self._last_tick = None
+        self.next_tick = time + -time % self.period
+
     def reset(self, time: int) -> None:
         """Time went back to ``time`` (ns): all stays as it is and begins anew."""
-        self._last_tick = None
-        self.next_tick = time
+        self.begin(time)
         self._abandon(self.resources.reset(time), time)
         survives = self._faults.survives
         failed = [c for c in self._controllers if not survives('resetting', c, c.reset, time)]

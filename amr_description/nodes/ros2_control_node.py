@@ -132,8 +132,10 @@ class StandAlone:
 
     def _take_manager(self) -> None:
         """On the owner's thread; how long it takes is no overrun, as nothing ran before it."""
-        self.owner.loop.managers.append(self._manager.bring_up(None, self._period))
+        manager = self._manager.bring_up(None, self._period)
         self._clock.resume(0)
+        manager.begin(self._clock.time)
+        self.owner.loop.managers.append(manager)
 
     def _ask_linux(self) -> None:
         """On the owner's thread, before its first turn."""
