@@ -92,15 +92,16 @@ class Robot:
         self.time = 0
 
     def load(self, table):
-        """Load and configure every controller of a YAML file."""
-        for name, entry in table['controller_manager']['ros__parameters'].items():
-            if isinstance(entry, dict):
-                kind = CONTROLLERS.find(entry['type'])
+        """Load and configure every controller of a YAML file, for a manager or for a spawner."""
+        entries = table.get('controller_manager', table)
+        for name, entry in entries.get('ros__parameters', entries).items():
+            own = table.get(name, {}).get('ros__parameters', {})
+            kind_name = own.get('type') or (isinstance(entry, dict) and entry.get('type'))
+            if kind_name:
+                kind = CONTROLLERS.find(kind_name)
                 controller = kind(ControllerContext(name, self.log))
-                fallbacks = entry.get('fallback_controllers', ())
-                self.manager.load(controller, entry['type'], fallbacks)
-                values = flat(table.get(name, {}).get('ros__parameters', {}))
-                self.manager.configure(name, build(kind.parameters_type, values))
+                self.manager.load(controller, kind_name, own.get('fallback_controllers', ()))
+                self.manager.configure(name, build(kind.parameters_type, flat(own)))
                 self.controllers[name] = controller
         return self
 

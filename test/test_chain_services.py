@@ -20,8 +20,7 @@ def host(tmp_path_factory):
     folder = tmp_path_factory.mktemp('chain')
     file = folder / 'controllers.yaml'
     entry = '    circle: {type: my_package.circle/Circle}\n'
-    parameters = '\ncircle:' + TABLE.partition('\ncircle:')[2]
-    file.write_text(YAML.replace('    slow:', f'{entry}    slow:') + parameters)
+    file.write_text(YAML.replace('    slow:', f'{entry}    slow:') + TABLE)
     with pytest.MonkeyPatch.context() as patch, ros_in_this_process():
         install(folder, patch, circle=CLASS)
         host = Host(file)

@@ -91,8 +91,7 @@ def test_the_refusals_of_the_page_are_those_of_the_manager(robot):
 
 
 def test_a_second_owner_of_a_reference_is_refused(robot):
-    values = {'ros__parameters': {'type': 'my_package.circle/Circle'}}
-    robot.load({'controller_manager': {'ros__parameters': {'rival': values['ros__parameters']}}})
+    robot.load({'rival': TABLE['circle']})
     robot.switch('circle')
     with pytest.raises(ControllerError, match='is currently claimed by another controller'):
         robot.switch('rival')
@@ -125,13 +124,8 @@ def test_the_fallback_of_the_page_obeys_topics_again(package):
 
 
 def test_the_chainable_one_of_the_page_can_be_followed(robot):
-    table = {
-        'controller_manager': {
-            'ros__parameters': {'middle': {'type': 'my_package.chainable/Chainable'}}
-        },
-        'middle': {'ros__parameters': {'speed': 0.25}},
-    }
-    robot.load(table)
+    values = {'type': 'my_package.chainable/Chainable', 'speed': 0.25}
+    robot.load({'middle': {'ros__parameters': values}})
     robot.manager.load(FakeController('head', ['middle/speed'], ['middle/half_speed']), 'a/Fake')
     robot.manager.configure('head', None)
     robot.switch('middle')

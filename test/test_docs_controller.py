@@ -47,7 +47,7 @@ def test_the_yaml_of_the_page_loads_the_class(robot):
 
 
 def test_parameters_are_checked_as_the_page_says(package):
-    bad = {**TABLE, 'spinner': {'ros__parameters': {'joint': 'j', 'gain': -1.0}}}
+    bad = {'spinner': {'ros__parameters': TABLE['spinner']['ros__parameters'] | {'gain': -1.0}}}
     with pytest.raises(ParameterError, match="'gain' must be greater than 0, found -1.0 rad/s"):
         Robot(mocked(MOCK)).load(bad)
 
