@@ -107,11 +107,14 @@ def test_a_pipe_shows_lines_at_once_and_may_be_closed(fixture_node, tmp_path):
 
 
 def test_a_topic_that_comes_later_is_heard_if_its_type_is_given():
-    with started('topic', 'echo', '--once', '/late', 'std_msgs/msg/String') as listener:
-        # Not --once: who publishes may see the listener before it is seen, and be gone too soon.
-        with started('topic', 'pub', '-r', '20', '/late', 'std_msgs/msg/String', 'data: at last'):
-            listener.expect('data: at last')
-            assert listener.end() == 0
+    # Not --once: who publishes may see the listener before it is seen, and be gone too soon.
+    publish = ('topic', 'pub', '-r', '20', '/late', 'std_msgs/msg/String', 'data: at last')
+    with (
+        started('topic', 'echo', '--once', '/late', 'std_msgs/msg/String') as listener,
+        started(*publish),
+    ):
+        listener.expect('data: at last')
+        assert listener.end() == 0
 
 
 def test_hz_waits_for_the_topic_and_measures(fixture_node):
