@@ -28,6 +28,7 @@ class ManagerTopics:
     def __init__(
         self, node: Node, owner: Owner, outgoing: Outgoing, parameters: ManagerParameters
     ) -> None:
+        self._node = node
         self._owner = owner
         self._parameters = parameters
         self._manager: ControllerManager | None = None
@@ -50,6 +51,8 @@ class ManagerTopics:
         """
 
         def tell(snapshot: ManagerSnapshot) -> None:
+            if not self._node.context.ok():
+                return  # nobody can hear it, and the motors have to be stopped all the same
             self._activity.tell(snapshot)
             self._introspection.watch(manager)
 
