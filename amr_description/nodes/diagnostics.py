@@ -25,14 +25,16 @@ class DiagnosticsTopic:
     """The topic and its timer; everything here runs on the ROS thread."""
 
     def __init__(self, node: Node, owner: Owner, parameters: ManagerParameters) -> None:
-        """``parameters``: period and name as they are now; thresholds as they are each time."""
+        """``parameters``: of which only those at the start count, but for the thresholds."""
         self.manager: ControllerManager | None = None
         """Set once there is hardware."""
         self.has_description = False
         """True once there should be."""
+        self.thresholds = parameters.start.diagnostics
+        """As they are now."""
         self._node = node
         self._owner = owner
-        self._parameters = parameters
+        self._update_rate = parameters.update_rate
         updater = parameters.start.diagnostic_updater
         name = node.get_fully_qualified_name() if updater.use_fqn else node.get_name()
         self._prefix = f'{name}: '
@@ -54,8 +56,8 @@ class DiagnosticsTopic:
             measured = await self._owner.submit(lambda: take_measurements(manager))
         found = reports(
             measured,
-            self._parameters.now().diagnostics,
-            self._parameters.update_rate,
+            self.thresholds,
+            self._update_rate,
             has_description=self.has_description,
         )
         message = DiagnosticArray(

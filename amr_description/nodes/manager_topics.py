@@ -64,7 +64,9 @@ class ManagerTopics:
 
     def _mind_parameters(self, _: Sequence[Parameter]) -> None:
         """One was set; on the ROS thread."""
-        self._warns_of_overruns = self._parameters.now().overruns.print_warnings
+        now = self._parameters.now()  # not each second: it takes half a millisecond
+        self._diagnostics.thresholds = now.diagnostics
+        self._warns_of_overruns = now.overruns.print_warnings
         if self._manager is not None:
             self._owner.submit(self._apply)
 
