@@ -464,6 +464,22 @@ def test_deactivate_then_activate():
     assert bench.drive(1.0) == (1.0, 1.0)
 
 
+numbers = st.floats(allow_nan=True, allow_infinity=True)
+
+
+@settings(deadline=None, derandomize=True, max_examples=100)
+@given(st.lists(st.tuples(numbers, numbers), min_size=1, max_size=5), st.booleans())
+def test_whatever_is_commanded_the_wheels_are_told_numbers(commands, chained):
+    bench = Bench(enable_cmd_vel_unstamped=True, open_loop=True).activate(None, chained=chained)
+    bench.left.value = bench.right.value = 0.0
+    for linear, angular in commands:
+        if chained:
+            bench.refer(linear, angular)
+        else:
+            bench.send_unstamped(linear, angular)
+        assert all(map(math.isfinite, bench.update()))
+
+
 def test_a_command_with_zero_timestamp_is_accepted_with_a_warning():
     bench = Bench().activate()
     bench.send(1.0, stamp=0)

@@ -4,9 +4,12 @@
 
 from collections.abc import Sequence
 import math
+import sys
 
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.errors import ControllerError
+
+_GREATEST = sys.float_info.max
 
 
 class WheelSide:
@@ -23,8 +26,12 @@ class WheelSide:
         self._states = states
 
     def drive(self, speed: float) -> None:
-        """Command the speed of the side over the ground, m/s: speed / radius on every wheel."""
-        turning = speed / self._radius
+        """
+        Command the speed of the side over the ground, m/s: speed / radius on every wheel.
+
+        A quotient beyond all numbers becomes the greatest one: no wheel is told infinity.
+        """
+        turning = min(max(speed / self._radius, -_GREATEST), _GREATEST)
         for wheel in self._commands:
             wheel.value = turning
 
