@@ -276,6 +276,15 @@ def test_a_chain_of_which_one_fails(bench, strictness, left):
     assert (bench.active, bench.chained) == (left, set())
 
 
+def test_hardware_that_fails_to_change_its_mode_leaves_nobody_without_whom_it_needs(bench):
+    bench.switch('tail reader')
+    bench.hardware.faults['perform'] = OSError('stuck')
+    with pytest.raises(ControllerError, match='Error while performing mode switch. .*stuck'):
+        bench.switch('middle')
+    assert bench.active == bench.chained == set()
+    assert bench.hardware.commands['a'].value == 0.0
+
+
 # --- faults --------------------------------------------------------------------------------------
 
 

@@ -30,14 +30,19 @@ class SwitchExecution:
         """
         Deactivate, then activate.
 
-        Raises ControllerError when the hardware refuses (nothing has then changed) and when a
-        controller cannot be activated: STRICT then deactivates the plan's others again. Those
-        that the request did not name, and which only were to change their mode, go on.
+        Raises ControllerError when the hardware refuses (nothing has then changed), when it then
+        fails all the same (what was to be deactivated is), and when a controller cannot be
+        activated: STRICT then deactivates the plan's others again. Those that the request did not
+        name, and which only were to change their mode, go on.
         """
         stop = [name for c in plan.deactivate for name in c.required_commands]
         self._prepare(plan.start, stop)
         self._deactivate(plan.deactivate, time)
-        self._perform(plan.start, stop)
+        try:
+            self._perform(plan.start, stop)
+        except ControllerError:
+            self._mend(time)
+            raise
         failed = [c for c in plan.activate if not self._activate(c, time, c.name in plan.chained)]
         if not failed:
             return
