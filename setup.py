@@ -43,6 +43,7 @@ setup(
             'bringup = amr_description.bringup.main:main',
             'create = amr_description.nodes.create:main',
             'hardware_spawner = amr_description.nodes.hardware_spawner:main',
+            'joint_state_publisher = amr_description.nodes.joint_state_publisher:main',
             'listener = amr_description.nodes.listener:main',
             'motor_board = amr_description.nodes.motor_board:main',
             'mujoco_sim = amr_description.nodes.mujoco_sim:main',
@@ -52,6 +53,7 @@ setup(
             'talker = amr_description.nodes.talker:main',
             'teleop_twist_keyboard = amr_description.nodes.teleop_twist_keyboard:main',
             'unspawner = amr_description.nodes.unspawner:main',
+            'xacro = xacro:main',
         ],
     },
 )

@@ -23,6 +23,7 @@ from amr_description.nodes.robot_state_publisher import RobotStatePublisher
 from amr_description.nodes.runtime import spinning
 
 AMR = Path(__file__).parents[1] / 'urdf/amr.urdf'
+GRIPPER = Path(__file__).parent / 'fixtures/urdf/gripper.urdf.xacro'
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TWO_LINKS = """
 <robot name="test">
@@ -264,6 +265,7 @@ def test_publish_frequency_can_be_changed_while_it_runs(start, listener):
     [
         ([], 'robot_description parameter must not be empty'),
         (['/nowhere/amr.urdf'], '/nowhere/amr.urdf'),
+        ([str(GRIPPER), 'palm:=perhaps'], 'gripper.urdf.xacro: Xacro conditional "$(arg palm)" evaluated'),
         (['--ros-args', '-p', 'robot_description:=<robot/>'], 'Unable to initialize urdf::model'),
         ([str(AMR), '--ros-args', '-p', 'publish_frequency:=-1.0'], 'must be between 0.0'),
     ],
@@ -280,4 +282,29 @@ def test_it_takes_a_file_as_its_argument_and_says_so():
     with Program.module('robot_state_publisher', str(AMR)) as node:
         node.expect('No robot_description parameter, but command-line argument available')
         node.expect(r'\[INFO\] \[[\d.]+\] \[robot_state_publisher\]: Robot initialized')
+        assert node.end(signal.SIGINT) == 0
+
+
+def test_it_takes_a_xacro_file_and_its_arguments_which_are_no_remapping_rules(listener):
+    with Program.module(
+        'robot_state_publisher', str(GRIPPER), 'palm:=false', 'frame:=x', '--ros-args'
+    ) as node:
+        node.expect('Robot initialized')
+        assert 'nothing asks for "frame"; its arguments: "finger_length", "palm"' in node.output
+        assert 'remap rule' not in node.output
+        listener.until(lambda: listener.descriptions)
+        assert 'name="wrist"' in listener.descriptions[0]
+        assert 'palm' not in listener.descriptions[0].partition('<robot')[2]
+        assert node.end(signal.SIGINT) == 0
+
+
+def test_ctrl_c_ends_the_expansion_of_a_bomb(tmp_path):
+    bomb = tmp_path / 'bomb.xacro'
+    endless = '${[0 for a in range(10**9) for b in range(10**9)]}'
+    bomb.write_text(
+        '<robot name="bomb" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        f'${{xacro.message("expanding")}}<link name="{endless}"/></robot>'
+    )
+    with Program.module('robot_state_publisher', str(bomb)) as node:
+        node.expect('expanding')
         assert node.end(signal.SIGINT) == 0

@@ -4,20 +4,22 @@
 
 import pytest
 
-from amr_description.nodes.ros_arguments import inherited, ros_arguments
+from amr_description.nodes.ros_arguments import inherited, other_arguments, ros_arguments
 
 
 @pytest.mark.parametrize(
-    ('line', 'found'),
+    ('line', 'found', 'others'),
     [
-        ('', ''),
-        ('-a --b', ''),
-        ('--ros-args -p a:=1', '-p a:=1'),
-        ('x --ros-args -p a:=1 -- y --ros-args -r b:=c', '-p a:=1 -r b:=c'),
+        ('', '', ''),
+        ('-a --b', '', '-a --b'),
+        ('--ros-args -p a:=1', '-p a:=1', ''),
+        ('x --ros-args -p a:=1 -- y --ros-args -r b:=c', '-p a:=1 -r b:=c', 'x y'),
+        ('x -- y a:=1', '', 'x -- y a:=1'),
     ],
 )
-def test_what_of_a_command_line_is_for_ros(line, found):
+def test_what_of_a_command_line_is_for_ros(line, found, others):
     assert ros_arguments(line.split()) == found.split()
+    assert other_arguments(line.split()) == others.split()
 
 
 @pytest.mark.parametrize(

@@ -34,12 +34,21 @@ STAND_INS = {
     ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',
     ('demo_nodes_py', 'talker'): 'talker --ros-args -r __node:=talker -r topic:=chatter',
     ('joint_state_publisher', 'joint_state_publisher'): 'joint_state_publisher',
-    ('joint_state_publisher_gui', 'joint_state_publisher_gui'): 'joint_state_publisher_gui',
     ('py_pubsub', 'listener'): 'listener',
     ('py_pubsub', 'talker'): 'talker',
     ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
     ('ros_gz_sim', 'create'): 'create',
     ('teleop_twist_keyboard', 'teleop_twist_keyboard'): 'teleop_twist_keyboard',
+    ('xacro', 'xacro'): 'xacro',
+}
+
+# What nothing of ours takes the part of, and what would do.
+INSTEAD = {
+    ('joint_state_publisher_gui', 'joint_state_publisher_gui'): (
+        "it needs a window; run 'ros2 run joint_state_publisher joint_state_publisher' and move "
+        'joints on its topic: ros2 topic pub --once /joint_state_publisher/set_joint_positions '
+        "sensor_msgs/msg/JointState '{name: [JOINT], position: [0.5]}'"
+    ),
 }
 
 
@@ -82,6 +91,8 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     from amr_description.cli.packages import executables_of, packages
 
     known = packages()
+    if package not in known and (package, name) in INSTEAD:
+        raise AmrError(f"Package '{package}' not found: {INSTEAD[package, name]}")
     if package in known or (package, name) not in STAND_INS or _OURS not in known:
         return _only_one(executables_of(package), package, name), ()
     stand_in, *words = STAND_INS[package, name].split()

@@ -134,6 +134,19 @@ class Limit:
 
 
 @dataclass(frozen=True, slots=True)
+class SafetyController:
+    """
+    Soft limits of the position (rad or m), ±inf where none are given, and the gains of a
+    controller that keeps to them: ``k_position`` (1/s), ``k_velocity`` (N·m·s/rad or N·s/m).
+    """
+
+    soft_lower_limit: float
+    soft_upper_limit: float
+    k_position: float
+    k_velocity: float
+
+
+@dataclass(frozen=True, slots=True)
 class Mimic:
     """position = ``multiplier`` · position of ``joint`` + ``offset``."""
 
@@ -170,6 +183,7 @@ class Joint:
     mimic: Mimic | None
     dynamics: Dynamics | None
     line: int
+    safety: SafetyController | None = None
 
     @property
     def is_moving(self) -> bool:

@@ -6,10 +6,10 @@ import math
 
 from lxml import etree
 
-from amr_description.model.element_reader import ElementReader, line_of
+from amr_description.model.element_reader import ElementReader, line_of, parse_number
 from amr_description.model.findings import quote
 from amr_description.model.frames import Vector
-from amr_description.model.robot import Dynamics, Joint, JointType, Limit, Mimic
+from amr_description.model.robot import Dynamics, Joint, JointType, Limit, Mimic, SafetyController
 from amr_description.model.urdf_links import read_origin
 
 # URDF's default axis.
@@ -48,12 +48,13 @@ def _read_joint(element: etree._Element, reader: ElementReader) -> Joint:
     name = element.get('name', '')
     reader = reader.of(f'joint {quote(name)}')
     if not name:
-        reader.error(
-            element, '<joint> has no attribute "name"', urdfdom=_refusal('unnamed joint found')
-        )
-    origin = read_origin(
-        element, reader.refused_as(_refusal(f'Malformed parent origin element for joint [{name}]'))
-    )
+        # An empty name is one to urdfdom.
+        words = '' if element.get('name') is not None else _refusal('unnamed joint found')
+        reader.error(element, '<joint> has no attribute "name"', urdfdom=words)
+    malformed = f'Malformed parent origin element for joint [{name}]'
+    words = _refusal(*_vector_words(element.find('origin'), 'xyz', 'rpy'), malformed)
+    origin = read_origin(element, reader.refused_as(words))
+    _check_calibration(element, name, reader)
     parent = _read_end(element, 'parent')
     child = _read_end(element, 'child')
     kind = _read_type(element, name, reader)
@@ -68,6 +69,7 @@ def _read_joint(element: etree._Element, reader: ElementReader) -> Joint:
         mimic=_read_mimic(element, name, reader),
         dynamics=_read_dynamics(element, name, reader),
         line=line_of(element),
+        safety=_read_safety(element, name, reader),
     )
 
 
@@ -108,8 +110,8 @@ def _read_axis(
     axis = element.find('axis')
     if axis is None or kind in _WITHOUT_AXIS:
         return _X_AXIS
-    refused = reader.refused_as(_refusal(f'Malformed axis element for joint [{name}]'))
-    values = refused.numbers(axis, 'xyz', 3, _X_AXIS)
+    reason = ': '.join([f'Malformed axis element for joint [{name}]', *_vector_words(axis, 'xyz')])
+    values = reader.refused_as(_refusal(reason)).numbers(axis, 'xyz', 3, _X_AXIS)
     length = math.hypot(*values)
     if length == 0.0 or math.isinf(length):
         reader.error(
@@ -137,33 +139,56 @@ def _read_limit(
                 urdfdom=_refusal(_LIMITED[kind].format(name)),
             )
         return None
-    refused = reader.refused_as(_refusal(f'Could not parse limit element for joint [{name}]'))
+    words = f'Could not parse limit element for joint [{name}]'
     return Limit(
-        lower=refused.number(limit, 'lower', 0.0),
-        upper=refused.number(limit, 'upper', 0.0),
-        effort=_read_required_limit(limit, 'effort', name, reader),
-        velocity=_read_required_limit(limit, 'velocity', name, reader),
+        lower=_number(limit, 'lower', reader, words, 0.0),
+        upper=_number(limit, 'upper', reader, words, 0.0),
+        effort=_number(limit, 'effort', reader, words),
+        velocity=_number(limit, 'velocity', reader, words),
     )
 
 
-def _read_required_limit(
-    limit: etree._Element, attribute: str, name: str, reader: ElementReader
+def _number(
+    element: etree._Element,
+    attribute: str,
+    reader: ElementReader,
+    words: str,
+    default: float | None = None,
 ) -> float:
-    words = [f'Could not parse limit element for joint [{name}]']
-    if limit.get(attribute) is None:
-        words.insert(0, f'joint limit: no {attribute}')
-    return reader.refused_as(_refusal(*words)).number(limit, attribute)
+    """Return a number; urdfdom calls a fault in the element ``words``, after the reason."""
+    text = element.get(attribute)
+    kind = element.tag.partition('_')[0]  # urdfdom says "safety" of a <safety_controller>
+    reason = f'joint {kind}: no {attribute}'
+    if text is not None:
+        reason = f'{attribute} value ({text}) is not a valid float'
+    return reader.refused_as(_refusal(reason, words)).number(element, attribute, default)
+
+
+def _vector_words(element: etree._Element | None, *attributes: str) -> list[str]:
+    """Return what urdfdom says of the first of these vectors that is none; [] if all are good."""
+    for attribute in attributes if element is not None else ():
+        text = element.get(attribute, '0 0 0')
+        parts = text.split()
+        for part in parts:
+            if math.isnan(parse_number(part)):
+                return [f'Unable to parse component [{part}] to a double (while parsing a vector '
+                        'value)']
+        if len(parts) != 3:
+            return [f'Parser found {len(parts)} elements but 3 expected while parsing vector '
+                    f'[{text}]']
+    return []
 
 
 def _read_mimic(element: etree._Element, name: str, reader: ElementReader) -> Mimic | None:
     mimic = element.find('mimic')
     if mimic is None:
         return None
-    refused = reader.refused_as(_refusal(f'Could not parse mimic element for joint [{name}]'))
+    words = f'Could not parse mimic element for joint  [{name}]'
+    missing = _refusal('joint mimic: no mimic joint specified', words)
     return Mimic(
-        joint=refused.required(mimic, 'joint'),
-        multiplier=refused.number(mimic, 'multiplier', 1.0),
-        offset=refused.number(mimic, 'offset', 0.0),
+        joint=reader.refused_as(missing).required(mimic, 'joint'),
+        multiplier=_number(mimic, 'multiplier', reader, words, 1.0),
+        offset=_number(mimic, 'offset', reader, words, 0.0),
     )
 
 
@@ -171,18 +196,42 @@ def _read_dynamics(element: etree._Element, name: str, reader: ElementReader) ->
     dynamics = element.find('dynamics')
     if dynamics is None:
         return None
-    refused = reader.refused_as(_refusal(f'Could not parse dynamics element for joint [{name}]'))
+    words = f'Could not parse joint_dynamics element for joint [{name}]'
     if dynamics.get('damping') is None and dynamics.get('friction') is None:
-        refused.error(
+        reader.error(
             dynamics,
             '<dynamics> says nothing',
             expected='damping or friction',
             urdfdom=_refusal(
                 'joint dynamics element specified with no damping and no friction',
-                f'Could not parse dynamics element for joint [{name}]',
+                words,
             ),
         )
     return Dynamics(
-        damping=refused.number(dynamics, 'damping', 0.0),
-        friction=refused.number(dynamics, 'friction', 0.0),
+        damping=_number(dynamics, 'damping', reader, words, 0.0),
+        friction=_number(dynamics, 'friction', reader, words, 0.0),
     )
+
+
+def _read_safety(
+    element: etree._Element, name: str, reader: ElementReader
+) -> SafetyController | None:
+    safety = element.find('safety_controller')
+    if safety is None:
+        return None
+    words = f'Could not parse safety element for joint [{name}]'
+    return SafetyController(
+        soft_lower_limit=_number(safety, 'soft_lower_limit', reader, words, -math.inf),
+        soft_upper_limit=_number(safety, 'soft_upper_limit', reader, words, math.inf),
+        k_position=_number(safety, 'k_position', reader, words, 0.0),
+        k_velocity=_number(safety, 'k_velocity', reader, words),
+    )
+
+
+def _check_calibration(element: etree._Element, name: str, reader: ElementReader) -> None:
+    """Report a ``<calibration>`` that is malformed; nobody reads it, but urdfdom refuses it."""
+    calibration = element.find('calibration')
+    if calibration is not None:
+        words = f'Could not parse calibration element for joint  [{name}]'
+        _number(calibration, 'rising', reader, words, 0.0)
+        _number(calibration, 'falling', reader, words, 0.0)

@@ -12,6 +12,9 @@ publishes ``/tf_static``          ``tf2_msgs/TFMessage``     reliable, transient
 hears     ``joint_states``        ``sensor_msgs/JointState`` best effort, volatile, depth 5
 ========= ======================= ========================== ====================================
 
+``robot_state_publisher [FILE [NAME:=VALUE …]]``: instead of the parameter ``robot_description`` a
+URDF file may be named, or a xacro file with its arguments.
+
 The parameters are in :class:`Settings`; all may be set at run time. A new ``robot_description``
 that cannot be used is refused and the old one kept.
 
@@ -44,14 +47,14 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
-from rclpy.utilities import remove_ros_args
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.errors import AmrError, DescriptionError, ParameterError
-from amr_description.model.urdf import load, parse
+from amr_description.model.urdf import parse
+from amr_description.nodes.description_argument import read_description, split_arguments
 from amr_description.nodes.node_parameters import (
     declare,
     let_parameter_events_be_overridden,
@@ -82,17 +85,17 @@ class RobotStatePublisher(Node):
     """
     The node; see the module.
 
-    :param arguments: The command line without ROS arguments; the first may name a URDF file.
+    :param description: FILE and its arguments, or nothing.
     :param options: Keywords of :class:`rclpy.node.Node`.
     :raises AmrError: The description or a parameter cannot be used.
     """
 
-    def __init__(self, arguments: Sequence[str] = (), **options: Any) -> None:
+    def __init__(self, description: Sequence[str] = (), **options: Any) -> None:
         super().__init__('robot_state_publisher', **options)
         let_parameter_events_be_overridden(self)
         self._settings = declare(self, Settings)
-        if not self._settings.robot_description and arguments:
-            self._take_file(arguments[0])
+        if not self._settings.robot_description and description:
+            self._take_file(description)
         if not self._settings.robot_description:
             raise ParameterError(
                 'robot_description parameter must not be empty; give it the text of a URDF in a '
@@ -125,14 +128,15 @@ class RobotStatePublisher(Node):
         self.add_on_set_parameters_callback(self._judge)
         self.add_post_set_parameters_callback(lambda _changed: self._adopt(*self._candidate))
 
-    def _take_file(self, path: str) -> None:
+    def _take_file(self, description: Sequence[str]) -> None:
         """Read the description from a file, as its ancestor in ROS 1 was started."""
         self.get_logger().warning(
             'No robot_description parameter, but command-line argument available.  Assuming '
             'argument is name of URDF file.  This backwards compatibility fallback will be '
             'removed in the future.'
         )
-        self.set_parameters([Parameter('robot_description', value=load(path).text)])
+        text = read_description(description, self.get_logger().warning)
+        self.set_parameters([Parameter('robot_description', value=text)])
         self._settings = values(self, Settings)
 
     def _judge(self, changed: list[Parameter]) -> SetParametersResult:
@@ -228,8 +232,8 @@ def _stamped(link: LinkTransform, prefix: str, stamp: Time) -> TransformStamped:
 
 def main(args: list[str] | None = None) -> int:
     """Run the node until Ctrl-C; ``args`` as for every executable of this package."""
-    arguments = remove_ros_args(args)[0 if args is not None else 1 :]
-    return run(lambda: RobotStatePublisher(arguments), args)
+    description, ros_args = split_arguments(args)
+    return run(lambda: RobotStatePublisher(description), ros_args)
 
 
 if __name__ == '__main__':

@@ -31,6 +31,24 @@ def ros_arguments(words: Sequence[str]) -> list[str]:
     return found
 
 
+def other_arguments(words: Sequence[str]) -> list[str]:
+    """
+    Return what :func:`ros_arguments` leaves.
+
+    rclpy's ``remove_ros_args`` also takes ``name:=value`` away, the remapping rules of ROS 1.
+    """
+    found: list[str] = []
+    is_ros = False
+    for word in words:
+        if word == '--ros-args':
+            is_ros = True
+        elif is_ros and word == '--':
+            is_ros = False
+        elif not is_ros:
+            found.append(word)
+    return found
+
+
 def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list[str]:
     """
     Return what of a node's ROS arguments goes on to the nodes that it makes.
