@@ -265,7 +265,10 @@ def test_publish_frequency_can_be_changed_while_it_runs(start, listener):
     [
         ([], 'robot_description parameter must not be empty'),
         (['/nowhere/amr.urdf'], '/nowhere/amr.urdf'),
-        ([str(GRIPPER), 'palm:=perhaps'], 'gripper.urdf.xacro: Xacro conditional "$(arg palm)" evaluated'),
+        (
+            [str(GRIPPER), 'palm:=perhaps'],
+            'gripper.urdf.xacro: Xacro conditional "$(arg palm)" evaluated',
+        ),
         (['--ros-args', '-p', 'robot_description:=<robot/>'], 'Unable to initialize urdf::model'),
         ([str(AMR), '--ros-args', '-p', 'publish_frequency:=-1.0'], 'must be between 0.0'),
     ],
