@@ -187,6 +187,7 @@ class Simulation:
         except Exception:
             self.world.remove(name)
             raise
+        manager.begin(self.owner.loop.time)
         self.owner.loop.managers.append(manager)
         self._managers[name] = node
 
