@@ -283,8 +283,9 @@ NOBODY = "controller with name 'nobody' because no controller with this name exi
 
 def test_strict_refuses_an_unknown_name(bench):
     bench.switch('B')
-    assert bench.refuses(f'^Could not activate {NOBODY}$', 'A nobody')
-    assert bench.refuses(f'^Could not deactivate {NOBODY}$', 'A', 'B nobody')
+    aborting = r"Aborting, no controller is switched! \('STRICT' switch\)"
+    assert bench.refuses(f'^{aborting} Could not activate {NOBODY}$', 'A nobody')
+    assert bench.refuses(f'^{aborting} Could not deactivate {NOBODY}$', 'A', 'B nobody')
     assert "Aborting, no controller is switched! ('STRICT' switch)" in (
         bench.log.texts(Severity.ERROR)
     )

@@ -90,10 +90,9 @@ class Switching:
             )
             self._log(Severity.WARN, message)
             if self._strict:
-                self._log(
-                    Severity.ERROR, "Aborting, no controller is switched! ('STRICT' switch)"
-                )
-                raise ControllerError(message)
+                abort = "Aborting, no controller is switched! ('STRICT' switch)"
+                self._log(Severity.ERROR, abort)
+                raise ControllerError(f'{abort} {message}')
         if names and not known:
             loaded = sorted(each.name for each in self._controllers)
             raise ControllerError(
