@@ -219,12 +219,15 @@ def test_what_is_missing_is_told_in_the_words_of_tf2():
         "Did you mean 'base_link'\\?$",
     ):
         buffer.lookup('odom', 'base_lnik')
-    with pytest.raises(LookupException, match='"map" passed .* target_frame does not exist.$'):
+    with pytest.raises(
+        LookupException, match='"map" passed .* exist. Known are: odom, base_link$'
+    ):
         buffer.lookup('map', 'odom')
     assert buffer.obstacle('map', 'odom') == (
         'Invalid frame ID "map" passed to canTransform argument target_frame - '
-        'frame does not exist'
+        'frame does not exist. Known are: odom, base_link'
     )
+    assert TransformBuffer().obstacle('a', 'b').endswith('does not exist. Known are: none yet')
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,10 @@ STAND_INS = {
     ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
     ('ros_gz_sim', 'create'): 'create',
     ('teleop_twist_keyboard', 'teleop_twist_keyboard'): 'teleop_twist_keyboard',
+    ('tf2_ros', 'static_transform_publisher'): 'static_transform_publisher',
+    ('tf2_ros', 'tf2_echo'): 'tf2_echo',
+    ('tf2_ros', 'tf2_monitor'): 'tf2_monitor',
+    ('tf2_tools', 'view_frames'): 'view_frames',
     ('xacro', 'xacro'): 'xacro',
 }
 

@@ -136,7 +136,8 @@ class FrameTree:
     def unconnected(self, target: str, source: str) -> ConnectivityException:
         """Return the error of two frames in different trees."""
         trees = ', and '.join(
-            f"'{root}' with {_listed(members)}" for root, members in self.trees().items()
+            f"'{root}' with {listed(members) or 'nothing below it'}"
+            for root, members in self.trees().items()
         )
         # The missing space after 'tree.' is tf2's: people search for the sentence as it is.
         return ConnectivityException(
@@ -154,7 +155,8 @@ def loop_error(way: Sequence[str], again: str) -> LookupException:
     )
 
 
-def _listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str]) -> str:
+    """Write names, the first few of many."""
     more = len(names) - _SHOWN
     shown = ', '.join(names[:_SHOWN])
-    return f'{shown} and {more} more' if more > 0 else shown or 'nothing below it'
+    return f'{shown} and {more} more' if more > 0 else shown

@@ -30,7 +30,7 @@ from amr_description.errors import (
     LookupException,
     TransformException,
 )
-from amr_description.model.frame_tree import FrameRecord, FrameTree, loop_error
+from amr_description.model.frame_tree import FrameRecord, FrameTree, listed, loop_error
 from amr_description.model.frames import Transform
 from amr_description.model.transform_cache import (
     Frame,
@@ -49,6 +49,8 @@ from amr_description.model.transform_input import (
 
 CACHE_TIME = 10 * SECOND
 """ns: how long tf2 remembers."""
+
+_NEAR = 0.75  # difflib's ratio: a slip of the pen, not just the same ending
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,18 +211,18 @@ class TransformBuffer:
             where = f'passed to lookupTransform argument {argument}'
             if fault := _fault_of(frame):
                 raise InvalidArgumentException(f'Invalid argument "{frame}" {where} - {fault}')
-            if self._absence_of(frame):
-                hint = f' {self._near(frame)}'.rstrip()
-                raise LookupException(f'"{frame}" {where} does not exist.{hint}')
+            if frame not in self._tree:
+                raise LookupException(f'"{frame}" {where} does not exist. {self._others(frame)}')
 
     def _absence_of(self, frame: str) -> str:
-        if frame in self._tree:
-            return ''
-        return f'frame does not exist. {self._near(frame)}'.rstrip(' .')
+        return '' if frame in self._tree else f'frame does not exist. {self._others(frame)}'
 
-    def _near(self, frame: str) -> str:
-        near = get_close_matches(frame, self._tree.names, n=1)
-        return f"Did you mean '{near[0]}'?" if near else ''
+    def _others(self, frame: str) -> str:
+        """What there is instead of a frame."""
+        near = get_close_matches(frame, self._tree.names, n=1, cutoff=_NEAR)
+        if near:
+            return f"Did you mean '{near[0]}'?"
+        return f'Known are: {listed(self._tree.names) or "none yet"}'
 
 
 def _sample(name: str, frame: Frame, time: int, way: str) -> Sample:

@@ -1,0 +1,207 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``tf2_echo``: print where one frame is in another, again and again.
+
+::
+
+    ros2 run tf2_ros tf2_echo odom base_link           # the pose of base_link in odom, 1 Hz
+    ros2 run tf2_ros tf2_echo odom base_link 10        # 10 Hz; also -r 10
+    ros2 run tf2_ros tf2_echo odom base_link -t 12.5   # where it was at 12.5 s; waits until known
+    ros2 run tf2_ros tf2_echo odom base_link --once
+
+Words, texts and exit codes are the original's. Other than there the first transform is printed
+as soon as it is known, ``-t`` keeps its nanoseconds, a stamp its zeros (``5.000000003`` is not
+``5.3``), and nothing is ``-0.000``.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+import math
+import threading
+import time
+
+from rclpy.time import Time
+
+from amr_description.errors import TransformException, UsageError
+from amr_description.model.frames import rpy_from_quaternion
+from amr_description.model.transform_cache import LATEST, SECOND, seconds
+from amr_description.model.transform_input import StampedTransform
+from amr_description.nodes.transform_messages import stamped_transform
+from amr_description.nodes.transform_tools import (
+    listening,
+    say,
+    tool,
+    wait_for_transform,
+    words_of,
+)
+
+USAGE = """\
+Usage: tf2_echo source_frame target_frame [options]
+
+Print the transform that takes coordinates from target_frame to source_frame: the pose of
+target_frame in source_frame.
+
+Options:
+  -r <rate>       How often, Hz (default: 1.0); also as a third word
+  -t <time>       The time to look at, s (default: the latest)
+  -p <precision>  Digits behind the point (default: 3)
+  --once          Print it once and end"""
+
+_MOST_DIGITS = 17  # more a double does not have
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to print: ``rate`` in Hz, ``time`` in ns (0: the latest)."""
+
+    source: str
+    target: str
+    rate: float = 1.0
+    time: int = LATEST
+    precision: int = 3
+    once: bool = False
+
+
+def parse(words: Sequence[str]) -> Request | None:
+    """Read a command line; None: it lacks the frames. Raises UsageError, with its exit code."""
+    frames: list[str] = []
+    options: dict[str, object] = {}
+    rest = iter(words)
+    for word in rest:
+        if word == '--once':
+            options['once'] = True
+        elif word in _OPTIONS:
+            name, read = _OPTIONS[word]
+            value = next(rest, None)
+            if value is None:
+                raise _wrong(5, f'{word} needs a value: see tf2_echo --help')
+            options[name] = read(value)
+        elif len(frames) < 2:
+            frames.append(word)
+        elif len(frames) == 2 and 'rate' not in options and not word.startswith('--'):
+            options['rate'] = _rate(word)
+        else:
+            raise _wrong(5, f'Unknown argument: {word}: see tf2_echo --help')
+    return Request(*frames, **options) if len(frames) == 2 else None
+
+
+def text_of(stamped: StampedTransform, precision: int = 3) -> str:
+    """Write a transform as it is printed."""
+    rpy = rpy_from_quaternion(stamped.transform.rotation)
+
+    def row(values: Sequence[float]) -> str:
+        return f'[{", ".join(f"{value:z.{precision}f}" for value in values)}]'
+
+    return '\n'.join(
+        [
+            f'At time {_stamp(stamped.time)}',
+            f'- Translation: {row(stamped.transform.translation)}',
+            f'- Rotation: in Quaternion (xyzw) {row(stamped.transform.rotation)}',
+            f'- Rotation: in RPY (radian) {row(rpy)}',
+            f'- Rotation: in RPY (degree) {row([math.degrees(angle) for angle in rpy])}',
+            '- Matrix:',
+            *(
+                ''.join(f' {value:z6.{precision}f}' for value in line)
+                for line in stamped.transform.to_matrix()
+            ),
+        ]
+    )
+
+
+def echo(args: list[str] | None) -> int:
+    """Print until Ctrl-C; return the exit code."""
+    words = words_of(args)
+    asks_for_help = not {'-h', '--help'}.isdisjoint(words)
+    request = None if asks_for_help else parse(words)
+    if request is None:
+        say(USAGE)
+        return 0 if asks_for_help else 1
+    when = Time(nanoseconds=request.time)
+    with listening('tf2_echo', args) as (node, buffer, _):
+        wait_for_transform(node, buffer, request.source, request.target, when)
+        due = time.monotonic()
+        while True:
+            try:
+                transform = stamped_transform(
+                    buffer.lookup_transform(request.source, request.target, when)
+                )
+                say(text_of(transform, request.precision))
+            except TransformException as error:
+                now = seconds(node.get_clock().now().nanoseconds)
+                say(
+                    f'Failure at {now}\nException thrown:{error}\n'
+                    f'The current list of frames is:\n{buffer.all_frames_as_string()}'
+                )
+            if request.once:
+                return 0
+            due = max(due + 1.0 / request.rate, time.monotonic())
+            threading.Event().wait(due - time.monotonic())
+
+
+def main(args: list[str] | None = None) -> int:
+    """Print until Ctrl-C."""
+    return tool(lambda: echo(args))
+
+
+def _stamp(stamp: int) -> str:
+    """What is static has no time; it is told as ``0.0``, as ever."""
+    whole, fraction = divmod(stamp, SECOND)
+    return f'{whole}.{fraction:09d}' if stamp else '0.0'
+
+
+def _rate(word: str) -> float:
+    rate = _number(word, 2, 'rate')
+    if rate <= 0.0:
+        raise _wrong(2, f"Rate must be positive, not '{word}'")
+    return float(rate)
+
+
+def _time(word: str) -> int:
+    moment = _number(word, 3, 'time')
+    if moment < 0:
+        raise _wrong(3, f"Time must be non-negative, not '{word}'")
+    return int(moment * SECOND)
+
+
+def _precision(word: str) -> int:
+    try:
+        digits = int(word)
+    except ValueError:
+        raise _wrong(4, f"Failed to convert precision argument '{word}' to an integer") from None
+    if digits < 0:
+        raise _wrong(4, f"Precision must be non-negative, not '{word}'")
+    if digits > _MOST_DIGITS:
+        raise _wrong(4, f"Precision must be at most {_MOST_DIGITS}, not '{word}'")
+    return digits
+
+
+def _number(word: str, code: int, name: str) -> Decimal:
+    try:
+        number = Decimal(word)
+    except InvalidOperation:
+        number = Decimal('nan')
+    if not number.is_finite() or number > 1e12:
+        raise _wrong(
+            code, f"Failed to convert {name} argument '{word}' to a floating-point number"
+        )
+    return number
+
+
+def _wrong(code: int, text: str) -> UsageError:
+    """The original tells by its exit code what was wrong."""
+    error = UsageError(text)
+    error.exit_code = code
+    return error
+
+
+_OPTIONS = {
+    '-r': ('rate', _rate),
+    '-t': ('time', _time),
+    '-p': ('precision', _precision),
+}
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())

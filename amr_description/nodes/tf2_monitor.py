@@ -1,0 +1,122 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``tf2_monitor``: how often transforms come, from whom, and how late they are.
+
+::
+
+    ros2 run tf2_ros tf2_monitor                  # all frames
+    ros2 run tf2_ros tf2_monitor odom base_link   # the way from one to another
+
+It prints every 10 s, the original's lines. Instead of ``<no authority available>`` it names the
+nodes that publish on the topic (all of them, where there are several).
+"""
+
+import threading
+from typing import Any
+
+from rclpy.node import Node
+from tf2_msgs.msg import TFMessage
+
+from amr_description.errors import TransformException
+from amr_description.nodes.transform_buffer import Buffer
+from amr_description.nodes.transform_listener import (
+    DEFAULT_STATIC_TF_TOPIC,
+    DEFAULT_TF_TOPIC,
+    TransformListener,
+)
+from amr_description.nodes.transform_messages import nanoseconds
+from amr_description.nodes.transform_statistics import TransformStatistics
+from amr_description.nodes.transform_tools import (
+    listening,
+    say,
+    tool,
+    wait_for_transform,
+    words_of,
+)
+
+USAGE = """\
+TF_Monitor: usage: tf2_monitor [framea frameb]
+
+Print every 10 s how often transforms come and how late they are: of all frames, or of those on
+the way from one to another."""
+
+_SAMPLES = 20  # of the delay of a chain, between two reports
+_SAMPLE_TIME = 0.5  # s
+
+
+class MonitoringListener(TransformListener):
+    """Takes note of what comes, besides putting it into the buffer."""
+
+    def __init__(self, buffer: Buffer, node: Node, **options: Any) -> None:
+        self._lock = threading.Lock()
+        self._statistics = TransformStatistics()
+        super().__init__(buffer, node, **options)
+
+    def callback(self, data: TFMessage) -> None:
+        """Hear moving transforms."""
+        self._note(DEFAULT_TF_TOPIC, data, static=False)
+        super().callback(data)
+
+    def static_callback(self, data: TFMessage) -> None:
+        """Hear static transforms."""
+        self._note(DEFAULT_STATIC_TF_TOPIC, data, static=True)
+        super().static_callback(data)
+
+    def note_way(self, way: tuple[str, str]) -> None:
+        """Take note how late the way between two frames is just now, if there is one."""
+        try:
+            latest = self.buffer.get_latest_common_time(*way)
+        except TransformException:
+            return
+        with self._lock:
+            self._statistics.note_way(latest.nanoseconds, self._now())
+
+    def report(self, chain: list[str] | None) -> str:
+        """Write what was heard so far."""
+        publishers = self.publishers()
+        with self._lock:
+            return self._statistics.report(publishers, chain)
+
+    def _note(self, topic: str, data: TFMessage, *, static: bool) -> None:
+        heard = [(one.child_frame_id, nanoseconds(one.header.stamp)) for one in data.transforms]
+        with self._lock:
+            self._statistics.hear(topic, heard, self._now(), static=static)
+
+    def _now(self) -> int:
+        return self.node.get_clock().now().nanoseconds
+
+
+def monitor(args: list[str] | None) -> int:
+    """Print until Ctrl-C; return the exit code."""
+    frames = words_of(args)
+    asks_for_help = not {'-h', '--help'}.isdisjoint(frames)
+    if asks_for_help or len(frames) not in (0, 2):
+        say(USAGE)
+        return 0 if asks_for_help else 1
+    with listening('tf2_monitor_main', args, MonitoringListener) as (node, buffer, listener):
+        if frames:
+            wait_for_transform(node, buffer, *frames)
+        say(f'Gathering data on {" -> ".join(frames) or "all frames"} for 10 seconds...')
+        while True:
+            for _ in range(_SAMPLES):
+                if frames:
+                    listener.note_way((frames[0], frames[1]))
+                threading.Event().wait(_SAMPLE_TIME)
+            say(_report(buffer, listener, frames))
+
+
+def main(args: list[str] | None = None) -> int:
+    """Print until Ctrl-C."""
+    return tool(lambda: monitor(args))
+
+
+def _report(buffer: Buffer, listener: MonitoringListener, frames: list[str]) -> str:
+    try:
+        return listener.report(buffer.chain(*frames) if frames else None)
+    except TransformException as error:  # it was there before; time went back, say
+        return f'Exception thrown:{error}'
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())
