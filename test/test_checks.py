@@ -15,6 +15,7 @@ from amr_description.model import checks, frames, urdf
 from amr_description.model.robot import Inertia
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.rules_mass import principal_moments
+from amr_description.model.subject import Surroundings
 
 ROOT = Path(__file__).parent.parent
 AMR = (ROOT / 'urdf/amr.urdf').read_text()
@@ -41,6 +42,10 @@ def findings(text):
     return [str(finding) for finding in checks.check(text, 'f')]
 
 
+def errors(text):
+    return [str(finding) for finding in checks.examine(text, 'f').errors]
+
+
 def test_shipped_robot_is_faultless():
     assert findings(AMR) == []
 
@@ -49,8 +54,18 @@ def test_arm_is_faultless():
     assert findings(ARM) == []
 
 
-def test_tutorial_robot_gets_one_warning_about_its_axles():
-    (warning,) = findings(TUTORIAL)
+def test_tutorial_robot_is_told_its_two_faults_once():
+    beside = Surroundings(is_there=lambda uri: False)
+    path, warning = map(str, checks.examine(TUTORIAL, 'f', beside).findings)
+    line = TUTORIAL.splitlines().index(
+        '      <parameters>/absolute/path/to/config/controllers.yaml</parameters>'
+    )
+    assert path == (
+        f'warning: f:{line + 1}: gazebo plugin "gz_ros2_control::GazeboSimROS2ControlPlugin": '
+        '<parameters> has a path of this machine only: found '
+        '"/absolute/path/to/config/controllers.yaml"; let xacro find the file: '
+        '$(find <package>)/config/<file>.yaml'
+    )
     names = ', '.join(
         f'"joint_wheel_{place}"'
         for place in ('front_left', 'front_right', 'back_left', 'back_right')
@@ -61,6 +76,23 @@ def test_tutorial_robot_gets_one_warning_about_its_axles():
         'backwards: found the axle along -y of the root frame, expected +y; '
         'write <axis xyz="0 0 -1"/>'
     )
+
+
+def test_a_path_that_xacro_found_is_no_path_of_one_machine():
+    """$(find package) becomes the absolute path of a share folder."""
+    text = AMR.replace('<box size="0.5 0.3 0.1"/>', '<mesh filename="{}"/>', 1)
+    there = Surroundings(is_there=lambda uri: uri.startswith('/opt/ws'))
+    for path, count in (
+        ('/opt/ws/share/amr/base.stl', 0),
+        ('/opt/ws/src/amr/base.stl', 1),
+        ('/home/me/share/amr/base.stl', 1),
+        ('file:///opt/base.stl', 1),
+        ('C:\\base.stl', 1),
+        ('package://amr/base.stl', 1),
+    ):
+        found = checks.examine(text.format(path), 'f', there).findings
+        assert len(found) == count, path
+    assert findings(text.format('/home/me/base.stl')) == [], 'nobody can look'
 
 
 def test_the_fix_of_the_axles_is_the_right_one():
@@ -81,7 +113,8 @@ def test_differently_written_axles_get_a_fix_that_suits_all():
     assert first in AMR
     turned = AMR.replace(first, '<origin xyz="0.2 0.15 0"/>\n    <axis xyz="0 -1 0"/>')
     place = turned.index('<axis xyz="0 0 -1"/>')
-    (warning,) = findings(turned[:place] + turned[place:].replace('0 0 -1', '0 0 1', 1))
+    found = findings(turned[:place] + turned[place:].replace('0 0 -1', '0 0 1', 1))
+    (warning,) = [each for each in found if 'drives the robot backwards' in each]
     assert warning.endswith('; turn each <axis> round')
 
 
@@ -90,10 +123,12 @@ def test_what_does_not_roll_along_x_is_no_wheel(axis):
     """A lidar that turns about z takes a velocity command, too."""
     hardware = (
         '<ros2_control name="s" type="system"><hardware><plugin>p</plugin></hardware>'
-        '<joint name="a_b"><command_interface name="velocity"/></joint></ros2_control>'
+        '<joint name="a_b"><command_interface name="velocity"/>'
+        '<state_interface name="position"/></joint></ros2_control>'
     )
     spinning = joint_text('a', 'b', inside=f'<axis xyz="{axis}"/>')
-    links = f'<link name="a">{SOLID}</link><link name="b">{SOLID}</link>'
+    links = f'<link name="f"/><link name="a">{SOLID}</link><link name="b">{SOLID}</link>'
+    links += joint_text('f', 'a', 'fixed')
     assert findings(robot_text(links + spinning + hardware)) == []
     assert findings(robot_text(links + spinning.replace(axis, '0 -1 0') + hardware))
 
@@ -149,7 +184,7 @@ MASS = {
 
 @pytest.mark.parametrize(('body', 'message'), MASS.values(), ids=MASS)
 def test_mass_and_inertia(body, message):
-    (error,) = findings(robot_text(body))
+    (error,) = errors(robot_text(body))
     assert re.match(f'error: {message}', error)
 
 
@@ -157,7 +192,9 @@ WITHOUT_MASS_AND_RIGHT = {
     'frames only': '<link name="a"/><link name="b"/>' + joint_text('a', 'b', 'fixed'),
     'footprint': f'<link name="a"/><link name="b">{SOLID}</link>' + joint_text('a', 'b', 'fixed'),
     'dummy': (
-        f'<link name="a">{SOLID}</link><link name="b"/><link name="c">{SOLID}</link>'
+        f'<link name="f"/><link name="a">{SOLID}</link><link name="b"/>'
+        f'<link name="c">{SOLID}</link>'
+        + joint_text('f', 'a', 'fixed')
         + joint_text('a', 'b')
         + joint_text('b', 'c', 'fixed')
     ),
@@ -225,18 +262,18 @@ def two_links(joint):
 
 
 def test_limits_are_ordered():
-    assert findings(two_links(joint_text('a', 'b', 'revolute', limited(-1, 1)))) == []
-    (error,) = findings(two_links(joint_text('a', 'b', 'revolute', limited(1, -1))))
+    assert errors(two_links(joint_text('a', 'b', 'revolute', limited(-1, 1)))) == []
+    (error,) = errors(two_links(joint_text('a', 'b', 'revolute', limited(1, -1))))
     assert error == (
         'error: f:3: joint "a_b": the lower limit is above the upper one: '
         'found lower 1, upper -1; swap them'
     )
-    assert findings(two_links(joint_text('a', 'b', 'continuous', limited(1, -1)))) == []
+    assert errors(two_links(joint_text('a', 'b', 'continuous', limited(1, -1)))) == []
 
 
 @pytest.mark.parametrize(('source', 'found'), [('nobody', '"nobody"'), ('a_b', 'itself')])
 def test_mimicked_joint_exists(source, found):
-    (error,) = findings(two_links(joint_text('a', 'b', inside=f'<mimic joint="{source}"/>')))
+    (error,) = errors(two_links(joint_text('a', 'b', inside=f'<mimic joint="{source}"/>')))
     assert error == (
         f'error: f:3: joint "a_b" mimics a joint that is not there: found {found}, '
         'expected another one of "a_b"'
@@ -272,8 +309,9 @@ def test_require_sound_raises_the_first_error_and_counts_the_rest():
 
 
 def test_rules_are_documented_functions():
-    assert len(set(checks.RULES)) == len(checks.RULES)
-    assert all(rule.__doc__ for rule in checks.RULES)
+    rules = (*checks.RULES, *checks.RULES_OF_THE_WHOLE)
+    assert len(set(rules)) == len(rules)
+    assert all(rule.__doc__ for rule in rules)
 
 
 def mutated(text, chance):

@@ -13,29 +13,34 @@ Exit code:
 0    sound; there may be warnings
 255  urdfdom refuses it, too: not readable, no XML, no tree, a malformed joint
 1    urdfdom would let it pass, tree and all, but it cannot be used: a link without mass, a circle
-     of joints, a ``<ros2_control>`` joint that does not exist …
+     of joints, a ``<ros2_control>`` joint that does not exist …; or it failed the drop; or, with
+     ``--strict``, there are warnings
 ==== ==========================================================================================
 """
 
 import argparse
 import sys
+from typing import TYPE_CHECKING
 
-from amr_description.errors import DescriptionError
+from amr_description.cli.urdf_report import drop_lines, refusal, refused_for, to_json, tree_lines
+from amr_description.errors import DescriptionError, ParameterError, SimulationError
 from amr_description.model.checks import Examination, examine
+from amr_description.model.drive_settings import DriveSettings
 from amr_description.model.findings import Finding, one_line
-from amr_description.model.robot import Robot
+from amr_description.model.subject import IsThere, Surroundings
 from amr_description.model.xml_source import read_file, read_stream
+
+if TYPE_CHECKING:
+    from amr_description.sim.drop import DropReport
 
 OK = 0
 UNUSABLE = 1
 REFUSED_BY_URDFDOM = 255
 
 _NO_ARGUMENT = 'Expect URDF xml file to parse. Use - for stdin'
-_REFUSED = 'ERROR: Model Parsing the xml failed'
+_STDIN = '<stdin>'
 # A file may hold a fault per element; nobody reads more of them.
 _SHOWN_FINDINGS = 100
-# Levels of the tree that are indented: a made-up chain of 60,000 links would print gigabytes.
-_INDENTED_LEVELS = 100
 
 
 def main(argv: list[str]) -> int:
@@ -49,13 +54,21 @@ def main(argv: list[str]) -> int:
     except DescriptionError as error:
         print(f'error: {one_line(str(error))}', file=sys.stderr)
         return REFUSED_BY_URDFDOM
-    examination = examine(text, source)
-    code = _exit_code(examination)
-    if code == REFUSED_BY_URDFDOM:
-        print(_refusal(examination), file=sys.stderr)
-    elif examination.robot is not None:
-        print('\n'.join(tree_lines(examination.robot)), flush=True)
-    _print_findings(examination.findings)
+    try:
+        drives = _drives(arguments.controllers)
+    except ParameterError as error:
+        print(f'error: {one_line(str(error))}', file=sys.stderr)
+        return UNUSABLE
+    surroundings = Surroundings(is_there=_file_finder(source), drives=drives)
+    examination = examine(text, source, surroundings)
+    drop = _drop(examination) if arguments.drop else None
+    code = _exit_code(examination, drop, strict=arguments.strict)
+    if arguments.json:
+        print(to_json(source, examination, drop, code))
+    else:
+        _print(examination, drop)
+    if arguments.drop and drop is None:
+        print('not dropped: the description has errors', file=sys.stderr)
     return code
 
 
@@ -65,48 +78,89 @@ def _parser() -> argparse.ArgumentParser:
         description='Print the tree of a robot description, and what is wrong with it.',
         epilog='Exit code: 0 sound, 255 urdfdom refuses it, too, 1 it passes urdfdom, unusable.',
     )
-    parser.add_argument('file', nargs='?', metavar='FILE', help='a URDF file, or - for stdin')
+    add = parser.add_argument
+    add('file', nargs='?', metavar='FILE', help='a URDF file, or - for stdin')
+    add(
+        '--controllers',
+        metavar='YAML',
+        action='append',
+        default=[],
+        help='also check the robot against the diff_drive_controllers of this parameter file',
+    )
+    add('--strict', action='store_true', help='exit with 1 when there are warnings')
+    add('--json', action='store_true', help='print one JSON object instead of the tree')
+    add(
+        '--drop',
+        action='store_true',
+        help='also drop, push, roll and turn the robot in the simulator, and report in numbers',
+    )
     return parser
 
 
 def _read(path: str) -> tuple[str, str]:
     """Return the text, and what messages call the file."""
     if path == '-':
-        return read_stream(sys.stdin.buffer, '<stdin>'), '<stdin>'
+        return read_stream(sys.stdin.buffer, _STDIN), _STDIN
     return read_file(path), path
 
 
-def _exit_code(examination: Examination) -> int:
-    if examination.robot is None or any(finding.urdfdom for finding in examination.errors):
+def _file_finder(source: str) -> IsThere:
+    """Return what looks for the files that the description names; relative ones lie beside it."""
+
+    def is_there(uri: str) -> bool:
+        # Not at the top: a description that names no file need not wait for ament.
+        from pathlib import Path
+
+        from amr_description.sim.resources import resolve_uri
+
+        folder = Path() if source == _STDIN else Path(source).parent
+        try:
+            return resolve_uri(uri, folder).is_file()
+        except OSError as error:  # such as a name that no file can have
+            raise SimulationError(error.strerror or str(error)) from error
+
+    return is_there
+
+
+def _drives(paths: list[str]) -> tuple[DriveSettings, ...]:
+    """Return the differential drives of parameter files. Raises ParameterError."""
+    if not paths:
+        return ()
+    from amr_description.cli.drive_files import read_drives
+
+    return tuple(drive for path in paths for drive in read_drives(path))
+
+
+def _drop(examination: Examination) -> 'DropReport | None':
+    """Return how the robot falls; None when it is not sound."""
+    if examination.robot is None or examination.errors:
+        return None
+    from amr_description.sim.drop import drop_test, DropReport
+
+    try:
+        return drop_test(examination.robot)
+    except SimulationError as error:
+        return DropReport(failures=(str(error),))
+
+
+def _exit_code(examination: Examination, drop: 'DropReport | None', *, strict: bool) -> int:
+    if examination.robot is None or refused_for(examination) is not None:
         return REFUSED_BY_URDFDOM
-    return UNUSABLE if examination.errors else OK
+    is_bad = examination.errors or (strict and examination.warnings)
+    return UNUSABLE if is_bad or (drop is not None and drop.failures) else OK
 
 
-def _refusal(examination: Examination) -> str:
-    """Return what urdfdom prints; it stops at its first error, which may be several messages."""
-    lines = []
-    first = next((finding for finding in examination.errors if finding.urdfdom), None)
-    if first is not None:
-        for words in first.urdfdom.split('\n'):
-            lines.append(f'Error:   {one_line(words)}')
-            lines.append(f'         at line {first.line} in {first.source}')
-    return '\n'.join((*lines, _REFUSED))
-
-
-def tree_lines(robot: Robot) -> list[str]:
-    """Return the tree as urdfdom prints it: children ordered by the names of their joints."""
-    root = robot.root.name
-    lines = [
-        f'robot name is: {robot.name}',
-        '---------- Successfully Parsed XML ---------------',
-        f'root Link: {root} has {len(robot.child_joints(root))} child(ren)',
-    ]
-    numbers: dict[str, int] = {}
-    for depth, joint in robot.walk():
-        numbers[joint.parent] = numbers.get(joint.parent, 0) + 1
-        indent = '    ' * min(depth, _INDENTED_LEVELS)
-        lines.append(f'{indent}child({numbers[joint.parent]}):  {joint.child}')
-    return [one_line(line) for line in lines]
+def _print(examination: Examination, drop: 'DropReport | None') -> None:
+    """Print tree and drop on stdout, what is wrong on stderr."""
+    if examination.robot is None or refused_for(examination) is not None:
+        print(refusal(examination), file=sys.stderr)
+    else:
+        print('\n'.join(tree_lines(examination.robot)), flush=True)
+    _print_findings(examination.findings)
+    if drop is not None:
+        print('\n'.join(drop_lines(drop)), flush=True)
+        for failure in drop.failures:
+            print(f'error: dropped: {one_line(failure)}', file=sys.stderr)
 
 
 def _print_findings(findings: tuple[Finding, ...]) -> None:

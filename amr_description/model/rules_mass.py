@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import math
 
 from amr_description.model.findings import Finding, quote
-from amr_description.model.robot import Inertia, Robot
+from amr_description.model.robot import Inertia
 from amr_description.model.subject import Subject
 
 # How far rounding of the digits in the file may carry the moments over the triangle inequality.
@@ -22,8 +22,8 @@ _FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²
 def inertial_is_present(subject: Subject) -> Iterator[Finding]:
     """Whatever touches something, and whatever a moving joint carries, has an ``<inertial>``."""
     robot = subject.robot
-    static = _static_links(robot)
-    massive = _bodies_with_inertial(robot)
+    static = subject.standing_links
+    massive = _bodies_with_inertial(subject)
     for link in robot.links:
         if link.inertial is not None or link.name in static:
             continue
@@ -45,7 +45,7 @@ def inertial_is_present(subject: Subject) -> Iterator[Finding]:
 def base_has_mass(subject: Subject) -> Iterator[Finding]:
     """The body of the root has mass when something moves on it: it falls and is pushed around."""
     robot = subject.robot
-    massive, static = _bodies_with_inertial(robot), _static_links(robot)
+    massive, static = _bodies_with_inertial(subject), subject.standing_links
     if not any(joint.is_moving for joint in robot.joints):
         return
     for root in robot.roots[:1]:
@@ -115,20 +115,7 @@ def _is_finite(inertia: Inertia) -> bool:
     return all(map(math.isfinite, moments))
 
 
-def _rigid_bodies(robot: Robot) -> dict[str, str]:
-    """Return for each link the topmost link of its rigid body."""
-    top = {root.name: root.name for root in robot.roots}
-    for _, joint in robot.walk():
-        top[joint.child] = joint.child if joint.is_moving else top[joint.parent]
-    return top
-
-
-def _bodies_with_inertial(robot: Robot) -> set[str]:
+def _bodies_with_inertial(subject: Subject) -> set[str]:
     """Return the topmost links of the rigid bodies in which some link has an ``<inertial>``."""
-    top = _rigid_bodies(robot)
-    return {top.get(link.name, '') for link in robot.links if link.inertial is not None}
-
-
-def _static_links(robot: Robot) -> set[str]:
-    """Return the links that are rigidly joined to a root called ``world``."""
-    return {link for link, top in _rigid_bodies(robot).items() if top == 'world'}
+    links = (link.name for link in subject.robot.links if link.inertial is not None)
+    return {subject.bodies.get(link, '') for link in links}

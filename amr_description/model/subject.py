@@ -4,16 +4,39 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 from lxml import etree
 
+from amr_description.model.drive_settings import DriveSettings
 from amr_description.model.findings import Finding
+from amr_description.model.frames import link_poses, Transform
 from amr_description.model.gazebo_tag import GazeboPlugin
 from amr_description.model.hardware_info import HardwareInfo
-from amr_description.model.robot import Robot
+from amr_description.model.robot import Joint, JointType, Robot
+from amr_description.model.wheels import find_wheels, Wheel
+
+STANDING_ROOT = 'world'
+"""A robot whose root has this name stands fixed."""
+
+type IsThere = Callable[[str], bool]
+"""Whether the file that a URI or path means is there; AmrError when that cannot be told."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surroundings:
+    """
+    What a description is checked against, beyond itself.
+
+    ``is_there`` looks for the files that it names; without it nobody looks. ``drives`` are the
+    controllers that shall drive the robot.
+    """
+
+    is_there: IsThere | None = None
+    drives: tuple[DriveSettings, ...] = ()
+
+
+@dataclass(frozen=True)
 class Subject:
     """A description as far as it could be read; the robot's tree need not be sound."""
 
@@ -21,6 +44,47 @@ class Subject:
     hardware: tuple[HardwareInfo, ...]
     gazebo_plugins: tuple[GazeboPlugin, ...]
     xml: etree._Element
+    surroundings: Surroundings
+
+    @cached_property
+    def poses(self) -> dict[str, Transform]:
+        """``transform_link_to_root`` of each link that hangs on a root, all joints at 0."""
+        return link_poses(self.robot)
+
+    @cached_property
+    def bodies(self) -> dict[str, str]:
+        """The topmost link of each link's rigid body: links joined by fixed joints are one."""
+        top = {root.name: root.name for root in self.robot.roots}
+        for _, joint in self.robot.walk():
+            top[joint.child] = joint.child if joint.is_moving else top[joint.parent]
+        return top
+
+    @cached_property
+    def standing_links(self) -> frozenset[str]:
+        """The links that are rigidly joined to a root called ``world``."""
+        return frozenset(link for link, top in self.bodies.items() if top == STANDING_ROOT)
+
+    @cached_property
+    def speed_joints(self) -> tuple[Joint, ...]:
+        """The continuous joints that take a velocity command, in the order of the file."""
+        commanded = {
+            component.name
+            for hardware in self.hardware
+            for component in hardware.joints
+            if any(interface.name == 'velocity' for interface in component.command_interfaces)
+        }
+        return tuple(
+            joint
+            for joint in self.robot.joints
+            if joint.name in commanded
+            and joint.type is JointType.CONTINUOUS
+            and joint.child in self.poses
+        )
+
+    @cached_property
+    def wheels(self) -> tuple[Wheel, ...]:
+        """The wheels: round about the axle of a joint that takes a velocity command."""
+        return find_wheels(self.robot, [joint.name for joint in self.speed_joints])
 
     def error(self, line: int, what: str, **details: str) -> Finding:
         """Return an error on a line of this description; ``details`` as in Finding.error."""

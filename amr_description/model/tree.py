@@ -74,6 +74,7 @@ def one_root(robot: Robot) -> Iterator[Finding]:
             ),
         )
     if len(roots) > 1:
+        first, second, *_ = sorted(roots)
         yield Finding.error(
             robot.source,
             robot.roots[1].line,
@@ -82,7 +83,7 @@ def one_root(robot: Robot) -> Iterator[Finding]:
             expected="one link that is nobody's child",
             fix=f'join {quote(roots[1])} to the others by a joint',
             urdfdom=(
-                f'Failed to find root link: Two root links found: [{roots[0]}] and [{roots[1]}]'
+                f'Failed to find root link: Two root links found: [{first}] and [{second}]'
             ),
         )
 

@@ -49,7 +49,12 @@ def read_robot(xml: etree._Element, text: str, source: str, report: Report) -> R
     for element in xml.iterchildren('material'):
         material = read_material(element, reader)
         if material.name in materials:
-            reader.error(element, f'material {quote(material.name)} is not unique')
+            reader.error(
+                element,
+                f'material {quote(material.name)} is not unique',
+                fix='give every material a name of its own',
+                urdfdom=f"material '{material.name}' is not unique.",
+            )
         materials.setdefault(material.name, material)
     links = read_links(xml, reader, materials)
     joints = read_joints(xml, reader)
@@ -76,7 +81,8 @@ def _read_head(xml: etree._Element, reader: ElementReader) -> str:
             xml,
             '<robot> has no attribute "name"',
             fix='write <robot name="…">',
-            urdfdom='No name given for the robot.',
+            # An empty name is one to urdfdom.
+            urdfdom='' if 'name' in xml.attrib else 'No name given for the robot.',
         )
     version = xml.get('version', '1.0').strip()
     if version not in ('1', '1.0'):

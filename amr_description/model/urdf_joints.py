@@ -171,11 +171,14 @@ def _vector_words(element: etree._Element | None, *attributes: str) -> list[str]
         parts = text.split()
         for part in parts:
             if math.isnan(parse_number(part)):
-                return [f'Unable to parse component [{part}] to a double (while parsing a vector '
-                        'value)']
+                return [
+                    f'Unable to parse component [{part}] to a double (while parsing a vector '
+                    'value)'
+                ]
         if len(parts) != 3:
-            return [f'Parser found {len(parts)} elements but 3 expected while parsing vector '
-                    f'[{text}]']
+            return [
+                f'Parser found {len(parts)} elements but 3 expected while parsing vector [{text}]'
+            ]
     return []
 
 

@@ -1,0 +1,174 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Collision shapes as solids: volume, inertia, extent, and whether two of them overlap.
+
+Lengths in m, masses in kg, moments in kg·m². A mesh is a file that is not read here: what asks
+for its size leaves it out.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from amr_description.model.convex import have_common_point
+from amr_description.model.frames import (
+    conjugate,
+    Matrix3,
+    matrix_from_quaternion,
+    rotate,
+    Transform,
+    Vector,
+)
+from amr_description.model.robot import Box, Collision, Cylinder, Inertia, Sphere
+
+# m; between them no product of sizes leaves the range of floats.
+_SMALLEST, _LARGEST = 1e-6, 1e6
+
+type Primitive = Box | Cylinder | Sphere
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A primitive shape and where it is: ``place`` is ``transform_shape_to_frame``."""
+
+    shape: Primitive
+    place: Transform
+
+
+def solids_of(collisions: Sequence[Collision], pose: Transform) -> list[Solid]:
+    """
+    Return the primitive shapes of a link, placed in the frame that ``pose`` leads to.
+
+    What is a mesh, has no size or is out of all proportion is left out.
+    """
+    solids = []
+    for collision in collisions:
+        shape, place = collision.geometry, pose @ collision.origin
+        if isinstance(shape, Box | Cylinder | Sphere) and (
+            all(_SMALLEST < size < _LARGEST for size in sizes(shape))
+            and all(abs(part) < _LARGEST for part in place.translation)
+        ):
+            solids.append(Solid(shape, place))
+    return solids
+
+
+def sizes(shape: Primitive) -> tuple[float, ...]:
+    """Return the numbers that URDF gives of a shape (m)."""
+    match shape:
+        case Box():
+            return shape.size
+        case Cylinder():
+            return (shape.radius, shape.length)
+        case Sphere():
+            return (shape.radius,)
+
+
+def volume(shape: Primitive) -> float:
+    """Return the volume in m³."""
+    match shape:
+        case Box(size):
+            return math.prod(size)
+        case Cylinder(radius, length):
+            return math.pi * radius * radius * length
+        case Sphere(radius):
+            return 4.0 / 3.0 * math.pi * radius * radius * radius
+
+
+def half_sizes(shape: Primitive) -> Vector:
+    """Return half the edges of the box around a shape, in its own axes (m)."""
+    match shape:
+        case Box((x, y, z)):
+            return (x / 2.0, y / 2.0, z / 2.0)
+        case Cylinder(radius, length):
+            return (radius, radius, length / 2.0)
+        case Sphere(radius):
+            return (radius, radius, radius)
+
+
+def reach(shape: Primitive) -> float:
+    """Return the radius of the sphere around a shape (m)."""
+    return shape.radius if isinstance(shape, Sphere) else math.hypot(*half_sizes(shape))
+
+
+def solid_moments(shape: Primitive, mass: float) -> Vector:
+    """
+    Return the principal moments of a homogeneous solid about its centre, along its own axes.
+
+    Box: m (b² + c²) / 12. Cylinder: m (3 r² + h²) / 12 across, m r² / 2 along. Sphere: 2/5 m r².
+    """
+    match shape:
+        case Box((x, y, z)):
+            sides = (y * y + z * z, x * x + z * z, x * x + y * y)
+            a, b, c = (mass * each / 12.0 for each in sides)
+            return (a, b, c)
+        case Cylinder(radius, length):
+            across = mass * (3.0 * radius * radius + length * length) / 12.0
+            return (across, across, mass * radius * radius / 2.0)
+        case Sphere(radius):
+            moment = 0.4 * mass * radius * radius
+            return (moment, moment, moment)
+
+
+def moments_of_solids(solids: Sequence[Solid], mass: float) -> Vector:
+    """
+    Return the moments about the axes of the frame, through the common centre of mass, of solids
+    of one density that weigh ``mass`` together (parallel axis theorem).
+    """
+    volumes = [volume(solid.shape) for solid in solids]
+    parts = [mass * each / sum(volumes) for each in volumes]
+    centres = [solid.place.translation for solid in solids]
+    middle = [math.sumprod(parts, [c[axis] for c in centres]) / mass for axis in range(3)]
+    total = [0.0, 0.0, 0.0]
+    for solid, part in zip(solids, parts, strict=True):
+        a, b, c = solid_moments(solid.shape, part)
+        turned = moments_along_axes(Inertia(a, 0.0, 0.0, b, 0.0, c), solid.place)
+        squares = [(p - q) ** 2 for p, q in zip(solid.place.translation, middle, strict=True)]
+        for axis in range(3):
+            total[axis] += turned[axis] + part * (sum(squares) - squares[axis])
+    return (total[0], total[1], total[2])
+
+
+def moments_along_axes(inertia: Inertia, place: Transform) -> Vector:
+    """Return the diagonal of R I Rᵀ: the moments about the axes of the frame placed in."""
+    matrix: Matrix3 = (
+        (inertia.ixx, inertia.ixy, inertia.ixz),
+        (inertia.ixy, inertia.iyy, inertia.iyz),
+        (inertia.ixz, inertia.iyz, inertia.izz),
+    )
+    rows = matrix_from_quaternion(place.rotation)
+    x, y, z = (math.sumprod(row, [math.sumprod(line, row) for line in matrix]) for row in rows)
+    return (x, y, z)
+
+
+def farthest(solid: Solid, direction: Vector, less: float = 0.0) -> Vector:
+    """Return the point of a solid, made thinner by ``less`` all round, farthest that way."""
+    local = rotate(conjugate(solid.place.rotation), direction)
+    half = tuple(max(0.0, each - less) for each in half_sizes(solid.shape))
+    match solid.shape:
+        case Box():
+            point = tuple(math.copysign(h, d) for h, d in zip(half, local, strict=True))
+        case Cylinder():
+            across = math.hypot(local[0], local[1])
+            scale = half[0] / across if across else 0.0
+            point = (local[0] * scale, local[1] * scale, math.copysign(half[2], local[2]))
+        case Sphere():
+            length = math.hypot(*local)
+            point = tuple(half[0] * d / length for d in local) if length else (0.0, 0.0, 0.0)
+    x, y, z = point
+    return solid.place.apply((x, y, z))
+
+
+def overlap(one: Solid, other: Solid, depth: float) -> bool:
+    """Tell whether two solids reach into each other by more than about ``depth`` (m)."""
+    gap = math.dist(one.place.translation, other.place.translation)
+    if gap > reach(one.shape) + reach(other.shape) - depth:
+        return False
+
+    def difference(direction: Vector) -> Vector:
+        x, y, z = direction
+        a = farthest(one, direction, depth / 2.0)
+        b = farthest(other, (-x, -y, -z), depth / 2.0)
+        return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+    return have_common_point(difference)
