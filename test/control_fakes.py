@@ -176,6 +176,9 @@ class FakeController(Faulty, Controller):
     def reset(self, time):
         self.meet('reset', time)
 
+    def set_clock(self, time):
+        self.meet('set_clock', time)
+
 
 class FakeChainable(FakeController):
     """Offers references and states; in chained mode its commands are the sum of its references."""

@@ -508,6 +508,29 @@ def test_a_reset_that_fails_deactivates_only_that_controller(error):
     assert manager.resources.claims == {}
 
 
+def test_after_the_clock_was_set_controllers_stay_and_the_hardware_is_left_alone():
+    manager = make_manager(hardware := FakeHardware(['j']))
+    active = start(manager, FakeController('active'))
+    run(manager, 3, begin=1000 * MS)
+    manager.set_clock(5000 * MS)
+    assert active.calls[-1] == ('set_clock', 5000 * MS)
+    assert hardware.count('reset') == 0
+    run(manager, 2, begin=5000 * MS)
+    assert active.updates[3:] == [(5000 * MS, PERIOD), (5010 * MS, PERIOD)]
+
+
+def test_the_hardware_is_shut_down_whatever_watches_the_controllers():
+    manager = make_manager(hardware := FakeHardware(['j']))
+
+    def watch(*_):
+        raise RuntimeError('the context is gone')
+
+    manager.load(FakeController(), 'a/Type', watch=watch)
+    with pytest.raises(RuntimeError, match='the context is gone'):
+        manager.shut_down(0)
+    assert hardware.count('deactivate') == hardware.count('cleanup') == 1
+
+
 # --- the two controllers together ----------------------------------------------------------------
 
 

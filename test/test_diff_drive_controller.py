@@ -654,6 +654,26 @@ def test_after_time_went_back_it_brakes_and_publishes_at_once_from_the_origin():
     assert bench.drive(0.5) == (5.0, 5.0)
 
 
+@pytest.mark.parametrize('jump', [3600, -3600])
+def test_a_clock_that_is_set_keeps_pose_and_speed_and_silences_nothing(jump):
+    bench = Bench().activate(time=10_000 * NANOSECONDS)
+    for _ in range(10):
+        bench.drive(0.5)
+        bench.states['position'][0].value += 0.05
+        bench.states['position'][1].value += 0.05
+    before = bench.odom[-1].x
+    assert before > 0.0
+    bench.odom.clear()
+    bench.time += jump * NANOSECONDS
+    bench.controller.set_clock(bench.time)
+    assert bench.update() == (5.0, 5.0)
+    assert bench.odom[0].stamp == bench.time
+    assert before <= bench.odom[0].x <= before + 0.01
+    for _ in range(60):
+        wheels = bench.update()
+    assert wheels == (0.0, 0.0)
+
+
 def test_time_that_went_back_while_inactive_does_not_silence_the_odometry():
     bench = Bench().activate(time=1000 * NANOSECONDS)
     bench.drive(0.5)

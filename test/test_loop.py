@@ -77,6 +77,10 @@ class Ticking(ControllerManager):
         self.diary.append(('reset', time))
         super().reset(time)
 
+    def set_clock(self, time):
+        self.diary.append(('set_clock', time))
+        super().set_clock(time)
+
 
 @pytest.fixture
 def outside():
@@ -334,6 +338,17 @@ def test_after_time_went_back_managers_begin_anew_at_once(outside, loop):
     assert outside.times('tick') == [0, 10 * MS, 20 * MS]
     assert [time for time, _ in controller.updates[5:]] == [0, 10 * MS, 20 * MS]
     assert {period for _, period in controller.updates} == {10 * MS}
+
+
+def test_a_clock_that_was_set_is_told_in_the_same_order(outside, loop):
+    turn(loop, 2)
+    outside.queue.append(lambda: (setattr(outside, 'time', 50_000 * MS), loop.set_clock()))
+    outside.diary.clear()
+    turn(loop, 2)
+    assert outside.diary[:3] == [
+        ('clocks', 50_000 * MS), ('set_clock', 50_000 * MS), ('resume', 50_000 * MS)
+    ]  # fmt: skip
+    assert outside.times('tick') == [50_000 * MS, 50_010 * MS]
 
 
 def test_a_reset_while_paused_stays_paused_and_the_clock_goes_back(outside, loop):

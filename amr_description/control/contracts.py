@@ -266,9 +266,16 @@ class Controller(ABC):
 
     def reset(self, time: int) -> None:
         """
-        Time went back (or jumped) to ``time``, ns, while inactive or active: forget every stamp,
-        and start from the present states.
+        The world began anew at ``time``, ns, while inactive or active: forget every stamp, and
+        start from the present states.
         """
+
+    def set_clock(self, time: int) -> None:
+        """
+        The clock was set, forward or back, to ``time``, ns, while the robot went on: forget every
+        stamp, and keep the rest; while inactive or active.
+        """
+        self.reset(time)
 
 
 # --- Hardware ------------------------------------------------------------------------------------
@@ -335,7 +342,7 @@ class HardwareComponent(ABC):
         """
 
     def reset(self, time: int) -> None:
-        """Time went back (or jumped) to ``time``, ns, while inactive or active."""
+        """The world began anew at ``time``, ns, while inactive or active."""
 
     @abstractmethod
     def read(self, time: int, period: int) -> None:

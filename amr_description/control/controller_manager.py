@@ -13,6 +13,7 @@ import math
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import LifecycleState, NANOSECONDS
 from amr_description.control.lifecycles import ControllerLifecycles
+from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.overruns import overrun_text
 from amr_description.control.resource_manager import ResourceManager
@@ -117,13 +118,21 @@ class ControllerManager(ControllerLifecycles):
         self.next_tick = time + -time % self.period
 
     def reset(self, time: int) -> None:
-        """Time went back to ``time`` (ns): all stays as it is and begins anew."""
+        """The world began anew at ``time`` (ns): states stay, and all begins anew."""
         self.begin(time)
         self._abandon(self.resources.reset(time), time)
+        self._tell('resetting', lambda each: each.reset(time), time)
+
+    def set_clock(self, time: int) -> None:
+        """The clock was set to ``time`` (ns), and the robot went on."""
+        self.begin(time)
+        self._tell('setting the clock of', lambda each: each.set_clock(time), time)
+
+    def _tell(self, doing: str, tell: Callable[[LoadedController], None], time: int) -> None:
         survives = self._faults.survives
-        failed = [c for c in self._controllers if not survives('resetting', c, c.reset, time)]
+        failed = [each for each in self._controllers if not survives(doing, each, tell, each)]
         if failed:
-            self._faults.replace([c for c in failed if c.is_active], 'reset', time)
+            self._faults.replace([each for each in failed if each.is_active], 'reset', time)
             self.refresh()
 
     def shut_down(self, time: int) -> None:
@@ -132,15 +141,17 @@ class ControllerManager(ControllerLifecycles):
         self._log(Severity.INFO, 'Shutting down all controllers in the controller manager.')
         for loaded in self._controllers.active:
             self._log(Severity.INFO, f"Deactivating controller '{loaded.name}'")
-        self._execution.drop(self._controllers.active, time)
-        self.resources.enforce_limits(self.period)
-        self.resources.write(time, self.period)
-        for loaded in self._controllers:
-            if not loaded.is_busy:  # another thread is still in its configure
-                self._log(Severity.INFO, f"Shutting down controller '{loaded.name}'")
-                self._clean_up(loaded)
-                loaded.finalize()
-        self.resources.shut_down()
+        try:
+            self._execution.drop(self._controllers.active, time)
+            self.resources.enforce_limits(self.period)
+            self.resources.write(time, self.period)
+            for loaded in self._controllers:
+                if not loaded.is_busy:  # another thread is still in its configure
+                    self._log(Severity.INFO, f"Shutting down controller '{loaded.name}'")
+                    self._clean_up(loaded)
+                    loaded.finalize()
+        finally:  # whatever a watch of these raises, the motors stop
+            self.resources.shut_down()
         self.refresh()
         self._log(Severity.INFO, 'Shutting down the controller manager.')
 

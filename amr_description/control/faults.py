@@ -8,6 +8,7 @@ commands, which would otherwise obey nobody.
 """
 
 from collections.abc import Callable, Collection, Sequence
+from typing import Any
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
@@ -35,7 +36,7 @@ class Faults:
         self._log = log
 
     def survives(
-        self, doing: str, controller: LoadedController, method: Callable[..., None], *args: int
+        self, doing: str, controller: LoadedController, method: Callable[..., None], *args: Any
     ) -> bool:
         """Call a controller; the others must go on whatever it raises, which is logged."""
         try:

@@ -228,6 +228,12 @@ class LoadedController:
         if self.is_configured:
             self.controller.reset(time)
 
+    def set_clock(self, time: int) -> None:
+        """The clock was set to ``time``, ns."""
+        self._last_update = None
+        if self.is_configured:
+            self.controller.set_clock(time)
+
     def _check_unique(self, kind: str, names: Sequence[str]) -> None:
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:

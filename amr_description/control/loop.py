@@ -150,11 +150,18 @@ class Loop:
             self._pacer.resume(self.time)
 
     def reset(self) -> None:
-        """Tell everybody that the stepper's time has jumped, maybe back; for commands."""
+        """Tell everybody that the stepper's world began anew; for commands."""
+        self._jump(lambda manager, time: manager.reset(time))
+
+    def set_clock(self) -> None:
+        """Tell everybody that the stepper's clock was set; for commands."""
+        self._jump(lambda manager, time: manager.set_clock(time))
+
+    def _jump(self, tell: Callable[[ControllerManager, int], None]) -> None:
         time = self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
-            manager.reset(time)
+            tell(manager, time)
         self._pacer.resume(time)
 
     def _obey(self) -> None:

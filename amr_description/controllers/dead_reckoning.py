@@ -41,6 +41,10 @@ class DeadReckoning:
         self._last_travel = None
         self._last_time = time
 
+    def set_clock(self, time: int) -> None:
+        """Let time go on from ``time``; pose and wheels stay."""
+        self._last_time = time
+
     def update(
         self, left: WheelSide, right: WheelSide, twist: tuple[float, float], time: int, period: int
     ) -> None:

@@ -158,6 +158,14 @@ class DiffDriveController(Controller):
         self._reception.forget(time)
         self._set_references(0.0, 0.0)
 
+    def set_clock(self, time: int) -> None:
+        """Keep pose and speed; the time-out counts from now on."""
+        self._reckoning.set_clock(time)
+        self._gate.reset()
+        for port in self.inputs():
+            port.drain()
+        self._reception.forget(time)
+
     # --- the cycle ---------------------------------------------------------------------------
 
     def update(self, time: int, period: int) -> None:

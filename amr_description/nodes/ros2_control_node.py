@@ -112,8 +112,9 @@ class StandAlone:
             )
         self._clock = clock
         loop = Loop(clock, clock, self._mailbox, self._outgoing, self._period)
-        clock.on_step = loop.reset
+        clock.on_step = loop.set_clock
         if isinstance(clock, HeardClock):
+            clock.on_step = loop.reset
             loop.pause()
             clock.on_start = loop.resume
             self.node.create_subscription(

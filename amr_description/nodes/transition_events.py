@@ -46,6 +46,7 @@ class TransitionEvents:
 
     def __init__(self, node: Node) -> None:
         self._clock = node.get_clock()
+        self._context = node.context
         self._publisher = node.create_publisher(
             TransitionEvent, '~/transition_event', QoSProfile(depth=10)
         )
@@ -62,8 +63,10 @@ class TransitionEvents:
         else:
             event.transition = _end_of(transition, succeeded=reached is goal)
             event.start_state, event.goal_state = between, _state(reached)
-        # At once, not with the turn's outbox: the node may be gone by then.
-        self._publisher.publish(event)
+        # At once, not with the turn's outbox: the node may be gone by then. Where ROS was shut down
+        # first, nobody hears it any more, and the motors still have to be stopped.
+        if self._context.ok():
+            self._publisher.publish(event)
 
 
 def _state(state: LifecycleState) -> State:
