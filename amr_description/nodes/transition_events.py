@@ -63,8 +63,8 @@ class TransitionEvents:
         else:
             event.transition = _end_of(transition, succeeded=reached is goal)
             event.start_state, event.goal_state = between, _state(reached)
-        # At once, not with the turn's outbox: the node may be gone by then. Where ROS was shut down
-        # first, nobody hears it any more, and the motors still have to be stopped.
+        # At once, not with the turn's outbox: the node may be gone by then. Where ROS was shut
+        # down first, nobody hears it any more, and the motors still have to be stopped.
         if self._context.ok():
             self._publisher.publish(event)
 
