@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``check_urdf FILE``: print the tree of a robot description, and what is wrong with it.
+``check_urdf FILE [NAME:=VALUE …]``: print the tree of a robot description, and what is wrong.
 
 The tree on stdout and the refusals on stderr are those of urdfdom 4.0.2, so that scripts made for
 it go on working. Where urdfdom names a line of its own C++ code, the line of the file stands. All
@@ -25,10 +25,11 @@ from typing import TYPE_CHECKING
 from amr_description.cli.urdf_report import drop_lines, refusal, refused_for, to_json, tree_lines
 from amr_description.errors import DescriptionError, ParameterError, SimulationError
 from amr_description.model.checks import Examination, examine
+from amr_description.model.description_file import description_text, mappings_of, source_name
 from amr_description.model.drive_settings import DriveSettings
 from amr_description.model.findings import Finding, one_line
 from amr_description.model.subject import IsThere, Surroundings
-from amr_description.model.xml_source import read_file, read_stream
+from amr_description.model.xml_source import read_stream
 
 if TYPE_CHECKING:
     from amr_description.sim.drop import DropReport
@@ -50,7 +51,7 @@ def main(argv: list[str]) -> int:
         print(_NO_ARGUMENT, file=sys.stderr)
         return REFUSED_BY_URDFDOM
     try:
-        text, source = _read(arguments.file)
+        text, source = _read(arguments.file, arguments.mappings)
     except DescriptionError as error:
         print(f'error: {one_line(str(error))}', file=sys.stderr)
         return REFUSED_BY_URDFDOM
@@ -79,7 +80,8 @@ def _parser() -> argparse.ArgumentParser:
         epilog='Exit code: 0 sound, 255 urdfdom refuses it, too, 1 it passes urdfdom, unusable.',
     )
     add = parser.add_argument
-    add('file', nargs='?', metavar='FILE', help='a URDF file, or - for stdin')
+    add('file', nargs='?', metavar='FILE', help='a URDF or .xacro file, or - for stdin')
+    add('mappings', nargs='*', metavar='NAME:=VALUE', help='arguments of a xacro file')
     add(
         '--controllers',
         metavar='YAML',
@@ -97,11 +99,20 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _read(path: str) -> tuple[str, str]:
-    """Return the text, and what messages call the file."""
-    if path == '-':
+def _read(path: str, words: list[str]) -> tuple[str, str]:
+    """
+    Return the text, and what messages call the file.
+
+    ``words`` are arguments of a xacro file. Raises DescriptionError, UsageError.
+    """
+    mappings = mappings_of(words)
+    if path == '-' and not mappings:
         return read_stream(sys.stdin.buffer, _STDIN), _STDIN
-    return read_file(path), path
+    return description_text(path, mappings, warn=_warn), source_name(path)
+
+
+def _warn(line: str) -> None:
+    print(f'warning: {line}', file=sys.stderr)
 
 
 def _file_finder(source: str) -> IsThere:

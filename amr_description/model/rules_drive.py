@@ -84,9 +84,9 @@ def _hub(subject: Subject, wheel: Wheel) -> tuple[float, float, float]:
 
 def _uneven(subject: Subject, left: list[Wheel], right: list[Wheel]) -> Finding:
     named = [quote_all([wheel.joint for wheel in side]) for side in (left, right)]
-    first = (left or right)[0]
+    lines = [subject.robot.joint(wheel.joint).line for wheel in max(left, right, key=len)]
     return subject.warning(
-        subject.robot.joint(first.joint).line,
+        min(lines),
         'the driven wheels are not the same on both sides',
         found=f'on the left (y > 0) {named[0]}, on the right {named[1]}',
         expected='pairs',
