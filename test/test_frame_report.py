@@ -70,11 +70,13 @@ def test_five_samples_in_two_seconds_are_two_a_second():
 
 
 def test_the_tree_is_indented():
-    assert as_tree([*ROBOT, static('arm', 'base'), static('cup', 'table')]).splitlines() == [
+    arm = [static('arm', 'base'), static('hand', 'arm')]
+    assert as_tree([*ROBOT, *arm, static('cup', 'table')]).splitlines() == [
         'map',
         '└── odom: 2.000 Hz, /ekf',
         '    └── base: 2.000 Hz, /ekf',
-        '        └── arm: static, /robot_state_publisher',
+        '        ├── arm: static, /robot_state_publisher',
+        '        │   └── hand: static, /robot_state_publisher',
         '        └── laser: static, /robot_state_publisher',
         'table',
         '└── cup: static, /robot_state_publisher',

@@ -250,13 +250,13 @@ def test_a_name_that_cannot_be_is_told_in_the_words_of_tf2(name, said):
 def test_trees_without_a_common_root_are_named():
     buffer = buffer_of(
         at_x('map', 'camera', 1.0, 5),
-        *(at_x('odom', f'wheel_{number}', 1.0, 5) for number in range(8)),
+        *(at_x('odom', f'wheel_{number}', 1.0, 5) for number in range(10)),
     )
     text = (
         "^Could not find a connection between 'odom' and 'camera' because they are not part of "
         'the same tree.Tf has two or more unconnected trees. No common root: the trees are '
-        "'map' with camera, and 'odom' with wheel_0, wheel_1, wheel_2, wheel_3, wheel_4, wheel_5 "
-        'and 2 more$'
+        "'map' with camera, and 'odom' with wheel_0, wheel_1, wheel_2, wheel_3, wheel_4, wheel_5, "
+        'wheel_6, wheel_7 and 2 more$'
     )
     for time in (0, 5):
         with pytest.raises(ConnectivityException, match=text):

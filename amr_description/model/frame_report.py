@@ -120,12 +120,25 @@ def _yaml(record: FrameRecord, now: int) -> str:
 
 
 def _branches(records: Sequence[FrameRecord]) -> Iterator[str]:
-    for name, record, depth in tree_order(records):
-        line = ('    ' * (depth - 1) + '└── ' if depth else '') + label(name, record, depth)
+    order = tree_order(records)
+    for (name, record, depth), strokes in zip(order, _strokes(order), strict=True):
+        line = strokes + label(name, record, depth)
         if record is not None:
             how = 'static' if record.is_static else f'{average_rate(record):.3f} Hz'
             line += f': {how}, {record.authority}'
         yield line
+
+
+def _strokes(order: Sequence[tuple[str, FrameRecord | None, int]]) -> list[str]:
+    """The lines in front of each name: down to its younger siblings, and those of its parents."""
+    strokes = []
+    going_on: set[int] = set()  # depths at which a sibling follows; read from the end
+    for _, _, depth in reversed(order):
+        end = '├── ' if depth in going_on else '└── '
+        going_on = {other for other in going_on if other < depth} | {depth}
+        above = ('│   ' if level in going_on else '    ' for level in range(1, depth))
+        strokes.append(''.join(above) + end if depth else '')
+    return strokes[::-1]
 
 
 def _escaped(text: str) -> str:

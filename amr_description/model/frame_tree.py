@@ -14,7 +14,7 @@ from amr_description.errors import ConnectivityException, LookupException
 from amr_description.model.transform_cache import Frame, MovingFrame, Sample, StaticFrame
 from amr_description.model.transform_input import StampedTransform
 
-_SHOWN = 6  # names of a tree, in an error
+_SHOWN = 8  # names of a tree, in an error
 
 
 @dataclass(frozen=True, slots=True)
