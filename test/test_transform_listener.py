@@ -23,6 +23,7 @@ from amr_description.errors import (
 )
 from amr_description.model.frames import Transform
 from amr_description.model.transform_input import StampedTransform
+from amr_description.nodes import tf2_ros
 from amr_description.nodes.clients import ask_until_answered, wait_until
 from amr_description.nodes.transform_broadcaster import (
     StaticTransformBroadcaster,
@@ -224,3 +225,27 @@ def test_a_listener_can_serve_itself(context):
     )
     listener.unregister()
     assert not any(thread.name == 'transforms' for thread in threading.enumerate())
+
+
+def test_a_node_written_for_tf2_ros_changes_its_import_only(context):
+    """The node of tf2's tutorial, as it is written there."""
+
+    class FrameListener(Node):
+        def __init__(self):
+            super().__init__('turtle_tf2_frame_listener')
+            self.tf_buffer = tf2_ros.Buffer()
+            self.tf_listener = tf2_ros.TransformListener(self.tf_buffer, self)
+
+        def look(self):
+            try:
+                return self.tf_buffer.lookup_transform('turtle1', 'carrot1', Time())
+            except tf2_ros.TransformException as error:
+                assert 'passed to lookupTransform argument target_frame does not exist' in str(
+                    error
+                )
+
+    node = FrameListener()
+    broadcaster = tf2_ros.StaticTransformBroadcaster(node)
+    assert node.look() is None
+    broadcaster.sendTransform(message('turtle1', 'carrot1', 2.0))
+    assert wait_until(node, node.look, timeout=20.0).transform.translation.x == 2.0
