@@ -2,20 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joint positions to transforms, and the thinning of messages; no ROS."""
 
+import io
+import itertools
 import math
 from pathlib import Path
 import random
 
+from hypothesis import given, strategies as st
 import pytest
 import yourdfpy
 
+from amr_description.model.description_file import description_text
 from amr_description.model.frames import Transform
 from amr_description.model.urdf import load, parse
 from amr_description.nodes.robot_state import period_of, RobotState, Throttle
 
 ROOT = Path(__file__).parents[1]
-ROBOTS = [ROOT / 'urdf/amr.urdf', ROOT / 'test/fixtures/urdf/arm.urdf']
+FIXTURES = ROOT / 'test/fixtures/urdf'
+ROBOTS = [ROOT / 'urdf/amr.urdf', FIXTURES / 'arm.urdf', FIXTURES / 'gripper.urdf.xacro']
 MILLISECOND = 1_000_000
+# The gripper's mimic of a mimic, which yourdfpy does not know, and what it amounts to.
+CHAIN_AND_LINK = (
+    '<mimic joint="right_knuckle" multiplier="0.01" offset="0.001"/>',
+    '<mimic joint="left_knuckle" multiplier="-0.01" offset="0.0015"/>',
+)
 
 
 def robot_of(*joints):
@@ -59,11 +69,13 @@ def poses(transforms, root):
 
 @pytest.mark.parametrize('path', ROBOTS, ids=lambda path: path.stem)
 def test_the_chained_transforms_are_the_forward_kinematics_of_yourdfpy(path):
-    robot = load(path)
+    robot = parse(description_text(path))
     state = RobotState(robot)
-    other = yourdfpy.URDF.load(str(path), load_meshes=False, build_scene_graph=True)
+    assert (CHAIN_AND_LINK[0] in robot.text) == (robot.name == 'gripper')
+    stream = io.BytesIO(robot.text.replace(*CHAIN_AND_LINK).encode())
+    other = yourdfpy.URDF.load(stream, load_meshes=False, build_scene_graph=True)
     chance = random.Random(4)
-    for _ in range(20):
+    for _ in range(30):
         positions = {name: chance.uniform(-2, 2) for name in other.actuated_joint_names}
         other.update_cfg(positions)
         found = poses([*state.static, *state.moving(positions)], robot.root.name)
@@ -182,19 +194,20 @@ def test_a_root_with_inertia_is_told():
 
 
 @pytest.mark.parametrize(
-    ('frequency', 'milliseconds'), [(20.0, 50), (30.0, 33), (1000.0, 1), (0.0, 0), (0.4, 2500)]
+    ('frequency', 'period'),
+    [(20.0, 50_000_000), (30.0, 33_333_333), (1000.0, 1_000_000), (0.0, 0), (0.4, 2_500_000_000)],
 )
-def test_the_period_is_in_whole_milliseconds(frequency, milliseconds):
-    assert period_of(frequency) == milliseconds * MILLISECOND
+def test_the_period_of_a_frequency(frequency, period):
+    assert period_of(frequency) == period
 
 
-def published(stamps, period=50, names=('wheel',)):
-    """Return the stamps (ms) that are published when messages with these stamps come in."""
+def published(stamps, period=50 * MILLISECOND, names=('wheel',)):
+    """Return the stamps (ns) that are published when messages with these stamps come in."""
     throttle = Throttle()
     let_pass = []
     for stamp in stamps:
-        if throttle.admit(names, stamp * MILLISECOND, period * MILLISECOND):
-            throttle.note(names, stamp * MILLISECOND)
+        if throttle.admit(names, stamp):
+            throttle.note(names, stamp, period)
             let_pass.append(stamp)
     return let_pass
 
@@ -203,16 +216,43 @@ def published(stamps, period=50, names=('wheel',)):
     ('stamps', 'expected'),
     [
         (range(0, 300, 10), [0, 50, 100, 150, 200, 250]),
-        (range(0, 300, 30), [0, 60, 120, 180, 240]),
+        (range(0, 310, 30), [0, 60, 120, 150, 210, 270, 300]),
         ([1000, 1000, 1000], [1000]),
         ([7], [7]),
         ([100, 99, 50, 149, 150], [100, 150]),
         ([90_000, 3_000, 3_010, 3_050], [90_000, 3_000, 3_050]),
+        ([0, 10_000, 10_010, 10_040, 10_050, 10_090], [0, 10_000, 10_050]),
     ],
-    ids=['100 Hz', '33 Hz', 'one stamp', 'the very first', 'out of order', 'a new start'],
+    ids=['100 Hz', '33 Hz', 'one stamp', 'the very first', 'out of order', 'anew', 'a gap'],
 )
 def test_messages_are_thinned_out_by_their_stamps(stamps, expected):
-    assert published(stamps) == expected
+    found = published([stamp * MILLISECOND for stamp in stamps])
+    assert [stamp // MILLISECOND for stamp in found] == expected
+
+
+@pytest.mark.parametrize('frequency', [7.0, 20.0, 30.0, 50.0, 300.0, 999.0, 1000.0])
+def test_one_kilohertz_is_published_at_the_configured_rate_and_none_is_lost(frequency):
+    stamps = range(0, 10_000 * MILLISECOND, MILLISECOND)
+    found = published(stamps, period_of(frequency))
+    assert len(found) == pytest.approx(10 * frequency, abs=1)
+    if frequency == 1000.0:
+        assert found == list(stamps)
+
+
+@given(
+    period=st.integers(1, 10**9),
+    share=st.floats(0.01, 1.0),
+    jitter=st.floats(0.0, 0.25),
+    seed=st.integers(0, 2**32),
+)
+def test_the_rate_is_kept_on_average_and_no_two_are_too_close(period, share, jitter, seed):
+    chance = random.Random(seed)
+    step = share * period
+    stamps = [round((i + jitter * chance.uniform(-1, 1)) * step) for i in range(400)]
+    found = published(stamps, period)
+    turns = (stamps[-1] - stamps[0]) / period
+    assert turns - 4 <= len(found) <= turns + 4
+    assert all(b - a >= period // 2 for a, b in itertools.pairwise(found))
 
 
 def test_period_zero_lets_every_message_pass_that_is_not_older():
@@ -224,22 +264,30 @@ def test_two_sources_do_not_starve_one_another():
     passed = {'wheels': 0, 'arm': 0}
     for stamp in range(0, 1000, 10):
         for source in passed:
-            if throttle.admit([source], stamp, 50):
-                throttle.note([source], stamp)
+            if throttle.admit([source], stamp):
+                throttle.note([source], stamp, 50)
                 passed[source] += 1
     assert passed == {'wheels': 20, 'arm': 20}
 
 
 def test_a_message_is_due_when_one_of_its_joints_is():
     throttle = Throttle()
-    throttle.note(['wheel'], 100)
-    assert not throttle.admit(['wheel'], 149, 50)
-    assert throttle.admit(['wheel', 'stranger'], 149, 50)
+    throttle.note(['wheel'], 100, 50)
+    assert not throttle.admit(['wheel'], 149)
+    assert throttle.admit(['wheel', 'stranger'], 149)
+
+
+def test_a_joint_that_is_published_early_with_another_waits_for_a_whole_period():
+    throttle = Throttle()
+    throttle.note(['wheel'], 100, 50)
+    throttle.note(['wheel', 'stranger'], 120, 50)
+    assert not throttle.admit(['wheel'], 169)
+    assert throttle.admit(['wheel'], 170)
 
 
 def test_after_forgetting_everything_is_due():
     throttle = Throttle()
-    throttle.note(['wheel'], 1000)
-    assert not throttle.admit(['wheel'], 10, 50)
+    throttle.note(['wheel'], 1000, 50)
+    assert not throttle.admit(['wheel'], 10)
     throttle.forget()
-    assert throttle.admit(['wheel'], 10, 50)
+    assert throttle.admit(['wheel'], 10)

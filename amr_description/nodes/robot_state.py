@@ -9,11 +9,13 @@ This module imports no rclpy. Times are integer nanoseconds.
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 import math
+from typing import NamedTuple
 
 from amr_description.model.frames import joint_transform, Transform
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 
 _RESTART = 1_000_000_000  # ns: messages of one source do not overtake one another by so much
+_PATIENCE = 2  # periods that a joint may be late before its turns are counted anew
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,42 +69,61 @@ class RobotState:
 
 class Throttle:
     """
-    How often the transforms of a joint are published: at most once a period, by message stamps.
+    How often the transforms of a joint are published: once a period, by message stamps.
 
     Each joint counts for itself, so that two sources of joint states (wheels, an arm) do not
     starve one another. A message is published whole when one of its joints is due.
+
+    A joint falls due at whole periods after it was published first, whatever stamps come, but half
+    a period after it was published last at the earliest. So the rate is kept, on average, also
+    where joint states come as often, but unevenly, or not much more often. (The original waits for
+    a whole period from each stamp: of 33 Hz it makes 17 instead of 20, and of 1 kHz, as programs
+    send it, 600 Hz instead of 1 kHz.)
     """
 
     def __init__(self) -> None:
-        self._published: dict[str, int] = {}
+        self._joints: dict[str, _Turn] = {}
 
-    def admit(self, names: Iterable[str], stamp: int, period: int) -> bool:
+    def admit(self, names: Iterable[str], stamp: int) -> bool:
         """
         Tell whether a message stamped ``stamp`` about the joints ``names`` is to be published.
 
-        That is so if for one of them nothing has been published, or ``period`` ns have passed
-        since the stamp last published, or the stamp is so much older that its source must have
-        started anew. Call :meth:`note` for what was published.
+        That is so if one of them is due, or has never been published, or the stamp is so much
+        older than the last that its source must have started anew. Call :meth:`note` for what was
+        published.
         """
-        published = self._published
+        joints = self._joints
         for name in names:
-            last = published.get(name)
-            if last is None or stamp >= last + period or stamp < last - _RESTART:
+            turn = joints.get(name)
+            if turn is None or stamp >= turn.earliest or stamp < turn.last - _RESTART:
                 return True
         return False
 
-    def note(self, names: Iterable[str], stamp: int) -> None:
-        """Remember that a message with ``stamp`` was published for these joints."""
-        self._published.update(dict.fromkeys(names, stamp))
+    def note(self, names: Iterable[str], stamp: int, period: int) -> None:
+        """Remember that a message with ``stamp`` was published, and that ``period`` ns follow."""
+        for name in names:
+            turn = self._joints.get(name)
+            due = stamp + period
+            if turn is not None and turn.due <= stamp < turn.due + _PATIENCE * period:
+                due = turn.due + period
+            self._joints[name] = _Turn(due, max(due, stamp + period // 2), stamp)
 
     def forget(self) -> None:
-        """Start anew, because time went back."""
-        self._published.clear()
+        """Start anew: time went back, or the period is another."""
+        self._joints.clear()
+
+
+class _Turn(NamedTuple):
+    """When a joint is due by its rate, when at the earliest, and when it was published (ns)."""
+
+    due: int
+    earliest: int
+    last: int
 
 
 def period_of(frequency: float) -> int:
-    """Return whole milliseconds, 1000 / ``frequency`` (Hz) rounded down, in ns; 0 for 0 Hz."""
-    return int(1000.0 / frequency) * 1_000_000 if frequency else 0
+    """Return 1 / ``frequency`` (Hz) in ns; 0 for 0 Hz."""
+    return round(1e9 / frequency) if frequency else 0
 
 
 def _link_transform(joint: Joint, position: float) -> LinkTransform:

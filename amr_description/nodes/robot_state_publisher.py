@@ -25,14 +25,15 @@ the original hurts:
 * a joint state with a zero stamp, which it never publishes, counts as stamped on arrival (its
   transforms too: TF has no use for stamp 0), and is thinned out by that stamp;
 * the first message about a joint is always published, also in the first 50 ms of simulated time;
+* ``publish_frequency`` is kept on average, whatever joint states come; 0 publishes every message;
 * joint states that go back in time by more than a second are published, also when the node's own
   clock does not go back with them (a restarted simulator, ``use_sim_time`` forgotten);
-* ``publish_frequency`` 0 publishes every message;
 * an unusable description ends it with one line and exit code 1, not with an abort;
 * ``/tf_static`` carries the fixed joints of the present description only.
 
-100 joint states of four wheels a second cost 4 % of a core, of which 3.5 % go into receiving them
-at all (an empty callback); ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
+Joint states are received as bytes, and decoded only if they are published. 100 of four wheels a
+second cost 4 % of a core (2.3 % of it for receiving them at all), 1000 a second 12 %, both with
+20 Hz of transforms; ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
 """
 
 from collections.abc import Iterable, Sequence
@@ -40,13 +41,13 @@ from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -55,6 +56,7 @@ from amr_description.control.interfaces import NANOSECONDS
 from amr_description.errors import AmrError, DescriptionError, ParameterError
 from amr_description.model.urdf import parse
 from amr_description.nodes.description_argument import read_description, split_arguments
+from amr_description.nodes.joint_state_head import HeadReader
 from amr_description.nodes.node_parameters import (
     declare,
     let_parameter_events_be_overridden,
@@ -103,6 +105,8 @@ class RobotStatePublisher(Node):
             )
         self._state: RobotState | None = None
         self._throttle = Throttle()
+        self._heads = HeadReader()
+        self._parts: dict[str, TransformStamped] = {}  # by link
         self._last_now = 0  # ns
         self._description = self.create_publisher(String, 'robot_description', _LATCHED)
         self._static = self.create_publisher(
@@ -123,6 +127,7 @@ class RobotStatePublisher(Node):
             'joint_states',
             self._on_joint_state,
             qos_profile_sensor_data,
+            raw=True,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
         self.add_on_set_parameters_callback(self._judge)
@@ -169,43 +174,46 @@ class RobotStatePublisher(Node):
         new_frames = new_robot or settings.frame_prefix != self._settings.frame_prefix
         self._settings, self._state = settings, state
         self._period = period_of(settings.publish_frequency)
+        self._throttle.forget()
         if new_robot:
-            self._throttle.forget()
             for warning in state.warnings:
                 self.get_logger().warning(warning)
             self._description.publish(String(data=settings.robot_description))
             self.get_logger().info('Robot initialized')
         if new_frames:
-            self._static.publish(self._message(state.static, self.get_clock().now().to_msg()))
+            self._parts.clear()
+            self._static.publish(self._message(state.static, self.get_clock().now().nanoseconds))
 
-    def _on_joint_state(self, message: JointState) -> None:
-        if len(message.name) != len(message.position):
-            self._complain(message)
-            return
-        now = self.get_clock().now()
-        if now.nanoseconds < self._last_now:
+    def _on_joint_state(self, data: bytes) -> None:
+        """Take a serialized JointState: most of them are not published, so not decoded either."""
+        now = self.get_clock().now().nanoseconds
+        if now < self._last_now:
             self.get_logger().warning('Moved backwards in time, re-publishing joint transforms!')
             self._throttle.forget()
-        self._last_now = now.nanoseconds
-        stamp = message.header.stamp
-        if not (stamp.sec or stamp.nanosec):
-            stamp = now.to_msg()
-        nanoseconds = stamp.sec * NANOSECONDS + stamp.nanosec
-        due = self._throttle.admit(message.name, nanoseconds, self._period)
-        if due or self._settings.ignore_timestamp:
-            self._throttle.note(message.name, nanoseconds)
-            positions = dict(zip(message.name, message.position, strict=True))
-            transforms = self._state.moving(positions)
-            if transforms:
-                self._moving.publish(self._message(transforms, stamp))
+        self._last_now = now
+        try:
+            head = self._heads.read(data)
+        except ValueError as error:
+            self._complain(str(error))
+            return
+        stamp = head.stamp or now
+        if not (self._throttle.admit(head.names, stamp) or self._settings.ignore_timestamp):
+            return
+        message = deserialize_message(data, JointState)
+        if len(message.name) != len(message.position):
+            self._complain_about(message)
+            return
+        self._throttle.note(head.names, stamp, self._period)
+        positions = dict(zip(message.name, message.position, strict=True))
+        transforms = self._state.moving(positions)
+        if transforms:
+            self._moving.publish(self._message(transforms, stamp))
 
-    def _complain(self, message: JointState) -> None:
+    def _complain_about(self, message: JointState) -> None:
         """Say, every few seconds, that a joint state cannot be used."""
         if message.position:
-            self.get_logger().error(
-                'Robot state publisher ignored an invalid JointState message',
-                throttle_duration_sec=_QUIET,
-            )
+            names, positions = len(message.name), len(message.position)
+            self._complain(f'{names} names, {positions} positions')
         else:
             joints = ','.join(f'"{name}"' for name in message.name)
             self.get_logger().warning(
@@ -214,20 +222,28 @@ class RobotStatePublisher(Node):
                 throttle_duration_sec=_QUIET,
             )
 
-    def _message(self, transforms: Iterable[LinkTransform], stamp: Time) -> TFMessage:
-        prefix = self._settings.frame_prefix
-        return TFMessage(transforms=[_stamped(link, prefix, stamp) for link in transforms])
+    def _complain(self, reason: str) -> None:
+        self.get_logger().error(
+            f'Robot state publisher ignored an invalid JointState message: {reason}',
+            throttle_duration_sec=_QUIET,
+        )
 
+    def _message(self, links: Iterable[LinkTransform], stamp: int) -> TFMessage:
+        """Return the transforms with ``stamp`` (ns); the parts are used again for the next one."""
+        return TFMessage(transforms=[self._part(link, stamp) for link in links])
 
-def _stamped(link: LinkTransform, prefix: str, stamp: Time) -> TransformStamped:
-    message = TransformStamped()
-    message.header.stamp = stamp
-    message.header.frame_id = prefix + link.parent
-    message.child_frame_id = prefix + link.child
-    place, turn = message.transform.translation, message.transform.rotation
-    place.x, place.y, place.z = link.transform.translation
-    turn.x, turn.y, turn.z, turn.w = link.transform.rotation
-    return message
+    def _part(self, link: LinkTransform, stamp: int) -> TransformStamped:
+        part = self._parts.get(link.child)
+        if part is None:
+            part = self._parts[link.child] = TransformStamped()
+            part.header.frame_id = self._settings.frame_prefix + link.parent
+            part.child_frame_id = self._settings.frame_prefix + link.child
+        time = part.header.stamp
+        time.sec, time.nanosec = divmod(stamp, NANOSECONDS)
+        place, turn = part.transform.translation, part.transform.rotation
+        place.x, place.y, place.z = link.transform.translation
+        turn.x, turn.y, turn.z, turn.w = link.transform.rotation
+        return part
 
 
 def main(args: list[str] | None = None) -> int:
