@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Another's /clock as stepper and pacer."""
 
-from control_fakes import MS
+from control_fakes import FakeHardware, FakeLog, MS
 import pytest
 
+from amr_description.control.controller_manager import ControllerManager
+from amr_description.control.loop import Loop
+from amr_description.control.resource_manager import ResourceManager
 from amr_description.nodes.heard_clock import HeardClock
 
 PERIOD = 10 * MS
@@ -66,9 +69,42 @@ def test_an_instant_that_is_over_is_not_waited_for(box):
     assert clock.time == 2000 * MS
 
 
-def test_time_that_goes_back_is_told_to_the_owner(box):
+def test_time_that_goes_back_is_told_to_the_owner_who_finds_it_gone_back(box):
     clock = started(box)
+    clock.advance(PERIOD)
+    told = []
+    clock.on_step = lambda: told.append(clock.time)
     clock.hear(5 * MS)
-    assert box.calls[-1] == clock.on_step
-    clock.resume(0)
-    assert clock.time == 5 * MS
+    assert told == []
+    box.calls[-1]()
+    assert told == [5 * MS]
+
+
+class Nobody:
+    """A publisher port that nobody hears."""
+
+    def set_clocks(self, time):
+        pass
+
+    def publish(self, time):
+        pass
+
+
+def test_a_manager_ticks_on_at_once_when_time_goes_back(box):
+    box.take = lambda: [box.calls.pop(0) for _ in range(len(box.calls))]
+    clock = started(box)
+    loop = Loop(clock, clock, box, Nobody(), PERIOD)
+    clock.on_step = loop.reset
+    resources = ResourceManager(FakeLog())
+    resources.add(FakeHardware())
+    resources.start_components()
+    manager = ControllerManager(resources, 100, FakeLog())
+    manager.begin(clock.time)
+    loop.managers.append(manager)
+    ticks = []
+    manager.on_tick = ticks.append
+    heard = [1010, 1020, 0, 10, 20]
+    box.during += [lambda each=each: clock.hear(each * MS) for each in heard]
+    while box.during:
+        loop.turn()
+    assert ticks == [1000 * MS, 1010 * MS, 1020 * MS, 0, 10 * MS]

@@ -33,7 +33,7 @@ class HeardClock:
         if last is None:
             self._mailbox.put(self.on_start)
         elif time_heard < last:
-            self._mailbox.put(self.on_step)
+            self._mailbox.put(self._begin_anew)
         else:
             self._mailbox.wake()
 
@@ -52,3 +52,8 @@ class HeardClock:
             return False
         self._now = self._heard
         return True
+
+    def _begin_anew(self) -> None:
+        """For the owner: what it waited for comes when the old time is reached again."""
+        self.resume(0)
+        self.on_step()
