@@ -4,9 +4,12 @@
 
 import threading
 import time
+from types import SimpleNamespace
+
+import pytest
 
 from amr_description.nodes import owner
-from amr_description.nodes.owner import Mailbox, WallPacer
+from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 
 SECOND = 1_000_000_000
 
@@ -98,3 +101,45 @@ def test_a_call_ends_the_sleep_of_slow_motion():
     pacer.resume(0)
     box.put(print)
     assert pacer.pace(SECOND) is False
+
+
+class Manager:
+    """Is shut down, and raises then what it is given."""
+
+    def __init__(self, error=None):
+        self.error = error
+        self.is_down = False
+
+    def shut_down(self, time):
+        self.is_down = True
+        if self.error is not None:
+            raise self.error
+
+
+class EndingLoop:
+    """A loop that raises in its first turn."""
+
+    time = 0
+
+    def __init__(self, error, managers):
+        self.error = error
+        self.managers = managers
+
+    def run(self):
+        raise self.error
+
+    def stop(self):
+        pass
+
+
+@pytest.mark.parametrize('error', [ValueError('a bug'), SystemExit(3)])
+def test_whatever_ends_the_loop_every_robot_is_stopped_and_the_process_hears_of_it(error, capfd):
+    ended = threading.Event()
+    dead = Owner(Mailbox(), SimpleNamespace(wake=ended.set))
+    dead.loop = EndingLoop(error, [Manager(SystemExit(4)), Manager()])
+    dead.start()
+    assert ended.wait(10.0)
+    dead.stop()
+    assert dead.failed
+    assert all(manager.is_down for manager in dead.loop.managers)
+    assert type(error).__name__ in capfd.readouterr().err

@@ -150,7 +150,7 @@ class Owner:
         try:
             self.on_start()
             self.loop.run()
-        except Exception:
+        except BaseException:  # sys.exit() in a stranger's class, too: nobody else would see it
             traceback.print_exc()
             self.failed = True
             self.on_failure()
@@ -162,6 +162,6 @@ class Owner:
         """Stop one robot; whatever it raises, the next one has to be stopped too."""
         try:
             manager.shut_down(self.loop.time)
-        except Exception:
+        except BaseException:
             traceback.print_exc()
             self.failed = True
