@@ -157,6 +157,27 @@ def test_create_tells_what_is_wrong_with_a_urdf_and_fails(sim, tmp_path, old, ne
     assert message in line
 
 
+def test_xacro_files_are_expanded_with_their_arguments(sim, node, tmp_path):
+    path = tmp_path / 'twin.urdf.xacro'
+    path.write_text(
+        '<robot name="$(arg name)" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:arg name="name" default="nobody"/>'
+        '<xacro:include filename="$(find amr_description)/urdf/amr.urdf"/></robot>'
+    )
+    assert spawn(node, uri=f'{path}?name=one').entity_name == 'one'
+    ended = run(
+        'create', '-file', str(path), 'name:=two', '-x', '2', '--ros-args', '-r', '__ns:=/two'
+    )
+    assert (ended.returncode, 'remap rule' in ended.stderr) == (0, False)
+    assert state(node, 'two').state.pose.position.x == pytest.approx(2.0, abs=1e-3)
+    result = spawn(node, uri=str(path)).result
+    assert result.result == SpawnCode.NO_RESOURCE
+    assert f'{path}: Undefined substitution argument name' in result.error_message
+    ended = run('create', '-topic', 'robot_description', 'name:=two')
+    assert ended.returncode == 2
+    assert 'name:=two is for a xacro file, and there is no -file' in ended.stderr
+
+
 def test_create_without_a_source_or_with_a_missing_file():
     ended = run('create')
     assert ended.returncode == 255

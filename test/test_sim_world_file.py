@@ -5,9 +5,14 @@
 from fixtures.sim.driving import AMR, ROOT
 import pytest
 
-from amr_description.errors import SimulationError
+from amr_description.errors import DescriptionError, SimulationError
 from amr_description.model.frames import Transform
-from amr_description.sim.resources import package_share, resolve_uri, shipped_worlds
+from amr_description.sim.resources import (
+    description_at,
+    package_share,
+    resolve_uri,
+    shipped_worlds,
+)
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world
 
@@ -105,3 +110,20 @@ def test_uris(source_tree, tmp_path):
     assert str(resolve_uri('/meshes/c.stl', tmp_path)) == '/meshes/c.stl'
     with pytest.raises(SimulationError, match="scheme 'model' is not known"):
         resolve_uri('model://sun')
+
+
+def test_the_description_at_a_uri_is_expanded_with_its_arguments(source_tree, tmp_path):
+    said = []
+    path = tmp_path / 'cart.urdf.xacro'
+    namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    body = '<xacro:arg name="x" default="1"/><xacro:arg name="y" default="2"/>'
+    body += '<link name="$(arg x) $(arg y)"/>'
+    path.write_text(f'<robot name="cart" {namespace}>{body}</robot>')
+    assert '"1 2"' in description_at(f'file://{path}', warn=said.append)
+    assert '"a b 3"' in description_at(f'file://{path}?x=a%20b&y=3', warn=said.append)
+    assert '" 4"' in description_at(f'{path}?x=&y=3', {'y': '4'}, warn=said.append)
+    assert said == []
+    text = description_at('package://amr_description/urdf/amr.urdf', warn=said.append)
+    assert text == (ROOT / 'urdf/amr.urdf').read_text()
+    with pytest.raises(DescriptionError, match='takes no arguments'):
+        description_at('package://amr_description/urdf/amr.urdf', {'x': '1'}, warn=said.append)

@@ -3,6 +3,9 @@
 """
 ``create``: put a robot into the simulation, as ros_gz_sim's executable of that name does.
 
+The file of ``-file`` may be a xacro file, with its arguments: ``-file robot.urdf.xacro
+wheel_radius:=0.2``.
+
 It ends with 0 when the robot is there, with 1 and the reason when the simulator refuses, with
 255 when no description is given.
 """
@@ -12,17 +15,18 @@ import sys
 
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from rclpy.utilities import remove_ros_args
 from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 from std_msgs.msg import String
 
 from amr_description.errors import AmrError, UsageError
+from amr_description.model.description_file import mappings_of
 from amr_description.model.frames import Transform
 from amr_description.nodes.clients import ask_until_answered, call_with, wait_until
 from amr_description.nodes.converters import fill_pose
+from amr_description.nodes.ros_arguments import other_arguments, ros_arguments
 from amr_description.nodes.runtime import argument_errors, program, ros
-from amr_description.sim.resources import resolve_uri
+from amr_description.sim.resources import description_at
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'
@@ -51,14 +55,18 @@ def parser() -> argparse.ArgumentParser:
         options.add_argument(f'-{axis}', type=float, default=0.0, metavar='M')
     for axis, name in zip('RPY', ('roll', 'pitch', 'yaw'), strict=True):
         options.add_argument(f'-{axis}', type=float, default=0.0, metavar='RAD', help=name)
+    options.add_argument(
+        'arguments', nargs='*', metavar='NAME:=VALUE', help='arguments of a xacro file'
+    )
     return options
 
 
 def create(args: list[str] | None) -> int:
     """Ask the simulator for the entity; return the exit code."""
-    with ros(args):
-        words = remove_ros_args(sys.argv if args is None else ['create', *args])[1:]
-        options = parser().parse_args(words)
+    given = sys.argv[1:] if args is None else args
+    # Without NAME:=VALUE, which rcl would take for remapping rules of ROS 1.
+    with ros(['--ros-args', *ros_arguments(given)]):
+        options = parser().parse_intermixed_args(other_arguments(given))
         with argument_errors():
             node = Node(
                 'ros_gz_sim',
@@ -104,11 +112,14 @@ def _spawn(node: Node, service: str, request: SpawnEntity.Request) -> Result:
 
 def _description(node: Node, options: argparse.Namespace) -> str:
     """Get the URDF from where the options say. Raises NoSourceError, UsageError."""
+    mappings = mappings_of(options.arguments)
     if options.file:
         try:
-            return resolve_uri(options.file).read_text(encoding='utf-8')
-        except (OSError, UnicodeDecodeError, AmrError) as error:
+            return description_at(options.file, mappings, warn=node.get_logger().warning)
+        except AmrError as error:
             raise UsageError(f'-file {options.file}: {error}') from error
+    if mappings:
+        raise UsageError(f'{options.arguments[0]} is for a xacro file, and there is no -file')
     if options.param:
         value = node.get_parameter_or(options.param).value
         if not isinstance(value, str):
@@ -155,9 +166,7 @@ def _find_simulator(node: Node, world: str) -> str:
         return chosen or (found if world and found else None)
 
     def say() -> None:
-        node.get_logger().warning(
-            f'Waiting for service [{_SERVICE_TYPE}] to become available ...'
-        )
+        node.get_logger().warning(f'Waiting for service [{_SERVICE_TYPE}] to become available ...')
 
     found = wait_until(node, services, say, every=5.0) or []
     if len(found) > 1:

@@ -19,7 +19,7 @@ from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
 from amr_description.control.foreign_errors import describe
-from amr_description.errors import SimulationError, SpawnError
+from amr_description.errors import DescriptionError, SimulationError, SpawnError
 from amr_description.model.frames import rotate
 from amr_description.nodes.converters import (
     fill_pose,
@@ -32,7 +32,7 @@ from amr_description.nodes.node_parameters import declare
 from amr_description.nodes.ros_arguments import inherited, ros_arguments
 from amr_description.nodes.runtime import argument_errors, program, ros, spin
 from amr_description.nodes.simulation import Simulation, SimulationParameters
-from amr_description.sim.resources import resolve_uri
+from amr_description.sim.resources import description_at
 from amr_description.sim.spawning import read_description, SpawnCode
 
 WORLD_FRAME = 'world'
@@ -84,7 +84,7 @@ class MujocoSim:
         return response
 
     async def _spawn(self, request: SpawnEntity.Request) -> str:
-        text = request.resource_string or _read(request.uri)
+        text = request.resource_string or self._read(request.uri)
         source = request.uri or request.name or 'robot_description'
         robot = read_description(text, source, self.simulation.log)
         name = request.name or robot.name
@@ -102,6 +102,18 @@ class MujocoSim:
             _checked_namespace(request.entity_namespace),
             allow_renaming=request.allow_renaming,
         )
+
+    def _read(self, uri: str) -> str:
+        """Read the resource of a request. Raises SpawnError."""
+        if not uri:
+            raise SpawnError(
+                'neither resource_string nor uri is given; one of them holds the URDF',
+                SpawnCode.NO_RESOURCE,
+            )
+        try:
+            return description_at(uri, warn=self.node.get_logger().warning)
+        except (DescriptionError, SimulationError) as error:
+            raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
 
     async def _get_entity_state(
         self, request: GetEntityState.Request, response: GetEntityState.Response
@@ -125,19 +137,6 @@ class MujocoSim:
         fill_velocity(rotate(pose.rotation, linear), rotate(pose.rotation, angular), state.twist)
         response.result.result = Result.RESULT_OK
         return response
-
-
-def _read(uri: str) -> str:
-    """Read the resource of a request. Raises SpawnError."""
-    if not uri:
-        raise SpawnError(
-            'neither resource_string nor uri is given; one of them holds the URDF',
-            SpawnCode.NO_RESOURCE,
-        )
-    try:
-        return resolve_uri(uri).read_text(encoding='utf-8')
-    except (OSError, UnicodeDecodeError, SimulationError) as error:
-        raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
 
 
 def _checked_namespace(namespace: str) -> str:

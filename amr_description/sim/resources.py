@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where files are: ROS packages' share folders, ``package://`` and ``file://``, shipped worlds."""
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
+from urllib.parse import parse_qsl, unquote, urlsplit
 
 from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
 
 from amr_description.errors import SimulationError
+from amr_description.model.description_file import description_text, is_xacro
 
 OWN_PACKAGE = 'amr_description'
 _SOURCE_TREE = Path(__file__).resolve().parents[2]
@@ -50,6 +52,22 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
             raise SimulationError(
                 f"'{uri}': scheme '{scheme}' is not known; package://, file:// or a path will do"
             )
+
+
+def description_at(
+    uri: str, mappings: Mapping[str, str] | None = None, *, warn: Callable[[str], object]
+) -> str:
+    """
+    The URDF at a URI; of a xacro file, expanded with ``mappings`` and those of the URI itself.
+
+    ``package://cart/urdf/cart.urdf.xacro?wheel_radius=0.2&camera=true``. ``warn`` is told, in a
+    line each, what is probably not meant. Raises SimulationError, DescriptionError.
+    """
+    file, _, query = uri.partition('?')
+    if not is_xacro(file):
+        file, query = uri, ''
+    given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
+    return description_text(resolve_uri(file), given, warn=warn)
 
 
 def shipped_worlds() -> dict[str, Path]:
