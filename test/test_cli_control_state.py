@@ -144,6 +144,7 @@ def test_controllers_are_switched_with_the_strictness_asked_for(host):
     code, said, error = control(*words, '--strict')
     assert (code, said) == (1, '')
     assert error == (
+        "Aborting, no controller is switched! ('STRICT' switch) "
         "Could not activate controller with name 'nobody' because no controller with this name "
         'exists\n'
     )
@@ -160,7 +161,7 @@ def test_controllers_are_switched_with_the_strictness_asked_for(host):
 def test_what_a_switch_says_is_blue_or_red(host):
     assert control('switch_controllers', RCUTILS_COLORIZED_OUTPUT='1')[1].startswith('\033[94m')
     words = ('switch_controllers', '--strict', '--activate', 'nobody')
-    assert control(*words, RCUTILS_COLORIZED_OUTPUT='1')[2].startswith('\033[91mCould not')
+    assert control(*words, RCUTILS_COLORIZED_OUTPUT='1')[2].startswith('\033[91mAborting')
 
 
 def test_controllers_are_cleaned_up_and_unloaded(host):
