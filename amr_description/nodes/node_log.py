@@ -17,15 +17,22 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.foreign_errors import describe, log_traceback
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
+_MOST_WAITING = 2000
+"""Lines: what is said beyond them, faster than it can be written, is counted and dropped."""
+_PATIENCE = 5.0
+"""s: how long :meth:`LogThread.stop` waits for a terminal that takes nothing."""
 
 
 class LogThread:
-    """Emits the lines of all components, in the order in which they were said."""
+    """
+    Emits the lines of all components, in the order in which they were said.
+
+    A component that says a line at every update, thousands a second, must neither fill the memory
+    nor keep the process from ending: what is too much is dropped, and that is said.
+    """
 
     def __init__(self) -> None:
-        self._lines: queue.SimpleQueue[tuple[RcutilsLogger, Severity, str] | None] = (
-            queue.SimpleQueue()
-        )
+        self._lines = Lines()
         # A daemon: whatever ends the process before stop(), it must not wait for us.
         self._thread = threading.Thread(target=self._run, name='log', daemon=True)
         self._thread.start()
@@ -36,18 +43,52 @@ class LogThread:
 
     def stop(self) -> None:
         """Emit what waits, and end."""
-        self._lines.put(None)
-        self._thread.join()
+        self._lines.end()
+        self._thread.join(_PATIENCE)
 
     def _run(self) -> None:
         while (line := self._lines.get()) is not None:
-            _emit(*line)
+            logger, severity, text, dropped = line
+            if dropped:
+                logger.warning(
+                    f'{dropped} lines of the log were dropped: more is said than can be written'
+                )
+            _emit(logger, severity, text)
+
+
+class Lines:
+    """The lines that wait; any thread puts, and never waits."""
+
+    def __init__(self) -> None:
+        self._queue: queue.SimpleQueue[tuple[RcutilsLogger, Severity, str, int] | None] = (
+            queue.SimpleQueue()
+        )
+        self._dropped = 0
+
+    def put(self, logger: RcutilsLogger, severity: Severity, text: str) -> None:
+        """Take a line, or drop it where too many wait."""
+        if self._queue.qsize() >= _MOST_WAITING:
+            self._dropped += 1
+            return
+        dropped, self._dropped = self._dropped, 0
+        self._queue.put((logger, severity, text, dropped))
+
+    def end(self) -> None:
+        """Let the reader end behind what waits."""
+        self._queue.put(None)
+
+    def get(self) -> tuple[RcutilsLogger, Severity, str, int] | None:
+        """
+        Wait for the next line, which is None at the end; with it comes how many were dropped
+        before it.
+        """
+        return self._queue.get()
 
 
 class NodeLog:
     """See :class:`amr_description.control.contracts.Log`."""
 
-    def __init__(self, logger: RcutilsLogger, lines: queue.SimpleQueue) -> None:
+    def __init__(self, logger: RcutilsLogger, lines: Lines) -> None:
         self._logger = logger
         self._lines = lines
         self._last_said: dict[str, float] = {}
@@ -59,7 +100,7 @@ class NodeLog:
             if now - self._last_said.get(key, -float('inf')) < throttle:
                 return
             self._last_said[key] = now
-        self._lines.put((self._logger, severity, text))
+        self._lines.put(self._logger, severity, text)
 
 
 def log_error(log: Log, error: Exception) -> str:
