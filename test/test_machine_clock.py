@@ -19,6 +19,8 @@ class Machine:
         self.monotonic = 5_000 * MS
         self.offset = EPOCH
         self.lateness = 0
+        self.hold_up = 0
+        """ns for which the thread is held up before it reads the system clock next."""
         self.calls_come = False
         self.calls = []
 
@@ -26,6 +28,8 @@ class Machine:
         return self.monotonic
 
     def time_ns(self):
+        self.monotonic += self.hold_up
+        self.hold_up = 0
         return self.monotonic + self.offset
 
     def wait(self, delay):
@@ -124,3 +128,13 @@ def test_slow_drift_is_no_step(machine):
     clock.advance(PERIOD)
     assert clock.pace(clock.time)
     assert log.lines == []
+
+
+def test_a_thread_held_up_between_the_two_clocks_sees_no_step(machine):
+    clock, log = make(machine)
+    clock.advance(PERIOD)
+    machine.hold_up = 500 * MS
+    assert not clock.pace(clock.time)
+    assert machine.calls == []
+    (said,) = log.texts()
+    assert said.startswith('Overrun detected!')
