@@ -15,7 +15,13 @@ from amr_description.errors import (
     InvalidArgumentException,
     LookupException,
 )
-from amr_description.model.frames import joint_transform, link_poses, normalize, Transform
+from amr_description.model.frames import (
+    joint_transform,
+    link_poses,
+    normalize,
+    quaternion_from_yaw,
+    Transform,
+)
 from amr_description.model.transform_buffer import TransformBuffer
 from amr_description.model.transform_cache import SECOND
 from amr_description.model.transform_input import StampedTransform
@@ -160,14 +166,16 @@ def test_what_lies_above_the_meeting_of_the_ways_does_not_matter():
 
 
 def test_the_full_lookup_goes_through_a_frame_that_stands_still():
-    """A ball seen at 1 s from x = 1, by a robot that is at x = 2 by now."""
+    """A ball a metre before the robot at 1 s; the robot has turned left by 2 s, on the spot."""
+    left = Transform((1.0, 0.0, 0.0), quaternion_from_yaw(math.pi / 2))
     buffer = buffer_of(
         at_x('odom', 'base', 1.0, 1 * SECOND),
-        at_x('odom', 'base', 2.0, 2 * SECOND),
+        StampedTransform('odom', 'base', 2 * SECOND, left),
         static=[at_x('base', 'laser', 0.5)],
     )
     found = buffer.lookup_full('base', 2 * SECOND, 'laser', 1 * SECOND, 'odom')
-    assert found.transform.translation == (-0.5, 0.0, 0.0)
+    ball_in_laser = (0.5, 0.0, 0.0)
+    assert found.transform.apply(ball_in_laser) == pytest.approx((0.0, -1.0, 0.0), abs=1e-12)
     assert (found.parent, found.child, found.time) == ('base', 'laser', 2 * SECOND)
     with pytest.raises(LookupException, match='"world" passed to .* argument fixed_frame does'):
         buffer.lookup_full('base', 0, 'laser', 0, 'world')

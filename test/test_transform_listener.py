@@ -110,12 +110,21 @@ def test_what_is_known_is_told_as_by_tf2(buffer):
     assert "broadcaster: 'me'" in buffer.all_frames_as_yaml()
 
 
-def test_a_wait_ends_with_the_transform(context, buffer):
-    """In a thread, as nothing else could bring it."""
-    late = message('odom', 'base', 5.0, 30)
-    threading.Timer(0.05, buffer.set_transform, (late, 'me')).start()
-    found = buffer.lookup_transform('odom', 'laser', Time(nanoseconds=30), PATIENCE)
-    assert found.transform.translation.x == 5.5
+def test_a_wait_ends_the_moment_the_transform_comes(context, buffer, monkeypatch):
+    """It is woken, rather than to look now and then."""
+    monkeypatch.setattr('amr_description.nodes.transform_buffer._SLICE', 3600.0)
+    found = []
+
+    def wait():
+        way = ('odom', 'laser', Time(nanoseconds=30))
+        found.append(buffer.lookup_transform(*way, Duration(seconds=3600)))
+
+    waiter = threading.Thread(target=wait, daemon=True)
+    waiter.start()
+    assert not buffer.can_transform('odom', 'laser', Time(nanoseconds=30))
+    buffer.set_transform(message('odom', 'base', 5.0, 30), 'me')
+    waiter.join(timeout=30.0)
+    assert [one.transform.translation.x for one in found] == [5.5]
 
 
 def test_a_wait_ends_with_its_time_out(context, buffer):
@@ -184,7 +193,8 @@ def test_a_listener_hears_moving_and_static_transforms_also_of_before(context):
     talker, hearer = Node('talker'), Node('hearer')
     static, moving = StaticTransformBroadcaster(talker), TransformBroadcaster(talker)
     static.sendTransform(message('base', 'laser', 0.5))
-    static.sendTransform([message('base', 'camera', 0.7), message('base', 'laser', 0.6)])
+    static.sendTransform([message('base', 'camera', 0.7), message('base', 'lidar', 0.8)])
+    static.sendTransform(message('base', 'laser', 0.6))
     buffer = Buffer(node=hearer)
     listener = TransformListener(buffer, hearer)
 
@@ -192,7 +202,9 @@ def test_a_listener_hears_moving_and_static_transforms_also_of_before(context):
         moving.sendTransform(message('odom', 'base', 1.0, 10))
         return buffer.can_transform('odom', frame, Time()) or None
 
-    assert wait_until(hearer, lambda: heard('laser') and heard('camera'), timeout=20.0)
+    assert wait_until(
+        hearer, lambda: heard('laser') and heard('camera') and heard('lidar'), timeout=20.0
+    )
     found = buffer.lookup_transform('odom', 'laser', Time())
     assert found.transform.translation.x == pytest.approx(1.6)
     assert listener.publishers() == {'/tf': ['/talker'], '/tf_static': ['/talker']}
