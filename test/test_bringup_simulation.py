@@ -10,8 +10,10 @@ from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.progress import Progress
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.errors import AmrError
+from amr_description.model.description_file import description_text
 
 ROOT = Path(__file__).parents[1]
+GRIPPER = str(ROOT / 'test/fixtures/urdf/gripper.urdf.xacro')
 
 
 @pytest.fixture(autouse=True)
@@ -77,9 +79,31 @@ def test_parameters(installed):
     assert create.arguments == ['-topic', 'robot_description', '-name', 'amr', '-z', '0.2']
 
 
+def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
+    given = {'urdf': str(GRIPPER), 'xacro_args': "palm:=false 'finger_lenght:=0.1'"}
+    made = stack(**given)
+    arguments = {'palm': 'false', 'finger_length': '0.08'}
+    (parameters,) = made.nodes[1].parameters
+    assert parameters['robot_description'] == description_text(GRIPPER, arguments)
+    assert 'nothing asks for "finger_lenght"' in capsys.readouterr().err
+
+
+def test_the_files_are_told_with_their_hashes(installed):
+    urdf, controllers = stack().notes
+    assert urdf[1].startswith(f'using {installed}/urdf/amr.urdf -> {ROOT}/urdf/amr.urdf (sha256 ')
+    assert controllers[1].startswith(f'using {installed}/config/controllers.yaml -> ')
+
+
 @pytest.mark.parametrize(
     ('given', 'text'),
     [
+        ({'xacro_args': 'a:=1'}, 'amr.urdf is no xacro file'),
+        (
+            {'urdf': GRIPPER, 'xacro_args': 'palm:=perhaps'},
+            'xacro: .*gripper.*not a boolean',
+        ),
+        ({'urdf': GRIPPER, 'xacro_args': "palm:='"}, 'No closing quotation'),
+        ({'urdf': GRIPPER, 'xacro_args': 'palm'}, "'palm' is no argument of a xacro file"),
         ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
         ({'rtf': 'nan'}, 'rtf:=nan: a real-time factor is 0'),
         ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),

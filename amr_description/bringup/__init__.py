@@ -23,6 +23,8 @@ arguments.py       pure: name:=value, from the signature of the stack's function
 progress.py        pure: what may start now, what failed, when it is ready or over
 packages.py        where the ament index has packages, executables and shared files
 parameter_file.py  pure: parameters as the YAML that rcl reads
+urdf_text.py       the text of a description; xacro runs in a child process
+file_notes.py      which files are used, and whether another copy of one is edited
 job.py             a node made ready to run: name, command line, environment
 environment.py     pure: the environment of a child, and of the user's next shell
 line_splitter.py   pure: bytes from a pipe -> lines
@@ -43,6 +45,17 @@ Only the standard library is imported here, so that no crash of rclpy can take t
 
 from amr_description.bringup.conditions import all_of, exited_cleanly, started
 from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.file_notes import notes_on
 from amr_description.bringup.packages import path_of
+from amr_description.bringup.urdf_text import robot_description
 
-__all__ = ['Node', 'Stack', 'all_of', 'exited_cleanly', 'path_of', 'started']
+__all__ = [
+    'Node',
+    'Stack',
+    'all_of',
+    'exited_cleanly',
+    'notes_on',
+    'path_of',
+    'robot_description',
+    'started',
+]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from amr_description.bringup.conditions import Condition
+from amr_description.bringup.console import Level
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
@@ -53,6 +54,8 @@ class Stack:
     """None: once every node was started."""
     next_steps: str = ''
     """Printed after ``ready in … s: ``; what a person would type next."""
+    notes: Sequence[tuple[Level, str]] = ()
+    """Said before the first node starts; see :func:`file_notes.notes_on`."""
 
     def __post_init__(self) -> None:
         """Refuse a stack that could not run as it is written."""

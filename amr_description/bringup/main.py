@@ -109,6 +109,8 @@ def start(stack: Stack) -> int:
         console = Console(sys.stdout, folder, colour=wants_colour(sys.stdout, os.environ))
         where = _with_tilde(folder.path)
         console.say('INFO', LAUNCH, f'All log files can be found below {where}')
+        for level, text in stack.notes:
+            console.say(level, LAUNCH, text)
         # The log files that the nodes write themselves belong to this run, too.
         environment = {**os.environ, 'ROS_LOG_DIR': str(folder.path)}
         return asyncio.run(_orchestrate(stack, jobs, console, run, environment))

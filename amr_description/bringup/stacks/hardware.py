@@ -13,7 +13,14 @@ from pathlib import Path
 import tempfile
 from typing import Annotated
 
-from amr_description.bringup import exited_cleanly, Node, path_of, Stack
+from amr_description.bringup import (
+    exited_cleanly,
+    Node,
+    notes_on,
+    path_of,
+    robot_description,
+    Stack,
+)
 from amr_description.bringup.stacks.simulation import how_to_drive
 from amr_description.model.hardware_swap import swap_hardware
 
@@ -22,20 +29,22 @@ _CONTROLLERS = 'package://amr_description/config/controllers.yaml'
 
 
 def mock(
-    urdf: Annotated[str, 'robot description'] = _URDF,
+    urdf: Annotated[str, 'robot description, URDF or xacro'] = _URDF,
+    xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     controllers: Annotated[str, 'parameters of the controllers'] = _CONTROLLERS,
 ) -> Stack:
     """The robot's controllers over mock hardware: no physics, wheels do as they are told."""
     description = swap_hardware(
-        path_of(urdf).read_text('utf-8'),
+        robot_description(urdf, xacro_args),
         'mock_components/GenericSystem',
         {'calculate_dynamics': 'true'},
     )
-    return _controlled(description, controllers)
+    return _controlled(description, [path_of(urdf), path_of(controllers)])
 
 
 def serial(
-    urdf: Annotated[str, 'robot description'] = _URDF,
+    urdf: Annotated[str, 'robot description, URDF or xacro'] = _URDF,
+    xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     controllers: Annotated[str, 'parameters of the controllers'] = _CONTROLLERS,
     port: Annotated[str, 'port of the motor board; empty: a simulated board is started'] = '',
     left: Annotated[str, 'joints that the left motor turns'] = (
@@ -51,18 +60,20 @@ def serial(
         port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))
         boards = [Node('motor_board', arguments=['--link', port], required=False)]
     description = swap_hardware(
-        path_of(urdf).read_text('utf-8'),
+        robot_description(urdf, xacro_args),
         'amr_description/SerialBaseSystem',
         {'port': port, 'left_joints': left, 'right_joints': right},
     )
-    return _controlled(description, controllers, boards)
+    return _controlled(description, [path_of(urdf), path_of(controllers)], boards)
 
 
-def _controlled(description: str, controllers: str, before: Sequence[Node] = ()) -> Stack:
-    """The manager by itself, the description, and the controllers one after the other."""
-    ros2_control_node = Node(
-        'ros2_control_node', parameters=[path_of(controllers)], on_exit='shutdown'
-    )
+def _controlled(description: str, files: Sequence[Path], before: Sequence[Node] = ()) -> Stack:
+    """
+    The manager by itself, the description, and the controllers one after the other.
+
+    ``files``: that of the description and that of the controllers' parameters.
+    """
+    ros2_control_node = Node('ros2_control_node', parameters=[files[1]], on_exit='shutdown')
     robot_state_publisher = Node(
         'robot_state_publisher', parameters=[{'robot_description': description}]
     )
@@ -82,4 +93,5 @@ def _controlled(description: str, controllers: str, before: Sequence[Node] = ())
         ],
         ready_when=exited_cleanly(diff_drive_controller),
         next_steps=how_to_drive(),
+        notes=notes_on(files),
     )

@@ -5,13 +5,23 @@
 import os
 from typing import Annotated
 
-from amr_description.bringup import exited_cleanly, Node, path_of, Stack
+from amr_description.bringup import (
+    exited_cleanly,
+    Node,
+    notes_on,
+    path_of,
+    robot_description,
+    Stack,
+)
 from amr_description.bringup.environment import other_shell
 from amr_description.errors import UsageError
 
 
 def simulation(
-    urdf: Annotated[str, 'robot description'] = 'package://amr_description/urdf/amr.urdf',
+    urdf: Annotated[
+        str, 'robot description, URDF or xacro'
+    ] = 'package://amr_description/urdf/amr.urdf',
+    xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     controllers: Annotated[
         str, 'parameters of the controllers'
     ] = 'package://amr_description/config/controllers.yaml',
@@ -34,7 +44,9 @@ def simulation(
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
         'robot_state_publisher',
-        parameters=[{'robot_description': path_of(urdf).read_text('utf-8'), 'use_sim_time': True}],
+        parameters=[
+            {'robot_description': robot_description(urdf, xacro_args), 'use_sim_time': True}
+        ],
     )
 
     # 3. The robot put into the world; its <ros2_control> block brings up /controller_manager.
@@ -60,6 +72,7 @@ def simulation(
         ],
         ready_when=exited_cleanly(diff_drive_controller),
         next_steps=how_to_drive(),
+        notes=notes_on([path_of(urdf), path_of(controllers)]),
     )
 
 
