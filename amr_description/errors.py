@@ -12,7 +12,8 @@ Every error that this package raises on purpose.
     │   ├── InterfaceError   an interface is unknown, unavailable or claimed
     │   ├── ControllerError  a controller is unknown, in the wrong state, or failed
     │   └── HardwareError    a hardware component failed
-    │       └── HardwareDeactivationError  it asks, out of write(), to be made inactive
+    │       ├── HardwareDeactivationError  it asks, out of write(), to be made inactive
+    │       └── HardwareStartError  it did not reach its first state, and nothing goes without
     ├── SimulationError      the simulated world cannot do what was asked
     │   └── SpawnError       an entity cannot be spawned; carries simulation_interfaces' code
     ├── TransformException   a transform between two frames cannot be had; the names are tf2's
@@ -61,6 +62,10 @@ class HardwareError(ControlError):
 
 class HardwareDeactivationError(HardwareError):
     """A hardware component asks in ``write`` to be made inactive instead of brought down."""
+
+
+class HardwareStartError(HardwareError):
+    """A hardware component did not reach its first state, and the parameters say to end then."""
 
 
 class SimulationError(AmrError):

@@ -2,22 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a manager makes of what it hears on robot_description."""
 
+from pathlib import Path
 import threading
 
-from control_fakes import FakeLog
+from control_fakes import FakeLog, LEFT, RIGHT
 from manager_host import ros_in_this_process
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from ros_processes import run
 from std_msgs.msg import String
 
 from amr_description.errors import HardwareError
+from amr_description.model.hardware_swap import swap_hardware
 from amr_description.model.urdf import parse
 from amr_description.nodes.clients import wait_until
 from amr_description.nodes.description_source import DescriptionSource
 from amr_description.nodes.ros2_control_node import StandAlone
 
+URDF = Path(__file__).parents[1] / 'urdf' / 'amr.urdf'
 GOOD = """<robot name="cart"><link name="base"/><ros2_control name="Cart" type="system"><hardware>
 <plugin>mock_components/GenericSystem</plugin></hardware></ros2_control></robot>"""
 IGNORED = 'ResourceManager has already loaded a urdf and is initialized. Ignoring attempt'
@@ -139,3 +143,25 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
             thread.join()
             robot.close()
             onlooker.destroy_node()
+
+
+def test_hardware_that_does_not_reach_its_first_state_ends_the_process():
+    sides = {'left_joints': ' '.join(LEFT), 'right_joints': ' '.join(RIGHT)}
+    unplugged = swap_hardware(
+        URDF.read_text(),
+        'amr_description/SerialBaseSystem',
+        {'port': '/dev/no_such_port', **sides},
+    )
+    with ros_in_this_process():
+        speaker = Node('speaker')
+        qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        publisher = speaker.create_publisher(String, '/robot_description', qos)
+        publisher.publish(String(data=unplugged))
+        ended = run('ros2_control_node')
+        speaker.destroy_node()
+    assert ended.returncode == 1
+    *_, last = ended.stderr.splitlines()
+    assert '[FATAL]' in last
+    assert 'Failed to set the initial state of the component : AmrSystem to active.' in last
+    assert '/dev/no_such_port' in last
+    assert 'Overrun detected' not in ended.stderr

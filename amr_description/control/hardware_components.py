@@ -11,7 +11,11 @@ from amr_description.control.interfaces import LifecycleState
 from amr_description.control.limits import JointLimiter, limiters_of
 from amr_description.control.owned_component import OwnedComponent
 from amr_description.control.statistics import standing_still, Stopwatch
-from amr_description.errors import HardwareDeactivationError, HardwareError
+from amr_description.errors import (
+    HardwareDeactivationError,
+    HardwareError,
+    HardwareStartError,
+)
 
 if TYPE_CHECKING:
     from amr_description.model.hardware_info import HardwareInfo
@@ -109,8 +113,8 @@ class HardwareComponents:
         Bring the components to their first states: active, but for those that are named.
 
         The arguments are the parameters ``hardware_components_initial_state.…``; a name that no
-        component has is warned of. Raises HardwareError where a component does not get there and
-        ``shutdown_on_failure``; without that it stays where it got to, which is logged.
+        component has is warned of. Raises HardwareStartError where a component does not get there
+        and ``shutdown_on_failure``; without that it stays where it got to, which is logged.
         """
         targets = dict.fromkeys(self.components, LifecycleState.ACTIVE)
         named = {LifecycleState.UNCONFIGURED: unconfigured, LifecycleState.INACTIVE: inactive}
@@ -139,7 +143,7 @@ class HardwareComponents:
                 f'{error}'
             )
             if shutdown_on_failure:
-                raise HardwareError(text) from error
+                raise HardwareStartError(text) from error
             self.log(Severity.ERROR, text)
 
     def shut_down(self) -> None:

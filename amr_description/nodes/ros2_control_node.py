@@ -29,7 +29,7 @@ from rosgraph_msgs.msg import Clock
 from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
-from amr_description.errors import ParameterError
+from amr_description.errors import HardwareStartError, ParameterError
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.nodes.controller_manager_node import ControllerManagerNode, NODE_NAME
@@ -51,6 +51,9 @@ class StandAlone:
 
     def __init__(self, executor: SingleThreadedExecutor, arguments: Sequence[str]) -> None:
         """``arguments``: ROS arguments of the process. Raises ParameterError."""
+        self.failure: HardwareStartError | None = None
+        """What ended the start, see ``shutdown_on_initial_state_failure``."""
+        self._executor = executor
         self._mailbox = Mailbox()
         self.logs = LogThread()
         self._outgoing = Outgoing(get_logger(NODE_NAME))
@@ -126,6 +129,10 @@ class StandAlone:
         self._manager.prepare(robot, hardware)
         try:
             await self.owner.submit(self._take_manager)
+        except HardwareStartError as error:
+            self.failure = error
+            self._executor.wake()
+            return
         except Exception:
             self._manager.forget_hardware()
             raise
@@ -133,8 +140,10 @@ class StandAlone:
 
     def _take_manager(self) -> None:
         """On the owner's thread; how long it takes is no overrun, as nothing ran before it."""
-        manager = self._manager.bring_up(None, self._period)
-        self._clock.resume(0)
+        try:
+            manager = self._manager.bring_up(None, self._period)
+        finally:
+            self._clock.resume(0)
         manager.begin(self._clock.time)
         self.owner.loop.managers.append(manager)
 
@@ -160,7 +169,7 @@ def option(node: Node, name: str, default: Any, *kinds: type) -> Any:
 
 
 def serve(args: list[str] | None) -> int:
-    """Run until asked to stop; 1 when the owner's thread failed."""
+    """Run until asked to stop; 1 when the owner's thread failed. Raises HardwareStartError."""
     with ros(args) as stop:
         executor = SingleThreadedExecutor()
         with argument_errors():
@@ -175,10 +184,12 @@ def serve(args: list[str] | None) -> int:
         try:
             with stop.on_stop(wake):
                 robot.start()
-                spin(executor, lambda: is_stopping or robot.owner.failed)
+                spin(executor, lambda: is_stopping or robot.owner.failed or robot.failure)
         finally:
             robot.close()
             executor.shutdown()
+        if robot.failure is not None:
+            raise robot.failure
     return 1 if robot.owner.failed else 0
 
 
