@@ -265,6 +265,7 @@ def test_publish_frequency_can_be_changed_while_it_runs(start, listener):
     [
         ([], 'robot_description parameter must not be empty'),
         (['/nowhere/amr.urdf'], '/nowhere/amr.urdf'),
+        (['package://nowhere/amr.urdf'], "package 'nowhere' is not found"),
         (
             [str(GRIPPER), 'palm:=perhaps'],
             'gripper.urdf.xacro: Xacro conditional "$(arg palm)" evaluated',
@@ -281,8 +282,9 @@ def test_it_does_not_start_on_what_it_cannot_use(arguments, words):
         assert 'Traceback' not in node.output
 
 
-def test_it_takes_a_file_as_its_argument_and_says_so():
-    with Program.module('robot_state_publisher', str(AMR)) as node:
+@pytest.mark.parametrize('file', [str(AMR), 'package://amr_description/urdf/amr.urdf'])
+def test_it_takes_a_file_as_its_argument_and_says_so(file):
+    with Program.module('robot_state_publisher', file) as node:
         node.expect('No robot_description parameter, but command-line argument available')
         node.expect(r'\[INFO\] \[[\d.]+\] \[robot_state_publisher\]: Robot initialized')
         assert node.end(signal.SIGINT) == 0

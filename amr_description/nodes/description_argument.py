@@ -9,14 +9,10 @@ A robot description named on a node's command line: a file and, for xacro, its a
 from collections.abc import Callable, Sequence
 import sys
 
-from amr_description.model.description_file import (
-    description_text,
-    is_xacro,
-    mappings_of,
-    source_name,
-)
+from amr_description.model.description_file import is_xacro, mappings_of, source_name
 from amr_description.model.urdf import parse
 from amr_description.nodes.ros_arguments import other_arguments, ros_arguments
+from amr_description.sim.resources import description_at
 
 
 def split_arguments(args: Sequence[str] | None) -> tuple[list[str], list[str]]:
@@ -41,9 +37,11 @@ def read_description(words: Sequence[str], warn: Callable[[str], object]) -> str
     """
     Return the URDF that the words name: ``FILE NAME:=VALUE …``; it is sound as a tree of links.
 
+    FILE is a path, or a URI: ``package://amr_description/urdf/amr.urdf``.
+
     :raises AmrError: It cannot be read, expanded or parsed; the line names the file.
     """
     path, *mappings = words
-    text = description_text(path, mappings_of(mappings), warn=warn)
+    text = description_at(path, mappings_of(mappings), warn=warn)
     parse(text, source_name(path))
     return text
