@@ -4,14 +4,16 @@
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 from amr_description.control.chains import Ends
-from amr_description.control.contracts import Controller
+from amr_description.control.contracts import Controller, Input
 from amr_description.control.interfaces import (
     Claim,
     CommandInterface,
     InterfaceRequest,
     LifecycleState,
+    NO_INTERFACES,
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
@@ -61,6 +63,9 @@ class LoadedController:
         """What links it to other controllers, once configured."""
         self.is_busy = False
         """True while its ``configure`` may be running, on whatever thread."""
+        self._wishes = (NO_INTERFACES, NO_INTERFACES)
+        """Commands and states; asked once, as are the inputs: a stranger's answer may raise."""
+        self._inputs: tuple[Input[Any], ...] = ()
         self._last_update: int | None = None
         self._ticks = 0
 
@@ -101,6 +106,7 @@ class LoadedController:
     def _ask_for_interfaces(self, resources: ResourceManager) -> None:
         controller = self.controller
         commands, states = controller.command_interfaces(), controller.state_interfaces()
+        self._wishes, self._inputs = (commands, states), tuple(controller.inputs())
         if controller.is_chainable:
             self.references = tuple(controller.references())
             self.exported_states = tuple(controller.exported_states())
@@ -126,15 +132,10 @@ class LoadedController:
         That makes a difference to a controller that wants all; its own are not among them.
         """
         ends, names = self.ends, ResourceManager.names
+        wished_commands, wished_states = self._wishes
         return (
-            names(
-                self.controller.command_interfaces(),
-                (name for name in commands if name not in ends.references),
-            ),
-            names(
-                self.controller.state_interfaces(),
-                (name for name in states if name not in ends.exported_states),
-            ),
+            names(wished_commands, (name for name in commands if name not in ends.references)),
+            names(wished_states, (name for name in states if name not in ends.exported_states)),
         )
 
     def activate(self, resources: ResourceManager, time: int, *, chained: bool = False) -> None:
@@ -162,7 +163,7 @@ class LoadedController:
         self._last_update = None
         self._ticks = 0
         self.statistic.reset()
-        for port in self.controller.inputs():
+        for port in self._inputs:
             port.open()
         resources.offer(self.name, self.references, self.exported_states)
         self.state = LifecycleState.ACTIVE
@@ -189,7 +190,7 @@ class LoadedController:
             self._deactivate(resources, time)
 
     def _deactivate(self, resources: ResourceManager, time: int) -> None:
-        for port in self.controller.inputs():
+        for port in self._inputs:
             port.close()
         try:
             self.controller.deactivate(time)
@@ -220,6 +221,7 @@ class LoadedController:
         self.required_commands = self.required_states = ()
         self.references = self.exported_states = ()
         self.ends = Ends()
+        self._wishes, self._inputs = (NO_INTERFACES, NO_INTERFACES), ()
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:
