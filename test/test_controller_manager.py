@@ -519,6 +519,17 @@ def test_after_the_clock_was_set_controllers_stay_and_the_hardware_is_left_alone
     assert active.updates[3:] == [(5000 * MS, PERIOD), (5010 * MS, PERIOD)]
 
 
+@pytest.mark.parametrize('instant', [0, 9_000_000 * MS])
+def test_hardware_with_a_rate_of_its_own_keeps_it_when_the_clock_is_set(instant):
+    manager = make_manager(hardware := FakeHardware(['j'], rw_rate=50))
+    run(manager, 4, begin=1000 * MS)
+    assert hardware.count('read') == hardware.count('write') == 2
+    manager.set_clock(instant)
+    run(manager, 4, begin=instant)
+    assert hardware.count('read') == hardware.count('write') == 4
+    assert hardware.count('reset') == 0
+
+
 def test_the_hardware_is_shut_down_whatever_watches_the_controllers():
     manager = make_manager(hardware := FakeHardware(['j']))
 

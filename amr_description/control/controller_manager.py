@@ -126,6 +126,7 @@ class ControllerManager(ControllerLifecycles):
     def set_clock(self, time: int) -> None:
         """The clock was set to ``time`` (ns), and the robot went on."""
         self.begin(time)
+        self.resources.set_clock()
         self._tell('setting the clock of', lambda each: each.set_clock(time), time)
 
     def _tell(self, doing: str, tell: Callable[[LoadedController], None], time: int) -> None:

@@ -151,8 +151,13 @@ class HardwareComponents:
         for owned in self.components.values():
             owned.bring_down(LifecycleState.FINALIZED)
 
+    def set_clock(self) -> None:
+        """The clock was set, forward or back, while all went on."""
+        for owned in self.components.values():
+            owned.set_clock()
+
     def reset(self, time: int) -> list[str]:
-        """Time went back (or jumped) to ``time``, ns; return the components that failed."""
+        """The world began anew at ``time``, ns; return the components that failed."""
         for limiter in chain.from_iterable(self._limiters.values()):
             limiter.reset()
         return self._each('reset', lambda owned: owned.reset(time))

@@ -169,9 +169,13 @@ class OwnedComponent:
         elapsed = time - last
         return elapsed if elapsed * rate >= 0.99 * NANOSECONDS else None
 
-    def reset(self, time: int) -> None:
-        """Time went back (or jumped) to ``time``, ns. Raises what the component raises."""
+    def set_clock(self) -> None:
+        """The clock was set: what it was read and written at counts no more."""
         self._last_read = self._last_write = None
+
+    def reset(self, time: int) -> None:
+        """The world began anew at ``time``, ns. Raises what the component raises."""
+        self.set_clock()
         if self.is_available:
             self.component.reset(time)
 
