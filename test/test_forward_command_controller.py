@@ -160,6 +160,13 @@ def test_nothing_goes_on_moving_by_itself(interface, rest, ending):
     assert bench.hear(7.0, 8.0, 9.0) == [7.0, 8.0, 9.0]
 
 
+def test_a_command_outlives_a_clock_that_is_set():
+    bench = Bench(FORWARD, 'velocity')
+    bench.hear(1.0, 2.0, 3.0)
+    bench.controller.set_clock(3_600_000_000_000)
+    assert bench.update() == [1.0, 2.0, 3.0]
+
+
 @pytest.mark.parametrize(
     ('type_name', 'values', 'text'),
     [

@@ -133,6 +133,9 @@ class ForwardControllersBase(Controller):
         self._commands.drain()
         self._forget_command()
 
+    def set_clock(self, time: int) -> None:
+        """A command has no stamp: it stays in force."""
+
     def _is_good(self, values: tuple[float, ...]) -> bool:
         """Tell whether to forward ``values``, and say so if not."""
         if not all(map(math.isfinite, values)):
