@@ -3,7 +3,9 @@
 """``check_urdf``: urdfdom's texts and exit codes, and our findings beside them."""
 
 import io
+import json
 from pathlib import Path
+import re
 import sys
 
 import pytest
@@ -36,7 +38,7 @@ def run(capsys, monkeypatch):
         if stdin is not None:
             data = stdin if isinstance(stdin, bytes) else stdin.encode()
             monkeypatch.setattr(sys, 'stdin', io.TextIOWrapper(io.BytesIO(data)))
-            arguments = ('-',)
+            arguments = (*arguments, '-')
         code = check_urdf.main([str(argument) for argument in arguments])
         return (code, *capsys.readouterr())
 
@@ -305,3 +307,89 @@ def test_usage_error_and_help(run, capsys):
     with pytest.raises(SystemExit, match='0'):
         check_urdf.main(['--help'])
     assert '255' in capsys.readouterr().out
+
+
+def test_strict_turns_warnings_into_exit_1(run):
+    assert run(AMR, '--strict') == (0, AMR_TREE, '')
+    code, out, err = run(TUTORIAL, '--strict')
+    assert (code, out) == (1, AMR_TREE)
+    assert err.count('\n') == 2
+
+
+def test_drop_reports_in_numbers(run):
+    code, out, err = run(AMR, '--drop')
+    assert (code, err) == (0, '')
+    assert out.startswith(AMR_TREE + 'dropped from 20 cm:\n    comes to rest in ')
+    assert re.search(r'^    drift in 1 s at rest +0\.00 mm$', out, re.MULTILINE)
+    assert re.search(r'^    0\.5 s forward: x +1[34]\d\.\d\d mm$', out, re.MULTILINE)
+    assert out.endswith('    passed\n')
+
+
+def test_drop_that_fails_exits_1(run):
+    code, out, err = run(TUTORIAL, '--drop')
+    assert code == 1
+    assert out.endswith('    failed\n')
+    (failure,) = [line for line in err.splitlines() if line.startswith('error: ')]
+    assert failure.startswith('error: dropped: it drives backwards: ')
+
+
+def test_a_broken_robot_is_not_dropped(run):
+    text = joint_text('continuous')
+    code, out, err = run(stdin=text)
+    assert code == 1
+    file_code, file_out, file_err = run('--drop', stdin=text)
+    assert (file_code, file_out) == (code, out)
+    assert file_err == err + 'not dropped: the description has errors\n'
+
+
+def test_a_robot_that_the_simulator_refuses_fails_the_drop(run, tmp_path):
+    path = tmp_path / 'r.urdf'
+    link = AMR.read_text().replace('<box size="0.5 0.3 0.1"/>', '<mesh filename="a.dae"/>')
+    path.write_text(link)
+    (tmp_path / 'a.dae').write_text('')
+    code, out, err = run(path, '--drop')
+    assert code == 1
+    assert out.endswith('    failed\n')
+    assert err.splitlines()[-1].startswith('error: dropped: ')
+    assert 'the simulator reads .stl, .obj, .msh, not .dae' in err
+
+
+def test_json_holds_the_drop(run):
+    code, out, err = run(AMR, '--json', '--drop')
+    assert (code, err) == (0, '')
+    told = json.loads(out)
+    assert told['robot'] == {
+        'name': 'amr', 'root': 'base_footprint', 'links': 6, 'joints': 5, 'mass': 7.0
+    }  # fmt: skip
+    assert told['findings'] == []
+    assert told['urdfdom'] == {'accepts': True, 'errors': []}
+    assert told['drop']['failures'] == []
+    assert 0.2 < told['drop']['rest_time'] < 1.0
+    assert json.loads(run(AMR, '--json')[1])['drop'] is None
+
+
+def test_json_is_strict_json_whatever_the_numbers(run):
+    text = joint_text('revolute', inside='<limit effort="1" velocity="1" lower="1e400"/>')
+    out = run('--json', stdin=text)[1]
+
+    def refuse(constant):
+        raise AssertionError(f'{constant} is no JSON')
+
+    assert json.loads(out, parse_constant=refuse)['exit_code'] == 255
+
+
+def test_xacro_is_expanded_first(run, tmp_path):
+    path = tmp_path / 'r.urdf.xacro'
+    path.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:arg name="root" default="a"/><link name="$(arg root)"/></robot>'
+    )
+    assert run(path)[1].endswith('root Link: a has 0 child(ren)\n')
+    assert run(path, 'root:=b')[1].endswith('root Link: b has 0 child(ren)\n')
+    code, _, err = run(path, 'rot:=b')
+    assert code == 0
+    assert err.startswith(f'warning: {path}: nothing asks for "rot"')
+    path.write_text('<robot name="r"><xacro:x/></robot>')
+    code, out, err = run(path)
+    assert (code, out) == (255, '')
+    assert err.count('\n') == 1

@@ -4,6 +4,7 @@
 
 import math
 from pathlib import Path
+import re
 
 import pytest
 
@@ -106,3 +107,16 @@ def test_a_box_without_wheels_is_not_driven():
     assert report.rest_time > 0.2
     assert report.fastest == pytest.approx(math.sqrt(2.0 * 9.81 * 0.2), rel=0.02)
     assert report.ahead is None
+
+
+def test_a_joint_that_begins_far_beyond_its_limits_explodes():
+    text = (
+        CART.replace('lower="0" upper="0.2"', 'lower="100" upper="101"')
+        .replace('<origin xyz="0 0 0.2"/>\n    <axis xyz="0 0 1"/>', '<axis xyz="1 0 0"/>')
+        .replace('<mass value="0.3"/>', '<mass value="30"/>')
+    )
+    report = dropped(text)
+    (failure,) = report.failures
+    assert re.fullmatch(r'it explodes: its root moves at \d+ m/s', failure)
+    assert report.fastest > 20.0
+    assert report.rest_time is None

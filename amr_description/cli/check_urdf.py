@@ -63,7 +63,7 @@ def main(argv: list[str]) -> int:
     surroundings = Surroundings(is_there=_file_finder(source), drives=drives)
     examination = examine(text, source, surroundings)
     drop = _drop(examination) if arguments.drop else None
-    code = _exit_code(examination, drop, strict=arguments.strict)
+    code = exit_code(examination, drop, strict=arguments.strict)
     if arguments.json:
         print(to_json(source, examination, drop, code))
     else:
@@ -154,7 +154,8 @@ def _drop(examination: Examination) -> 'DropReport | None':
         return DropReport(failures=(str(error),))
 
 
-def _exit_code(examination: Examination, drop: 'DropReport | None', *, strict: bool) -> int:
+def exit_code(examination: Examination, drop: 'DropReport | None', *, strict: bool) -> int:
+    """Return what the command ends with; see the table above."""
     if examination.robot is None or refused_for(examination) is not None:
         return REFUSED_BY_URDFDOM
     is_bad = examination.errors or (strict and examination.warnings)

@@ -92,10 +92,18 @@ def to_json(source: str, examination: Examination, drop: 'DropReport | None', co
             },
             'robot': None if robot is None or refused else _summary(robot),
             'findings': [_as_dict(finding) for finding in examination.findings],
-            'drop': None if drop is None else asdict(drop),
+            'drop': None if drop is None else _finite(asdict(drop)),
         },
         indent=2,
     )
+
+
+def _finite(values: dict[str, object]) -> dict[str, object]:
+    """Return the values with None for what JSON cannot hold: a robot that explodes knows no end."""
+    return {
+        name: None if isinstance(value, float) and not math.isfinite(value) else value
+        for name, value in values.items()
+    }
 
 
 def _summary(robot: Robot) -> dict[str, object]:

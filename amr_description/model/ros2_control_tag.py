@@ -137,7 +137,6 @@ def _read_joints(
     element: etree._Element, robot: Robot, reader: ElementReader
 ) -> Iterator[ComponentInfo]:
     seen: set[str] = set()
-    moving = quote_all([joint.name for joint in robot.joints if joint.has_position])
     for child in element.iterchildren('joint'):
         name = child.get('name', '')
         if name in seen:
@@ -145,6 +144,7 @@ def _read_joints(
             continue
         seen.add(name)
         if name and not robot.has_joint(name):
+            moving = quote_all([joint.name for joint in robot.joints if joint.has_position])
             reader.error(
                 child,
                 f"Joint '{name}' not found in URDF",

@@ -138,8 +138,10 @@ def _near_pairs(placed: list[_Placed]) -> Iterator[tuple[_Placed, _Placed]]:
     spans.sort(key=lambda span: span[0])
     left = _MOST_PAIRS
     for index, (_, end, item) in enumerate(spans):
-        for start, _, other in spans[index + 1 :]:
-            if start > end or left == 0:
+        for other in range(index + 1, len(spans)):
+            if spans[other][0] > end:
                 break
+            if left == 0:
+                return
             left -= 1
-            yield item, other
+            yield item, spans[other][2]

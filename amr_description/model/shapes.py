@@ -116,7 +116,8 @@ def moments_of_solids(solids: Sequence[Solid], mass: float) -> Vector:
     of one density that weigh ``mass`` together (parallel axis theorem).
     """
     volumes = [volume(solid.shape) for solid in solids]
-    parts = [mass * each / sum(volumes) for each in volumes]
+    density = mass / math.fsum(volumes)
+    parts = [density * each for each in volumes]
     centres = [solid.place.translation for solid in solids]
     middle = [math.sumprod(parts, [c[axis] for c in centres]) / mass for axis in range(3)]
     total = [0.0, 0.0, 0.0]

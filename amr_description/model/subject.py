@@ -84,7 +84,7 @@ class Subject:
     @cached_property
     def wheels(self) -> tuple[Wheel, ...]:
         """The wheels: round about the axle of a joint that takes a velocity command."""
-        return find_wheels(self.robot, [joint.name for joint in self.speed_joints])
+        return find_wheels(self.robot, {joint.name for joint in self.speed_joints})
 
     def error(self, line: int, what: str, **details: str) -> Finding:
         """Return an error on a line of this description; ``details`` as in Finding.error."""
