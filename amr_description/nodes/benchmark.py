@@ -27,6 +27,7 @@ from amr_description.nodes.clients import call, wait_until
 from amr_description.nodes.command_benchmark import command_figures
 from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.startup_stages import stages_of, table
+from amr_description.nodes.transform_benchmark import transform_figures
 from amr_description.sim.bare_loop import bare_real_time_factor
 from amr_description.sim.resources import package_share
 
@@ -140,6 +141,8 @@ def benchmark(options: argparse.Namespace) -> int:
             stages = stages_of(run.lines)
             print('the ros2 command ...', flush=True)
             commands = command_figures(node, options.seconds)
+        print('robot_state_publisher ...', flush=True)
+        transforms = transform_figures(node, options.seconds)
         after = bare_real_time_factor(urdf, options.seconds / 2)
         node.destroy_node()
     bare = (before + after) / 2
@@ -151,7 +154,9 @@ mj_step alone, before and after      {before:8.1f} {after:8.1f}
 full stack                           {full:8.1f}
 full stack / mj_step alone           {full / bare:8.3f}
 
-{commands}""")
+{commands}
+
+{transforms}""")
     return 0
 
 

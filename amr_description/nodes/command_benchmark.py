@@ -17,7 +17,9 @@ from sensor_msgs.msg import JointState
 
 _RUNS = 5
 _RATE_LINE = re.compile(r'average rate: ([\d.]+)')
-_JOINTS = ('joint_wheel_back_left', 'joint_wheel_back_right', 'front_left', 'front_right')
+_JOINTS = tuple(
+    f'joint_wheel_{end}_{side}' for end in ('back', 'front') for side in ('left', 'right')
+)
 
 
 def command_figures(node: Node, seconds: float) -> str:
@@ -51,7 +53,7 @@ def _median_time(command: Sequence[str]) -> float:
 def _hz(node: Node, rate: float, seconds: float) -> float:
     """The rate that ``ros2 topic hz`` shows in the end, Hz."""
     topic = '/benchmark/hz'
-    with _stream(node, topic, rate):
+    with stream(node, topic, rate):
         text = _output_of(['ros2', 'topic', 'hz', topic], seconds)
     shown = _RATE_LINE.findall(text)
     return float(shown[-1]) if shown else 0.0
@@ -60,7 +62,7 @@ def _hz(node: Node, rate: float, seconds: float) -> float:
 def _echo(node: Node, rate: float, seconds: float) -> float:
     """The messages that ``ros2 topic echo`` prints per second of its printing, Hz."""
     topic = '/benchmark/echo'
-    with _stream(node, topic, rate):
+    with stream(node, topic, rate):
         text = _output_of(['ros2', 'topic', 'echo', topic], seconds)
     stamps = re.findall(r'sec: (\d+)\n +nanosec: (\d+)', text)
     if len(stamps) < 2:
@@ -83,7 +85,7 @@ def _output_of(command: Sequence[str], seconds: float) -> str:
 
 
 @contextmanager
-def _stream(node: Node, topic: str, rate: float) -> Iterator[None]:
+def stream(node: Node, topic: str, rate: float) -> Iterator[None]:
     """Publish joint states of four joints at ``rate`` Hz, stamped with the wall clock."""
     publisher = node.create_publisher(JointState, topic, 10)
     done = threading.Event()
