@@ -121,7 +121,7 @@ def test_a_slow_configure_keeps_nobody_waiting(host):
     [
         ('unheard_of', 'no type is set for it; the parameters of /controller_manager hold one'),
         ('nowhere', "controller type 'no_such_package/Nothing' is not known"),
-        ('broken', 'ValueError: a stranger made a mistake'),
+        ('broken', "load controller 'broken': ValueError: a stranger made a mistake"),
         ('wrong_number', "'wheel_radius' to '1' of type 'INTEGER', expecting type 'DOUBLE'"),
     ],
 )
@@ -275,7 +275,9 @@ def test_a_controller_whose_topics_cannot_be_made_is_not_configured(host):
     host.client.set_parameters('lost', {'type': 'strangers/Lost'})
     assert host.client.load('lost')
     assert not host.client.configure('lost')
-    assert 'no_such_msgs' in host.client.reasons('lost')
+    reason = host.client.reasons('lost')
+    assert "Failed to configure controller 'lost': " in reason
+    assert 'no_such_msgs' in reason
     assert host.client.states() == {'lost': 'unconfigured'}
 
 

@@ -13,6 +13,7 @@ from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
+from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.switching import Strictness
 from amr_description.controllers import CONTROLLERS
@@ -67,7 +68,14 @@ class ManagerRequests:
             )
         entry = self._parameters.entry_of(name)
         self.log(Severity.INFO, f"Loading controller : '{name}' of type '{entry.type}'")
-        bridge = self._make(name, entry)
+        try:
+            bridge = self._make(name, entry)
+        except AmrError:
+            raise
+        except Exception as error:
+            raise ControllerError(
+                f"Failed to load controller '{name}': {describe(error)}"
+            ) from error
         # Before the owner is asked: others may see the controller in the list at once.
         self.controllers[name] = bridge
         self.node.executor.add_node(bridge.node)
@@ -111,9 +119,11 @@ class ManagerRequests:
         try:
             with argument_errors():
                 bridge.connect()
-        except Exception:
+        except Exception as error:
             await self.cleanup(name)
-            raise
+            raise ControllerError(
+                f"Failed to configure controller '{name}': {describe(error)}"
+            ) from error
 
     async def cleanup(self, name: str) -> None:
         """Bring a controller back to unconfigured, without topics. Raises ControllerError."""
