@@ -15,7 +15,8 @@ Every error that this package raises on purpose.
     │       ├── HardwareDeactivationError  it asks, out of write(), to be made inactive
     │       └── HardwareStartError  it did not reach its first state, and nothing goes without
     ├── SimulationError      the simulated world cannot do what was asked
-    │   └── SpawnError       an entity cannot be spawned; carries simulation_interfaces' code
+    │   └── RequestError     a request to the simulator is refused; carries its result code
+    │       └── SpawnError   an entity cannot be spawned
     ├── TransformException   a transform between two frames cannot be had; the names are tf2's
     │   ├── LookupException         a frame is unknown, or its tree has a loop
     │   ├── ConnectivityException   the frames are in different trees
@@ -72,16 +73,20 @@ class SimulationError(AmrError):
     """The simulated world cannot do what was asked."""
 
 
-class SpawnError(SimulationError):
+class RequestError(SimulationError):
     """
-    An entity cannot be spawned.
+    A request to the simulator is refused.
 
-    ``code`` is the ``result`` number of ``simulation_interfaces/srv/SpawnEntity`` that says why.
+    ``code`` is the ``result`` number of the service of ``simulation_interfaces`` that says why.
     """
 
     def __init__(self, message: str, code: int) -> None:
         super().__init__(message)
         self.code = code
+
+
+class SpawnError(RequestError):
+    """An entity cannot be spawned; ``code`` as in ``simulation_interfaces/srv/SpawnEntity``."""
 
 
 class TransformException(AmrError):  # noqa: N818 - these five are called so in tf2

@@ -12,6 +12,7 @@ from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.errors import SimulationError
 
 
 class Outside:
@@ -318,6 +319,90 @@ def test_pause_and_resume_in_one_go_lose_nothing(outside, loop):
     turn(loop, 2)
     assert outside.times('wait') == []
     assert outside.times('tick') == [0, 10 * MS, 20 * MS, 30 * MS]
+
+
+# --- step ----------------------------------------------------------------------------------------
+
+
+def paused(outside, loop, *while_paused):
+    """Have the loop paused at its beginning, and ``while_paused`` come, one a wait."""
+    outside.queue.append(loop.pause)
+    outside.while_paused = [[command] for command in while_paused]
+
+
+@pytest.mark.parametrize('period', [1, 2, 9, 10, 11, 25, 60])
+def test_a_step_is_as_long_as_asked_ticks_what_is_due_and_is_not_paced(outside, loop, period):
+    missing = []
+    paused(outside, loop, lambda: loop.step(period * MS, missing.append), lambda: None)
+    while not missing:
+        loop.turn()
+    assert (missing, loop.time) == ([0], period * MS)
+    assert outside.times('tick') == list(range(0, period * MS, 10 * MS))
+    assert outside.times('pace') == []
+    assert not loop.is_running
+    assert outside.diary[-1] == ('publish', period * MS)  # heard before the end is told
+
+
+@pytest.mark.parametrize('seed', range(10))
+def test_many_steps_tick_at_the_same_times_as_a_running_loop(outside, loop, seed):
+    dice = random.Random(seed)
+    loop.managers.append(Ticking(30, outside.diary, '30'))
+    paused(outside, loop)
+    outside.while_paused = [[] for _ in range(200)]
+    loop.turn()
+    end = 0
+    while end < 500:
+        length = dice.randint(1, 40)
+        end += length
+        loop.step(length * MS, lambda missing: None)
+        while loop.is_stepping:
+            loop.turn()
+    assert loop.time == end * MS
+    for name, rate in (('tick', 100), ('30', 30)):
+        assert outside.times(name) == list(range(0, end * MS, round(NANOSECONDS / rate)))
+
+
+def test_what_arrives_between_two_steps_counts_in_the_second(outside, loop):
+    controller = FakeController()
+    paused(
+        outside,
+        loop,
+        lambda: loop.step(10 * MS, lambda missing: None),
+        lambda: start(loop.managers[0], controller),
+        lambda: loop.step(10 * MS, lambda missing: None),
+    )
+    turn(loop, 5)
+    assert controller.updates == [(10 * MS, 10 * MS)]
+
+
+@pytest.mark.parametrize('request_', ['stop', 'pause', 'resume', 'reset', 'set_clock'])
+def test_whatever_comes_between_ends_a_step_and_tells_what_is_missing(outside, loop, request_):
+    missing = []
+    paused(outside, loop, lambda: loop.step(50 * MS, missing.append))
+    turn(loop, 3)
+    assert loop.time == 20 * MS
+    outside.queue.append(getattr(loop, request_))
+    outside.while_paused = [[]]
+    turn(loop, 1)
+    assert missing == [30 * MS]
+    assert not loop.is_stepping
+    assert loop.is_running is (request_ == 'resume')
+
+
+def test_no_step_while_time_runs_or_another_step_is_made(outside, loop):
+    with pytest.raises(SimulationError, match='time is running; it is stepped while it is paused'):
+        loop.step(10 * MS, print)
+    loop.pause()
+    loop.step(10 * MS, lambda missing: None)
+    with pytest.raises(SimulationError, match='10000000 ns of another step'):
+        loop.step(10 * MS, print)
+
+
+def test_a_step_of_nothing_is_done_at_once(loop):
+    missing = []
+    loop.pause()
+    loop.step(0, missing.append)
+    assert (missing, loop.is_stepping) == ([0], False)
 
 
 # --- reset ---------------------------------------------------------------------------------------

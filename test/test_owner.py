@@ -95,6 +95,20 @@ def test_as_fast_as_possible_still_yields_now_and_then():
     assert time.monotonic() - begin < 1000.0  # a thousand simulated seconds, not waited for
 
 
+def test_another_factor_counts_from_now_on(monkeypatch):
+    clock, pacer = paced(monkeypatch, factor=0.001)
+    pacer.set_factor(10.0, SECOND)
+    before = clock.now
+    assert pacer.pace(SECOND)
+    assert clock.now == before
+    pacer.pace(2 * SECOND)
+    assert clock.now == pytest.approx(before + 0.1)
+
+
+def test_an_impatient_queue_ends_a_wait_with_nothing():
+    assert Mailbox(patience=0.001).wait() is False
+
+
 def test_a_call_ends_the_sleep_of_slow_motion():
     box = Mailbox()
     pacer = WallPacer(1e-9, box)

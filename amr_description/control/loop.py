@@ -15,12 +15,16 @@ One turn, at simulated time t::
     publish /clock, then what the controllers said at t
     step the world to the next instant at which something is due
     pace                       # what the queue brings meanwhile is done at once
+
+While paused a stretch of time can be asked for (:meth:`Loop.step`): the same turns, not paced,
+and the last one ends where the stretch does.
 """
 
 from collections.abc import Callable, Iterable
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from amr_description.control.controller_manager import ControllerManager
+from amr_description.errors import SimulationError
 
 
 class Stepper(Protocol):
@@ -55,7 +59,7 @@ class Commands(Protocol):
         """Return those that wait, oldest first."""
 
     def wait(self) -> None:
-        """Block until there is one."""
+        """Block until there is one, or until the clock should be heard again."""
 
 
 class Publisher(Protocol):
@@ -66,6 +70,14 @@ class Publisher(Protocol):
 
     def publish(self, time: int) -> None:
         """Publish ``/clock``, and then what was sent since the last call."""
+
+
+class _Stretch(NamedTuple):
+    """Time that passes while paused."""
+
+    end: int
+    """ns."""
+    done: Callable[[int], None]
 
 
 class Loop:
@@ -90,6 +102,7 @@ class Loop:
         self._clock_period = clock_period
         self._is_stopped = False
         self._is_running = True
+        self._stretch: _Stretch | None = None
         self.managers: list[ControllerManager] = []
 
     @property
@@ -99,8 +112,13 @@ class Loop:
 
     @property
     def is_running(self) -> bool:
-        """False while paused."""
+        """False while paused, also during a :meth:`step`."""
         return self._is_running
+
+    @property
+    def is_stepping(self) -> bool:
+        """True while a stretch of time passes that was asked for."""
+        return self._stretch is not None
 
     def run(self) -> None:
         """Turn until :meth:`stop`."""
@@ -113,9 +131,11 @@ class Loop:
         self._obey()
         if self._is_stopped:
             return
+        if self._stretch is not None:
+            self._step(self._stretch)
+            return
         if not self._is_running:
-            self._publisher.set_clocks(self.time)  # a command may have brought a new node
-            self._publisher.publish(self.time)
+            self._show_time()
             self._commands.wait()
             return
         self.tick()
@@ -138,13 +158,36 @@ class Loop:
     def stop(self) -> None:
         """End :meth:`run`; for commands."""
         self._is_stopped = True
+        self._give_up_stretch()
 
     def pause(self) -> None:
         """Let time stand still; for commands."""
         self._is_running = False
+        self._give_up_stretch()
+
+    def step(self, period: int, done: Callable[[int], None]) -> None:
+        """
+        While paused, let ``period`` ns pass as fast as they can, and stand still again.
+
+        Managers tick when they are due, at the beginning of the stretch too, but not at its end:
+        that tick is the next stretch's, and takes the commands that have come by then. ``done`` is
+        called at the end with what is missing of the period, ns: 0, unless a stop, a pause, a
+        resume or a jump came between. For commands. Raises SimulationError.
+        """
+        if self._is_running:
+            raise SimulationError('time is running; it is stepped while it is paused')
+        if self._stretch is not None:
+            raise SimulationError(
+                f'{self._stretch.end - self.time} ns of another step are still to pass'
+            )
+        if period <= 0:
+            done(0)
+            return
+        self._stretch = _Stretch(self.time + period, done)
 
     def resume(self) -> None:
         """Let time go on; for commands."""
+        self._give_up_stretch()
         if not self._is_running:
             self._is_running = True
             self._pacer.resume(self.time)
@@ -158,11 +201,31 @@ class Loop:
         self._jump(lambda manager, time: manager.set_clock(time))
 
     def _jump(self, tell: Callable[[ControllerManager, int], None]) -> None:
+        self._give_up_stretch()
         time = self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
             tell(manager, time)
         self._pacer.resume(time)
+
+    def _step(self, stretch: _Stretch) -> None:
+        """Do one turn of a stretch of time."""
+        self.tick()
+        self._stepper.advance(min(self._until_next(self.time), stretch.end - self.time))
+        if self.time >= stretch.end:
+            self._stretch = None
+            self._show_time()  # before whoever waits for the end hears of it
+            stretch.done(0)
+
+    def _give_up_stretch(self) -> None:
+        stretch, self._stretch = self._stretch, None
+        if stretch is not None:
+            stretch.done(stretch.end - self.time)
+
+    def _show_time(self) -> None:
+        """Have the time known where nothing ticks."""
+        self._publisher.set_clocks(self.time)  # a command may have brought a new node
+        self._publisher.publish(self.time)
 
     def _obey(self) -> None:
         for command in self._commands.take():

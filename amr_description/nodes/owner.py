@@ -30,7 +30,9 @@ _SHARE = 0.005
 class Mailbox:
     """The queue of commands; any thread puts, the owner takes (``Commands`` of the loop)."""
 
-    def __init__(self) -> None:
+    def __init__(self, patience: float | None = None) -> None:
+        """``patience``: the longest wait for something, s; None: no end."""
+        self._patience = patience
         self._calls: deque[Callable[[], None]] = deque()
         self._arrived = threading.Event()
 
@@ -49,8 +51,12 @@ class Mailbox:
         return [self._calls.popleft() for _ in range(len(self._calls))]
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Block until something arrives, at most ``timeout`` s; tell whether something has."""
-        return self._arrived.wait(timeout)
+        """
+        Block until something arrives, at most ``timeout`` s; tell whether something has.
+
+        Without ``timeout``: as patient as it was made.
+        """
+        return self._arrived.wait(self._patience if timeout is None else timeout)
 
 
 class WallPacer:
@@ -66,6 +72,11 @@ class WallPacer:
         self._mailbox = mailbox
         self._wall_start = self._start = 0.0
         self._yielded = 0.0
+
+    def set_factor(self, factor: float, time_now: int) -> None:
+        """Keep to another factor from now on, simulated time being ``time_now``, ns."""
+        self._factor = factor
+        self.resume(time_now)
 
     def resume(self, time_now: int) -> None:
         """Count from now on, simulated time being ``time_now``, ns."""
@@ -142,6 +153,21 @@ class Owner:
 
         self._mailbox.put(make)
         return future
+
+    async def step(self, period: int) -> int:
+        """
+        Have ``period`` ns pass while paused; return what is missing of it in the end, ns.
+
+        See :meth:`Loop.step`. Raises SimulationError.
+        """
+        ended = Future(executor=self._executor)
+
+        def done(missing: int) -> None:
+            ended.set_result(missing)
+            self._executor.wake()
+
+        await self.submit(lambda: self.loop.step(period, done))
+        return await ended
 
     def _run(self) -> None:
         # What the start has made lives as long as the process: keep the collector off it.

@@ -35,6 +35,12 @@ class Engine:
         """Simulated time, ns: a count of steps, never a sum of floats."""
         return self._time_at_step_0 + self._steps * self._timestep
 
+    @time.setter
+    def time(self, time: int) -> None:
+        self._time_at_step_0, self._steps = time, 0
+        self.data.time = time / NANOSECONDS
+        self.forget_truth()
+
     @property
     def timestep(self) -> int:
         """The physics step, ns; time goes on from where it is when it is set."""
@@ -46,6 +52,7 @@ class Engine:
             raise SimulationError(f'a physics step of {timestep} ns is asked; it must be positive')
         self._time_at_step_0, self._steps = self.time, 0
         self._timestep = timestep
+        self.forget_truth()
         seconds = timestep / NANOSECONDS
         self.spec.option.timestep = self.model.opt.timestep = seconds
 
@@ -63,6 +70,10 @@ class Engine:
         """Time 0, everything where the model has it, commands zero."""
         mujoco.mj_resetData(self.model, self.data)
         self._time_at_step_0 = self._steps = 0
+        self._truth_at = None
+
+    def forget_truth(self) -> None:
+        """The state was changed otherwise than by a step."""
         self._truth_at = None
 
     def refresh_truth(self) -> None:

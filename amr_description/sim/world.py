@@ -72,8 +72,13 @@ class MujocoWorld:
 
     @property
     def time(self) -> int:
-        """Simulated time, ns."""
+        """Simulated time, ns; it may be set, and nothing else changes."""
         return self.engine.time
+
+    @time.setter
+    def time(self, time: int) -> None:
+        self.engine.time = time
+        self._faults.reset()
 
     @property
     def timestep(self) -> int:
