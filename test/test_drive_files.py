@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from amr_description.cli.drive_files import DIFF_DRIVE, read_drives
 from amr_description.errors import ParameterError
+from amr_description.model import urdf
+from amr_description.nodes.drive_files import DIFF_DRIVE, drive_warnings, read_drives
 
 ROOT = Path(__file__).parent.parent
 WHEELS = """\
@@ -41,13 +42,13 @@ def test_shipped_file_with_its_lines():
     (drive,) = read_drives(str(path))
     lines = path.read_text().splitlines()
     assert drive.name == 'diff_drive_controller'
-    assert drive.source == str(path)
+    assert drive.place.source == str(path)
     assert (drive.separation, drive.radius, drive.separation_multiplier) == (0.30, 0.10, 2.82)
     assert (drive.base_frame, drive.publishes_transform) == ('base_footprint', True)
-    assert lines[drive.line - 1] == 'diff_drive_controller:'
+    assert lines[drive.place.line - 1] == 'diff_drive_controller:'
     for name in ('wheel_separation', 'wheel_radius', 'base_frame_id', 'left_wheel_names'):
-        assert lines[drive.line_of(name) - 1].strip().startswith(f'{name}: ')
-    assert drive.line_of('open_loop') == drive.line, 'the file does not set it'
+        assert lines[drive.place_of(name).line - 1].strip().startswith(f'{name}: ')
+    assert drive.place_of('open_loop') == drive.place, 'the file does not set it'
 
 
 def test_defaults_are_those_of_the_controller(read):
@@ -103,7 +104,7 @@ def test_the_last_of_two_counts_and_gives_the_line(read):
     text = f'{MANAGER}"/**":\n  ros__parameters:\n{WHEELS}drive:\n  ros__parameters:\n'
     (drive,) = read(f'{text}    wheel_radius: 0.2\n')
     assert drive.radius == 0.2
-    assert drive.line_of('wheel_radius') == (text + '.').count('\n') + 1
+    assert drive.place_of('wheel_radius').line == (text + '.').count('\n') + 1
     assert drive.separation == 0.3
 
 
@@ -112,7 +113,7 @@ def test_dotted_and_nested_names_are_the_same(read):
     (nested,) = read(f'{text}    linear:\n      x:\n        max_velocity: 1.0\n')
     (dotted,) = read(f'{text}    linear.x.max_velocity: 1.0\n')
     name = 'linear.x.max_velocity'
-    assert nested.line_of(name) == dotted.line_of(name) + 2
+    assert nested.place_of(name).line == dotted.place_of(name).line + 2
 
 
 @pytest.mark.parametrize(
@@ -145,4 +146,45 @@ def test_anchors_and_merges_are_read(read):
     text = f'{MANAGER}base: &base\n  ros__parameters: &p\n{WHEELS}'
     (drive,) = read(f'{text}drive:\n  ros__parameters:\n    <<: *p\n    base_frame_id: base\n')
     assert (drive.radius, drive.base_frame) == (0.1, 'base')
-    assert drive.line_of('wheel_radius') >= drive.line
+    assert drive.place_of('wheel_radius') >= drive.place
+
+
+def test_files_are_read_one_over_the_other(tmp_path):
+    first, second = tmp_path / 'a.yaml', tmp_path / 'b.yaml'
+    first.write_text(f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS}')
+    second.write_text('drive:\n  ros__parameters:\n    wheel_radius: 0.2\n')
+    (drive,) = read_drives(str(first), str(second))
+    assert drive.radius == 0.2
+    assert drive.place_of('wheel_radius') == (str(second), 3)
+    assert drive.place_of('wheel_separation') == (str(first), 9)
+
+
+@pytest.mark.parametrize('as_list', [False, True])
+def test_files_that_the_manager_hands_over_are_read(tmp_path, as_list):
+    own = tmp_path / 'own.yaml'
+    own.write_text(f'drive:\n  ros__parameters:\n{WHEELS}')
+    path = tmp_path / 'manager.yaml'
+    path.write_text(f'{MANAGER}      params_file: {[str(own)] if as_list else own}\n')
+    (drive,) = read_drives(str(path))
+    assert drive.radius == 0.1
+    assert drive.place_of('wheel_radius') == (str(own), 6)
+
+
+def test_drives_that_run_and_are_mistaken_are_told():
+    robot = urdf.load(ROOT / 'urdf/amr.urdf')
+    assert drive_warnings(robot, [str(ROOT / 'config/controllers.yaml')]) == ()
+    base, multiplier = drive_warnings(
+        robot, [str(ROOT / 'test/fixtures/tutorial/controllers.yaml')]
+    )
+    assert '"base_link" gets two parents in TF' in base.text
+    assert 'wheel_separation_multiplier' in multiplier.text
+
+
+def test_what_the_manager_will_refuse_is_left_to_it(tmp_path):
+    robot = urdf.load(ROOT / 'urdf/amr.urdf')
+    path = tmp_path / 'c.yaml'
+    assert drive_warnings(robot, [str(path)]) == ()
+    path.write_text(
+        f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS}    base_frame_id: base_footprint\n'
+    )
+    assert drive_warnings(robot, [str(path)]) == (), 'no such wheels'

@@ -27,6 +27,7 @@ def test_nodes_may_stand_below_their_namespaces(tmp_path):
         ('/arm: \x07', 'special characters are not allowed'),
         ('/arm: 2026-99-99', 'month must be in 1..12'),
         ('{' * 50_000, 'nested too deeply'),
+        ('a: &x\n  b: *x', 'nested too deeply'),
     ],
 )
 def test_what_is_wrong_is_told_in_one_line(tmp_path, text, said):

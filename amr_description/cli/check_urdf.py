@@ -87,7 +87,8 @@ def _parser() -> argparse.ArgumentParser:
         metavar='YAML',
         action='append',
         default=[],
-        help='also check the robot against the diff_drive_controllers of this parameter file',
+        help='also check the robot against the diff_drive_controllers of this parameter file; '
+        'given more than once, the files are read one over the other',
     )
     add('--strict', action='store_true', help='exit with 1 when there are warnings')
     add('--json', action='store_true', help='print one JSON object instead of the tree')
@@ -137,9 +138,9 @@ def _drives(paths: list[str]) -> tuple[DriveSettings, ...]:
     """Return the differential drives of parameter files. Raises ParameterError."""
     if not paths:
         return ()
-    from amr_description.cli.drive_files import read_drives
+    from amr_description.nodes.drive_files import read_drives
 
-    return tuple(drive for path in paths for drive in read_drives(path))
+    return read_drives(*paths)
 
 
 def _drop(examination: Examination) -> 'DropReport | None':

@@ -1,23 +1,32 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a parameter file tells a differential drive controller of the robot that it drives."""
+"""What parameter files tell a differential drive controller of the robot that it drives."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from amr_description.model.findings import Finding
+
+
+class Place(NamedTuple):
+    """A line of a file."""
+
+    source: str
+    line: int
 
 
 @dataclass(frozen=True, slots=True)
 class DriveSettings:
     """
-    One diff_drive_controller of a parameter file; lengths in m.
+    One diff_drive_controller of some parameter files; lengths in m.
 
-    ``source`` is the file, ``line`` where the controller's parameters begin, ``lines`` where each
-    of them stands, by its name.
+    ``place`` is where the controller's parameters begin, ``places`` where each of them stands, by
+    its name.
     """
 
     name: str
-    source: str
-    line: int
+    place: Place
     left_wheels: tuple[str, ...]
     right_wheels: tuple[str, ...]
     separation: float
@@ -28,8 +37,16 @@ class DriveSettings:
     publishes_transform: bool
     position_feedback: bool
     open_loop: bool
-    lines: Mapping[str, int] = field(default_factory=dict)
+    places: Mapping[str, Place] = field(default_factory=dict)
 
-    def line_of(self, parameter: str) -> int:
-        """Return the line of a parameter, or of the controller when the file does not set it."""
-        return self.lines.get(parameter, self.line)
+    def place_of(self, parameter: str) -> Place:
+        """Return where a parameter stands, or the controller when no file sets it."""
+        return self.places.get(parameter, self.place)
+
+    def error(self, parameter: str, what: str, **details: str) -> Finding:
+        """Return an error at a parameter; ``details`` as in Finding.error."""
+        return Finding.error(*self.place_of(parameter), f'{self.name}: {what}', **details)
+
+    def warning(self, parameter: str, what: str, **details: str) -> Finding:
+        """Return a warning at a parameter; ``details`` as in Finding.warning."""
+        return Finding.warning(*self.place_of(parameter), f'{self.name}: {what}', **details)

@@ -40,14 +40,12 @@ def _judge_wheel(
     subject: Subject, drive: DriveSettings, parameter: str, name: str
 ) -> Iterator[Finding]:
     robot = subject.robot
-    what = f'{drive.name}: {parameter} holds {quote(name)}'
-    line = drive.line_of(parameter)
+    what = f'{parameter} holds {quote(name)}'
     if not robot.has_joint(name):
         moving = [joint.name for joint in robot.joints if joint.has_position]
         meant = nearest(name, moving)
-        yield Finding.error(
-            drive.source,
-            line,
+        yield drive.error(
+            parameter,
             f'{what}, which is no joint of the robot',
             expected=f'joints of {robot.source}: {quote_all(moving)}',
             fix=f'write "{meant}"' if meant else '',
@@ -59,9 +57,8 @@ def _judge_wheel(
         ('state', feedback, _offered(subject, name, 'state_interfaces')),
     ):
         if interface not in offered and not (kind == 'state' and drive.open_loop):
-            yield Finding.error(
-                drive.source,
-                line,
+            yield drive.error(
+                parameter,
                 f'{what}, which has no {kind} interface "{interface}"',
                 found=quote_all(sorted(offered)),
                 fix=f'add <{kind}_interface name="{interface}"/> to it in <ros2_control>',
@@ -84,10 +81,9 @@ def sides_are_not_swapped(subject: Subject) -> Iterator[Finding]:
     for drive in subject.surroundings.drives:
         left, right = _mean_y(subject, drive.left_wheels), _mean_y(subject, drive.right_wheels)
         if left < right:
-            yield Finding.warning(
-                drive.source,
-                drive.line_of('left_wheel_names'),
-                f'{drive.name}: left and right wheels are swapped: turns are inverted',
+            yield drive.warning(
+                'left_wheel_names',
+                'left and right wheels are swapped: turns are inverted',
                 found=f'the left wheels at y = {left:g} m, the right ones at y = {right:g} m',
                 expected='the left wheels at the greater y',
                 fix='swap left_wheel_names and right_wheel_names',
@@ -101,10 +97,9 @@ def wheel_radius_agrees(subject: Subject) -> Iterator[Finding]:
         for name in (*drive.left_wheels, *drive.right_wheels):
             radius = radii.get(name, math.nan)
             if abs(radius - drive.radius) > _TOLERANCE * radius:
-                yield Finding.warning(
-                    drive.source,
-                    drive.line_of('wheel_radius'),
-                    f'{drive.name}: wheel_radius is not that of {quote(name)}',
+                yield drive.warning(
+                    'wheel_radius',
+                    f'wheel_radius is not that of {quote(name)}',
                     found=f'{drive.radius:g} m',
                     expected=f'{radius:g} m, the radius of its collision shape',
                     fix=f'write wheel_radius: {_decimal(radius)}',
@@ -117,10 +112,9 @@ def wheel_separation_agrees(subject: Subject) -> Iterator[Finding]:
     for drive in subject.surroundings.drives:
         apart = _track(subject, drive)
         if abs(apart - drive.separation) > _TOLERANCE * apart:
-            yield Finding.warning(
-                drive.source,
-                drive.line_of('wheel_separation'),
-                f'{drive.name}: wheel_separation is not that of the wheels',
+            yield drive.warning(
+                'wheel_separation',
+                'wheel_separation is not that of the wheels',
                 found=f'{drive.separation:g} m',
                 expected=f'{apart:g} m between the joints on the left and on the right',
                 fix=f'write wheel_separation: {_decimal(apart)}',
@@ -144,10 +138,9 @@ def scrubbing_is_accounted_for(subject: Subject) -> Iterator[Finding]:
         width = _track(subject, drive)
         if drive.separation_multiplier == 1.0 and length > _SCRUBBING and width > 0.0:
             guess = 1.0 + length / width * (length / width)
-            yield Finding.warning(
-                drive.source,
-                drive.line_of('wheel_separation'),
-                f'{drive.name}: wheels one behind the other scrub in a turn; odometry will turn '
+            yield drive.warning(
+                'wheel_separation',
+                'wheels one behind the other scrub in a turn; odometry will turn '
                 'more than the robot',
                 found='wheel_separation_multiplier 1.0',
                 expected=f'about 1 + (L/W)² = {guess:.2f}',
@@ -163,12 +156,11 @@ def base_frame_is_the_root(subject: Subject) -> Iterator[Finding]:
         if not drive.publishes_transform or base == root:
             continue
         joint = subject.robot.parent_joint(base)
-        yield Finding.warning(
-            drive.source,
-            drive.line_of('base_frame_id'),
-            f'{drive.name}: {quote(base)} gets two parents in TF'
+        yield drive.warning(
+            'base_frame_id',
+            f'{quote(base)} gets two parents in TF'
             if joint is not None
-            else f'{drive.name}: base_frame_id is no link of the robot',
+            else 'base_frame_id is no link of the robot',
             found=f'{quote(drive.odom_frame)} from odometry, {quote(joint.parent)} from the URDF'
             if joint is not None
             else quote(base),

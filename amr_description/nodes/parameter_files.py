@@ -42,7 +42,10 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
         raise ParameterError(f'{path}: {error}') from error
     if not isinstance(content, dict) or not content:
         raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
-    _require_nodes(content, path)
+    try:
+        _require_nodes(content, path)
+    except RecursionError as error:  # an anchor that holds itself
+        raise ParameterError(f'{path}: nested too deeply') from error
     return content
 
 
