@@ -27,6 +27,7 @@ from amr_description.nodes.converters import (
     fill_velocity,
     transform_of,
 )
+from amr_description.nodes.ground_truth import WORLD_FRAME
 from amr_description.nodes.node_log import log_error
 from amr_description.nodes.node_parameters import declare
 from amr_description.nodes.ros_arguments import inherited, ros_arguments
@@ -34,9 +35,6 @@ from amr_description.nodes.runtime import argument_errors, program, ros, spin
 from amr_description.nodes.simulation import Simulation, SimulationParameters
 from amr_description.sim.resources import description_at
 from amr_description.sim.spawning import read_description, SpawnCode
-
-WORLD_FRAME = 'world'
-"""The frame of every pose that the simulator takes or gives."""
 
 
 class MujocoSim:

@@ -39,6 +39,8 @@ class Outgoing:
     _parameter_overrides: Sequence[Parameter] = ()
 
     def __init__(self, logger: RcutilsLogger) -> None:
+        self.reporters: list[Callable[[int], None]] = []
+        """Called at the end of a turn with its time, ns; what they send goes out with it."""
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
         self._logger = logger
 
@@ -85,6 +87,8 @@ class Outgoing:
 
     def publish(self, time: int) -> None:
         """Publish what waits; ``time``: of this turn, ns."""
+        for report in self.reporters:
+            report(time)
         for fill, sample, message, publisher in self._outbox:
             try:
                 fill(sample, message)

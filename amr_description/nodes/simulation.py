@@ -25,6 +25,7 @@ from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.nodes.controller_manager_node import ControllerManagerNode
 from amr_description.nodes.description_source import DescriptionSource
+from amr_description.nodes.ground_truth import GroundTruth
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.outgoing import SimulatedOutgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
@@ -55,6 +56,13 @@ class SimulationParameters:
         '',
         'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
         'names, else that of this package',
+        read_only=True,
+    )
+    ground_truth_rate: float = parameter(
+        50.0,
+        'Rate of ground_truth/odom and ground_truth/wheels of every robot; 0: none',
+        unit='Hz',
+        minimum=0.0,
         read_only=True,
     )
 
@@ -96,6 +104,9 @@ class Simulation:
             self._outgoing = SimulatedOutgoing(node)
             self._outgoing.adopt(node)
             self.world = MujocoWorld(parameters.world, log=self.log)
+            self.ground_truth = GroundTruth(
+                node, self._outgoing, self.world, parameters.ground_truth_rate
+            )
             mailbox = Mailbox()
             self.owner = Owner(mailbox, executor)
             self.owner.loop = Loop(
@@ -157,6 +168,7 @@ class Simulation:
             self._executor.add_node(node.node)
             DescriptionSource(node.node, node.log, robot=robot)
             node.start()
+        self.ground_truth.add(given, namespace)
         return given
 
     def _check_namespace(self, namespace: str) -> None:
