@@ -11,7 +11,8 @@ The simulated world, and the only package that imports MuJoCo.
 ``efforts``         … the force that reaches a joint from its actuators
 ``engine``          the MuJoCo model and its state; integer time; survives a recompile
 ``stepping``        control period → physics step
-``world_file``      a world's name or path → MuJoCo spec, with the measured solver options
+``world_file``      a world's name or path → MuJoCo spec
+``world_settings``  gravity, friction, step, solver: parameters, and the measured defaults
 ``robot_spec``      a URDF → MuJoCo spec of one robot
 ``meshes``          the mesh files of a URDF, found and judged
 ``actuators``       command interface → MuJoCo actuators
@@ -19,6 +20,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``initial_state``   where joints begin
 ``contact``         how a wheel touches the ground
 ``spawning``        the request to spawn, checked; simulation_interfaces' codes
+``overlap``         a robot spawned inside something, and how much higher it would stand free
 ``resources``       ``package://`` and ``file://``, world names
 ``faults``          MuJoCo's warnings, non-finite states and falls, told once, in one line
 ``bare_loop``       the physics alone, to measure against

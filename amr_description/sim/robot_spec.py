@@ -16,7 +16,7 @@ from lxml import etree
 import mujoco
 
 from amr_description.control.contracts import Log
-from amr_description.control.interfaces import VELOCITY
+from amr_description.control.interfaces import EFFORT, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.findings import raise_error
 from amr_description.model.robot import Robot
@@ -35,6 +35,9 @@ WORLD_LINK = 'world'
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """A mimic joint follows as if by gears."""
 
+_DRIVING = {VELOCITY, EFFORT}
+"""The command interfaces by which a wheel is driven."""
+
 _COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'false'}
 
 
@@ -43,8 +46,8 @@ class RobotSpec:
     """One robot, ready to be attached to a world."""
 
     spec: mujoco.MjSpec
-    treads: tuple[str, ...]
-    """The geoms that touch the ground as wheels."""
+    wheels: tuple[Wheel, ...]
+    """The links that touch the ground as wheels, each with a geom of :func:`tread_name`."""
     commands: Mapping[str, Collection[str]]
     """The command interfaces of each joint in a ``<ros2_control>`` block."""
     initial: Mapping[str, JointState]
@@ -54,6 +57,11 @@ class RobotSpec:
 def root_joint(robot: Robot) -> str:
     """The name of the free joint of a robot that does not stand fixed."""
     return f'{robot.root.name}/free'
+
+
+def tread_name(link: str) -> str:
+    """The name of the geom with which a wheel touches the ground."""
+    return f'{link}/tread'
 
 
 def build_robot(robot: Robot, log: Log) -> RobotSpec:
@@ -73,8 +81,9 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
             if robot.joint(joint).has_position:
                 add_actuators(spec, robot.joint(joint), interfaces)
         _couple_mimics(spec, [joint.name for joint in controlled if joint.mimic is None])
-        wheels = find_wheels(robot, [j for j, names in commands.items() if VELOCITY in names])
-        treads = tuple(_make_tread(spec, wheel) for wheel in wheels)
+        wheels = find_wheels(robot, [j for j, i in commands.items() if _DRIVING & {*i}])
+        for wheel in wheels:
+            _make_tread(spec, wheel)
         _exclude_self_collision(spec, robot)
         # Tried alone first, so that a robot that MuJoCo refuses never touches the world.
         spec.copy().compile()
@@ -83,7 +92,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
             f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
-    return RobotSpec(spec, treads, commands, initial_states(robot, controlled))
+    return RobotSpec(spec, wheels, commands, initial_states(robot, controlled))
 
 
 def _prepared_xml(robot: Robot, log: Log) -> str:
@@ -119,19 +128,18 @@ def _couple_mimics(spec: mujoco.MjSpec, independent: Collection[str]) -> None:
             coupling.solimp = MIMIC_SOLIMP
 
 
-def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> str:
+def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> None:
     """
-    Make the wheel's round collision shape an ellipsoid of its size and return its name.
+    Make the wheel's round collision shape an ellipsoid of its size.
 
     An ellipsoid touches a flat ground in one point; a cylinder's edge gives contacts that come and
     go as the wheel turns.
     """
     shapes = [g for g in spec.body(wheel.link).geoms if g.contype or g.conaffinity]
     tread = shapes[wheel.collision]
-    tread.name = f'{wheel.link}/tread'
+    tread.name = tread_name(wheel.link)
     tread.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
     tread.size = [wheel.radius, wheel.radius, wheel.half_width]
-    return tread.name
 
 
 def _exclude_self_collision(spec: mujoco.MjSpec, robot: Robot) -> None:

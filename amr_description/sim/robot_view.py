@@ -45,6 +45,8 @@ class RobotView:
         """``place``: the pose at which the robot, of the spec ``model``, was spawned."""
         self.name = name
         self.description = description
+        self.wheels = model.wheels
+        """The links that touch the ground as wheels."""
         self._place = place
         self._log = log
         self._engine = engine

@@ -13,10 +13,9 @@ from typing import Self
 import mujoco
 import numpy as np
 
-from amr_description.control.interfaces import VELOCITY
-from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.wheels import find_wheels, Wheel
+from amr_description.model.wheels import Wheel
 from amr_description.sim.engine import Engine
+from amr_description.sim.robot_spec import tread_name
 from amr_description.sim.robot_view import RobotView
 
 _NO_CONTACT = -1
@@ -58,14 +57,8 @@ class WheelContacts:
 
     @classmethod
     def of(cls, engine: Engine, robot: RobotView) -> Self:
-        """Find the wheels of a robot as the world did when it was spawned."""
-        driven = [
-            joint.name
-            for hardware in hardware_of(robot.description)
-            for joint in hardware.joints
-            if any(interface.name == VELOCITY for interface in joint.command_interfaces)
-        ]
-        return cls(engine, robot.name, find_wheels(robot.description, driven))
+        """Those of the wheels that the world found when it spawned the robot."""
+        return cls(engine, robot.name, robot.wheels)
 
     def read(self) -> tuple[WheelContact, ...]:
         """
@@ -123,7 +116,7 @@ class WheelContacts:
             return
         model = self._engine.model
         self._place_of = {
-            model.geom(f'{self._name}/{wheel.link}/tread').id: place
+            model.geom(f'{self._name}/{tread_name(wheel.link)}').id: place
             for place, wheel in enumerate(self._wheels)
         }
         self._joint_ids = [model.joint(f'{self._name}/{joint}').id for joint in self.joints]

@@ -14,14 +14,15 @@ The simulated world: a ground, robots that come and go, and time.
     robot.pose('base_footprint')
 """
 
-from amr_description.control.contracts import Log
+from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
 from amr_description.sim.contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
 from amr_description.sim.engine import Engine
 from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
-from amr_description.sim.robot_spec import build_robot, RobotSpec
+from amr_description.sim.overlap import refuse_overlap
+from amr_description.sim.robot_spec import build_robot, RobotSpec, tread_name
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import (
     check_name,
@@ -31,9 +32,11 @@ from amr_description.sim.spawning import (
     SpawnCode,
 )
 from amr_description.sim.stepping import LONGEST_STEP
-from amr_description.sim.world_file import load_world, static_surfaces
+from amr_description.sim.world_file import load_world, longest_step, static_surfaces
+from amr_description.sim.world_settings import WorldSettings
 
 AT_ORIGIN = Transform()
+_FILE_SETTINGS = WorldSettings()
 
 
 class MujocoWorld:
@@ -47,21 +50,31 @@ class MujocoWorld:
         self,
         world: str = 'empty',
         *,
-        timestep: int = LONGEST_STEP,
+        settings: WorldSettings = _FILE_SETTINGS,
+        timestep: int | None = None,
         contact: ContactSettings = WHEEL_CONTACT,
         log: Log = say_nothing,
     ) -> None:
         """
-        Load a shipped world by name or an MJCF file by path; ``timestep``: physics step, ns.
+        Load a shipped world by name or an MJCF file by path.
 
-        Raises SimulationError.
+        ``settings`` go over what the file says. ``timestep``: physics step, ns; the longest that
+        settings and file allow, unless given. Raises SimulationError.
         """
         listen_to_mujoco()
-        spec = load_world(world)
+        spec = load_world(world, settings)
+        self.longest_step = longest_step(spec, settings)
+        """The longest physics step that settings and file allow, ns."""
+        if self.longest_step > LONGEST_STEP:
+            log(
+                Severity.WARN,
+                f"world '{world}': a physics step of {self.longest_step / 1e6:g} ms is asked; "
+                f'the wheels\' contacts are tuned for {LONGEST_STEP / 1e6:g} ms and less',
+            )
         self._surfaces = static_surfaces(spec)
         self._contact = contact
         try:
-            self.engine = Engine(spec, timestep)
+            self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
             """Model and data, for this package and its tests."""
         except ValueError as cause:
             raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
@@ -118,6 +131,11 @@ class MujocoWorld:
         model = build_robot(description, self._log)
         self._attach(name, model, pose)
         view = RobotView(self.engine, name, description, model, pose, self._log)
+        try:
+            refuse_overlap(self.engine, name)
+        except SpawnError:
+            self._take_out(name)
+            raise
         self._robots[name] = view
         self._find_roots()
         return view
@@ -125,9 +143,7 @@ class MujocoWorld:
     def remove(self, name: str) -> None:
         """Take a robot out; its view is dead. Raises SimulationError for an unknown name."""
         self.robot(name)
-        spec = self.engine.spec
-        spec.delete(spec.frame(name))
-        self.engine.recompile()
+        self._take_out(name)
         del self._robots[name]
         self._find_roots()
 
@@ -150,9 +166,10 @@ class MujocoWorld:
         )
         try:
             spec.attach(model.spec, frame=place, prefix=f'{name}/')
-            for tread in model.treads:
+            for wheel in model.wheels:
+                tread = f'{name}/{tread_name(wheel.link)}'
                 for surface in self._surfaces:
-                    add_wheel_contact(spec, f'{name}/{tread}', surface, self._contact)
+                    add_wheel_contact(spec, tread, surface, self._contact)
             self.engine.recompile()
         except ValueError as cause:
             spec.delete(place)
@@ -160,6 +177,11 @@ class MujocoWorld:
                 f"'{name}' cannot be put into the world: {one_line(str(cause))}",
                 SpawnCode.OPERATION_FAILED,
             ) from cause
+
+    def _take_out(self, name: str) -> None:
+        spec = self.engine.spec
+        spec.delete(spec.frame(name))
+        self.engine.recompile()
 
     def _find_roots(self) -> None:
         heights = ((name, view.height_index()) for name, view in self._robots.items())

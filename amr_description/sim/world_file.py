@@ -1,54 +1,49 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A world (MJCF) as a MuJoCo spec, with the measured solver options where it sets none."""
+"""A world (MJCF) as a MuJoCo spec, with its settings."""
 
 from collections.abc import Iterator
+import math
 
 import mujoco
 
 from amr_description.errors import SimulationError
+from amr_description.sim.engine import NANOSECONDS
 from amr_description.sim.faults import one_line
 from amr_description.sim.resources import world_path
+from amr_description.sim.world_settings import apply_settings, WorldSettings
 
-MEASURED_OPTIONS = (
-    # Puts the velocity servos of the wheels inside the friction problem; with any other
-    # integrator stiff servos and skid-steering do not go together.
-    ('integrator', mujoco.mjtIntegrator.mjINT_EULER, mujoco.mjtIntegrator.mjINT_DISCRETE),
-    ('cone', mujoco.mjtCone.mjCONE_PYRAMIDAL, mujoco.mjtCone.mjCONE_ELLIPTIC),
-    # Friction harder than the normal direction: no creep on slopes.
-    ('impratio', 1.0, 1e4),
-    # The sparse Newton solver of MuJoCo 4.0.0 hits its iteration cap when robots touch.
-    ('jacobian', mujoco.mjtJacobian.mjJAC_AUTO, mujoco.mjtJacobian.mjJAC_DENSE),
-)
-"""Option, MuJoCo's default, ours: a world that leaves an option at MuJoCo's default gets ours."""
+_FILE_SETTINGS = WorldSettings()
 
 
-def load_world(world: str) -> mujoco.MjSpec:
-    """
-    Load a shipped world by name, or any MJCF file by path. Raises SimulationError.
-
-    The physics step of the file is not used: it follows from the control period.
-    """
+def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.MjSpec:
+    """Load a shipped world by name, or any MJCF file by path. Raises SimulationError."""
     path = world_path(world)
     try:
         spec = mujoco.MjSpec.from_file(str(path))
     except ValueError as cause:
         raise SimulationError(f"world '{world}': {path}: {one_line(str(cause))}") from cause
-    prepare_world(spec)
+    prepare_world(spec, settings)
     return spec
 
 
-def prepare_world(spec: mujoco.MjSpec) -> None:
-    """Set the measured options, and give every static surface a name."""
-    for option, default, measured in MEASURED_OPTIONS:
-        if getattr(spec.option, option) == default:
-            setattr(spec.option, option, measured)
-    # MuJoCo's reset after a fault would set time and robots back behind our back.
-    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+def prepare_world(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> None:
+    """Set the options, and give every static surface a name and its friction."""
+    apply_settings(spec.option, settings)
     # Links without mass of their own must stay bodies, or their frames are gone.
     spec.compiler.fusestatic = False
     for index, surface in enumerate(static_surfaces(spec)):
         surface.name = surface.name or f'surface_{index}'
+        if not math.isnan(settings.friction):
+            surface.friction[0] = settings.friction
+
+
+def longest_step(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> int:
+    """The longest physics step, ns: of the settings, else of the file (MuJoCo's own is 2 ms)."""
+    step = settings.physics_step
+    if math.isnan(step):
+        step = float(spec.option.timestep)
+    return max(1, round(step * NANOSECONDS))
 
 
 def static_surfaces(spec: mujoco.MjSpec) -> tuple[mujoco.MjsGeom, ...]:

@@ -1,0 +1,119 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Physics of a world: what is set from outside, over what its file says, over what was measured.
+
+=================  ==================  =====================================================
+what               when nobody sets    why not MuJoCo's default
+=================  ==================  =====================================================
+``gravity``        9.81 m/s² down
+``friction``       1                   MuJoCo's own
+``physics_step``   2 ms                MuJoCo's own; :mod:`amr_description.sim.contact` is tuned
+                                       for it. It is the longest: see ``sim/stepping.py``
+``integrator``     ``discrete``        it puts the stiff speed servos of the wheels inside the
+                                       friction problem; with any other the robot loses 0.8 of a
+                                       turn, or never comes to rest
+``cone``           ``elliptic``        friction is the same in all directions
+``impratio``       1e4                 friction harder than the normal direction: no creep on
+                                       slopes
+``solver``         ``Newton``          MuJoCo's own
+``iterations``     100                 MuJoCo's own
+jacobian           dense               MuJoCo 4.0.0's sparse Newton hits its iteration cap when
+                                       robots touch
+=================  ==================  =====================================================
+
+A file that writes one of MuJoCo's own defaults cannot be told from one that is silent: to get the
+Euler integrator, set it here.
+"""
+
+from dataclasses import dataclass
+import math
+
+import mujoco
+
+from amr_description.parameters import parameter
+
+_INTEGRATORS = {
+    'Euler': mujoco.mjtIntegrator.mjINT_EULER,
+    'RK4': mujoco.mjtIntegrator.mjINT_RK4,
+    'implicit': mujoco.mjtIntegrator.mjINT_IMPLICIT,
+    'implicitfast': mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    'discrete': mujoco.mjtIntegrator.mjINT_DISCRETE,
+}
+_CONES = {
+    'pyramidal': mujoco.mjtCone.mjCONE_PYRAMIDAL,
+    'elliptic': mujoco.mjtCone.mjCONE_ELLIPTIC,
+}
+_SOLVERS = {
+    'PGS': mujoco.mjtSolver.mjSOL_PGS,
+    'CG': mujoco.mjtSolver.mjSOL_CG,
+    'Newton': mujoco.mjtSolver.mjSOL_NEWTON,
+}
+
+MEASURED_OPTIONS = (
+    ('integrator', mujoco.mjtIntegrator.mjINT_EULER, mujoco.mjtIntegrator.mjINT_DISCRETE),
+    ('cone', mujoco.mjtCone.mjCONE_PYRAMIDAL, mujoco.mjtCone.mjCONE_ELLIPTIC),
+    ('impratio', 1.0, 1e4),
+    ('jacobian', mujoco.mjtJacobian.mjJAC_AUTO, mujoco.mjtJacobian.mjJAC_DENSE),
+)
+"""Option, MuJoCo's default, ours: a world that leaves an option at MuJoCo's default gets ours."""
+
+
+@dataclass(frozen=True)
+class WorldSettings:
+    """Physics of the world; NaN, 0 and '' leave it to the world's file."""
+
+    gravity: float = parameter(
+        math.nan, 'Acceleration of free fall, down', unit='m/s²', nan=True, read_only=True
+    )
+    friction: float = parameter(
+        math.nan,
+        'Sliding friction of every static surface',
+        nan=True,
+        minimum=0.0,
+        read_only=True,
+    )
+    physics_step: float = parameter(
+        math.nan,
+        'The longest physics step; the control period is divided into equal ones',
+        unit='s',
+        nan=True,
+        above=0.0,
+        read_only=True,
+    )
+    integrator: str = parameter(
+        '', 'Integrator of MuJoCo', choices=('', *_INTEGRATORS), read_only=True
+    )
+    cone: str = parameter('', 'Friction cone', choices=('', *_CONES), read_only=True)
+    impratio: float = parameter(
+        math.nan,
+        'How much harder friction is than the normal direction of a contact',
+        nan=True,
+        above=0.0,
+        read_only=True,
+    )
+    solver: str = parameter(
+        '', 'Constraint solver of MuJoCo', choices=('', *_SOLVERS), read_only=True
+    )
+    iterations: int = parameter(
+        0, 'The most iterations of the solver in a step', minimum=0, read_only=True
+    )
+
+
+def apply_settings(option: mujoco.MjOption, settings: WorldSettings) -> None:
+    """Set what the measurements say, then what ``settings`` says; not the physics step."""
+    for name, default, measured in MEASURED_OPTIONS:
+        if getattr(option, name) == default:
+            setattr(option, name, measured)
+    if not math.isnan(settings.gravity):
+        option.gravity = [0.0, 0.0, -settings.gravity]
+    if not math.isnan(settings.impratio):
+        option.impratio = settings.impratio
+    if settings.iterations:
+        option.iterations = settings.iterations
+    for name, table in (('integrator', _INTEGRATORS), ('cone', _CONES), ('solver', _SOLVERS)):
+        chosen = getattr(settings, name)
+        if chosen:
+            setattr(option, name, table[chosen])
+    # MuJoCo's reset after a fault would set time and robots back behind our back.
+    option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET

@@ -1,0 +1,118 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A robot that would be spawned inside something is refused, and told where it stands free."""
+
+import re
+
+from fixtures.sim.arm import ARM
+from fixtures.sim.driving import AMR, LEFT, RIGHT
+import pytest
+
+from amr_description.errors import SpawnError
+from amr_description.model.frames import Transform
+from amr_description.sim.overlap import TOLERANCE
+from amr_description.sim.spawning import SpawnCode
+from amr_description.sim.world import MujocoWorld
+
+# Boxes 0.2 m and 0.02 m high, a ramp of 20 degrees, and a carton that could be pushed.
+THINGS = """
+<mujoco><worldbody>
+  <geom name="ground" type="plane" size="0 0 1"/>
+  <geom name="table" type="box" size="1 1 0.1" pos="5 0 0.1"/>
+  <geom name="ramp" type="box" size="2 1 0.5" pos="0 5 0" euler="0 -20 0"/>
+  <body name="carton" pos="0 -5 0.3">
+    <freejoint/><geom type="box" size="0.3 0.3 0.3" mass="2"/>
+  </body>
+</worldbody></mujoco>
+"""
+FIST = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+"""At the end of the lower link of the arm, whose shoulder is 1 m above the origin."""
+
+
+def at(x, y, z):
+    return Transform((x, y, z))
+
+
+@pytest.fixture
+def things(tmp_path):
+    path = tmp_path / 'things.xml'
+    path.write_text(THINGS)
+    return str(path)
+
+
+@pytest.fixture
+def world(things):
+    return MujocoWorld(things)
+
+
+@pytest.mark.parametrize(
+    'place, other, depth',
+    [
+        (at(0, 0, -0.1), "'ground' of the world", 0.1),
+        (at(0, 0, -3.0), "'ground' of the world", 3.0),
+        (at(5, 0, 0.15), "'table' of the world", 0.05),
+        (at(0, 5, 0.4), "'ramp' of the world", None),
+        (at(0, -5.2, 0.0), "'carton' of the world", None),
+    ],
+)
+def test_inside_the_world(world, place, other, depth):
+    with pytest.raises(SpawnError, match=re.escape(f'spawned inside {other}')) as refusal:
+        world.spawn('amr', AMR, place)
+    assert refusal.value.code == SpawnCode.INVALID_POSE
+    told = str(refusal.value)
+    if depth is not None:
+        assert f'is {depth:.3f} m deep in it' in told
+    # What it says will do, does; and half of it does not.
+    lift = float(re.search(r'raise z by (\d+\.\d+) m', told)[1])
+    x, y, z = place.translation
+    with pytest.raises(SpawnError, match='spawned inside'):
+        world.spawn('amr', AMR, at(x, y, z + lift / 2))
+    world.spawn('amr', AMR, at(x, y, z + lift))
+    assert world.names == ('amr',)
+
+
+def test_inside_another_robot_names_both_links(world):
+    world.spawn('first', AMR)
+    with pytest.raises(SpawnError, match="link '.*' of robot 'first': its link '.*' is 0") as told:
+        world.spawn('second', AMR, at(0.3, 0.0, 0.0))
+    assert 'raise z' not in str(told.value) and 'spawn it elsewhere' in str(told.value)
+    assert world.names == ('first',)
+    world.spawn('second', AMR, at(1.0, 0.0, 0.0))
+
+
+def test_a_refusal_leaves_the_others_as_they_are(world, things):
+    alone = MujocoWorld(things)
+    for each in (world, alone):
+        robot = each.spawn('amr', AMR)
+        robot.joints([*LEFT, *RIGHT]).command('velocity', [5.0, 5.0, 3.0, 3.0])
+        each.step(50)
+    with pytest.raises(SpawnError, match='spawned inside'):
+        world.spawn('other', AMR, at(0.1, 0.0, 0.0))
+    for each in (world, alone):
+        each.step(50)
+    assert world.time == alone.time
+    seen, expected = (each.robot('amr').pose('base_footprint') for each in (world, alone))
+    assert seen == expected
+
+
+@pytest.mark.parametrize('depth, is_taken', [(0.9 * TOLERANCE, True), (1.1 * TOLERANCE, False)])
+def test_what_is_hardly_inside_is_taken(world, depth, is_taken):
+    if is_taken:
+        world.spawn('amr', AMR, at(0.0, 0.0, -depth))
+        return
+    with pytest.raises(SpawnError, match="deep in it; raise z by 0.002 m, or spawn it elsewhere"):
+        world.spawn('amr', AMR, at(0.0, 0.0, -depth))
+
+
+def test_a_standing_robot_whose_hand_is_in_the_ground(world):
+    armed = ARM.replace('<link name="fore">', f'<link name="fore">{FIST}')
+    pose = Transform.from_xyz_rpy((0.0, 0.0, -1.0), (0.0, 0.0, 0.0))
+    with pytest.raises(SpawnError, match="its link 'fore' is 0.100 m deep in it; raise z by 0.1"):
+        world.spawn('arm', armed, pose)
+    world.spawn('arm', armed, at(0.0, 0.0, -0.9))
+
+
+def test_a_base_that_stands_fixed_may_go_into_the_ground(world):
+    foot = '<link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision>'
+    buried = ARM.replace('<link name="base"/>', f'{foot}</link>')
+    world.spawn('arm', buried, at(0.0, 0.0, -0.9))
