@@ -3,9 +3,10 @@
 """
 Which hardware component owns which interface, and which controller has claimed it.
 
-Where this departs from ros2_control 4.x: an infinite command stops its joint, with an ERROR that
-names the controller. There it goes to the hardware, whose component refuses it and is brought
-down: one message with a speed of 1e308 m/s would end the robot.
+Where this departs from ros2_control 4.x: an infinite command (or, as this is Python, one that is
+no number) stops its joint, with an ERROR that names the controller. There infinity goes to the
+hardware, whose component refuses it and is brought down: one message with a speed of 1e308 m/s
+would end the robot.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -143,16 +144,27 @@ class ResourceManager(HardwareComponents):
         Bound what the controllers have written, for ``period`` ns; before every :meth:`write`.
 
         With ``enforce_command_limits`` commands are kept within the limits of their joints. In any
-        case an infinite one stops its joint: no component is ever given one.
+        case an infinite one stops its joint, and so does what is no number at all: no component
+        is ever given one.
         """
         for name, owned in self.components.items():
             if not owned.is_available:
                 continue
-            for limiter in self._limiters.get(name, ()):
-                limiter.enforce(period / NANOSECONDS)
-            for command in owned.commands.values():
-                if math.isinf(command.value):
-                    self._stop(command)
+            try:
+                self._bound(name, owned, period)
+            except (TypeError, OverflowError):
+                for command in owned.commands.values():
+                    if not _is_number(command.value):
+                        self._stop(command)
+                self._bound(name, owned, period)
+
+    def _bound(self, name: str, owned: OwnedComponent, period: int) -> None:
+        """Raises TypeError or OverflowError where a command is no number."""
+        for limiter in self._limiters.get(name, ()):
+            limiter.enforce(period / NANOSECONDS)
+        for command in owned.commands.values():
+            if math.isinf(command.value):
+                self._stop(command)
 
     def _stop(self, command: CommandInterface) -> None:
         still = value_at_rest(command.interface)
@@ -183,3 +195,11 @@ class ResourceManager(HardwareComponents):
         self._references.pop(controller, None)
         self._exported_states.pop(controller, None)
 
+
+def _is_number(value: object) -> bool:
+    """Tell whether a stranger's controller has written what a component can read."""
+    try:
+        math.isinf(value)
+    except (TypeError, OverflowError):
+        return False
+    return True
