@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbers inside a manager that may be watched: their names, and that they are live."""
 
+import math
+
 from control_fakes import FakeChainable, FakeController, FakeHardware, make_manager, MS, start
 import pytest
 
@@ -53,6 +55,15 @@ def test_every_type_is_a_number(data_type, value):
     hardware.positions = {'gate': StateInterface('gate', 'open', value, data_type)}
     (found,) = interfaces_of(make_manager(hardware)).read()
     assert (found, type(found)) == (1.0, float)
+
+
+@pytest.mark.parametrize('value', [None, 'open', 10**400])
+def test_what_a_stranger_writes_need_not_be_a_number(value):
+    hardware = FakeHardware([])
+    hardware.positions = {'gate': StateInterface('gate', 'open')}
+    registry = interfaces_of(make_manager(hardware))
+    hardware.positions['gate'].value = value
+    assert registry.read() == pytest.approx([math.nan], nan_ok=True)
 
 
 def test_statistics_have_the_names_of_who_runs():

@@ -13,6 +13,7 @@ The names are those that controller_manager 4.x registers::
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+import math
 
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import Handle
@@ -34,7 +35,15 @@ def interfaces_of(manager: ControllerManager) -> Registry:
     """Every interface of hardware and, once configured, of controllers; available or not."""
     named = dict(_handles(manager))
     handles = tuple(named.values())
-    return Registry(tuple(named), lambda: [float(handle.value) for handle in handles])
+    return Registry(tuple(named), lambda: [_number(handle) for handle in handles])
+
+
+def _number(handle: Handle) -> float:
+    """Return what a cell holds; NaN where a stranger has written what is no number."""
+    try:
+        return float(handle.value)
+    except (TypeError, ValueError, OverflowError):
+        return math.nan
 
 
 def _handles(manager: ControllerManager) -> Iterator[tuple[str, Handle]]:
