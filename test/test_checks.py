@@ -213,6 +213,45 @@ def test_links_that_need_no_mass(body):
     assert findings(robot_text(body)) == []
 
 
+def test_a_bolted_part_without_mass_is_a_warning():
+    """Published robots have such cameras."""
+    camera = f'<link name="b"><collision>{BALL}</collision></link>'
+    text = robot_text(f'<link name="a">{SOLID}</link>{camera}' + joint_text('a', 'b', 'fixed'))
+    assert errors(text) == []
+    assert any('"b" has a collision shape and no <inertial>' in line for line in findings(text))
+    assert errors(text.replace('"fixed"', '"continuous"'))
+
+
+XACRO = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{}<link name="{}"/></robot>'
+
+
+@pytest.mark.parametrize(
+    ('inside', 'name', 'count'),
+    [
+        ('', 'a', 0),
+        ('<xacro:arg name="prefix" default=""/>', 'a', 0),
+        ('<xacro:property name="p" value=""/>', 'a', 0),
+        ('<xacro:property name="p" value=""/>', '${p}a', 1),
+        ('<xacro:arg name="p" default=""/>', '$(arg p)a', 1),
+        ('<xacro:include filename="x"/>', 'a', 1),
+        ('<xacro:wheel/>', 'a', 1),
+    ],
+)
+def test_xacro_that_would_make_something_is_an_error(inside, name, count):
+    found = errors(XACRO.format(inside, name))
+    assert len(found) == count
+    assert all('this is a xacro file, not yet a URDF' in line for line in found)
+
+
+def test_materials_without_names_are_those_of_an_exporter():
+    visual = f'<visual>{BALL}<material name=""><color rgba="1 0 0 1"/></material></visual>'
+    assert findings(robot_text(f'<link name="a">{visual}{visual}</link>')) == []
+    assert (
+        'has no attribute "name"'
+        in errors(robot_text(f'<link name="a">{visual.replace(' name=""', "")}</link>'))[0]
+    )
+
+
 def test_a_number_that_is_none_is_reported_once():
     text = robot_text(f'<link name="a">{SOLID.replace('value="1"', 'value="heavy"')}</link>')
     (error,) = findings(text)

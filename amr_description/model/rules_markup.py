@@ -3,6 +3,7 @@
 """Rules of the checker on markup that readers pass over in silence."""
 
 from collections.abc import Collection, Iterator
+import re
 
 from lxml import etree
 
@@ -13,19 +14,23 @@ from amr_description.model.subject import Subject
 from amr_description.model.urdf_grammar import Element, ROBOT
 
 _XACRO = ('http://www.ros.org/wiki/xacro', 'http://ros.org/wiki/xacro')
+# What only sets values; of these some files keep a few, expanded or not.
+_MAKES_NOTHING = ('arg', 'property')
+_EXPRESSION = re.compile(r'=\s*["\'][^"\'<]*\$[{(]')
 # Elements whose unknown children are refused where they are read.
 _READ_STRICTLY = ('ros2_control', 'geometry')
 
 
 def xacro_is_expanded(subject: Subject) -> Iterator[Finding]:
-    """No element of xacro is left: everything that it would make is missing."""
+    """No element of xacro is left, and nothing that it would evaluate."""
     left = [element for uri in _XACRO for element in subject.xml.iter(f'{{{uri}}}*')]
-    if left:
+    making = [each for each in left if etree.QName(each).localname not in _MAKES_NOTHING]
+    if left and (making or _EXPRESSION.search(subject.robot.text)):
         yield subject.error(
             min(map(line_of, left)),
             'this is a xacro file, not yet a URDF',
-            found=f'<xacro:{etree.QName(left[0]).localname}>',
-            fix='run  xacro FILE > robot.urdf  first',
+            found=f'<xacro:{etree.QName((making or left)[0]).localname}>',
+            fix='run  xacro FILE > robot.urdf  first, or call the file .urdf.xacro',
         )
 
 

@@ -29,7 +29,10 @@ def inertial_is_present(subject: Subject) -> Iterator[Finding]:
             continue
         joint = robot.parent_joint(link.name)
         if link.collisions:
-            yield subject.error(
+            # A part that is bolted to one with mass can do without, at the cost of its own.
+            is_carried = subject.bodies.get(link.name) in massive
+            judge = subject.warning if is_carried else subject.error
+            yield judge(
                 link.line,
                 f'link {quote(link.name)} has a collision shape and no <inertial>',
                 fix=_FIX,

@@ -145,11 +145,13 @@ def _read_geometry(element: etree._Element, reader: ElementReader) -> Geometry |
 
 
 def read_material(element: etree._Element, reader: ElementReader) -> Material:
-    """Return a ``<material>`` element, with what it defines itself."""
-    name = reader.required(element, 'name')
+    """Return a ``<material>`` element, with what it defines itself; its name may be empty."""
+    name = element.get('name')
+    if name is None:
+        reader.error(element, '<material> has no attribute "name"')
     color, texture = element.find('color'), element.find('texture')
     return Material(
-        name=name,
+        name=name or '',
         color=None if color is None else reader.numbers(color, 'rgba', 4),
         texture=None if texture is None else reader.required(texture, 'filename'),
     )
