@@ -16,6 +16,7 @@ completion.py         what may come next, for Tab in bash and zsh; from complete
 ros2.py               the commands of ``ros2``
 topic/ node/ ...      a command each, its verbs in files of their own
 run.py launch.py      commands without verbs
+check_urdf.py         a description and what is wrong with it; urdf_report.py prints it
 arguments.py          flags that verbs share, and the types of values
 qos_arguments.py      the ``--qos-*`` flags
 streams.py            line buffering, a closed pipe, the noise of C++ libraries

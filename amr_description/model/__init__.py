@@ -25,7 +25,12 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 
 ``checks.py``                       the checker: ``RULES``, ``examine``, ``require_sound``
 ``rules_mass.py`` …                 … its rules, by what they judge
-``subject.py``                      … what a rule may look at
+``subject.py``                      … what a rule may look at: ``Subject``, ``Surroundings``
+``drive_settings.py``               … what controllers believe of the robot
+``urdf_grammar.py``                 … the elements and attributes that there are
+``wheels.py``                       … which links are wheels
+``shapes.py``, ``convex.py``        … shapes as solids: inertia, extent, overlap
+``nearest.py``                      … the word that was meant
 
 ``findings.py``                     Finding: severity, place, what, found, expected, fix
 ``xml_source.py``                   files and XML from strangers, safely, with true line numbers

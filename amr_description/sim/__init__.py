@@ -23,6 +23,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``overlap``         a robot spawned inside something, and how much higher it would stand free
 ``resources``       ``package://`` and ``file://``, world names
 ``faults``          MuJoCo's warnings, non-finite states and falls, told once, in one line
+``drop``            the physical test of a description, in numbers
 ``bare_loop``       the physics alone, to measure against
 ==================  =========================================================================
 
