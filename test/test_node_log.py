@@ -4,6 +4,8 @@
 
 import threading
 
+import pytest
+
 from amr_description.control.contracts import Severity
 from amr_description.nodes import node_log
 from amr_description.nodes.node_log import LogThread
@@ -33,6 +35,19 @@ def test_lines_come_in_the_order_in_which_they_were_said():
         log(Severity.INFO, f'line {number}')
     logs.stop()
     assert logger.texts == [f'line {number}' for number in range(100)]
+
+
+@pytest.mark.parametrize(
+    ('said', 'text'), [('port \udcff', r'port \udcff'), (None, 'None'), ('µ\n', 'µ\n')]
+)
+def test_whatever_is_said_the_lines_behind_it_come_too(said, text):
+    logger, logs = Logger(), LogThread()
+    logger.is_open.set()
+    log = logs.log_of(logger)
+    log(Severity.ERROR, said)
+    log(Severity.INFO, 'and on')
+    logs.stop()
+    assert logger.texts == [text, 'and on']
 
 
 def test_a_storm_is_cut_short_and_that_is_said(monkeypatch):

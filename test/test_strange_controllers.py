@@ -5,10 +5,16 @@
 import contextlib
 import random
 
-from control_fakes import FakeHardware, FakeLog, make_manager, MS
+from control_fakes import FakeController, FakeHardware, FakeLog, make_manager, MS, start
 import pytest
 
-from amr_description.control.contracts import Controller, ControllerContext, Input, Port
+from amr_description.control.contracts import (
+    Controller,
+    ControllerContext,
+    Input,
+    Port,
+    Severity,
+)
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, LifecycleState
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
@@ -176,3 +182,26 @@ def test_a_fallback_that_answers_no_longer_starts_all_the_same(method):
     bench.switch(deactivate=['rival'])
     assert bench.active == set()
     bench.check()
+
+
+class UnspeakableError(Exception):
+    def __str__(self):
+        raise ValueError('not that either')
+
+
+@pytest.mark.parametrize(
+    ('error', 'text'),
+    [
+        (UnspeakableError(), 'it cannot be put in words'),
+        (ValueError('port \udcff'), r'port \udcff'),
+    ],
+)
+def test_an_error_that_cannot_be_written_is_one_all_the_same(error, text):
+    log = FakeLog()
+    manager = make_manager(FakeHardware(['j']), log=log)
+    controller = start(manager, FakeController())
+    controller.faults['update'] = error
+    manager.tick(0)
+    assert manager.snapshot.active_controllers == ()
+    said = '\n'.join(log.texts(Severity.ERROR))
+    assert text in said

@@ -11,15 +11,27 @@ from amr_description.errors import AmrError
 def describe(error: Exception) -> str:
     """Return the text of an error; one that was not raised on purpose begins with its type."""
     if isinstance(error, AmrError):
-        return str(error)
+        return _text_of(error)
     return f'{type(error).__name__}: {one_line(error)}'
 
 
 def one_line(error: Exception) -> str:
     """Return the text of an error without line breaks, as a log of lines needs it."""
-    return ' '.join(str(error).split())
+    return ' '.join(_text_of(error).split())
 
 
 def log_traceback(log: Log, error: Exception) -> None:
     """Say at DEBUG where an error comes from: for whoever writes the class that raises it."""
     log(Severity.DEBUG, ''.join(traceback.format_exception(error)))
+
+
+def printable(text: str) -> str:
+    """Return a text as it can be logged and sent: bytes that were no UTF-8 are spelt out."""
+    return text.encode('utf-8', 'backslashreplace').decode()
+
+
+def _text_of(error: Exception) -> str:
+    try:
+        return printable(str(error))
+    except Exception:  # of its own __str__
+        return '(it cannot be put in words)'

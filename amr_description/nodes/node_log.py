@@ -14,7 +14,7 @@ import time
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.foreign_errors import describe, log_traceback
+from amr_description.control.foreign_errors import describe, log_traceback, printable
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 _MOST_WAITING = 2000
@@ -53,7 +53,7 @@ class LogThread:
                 logger.warning(
                     f'{dropped} lines of the log were dropped: more is said than can be written'
                 )
-            _emit(logger, severity, text)
+            _emit(logger, severity, printable(str(text)))
 
 
 class Lines:
