@@ -127,6 +127,15 @@ def test_arguments_that_nothing_asks_for_are_told():
     ]
 
 
+def test_arguments_that_are_declared_but_not_used_are_none_of_these(tmp_path):
+    said = []
+    path = tmp_path / 'cart.xacro'
+    arg = '<xacro:arg name="later" default="1"/>'
+    path.write_text(f'<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro">{arg}</robot>')
+    description_text(path, {'later': '2'}, warn=said.append)
+    assert said == []
+
+
 def test_arguments_of_what_is_no_xacro_file_are_refused():
     with pytest.raises(DescriptionError, match=r'amr.urdf: takes no arguments \(a:=…\)'):
         description_text(ROOT / 'urdf/amr.urdf', {'a': '1'})

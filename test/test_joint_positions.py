@@ -181,12 +181,12 @@ def test_moving_by_itself_stays_within_the_limits(delta, steps):
 def test_moving_by_itself_turns_round_at_a_limit_and_goes_on_round_the_circle():
     joints = joints_of(ARM[0], ARM[2])
     path = []
-    for _ in range(5):
+    for _ in range(6):
         joints.advance(0.75)
         path.append(positions(joints))
-    assert [each['first'] for each in path] == pytest.approx([0.75, 1.0, 0.25, -0.5, -1.0])
+    assert [each['first'] for each in path] == pytest.approx([0.75, 1.0, 0.25, -0.5, -1.0, -0.25])
     assert [each['third'] for each in path] == pytest.approx(
-        [0.75, 1.5, 2.25, 3.0, 3.75 - 2 * math.pi]
+        [0.75, 1.5, 2.25, 3.0, 3.75 - 2 * math.pi, 4.5 - 2 * math.pi]
     )
 
 

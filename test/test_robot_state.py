@@ -193,6 +193,13 @@ def test_a_root_with_inertia_is_told():
     assert warning.startswith('The root link a has an inertia specified in the URDF, but KDL')
 
 
+def test_xacro_that_nobody_has_expanded_is_told():
+    text = '<robot name="test"><link name="a"/><xacro:wheel xmlns:xacro="x"/></robot>'
+    (warning,) = RobotState(parse(text)).warnings
+    assert 'holds <xacro:…> elements, which are left out' in warning
+    assert RobotState(parse(description_text(ROBOTS[2]))).warnings == ()
+
+
 @pytest.mark.parametrize(
     ('frequency', 'period'),
     [(20.0, 50_000_000), (30.0, 33_333_333), (1000.0, 1_000_000), (0.0, 0), (0.4, 2_500_000_000)],

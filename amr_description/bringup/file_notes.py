@@ -48,7 +48,7 @@ def _differences(used: Path) -> Iterator[str]:
     other, what = source_of(used), 'its source'
     if other is None:
         other, what = installed_copy_of(used), 'the installed copy'
-    if other is None or other.samefile(used) or other.read_bytes() == used.read_bytes():
+    if other is None or other.read_bytes() == used.read_bytes():
         return
     age = 'newer' if other.stat().st_mtime > used.stat().st_mtime else 'older'
     yield (

@@ -100,8 +100,6 @@ def _expanded(path: str, mappings: Mapping[str, str], warn: Callable[[str], obje
     # Read and thrown away: what is too large, no text or not there is said in our words.
     read_file(path)
     arguments = _Arguments(mappings)
-    # Left over in the library from an expansion that failed.
-    xacro.init_stacks(path)
     try:
         text = xacro.process_file(path, mappings=arguments).toprettyxml(indent='  ')
     except Exception as error:  # expressions of a stranger's file may raise anything

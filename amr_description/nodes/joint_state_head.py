@@ -50,7 +50,7 @@ class HeadReader:
     """
 
     def __init__(self) -> None:
-        self._known: list[tuple[_Order, bytes, tuple[str, ...]]] = []
+        self._known: list[tuple[bytes, tuple[str, ...]]] = []
 
     def read(self, data: bytes) -> JointStateHead:
         """Return the head of a message. Raises ValueError: these bytes are none in plain CDR."""
@@ -59,11 +59,12 @@ class HeadReader:
             raise ValueError(f'no JointState in plain CDR: {data[:_AFTER_STAMP].hex(" ")}')
         sec, nanosec = order.stamp.unpack_from(data, _STAMP)
         stamp = sec * 1_000_000_000 + nanosec
-        for known_order, beginning, names in self._known:
-            if known_order is order and data.startswith(beginning, _AFTER_STAMP):
+        # No two byte orders write the lengths in a beginning alike.
+        for beginning, names in self._known:
+            if data.startswith(beginning, _AFTER_STAMP):
                 return JointStateHead(stamp, names)
         names, end = _read_names(data, order.length)
-        self._known.insert(0, (order, data[_AFTER_STAMP:end], names))
+        self._known.insert(0, (data[_AFTER_STAMP:end], names))
         del self._known[_REMEMBERED:]
         return JointStateHead(stamp, names)
 
@@ -87,6 +88,6 @@ def _read_names(data: bytes, length: Struct) -> tuple[tuple[str, ...], int]:
 def _read_string(data: bytes, at: int, length: Struct) -> tuple[str, int]:
     (size,) = length.unpack_from(data, at)
     begin, end = at + length.size, at + length.size + size
-    if not size or end > len(data):
+    if end > len(data):
         raise ValueError(f'a string of {size} bytes in a JointState of {len(data)}')
     return data[begin : end - 1].decode(), end

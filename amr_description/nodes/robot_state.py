@@ -140,7 +140,12 @@ def _mimics_in_order(moving: Mapping[str, Joint]) -> Iterator[tuple[str, Mimic]]
 
 
 def _warnings(robot: Robot, joints: Iterable[Joint]) -> Iterator[str]:
-    """Yield the original's words: people search for them."""
+    """Yield the original's words, where it has some: people search for them."""
+    if '<xacro:' in robot.text:
+        yield (
+            'the description holds <xacro:…> elements, which are left out; expand them: name the '
+            'xacro file instead of its text, or run xacro FILE > robot.urdf'
+        )
     if robot.root.inertial is not None:
         yield (
             f'The root link {robot.root.name} has an inertia specified in the URDF, but KDL does '
