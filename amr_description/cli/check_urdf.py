@@ -77,7 +77,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='check_urdf',
         description='Print the tree of a robot description, and what is wrong with it.',
-        epilog='Exit code: 0 sound, 255 urdfdom refuses it, too, 1 it passes urdfdom, unusable.',
+        epilog='Exit code: 0 sound; 255 urdfdom refuses it, too; 1 it passes urdfdom and cannot '
+        'be used, or fails what else was asked.',
     )
     add = parser.add_argument
     add('file', nargs='?', metavar='FILE', help='a URDF or .xacro file, or - for stdin')

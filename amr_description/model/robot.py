@@ -15,6 +15,9 @@ from amr_description.errors import DescriptionError
 from amr_description.model.findings import quote, quote_all
 from amr_description.model.frames import Transform, Vector
 
+WORLD_LINK = 'world'
+"""A robot whose root has this name stands fixed."""
+
 
 class JointType(StrEnum):
     """The joint types of URDF; each equals its text."""

@@ -13,11 +13,8 @@ from amr_description.model.findings import Finding
 from amr_description.model.frames import link_poses, Transform
 from amr_description.model.gazebo_tag import GazeboPlugin
 from amr_description.model.hardware_info import HardwareInfo
-from amr_description.model.robot import Joint, JointType, Robot
+from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.wheels import find_wheels, Wheel
-
-STANDING_ROOT = 'world'
-"""A robot whose root has this name stands fixed."""
 
 type IsThere = Callable[[str], bool]
 """Whether the file that a URI or path means is there; AmrError when that cannot be told."""
@@ -62,7 +59,7 @@ class Subject:
     @cached_property
     def standing_links(self) -> frozenset[str]:
         """The links that are rigidly joined to a root called ``world``."""
-        return frozenset(link for link, top in self.bodies.items() if top == STANDING_ROOT)
+        return frozenset(link for link, top in self.bodies.items() if top == WORLD_LINK)
 
     @cached_property
     def speed_joints(self) -> tuple[Joint, ...]:

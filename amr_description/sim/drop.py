@@ -17,9 +17,8 @@ import numpy as np
 from amr_description.control.contracts import Severity
 from amr_description.errors import SimulationError
 from amr_description.model.frames import rotate, Transform, Vector, yaw_of
-from amr_description.model.robot import Robot
+from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.subject import STANDING_ROOT
 from amr_description.model.wheels import find_wheels, Wheel
 from amr_description.sim.engine import NANOSECONDS
 from amr_description.sim.robot_view import RobotView
@@ -99,7 +98,7 @@ class _DropTest:
         self._measured: dict[str, float] = {}
         self._failures: list[str] = []
         self._heard: list[str] = []
-        self._stands = robot.root.name == STANDING_ROOT
+        self._stands = robot.root.name == WORLD_LINK
         clearance = 0.0 if self._stands else DROP_HEIGHT - _lowest_point(robot)
         self._world = MujocoWorld('empty', log=self._hear)
         self._view = self._world.spawn('robot', robot, Transform((0.0, 0.0, clearance)))

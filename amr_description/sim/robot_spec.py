@@ -19,7 +19,7 @@ from amr_description.control.contracts import Log
 from amr_description.control.interfaces import EFFORT, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.findings import raise_error
-from amr_description.model.robot import Robot
+from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_wheels, Wheel
 from amr_description.model.xml_source import parse_xml
@@ -28,9 +28,6 @@ from amr_description.sim.faults import one_line
 from amr_description.sim.initial_state import initial_states, JointState
 from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
-
-WORLD_LINK = 'world'
-"""A robot whose root has this name stands fixed."""
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """A mimic joint follows as if by gears."""

@@ -18,11 +18,11 @@ from amr_description.model.frames import (
     Vector,
     xyzw_from_wxyz,
 )
-from amr_description.model.robot import Robot
+from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.sim.drives import Drives
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
-from amr_description.sim.robot_spec import RobotSpec, root_joint, WORLD_LINK
+from amr_description.sim.robot_spec import RobotSpec, root_joint
 
 
 class RobotView:
