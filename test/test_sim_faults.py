@@ -4,7 +4,8 @@
 
 import math
 
-from fixtures.sim.driving import AMR, Lines
+from fixtures.sim.driving import AMR, Drive, Lines
+import numpy as np
 import pytest
 
 from amr_description.model.frames import Transform
@@ -72,6 +73,130 @@ def test_time_goes_on_and_a_reset_heals(world, log):
     assert len(log.lines) == 2
 
 
+def test_a_lost_state_goes_with_its_robot(world, log):
+    break_wheel(world, 'qvel', math.nan)
+    world.step(10)
+    world.remove('amr')
+    data = world.engine.data
+    for array in (data.qvel, data.qpos, data.act, data.qacc_warmstart):
+        array[~np.isfinite(array)] = 0.0  # had the two been apart, these would be sound
+    world.step(100)
+    world.spawn('amr', AMR, Transform((0.0, -3.0, 0.0)))
+    world.step(10)
+    break_wheel(world, 'qvel', math.nan)
+    world.step(10)
+    assert log.text.count("robot 'amr': joint 'joint_wheel_front_left'") == 2
+
+
+def test_a_command_that_is_not_finite_is_named_and_the_state_is_kept(world, log):
+    engine = world.engine
+    (actuator,) = (
+        index
+        for index in range(engine.model.nu)
+        if 'amr/joint_wheel_back_right' in engine.model.actuator(index).name
+    )
+    engine.data.ctrl[actuator] = math.nan
+    world.step(10)
+    (line,) = log.text.splitlines()
+    assert line.startswith(
+        "ERROR robot 'amr': joint 'joint_wheel_back_right': the command is nan at 0.0"
+    )
+    engine.data.ctrl[actuator] = 0.0
+    break_wheel(world, 'qvel', math.nan)
+    world.step(10)
+    assert 'the state is lost' in log.text
+
+
+@pytest.mark.parametrize(
+    'damage, cause',
+    [
+        (lambda engine, dof: None, 'look at the masses and inertias there'),
+        (
+            lambda engine, dof: engine.model.dof_M0.__setitem__(dof, 1e-9),
+            'what moves there has an inertia of only 1e-09: correct <inertial> of link '
+            "'wheel_front_left'",
+        ),
+        (
+            lambda engine, dof: engine.data.ctrl.__setitem__(slice(None), 4000.0),
+            'it is commanded to 4000: command less, or give the joint a <limit velocity',
+        ),
+    ],
+    ids=['unknown', 'light', 'commanded'],
+)
+def test_exploding_velocities_are_named_with_their_likely_cause(world, log, damage, cause):
+    engine = world.engine
+    world.step(500)  # until it stands: the contacts are at rest
+    damage(engine, int(engine.model.joint('amr/joint_wheel_front_left').dofadr[0]))
+    break_wheel(world, 'qvel', 5000.0)
+    world.faults.check(())
+    (line,) = log.text.splitlines()
+    assert line.startswith(
+        "ERROR robot 'amr': joint 'joint_wheel_front_left': the velocity is 5000 rad/s at "
+        '1.000 s: the physics explodes there. '
+        f'Likely: {cause}'
+    )
+
+
+def test_the_speed_of_a_whole_robot_has_its_unit_and_an_overlap_is_found(log):
+    world = MujocoWorld('empty', log=log)
+    world.spawn('amr', AMR)
+    world.step(500)
+    engine = world.engine
+    joint = engine.data.joint('amr/base_footprint/free')
+    joint.qpos[2] -= 0.05
+    world.step(1)
+    joint.qvel[2] = -3000.0
+    world.faults.check(())
+    (line,) = log.text.splitlines()
+    assert "robot 'amr': link 'base_footprint': the velocity is -3000 m/s" in line
+    assert "'amr/wheel_" in line
+    assert 'm inside each other: put them apart' in line
+
+
+def test_a_solver_that_stays_at_its_cap_is_named_with_the_robot_that_keeps_it_there(log):
+    drive = Drive(log=log)
+    drive.world.spawn('other', AMR, BESIDE)
+    option = drive.world.engine.model.opt
+    option.iterations, option.tolerance = 2, 1e-14
+    drive.run(0.5, 1.0, 0.04)
+    assert log.lines == []
+    drive.run(0.5, 1.0, 1.0)
+    (line,) = log.text.splitlines()
+    assert line.startswith("WARN robot 'amr': the solver stops at its cap of 2 iterations")
+    assert '5 times in a row at 1.050 s, with 8 contacts' in line
+    option.iterations = 100
+    drive.run(0.0, 0.0, 6.0)
+    option.iterations = 2
+    drive.run(0.5, 1.0, 1.0)
+    assert log.text.count('at its cap') == 2
+
+
+def test_what_goes_on_is_told_once_and_each_telling_calls_on_fault(log, tmp_path):
+    path = tmp_path / 'table.xml'
+    path.write_text(
+        '<mujoco><worldbody><geom name="table" type="box" size="1 1 .1" pos="0 0 -.1"/>'
+        '</worldbody></mujoco>'
+    )
+    world = MujocoWorld(str(path), log=log)
+    told = []
+    world.faults.on_fault = lambda: told.append(world.time)
+    world.spawn('amr', AMR, Transform((5.0, 0.0, 0.0)))
+    for _ in range(100):
+        world.step(5)
+    assert "robot 'amr' is below the ground: its root is at z = -0." in log.text
+    assert 'Likely: there is no ground where it is: spawn it above' in log.text
+    assert len(log.lines) == len(told) == 1
+    root = world.engine.data.joint('amr/base_footprint/free')
+    root.qpos[:2], root.qpos[2], root.qvel[:] = 0.0, 0.1, 0.0  # back on the table
+    for _ in range(60):
+        world.step(50)
+    assert len(log.lines) == 1
+    root.qpos[0] = 5.0
+    for _ in range(100):
+        world.step(5)
+    assert len(log.lines) == len(told) == 2
+
+
 def test_robot_without_collision_falls_and_is_named_once(log):
     head, rest = AMR.split('<collision>', 1)
     bare = head + ''.join(part.split('</collision>', 1)[-1] for part in rest.split('<collision>'))
@@ -82,6 +207,7 @@ def test_robot_without_collision_falls_and_is_named_once(log):
     for _ in range(100):
         world.step(5)
     assert "ERROR robot 'ghost' is below the ground: its root is at z = -" in log.text
+    assert 'none of its links has a <collision>: give it one' in log.text
     assert log.text.count('below the ground') == 1
     world.reset()
     world.step(500)

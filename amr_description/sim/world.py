@@ -79,7 +79,8 @@ class MujocoWorld:
         except ValueError as cause:
             raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
         self._log = log
-        self._faults = FaultMonitor(self.engine, log)
+        self.faults = FaultMonitor(self.engine, log)
+        """Looks after every step; its ``on_fault`` may be set."""
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
 
@@ -91,7 +92,7 @@ class MujocoWorld:
     @time.setter
     def time(self, time: int) -> None:
         self.engine.time = time
-        self._faults.reset()
+        self.faults.reset()
 
     @property
     def timestep(self) -> int:
@@ -150,14 +151,14 @@ class MujocoWorld:
     def step(self, count: int = 1) -> None:
         """Advance by ``count`` physics steps; faults are told to the log."""
         self.engine.step(count)
-        self._faults.check(self._roots)
+        self.faults.check(self._roots)
 
     def reset(self) -> None:
         """Time 0, every robot as it was spawned, its joints held."""
         self.engine.reset()
         for view in self._robots.values():
             view.start()
-        self._faults.reset()
+        self.faults.reset()
 
     def _attach(self, name: str, model: RobotSpec, pose: Transform) -> None:
         spec = self.engine.spec
