@@ -393,3 +393,25 @@ def test_xacro_is_expanded_first(run, tmp_path):
     code, out, err = run(path)
     assert (code, out) == (255, '')
     assert err.count('\n') == 1
+
+
+def test_json_says_why_nothing_was_checked(run, tmp_path):
+    code, out, err = run('no.urdf', '--json')
+    assert (code, err) == (255, '')
+    assert json.loads(out) == {
+        'file': 'no.urdf',
+        'exit_code': 255,
+        'error': 'cannot read the description "no.urdf": No such file or directory',
+    }
+    code, out, err = run(AMR, '--json', '--controllers', str(tmp_path / 'no.yaml'))
+    assert (code, err) == (1, '')
+    assert json.loads(out)['error'].endswith('No such file or directory')
+
+
+def test_a_huge_file_is_refused_unread(run, tmp_path):
+    path = tmp_path / 'huge.urdf'
+    with path.open('wb') as file:
+        file.truncate(100 * 10**6)
+    code, out, err = run(path)
+    assert (code, out) == (255, '')
+    assert err == f'error: {path}: larger than 4 MiB, which no robot description is\n'

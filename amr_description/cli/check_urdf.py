@@ -22,8 +22,15 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from amr_description.cli.urdf_report import drop_lines, refusal, refused_for, to_json, tree_lines
-from amr_description.errors import DescriptionError, ParameterError, SimulationError
+from amr_description.cli.urdf_report import (
+    drop_lines,
+    failure_to_json,
+    refusal,
+    refused_for,
+    to_json,
+    tree_lines,
+)
+from amr_description.errors import AmrError, DescriptionError, ParameterError, SimulationError
 from amr_description.model.checks import Examination, examine
 from amr_description.model.description_file import description_text, mappings_of, source_name
 from amr_description.model.drive_settings import DriveSettings
@@ -53,13 +60,11 @@ def main(argv: list[str]) -> int:
     try:
         text, source = _read(arguments.file, arguments.mappings)
     except DescriptionError as error:
-        print(f'error: {one_line(str(error))}', file=sys.stderr)
-        return REFUSED_BY_URDFDOM
+        return _fail(error, REFUSED_BY_URDFDOM, arguments)
     try:
         drives = _drives(arguments.controllers)
     except ParameterError as error:
-        print(f'error: {one_line(str(error))}', file=sys.stderr)
-        return UNUSABLE
+        return _fail(error, UNUSABLE, arguments)
     surroundings = Surroundings(is_there=_file_finder(source), drives=drives)
     examination = examine(text, source, surroundings)
     drop = _drop(examination) if arguments.drop else None
@@ -70,6 +75,16 @@ def main(argv: list[str]) -> int:
         _print(examination, drop)
     if arguments.drop and drop is None:
         print('not dropped: the description has errors', file=sys.stderr)
+    return code
+
+
+def _fail(error: AmrError, code: int, arguments: argparse.Namespace) -> int:
+    """Say why nothing was checked; return the exit code."""
+    line = one_line(str(error))
+    if arguments.json:
+        print(failure_to_json(arguments.file, line, code))
+    else:
+        print(f'error: {line}', file=sys.stderr)
     return code
 
 

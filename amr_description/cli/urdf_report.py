@@ -98,8 +98,13 @@ def to_json(source: str, examination: Examination, drop: 'DropReport | None', co
     )
 
 
+def failure_to_json(file: str, error: str, code: int) -> str:
+    """Return the JSON object of a description that could not be checked at all."""
+    return json.dumps({'file': file, 'exit_code': code, 'error': error}, indent=2)
+
+
 def _finite(values: dict[str, object]) -> dict[str, object]:
-    """Return the values with None for what JSON cannot hold: a robot that explodes knows no end."""
+    """Return the values, None for what JSON cannot hold: a robot that explodes knows no end."""
     return {
         name: None if isinstance(value, float) and not math.isfinite(value) else value
         for name, value in values.items()
