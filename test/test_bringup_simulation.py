@@ -88,6 +88,21 @@ def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
     assert 'nothing asks for "finger_lenght"' in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ('expression', 'words'),
+    [
+        ('[0 for a in range(10**9) for b in range(10**9)]', 'bomb.xacro: no end after 1 s'),
+        ("'x' * 10**10", 'bomb.xacro: MemoryError'),
+    ],
+)
+def test_a_bomb_ends(tmp_path, monkeypatch, expression, words):
+    monkeypatch.setattr('amr_description.bringup.urdf_text._PROCESSOR_TIME', 1)
+    bomb = tmp_path / 'bomb.xacro'
+    bomb.write_text(f'<robot name="${{{expression}}}" xmlns:xacro="http://ros.org/wiki/xacro"/>')
+    with pytest.raises(AmrError, match=words):
+        stack(urdf=str(bomb))
+
+
 def test_the_files_are_told_with_their_hashes(installed):
     urdf, controllers = stack().notes
     assert urdf[1].startswith(f'using {installed}/urdf/amr.urdf -> {ROOT}/urdf/amr.urdf (sha256 ')
