@@ -6,6 +6,7 @@ from pathlib import Path
 import signal
 import subprocess
 
+from geometry_msgs.msg import PoseStamped
 import pytest
 import rclpy
 from rclpy.node import Node
@@ -40,6 +41,13 @@ def spawn(node, **fields):
     return call(
         node, SpawnEntity, f'{SERVICES}/spawn_entity', SpawnEntity.Request(**fields), timeout=20.0
     )
+
+
+def aside(y):
+    """A pose that far to the left of the origin, m."""
+    pose = PoseStamped()
+    pose.pose.position.y = y
+    return pose
 
 
 def state(node, entity):
@@ -84,13 +92,18 @@ def test_what_cannot_be_spawned_is_refused_with_its_code(sim, node):
     second = spawn(node, name='second', resource_string=URDF).result
     assert second.result == SpawnCode.NAMESPACE_INVALID
     assert "the namespace '/' has a controller manager already" in second.error_message
-    apart = spawn(node, name='second', resource_string=URDF, entity_namespace='second')
+    second = {'name': 'second', 'resource_string': URDF, 'entity_namespace': 'second'}
+    inside = spawn(node, **second).result
+    assert inside.result == SpawnCode.INVALID_POSE
+    assert "spawned inside link 'base_link' of robot 'amr'" in inside.error_message
+    apart = spawn(node, **second, initial_pose=aside(2.0))
     assert apart.result.result == Result.RESULT_OK
     renamed = spawn(
         node,
         name='amr',
         resource_string=URDF.replace('ros2_control', 'ignored'),
         allow_renaming=True,
+        initial_pose=aside(-2.0),
     )
     assert renamed.entity_name == 'amr_1'
     assert state(node, 'nobody').result.result == Result.RESULT_NOT_FOUND

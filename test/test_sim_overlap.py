@@ -100,7 +100,7 @@ def test_what_is_hardly_inside_is_taken(world, depth, is_taken):
     if is_taken:
         world.spawn('amr', AMR, at(0.0, 0.0, -depth))
         return
-    with pytest.raises(SpawnError, match="deep in it; raise z by 0.002 m, or spawn it elsewhere"):
+    with pytest.raises(SpawnError, match='deep in it; raise z by 0.002 m, or spawn it elsewhere'):
         world.spawn('amr', AMR, at(0.0, 0.0, -depth))
 
 
