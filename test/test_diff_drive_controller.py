@@ -587,6 +587,28 @@ def test_nothing_is_published_before_the_first_command_or_the_time_out():
     assert len(bench.tf) == len(bench.limited) == 1
 
 
+@pytest.mark.parametrize(('pause', 'is_heard'), [(480 * MS, False), (500 * MS, True)])
+def test_after_a_pause_the_time_out_counts_from_the_deactivation(pause, is_heard):
+    """As the original resets its buffers then, and not at activation: odometry comes at once."""
+    bench = Bench().activate(time=1000 * MS)
+    bench.drive(1.0)
+    bench.deactivate()
+    bench.odom.clear()
+    bench.activate(time=bench.time + pause).update()
+    assert [sample.stamp for sample in bench.odom] == ([bench.time] if is_heard else [])
+    assert bench.wheels == (0.0, 0.0)
+
+
+def test_the_first_time_out_counts_from_the_activation_after_a_new_configure_too():
+    bench = Bench().activate()
+    bench.deactivate()
+    bench.configure()
+    bench.activate(time=3600 * NANOSECONDS).update(times=50)
+    assert bench.odom == []
+    bench.update()
+    assert len(bench.odom) == 1
+
+
 def test_without_a_time_out_nothing_is_published_before_the_first_command():
     bench = Bench(cmd_vel_timeout=0.0, publish_limited_velocity=True).activate()
     bench.update(times=1000)

@@ -93,6 +93,7 @@ class DiffDriveController(Controller):
             self._rate_limiter(parameters.angular),
             keeps_curvature=parameters.preserve_curvature,
         )
+        self._is_fresh = True
         self._reception = CommandReception(
             round(parameters.cmd_vel_timeout * NANOSECONDS), self.log
         )
@@ -136,13 +137,16 @@ class DiffDriveController(Controller):
         _require('command', self.command_interfaces(), commands)
         _require('state', self.state_interfaces(), states)
         self._take_wheels(commands, states)
-        self._reception.forget(time)
+        if self._is_fresh:
+            self._reception.forget(time)
         self._set_references(math.nan, math.nan)
         self._limiter.forget()
         self._reckoning.hold(time)
 
     def deactivate(self, time: int) -> None:
-        """Stop every wheel; the pose stays."""
+        """Stop every wheel; the pose stays. The time-out counts from now, as the original's."""
+        self._is_fresh = False
+        self._reception.forget(time)
         self._left.drive(0.0)
         self._right.drive(0.0)
         self._set_references(math.nan, math.nan)
