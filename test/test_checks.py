@@ -159,7 +159,7 @@ MASS = {
     ),
     'zero': (
         f'<link name="a">\n{SOLID.replace('value="1"', 'value="0"')}</link>',
-        'f:3: link "a": mass: found 0 kg, expected more than 0',
+        'f:3: link "a": mass: found 0 kg, expected more than 0 and',
     ),
     'negative': (
         f'<link name="a">\n{SOLID.replace('value="1"', 'value="-2.5"')}</link>',

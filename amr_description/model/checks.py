@@ -61,6 +61,7 @@ RULES: tuple[Rule, ...] = (
     rules_joints.damping_takes_energy,
     rules_joints.axis_is_a_unit_vector,
     rules_joints.mimicked_joint_exists,
+    rules_hardware.commanded_joints_have_a_position,
     rules_hardware.components_offer_interfaces,
     rules_hardware.interface_names_are_spelt_right,
     rules_hardware.one_block_commands,

@@ -11,11 +11,28 @@ from collections.abc import Iterator
 from amr_description.model.findings import Finding, quote
 from amr_description.model.hardware_info import ComponentInfo, ComponentType, HardwareInfo
 from amr_description.model.nearest import nearest
+from amr_description.model.robot import JointType
 from amr_description.model.subject import Subject
 
+_MANY_COORDINATES = (JointType.PLANAR, JointType.FLOATING)
 _OF_JOINTS = ('position', 'velocity', 'acceleration', 'effort', 'torque', 'force', 'current')
 # Between a slip of the pen ("velocty", 0.93) and another word ("speed", 0.15).
 _MISSPELT = 0.8
+
+
+def commanded_joints_have_a_position(subject: Subject) -> Iterator[Finding]:
+    """What takes commands is one number: no planar and no floating joint."""
+    for hardware, component in _components(subject):
+        if component.type is not ComponentType.JOINT or not component.command_interfaces:
+            continue
+        robot, name = subject.robot, component.name
+        if robot.has_joint(name) and robot.joint(name).type in _MANY_COORDINATES:
+            yield subject.error(
+                component.line,
+                f'joint {quote(name)} of ros2_control {quote(hardware.name)} takes commands',
+                found=f'type {robot.joint(name).type} in the URDF',
+                expected='revolute, continuous or prismatic: a position that is one number',
+            )
 
 
 def components_offer_interfaces(subject: Subject) -> Iterator[Finding]:

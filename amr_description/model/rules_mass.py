@@ -16,6 +16,8 @@ from amr_description.model.subject import Subject
 
 # How far rounding of the digits in the file may carry the moments over the triangle inequality.
 _ROUNDING = 0.01
+# kg and kg·m²; beyond it no solver finds its way.
+_HEAVIEST, _LARGEST_MOMENT = 1e9, 1e12
 _FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
 
 
@@ -61,14 +63,16 @@ def base_has_mass(subject: Subject) -> Iterator[Finding]:
 
 
 def mass_is_positive(subject: Subject) -> Iterator[Finding]:
-    """Mass is above 0."""
+    """Mass is above 0, and that of a thing on earth."""
     for link in subject.robot.links:
-        if link.inertial is not None and link.inertial.mass <= 0.0:
+        if link.inertial is None or 0.0 < link.inertial.mass < _HEAVIEST:
+            continue
+        if not math.isnan(link.inertial.mass):
             yield subject.error(
                 link.inertial.line,
                 f'link {quote(link.name)}: mass',
                 found=f'{link.inertial.mass:g} kg',
-                expected='more than 0',
+                expected=f'more than 0 and less than {_HEAVIEST:g}',
             )
 
 
@@ -91,12 +95,14 @@ def inertia_is_possible(subject: Subject) -> Iterator[Finding]:
                 found=found,
                 expected='each above 0',
             )
-        elif high > (low + middle) * (1.0 + _ROUNDING):
+        elif high > (low + middle) * (1.0 + _ROUNDING) or high > _LARGEST_MOMENT:
             yield subject.error(
                 link.inertial.line,
                 f'link {quote(link.name)}: no body has this inertia',
                 found=found,
-                expected='none above the sum of the two others (triangle inequality)',
+                expected='none above the sum of the two others (triangle inequality)'
+                if high < _LARGEST_MOMENT
+                else f'less than {_LARGEST_MOMENT:g}',
             )
 
 
