@@ -11,7 +11,7 @@ import math
 
 from builtin_interfaces.msg import Time
 from control_msgs.msg import DynamicJointState, InterfaceValue
-from geometry_msgs.msg import Pose, TransformStamped, Twist, TwistStamped
+from geometry_msgs.msg import Accel, Pose, TransformStamped, Twist, TwistStamped, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64MultiArray
@@ -29,7 +29,7 @@ from amr_description.control.samples import (
     OdometrySample,
     TwistSample,
 )
-from amr_description.model.frames import Transform
+from amr_description.model.frames import Transform, Vector
 
 
 def nanoseconds(stamp: Time) -> int:
@@ -141,12 +141,15 @@ def fill_pose(transform: Transform, pose: Pose) -> None:
     orientation.x, orientation.y, orientation.z, orientation.w = transform.rotation
 
 
-def fill_velocity(
-    linear: tuple[float, float, float], angular: tuple[float, float, float], twist: Twist
-) -> None:
-    """Write a velocity, m/s and rad/s."""
+def fill_velocity(linear: Vector, angular: Vector, twist: Twist | Accel) -> None:
+    """Write a velocity, m/s and rad/s, or an acceleration, m/s² and rad/s²."""
     twist.linear.x, twist.linear.y, twist.linear.z = linear
     twist.angular.x, twist.angular.y, twist.angular.z = angular
+
+
+def vector_of(vector: Vector3) -> Vector:
+    """Read three numbers."""
+    return (vector.x, vector.y, vector.z)
 
 
 def transform_of(pose: Pose) -> Transform:

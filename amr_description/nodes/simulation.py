@@ -1,44 +1,43 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The simulation in a process: the world, its owner, and the robots with their managers.
+The simulation in a process: the world, its owner, its robots, and its time.
 
-A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of its own, in its
-namespace.
+========  ===========================================================================
+state     what it is, in the words of ``simulation_interfaces/msg/SimulationState``
+========  ===========================================================================
+PLAYING   time goes on
+PAUSED    time stands still, but for steps that are asked for; everything else works:
+          services, spawners, parameters
+STOPPED   as PAUSED, and everything is at its beginning: time 0, no spawned robots;
+          to be played, or paused, to be stepped
+QUITTING  the process ends
+========  ===========================================================================
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+import enum
 
 from rclpy.executors import Executor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
-from amr_description.control.contracts import Severity
-from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
-from amr_description.errors import SpawnError
-from amr_description.model.frames import Transform
-from amr_description.model.gazebo_tag import gazebo_plugins_of
-from amr_description.model.hardware_info import HardwareInfo
-from amr_description.model.robot import Robot
-from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.nodes.controller_manager_node import ControllerManagerNode
-from amr_description.nodes.description_source import DescriptionSource
 from amr_description.nodes.ground_truth import GroundTruth
 from amr_description.nodes.node_log import LogThread
+from amr_description.nodes.node_parameters import refuse_what_the_table_refuses, values
 from amr_description.nodes.outgoing import SimulatedOutgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
-from amr_description.nodes.parameter_files import read_parameter_file
-from amr_description.nodes.runtime import argument_errors
+from amr_description.nodes.robots import Robots
 from amr_description.parameters import parameter
-from amr_description.sim.resources import package_share
-from amr_description.sim.spawning import check_name, free_name, SpawnCode
-from amr_description.sim.stepping import physics_stepping, steps_in
 from amr_description.sim.world import MujocoWorld
 
 CLOCK_PERIOD = 10_000_000
 """ns: the longest time between two messages on ``/clock``."""
+
+CLOCK_REMINDER = 0.1
+"""s of the wall clock between two messages on ``/clock`` while time stands still."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +49,9 @@ class SimulationParameters:
         1.0,
         'Simulated seconds per second of the wall clock; 0: as fast as possible',
         minimum=0.0,
-        read_only=True,
+    )
+    paused: bool = parameter(
+        False, 'Begin with time standing still, until ~/set_simulation_state', read_only=True
     )
     controllers: str = parameter(
         '',
@@ -65,6 +66,17 @@ class SimulationParameters:
         minimum=0.0,
         read_only=True,
     )
+
+
+class State(enum.IntEnum):
+    """See the module; the numbers are those of the message."""
+
+    STOPPED = 0
+    PLAYING = 1
+    PAUSED = 2
+    QUITTING = 3
+    NO_WORLD = 4
+    LOADING_WORLD = 5
 
 
 class WorldStepper:
@@ -85,163 +97,132 @@ class WorldStepper:
 
 class Simulation:
     """
-    World, loop and managers; ``node`` publishes ``/clock`` and lends its logger.
+    World, loop and robots; ``node`` publishes ``/clock`` and lends its logger and parameters.
 
     The coroutines run on the ROS thread and await the owner.
     """
 
     def __init__(
-        self, node: Node, executor: Executor, parameters: SimulationParameters, ros_args: list[str]
+        self,
+        node: Node,
+        executor: Executor,
+        parameters: SimulationParameters,
+        ros_args: Sequence[str],
     ) -> None:
         """``ros_args`` go on to every manager and controller. Raises SimulationError."""
+        self.parameters = parameters
+        """As they were at the start."""
+        self._node = node
+        self._is_stopped = self._is_quitting = False
+        self.on_quit: Callable[[], None] = executor.wake
+        """Ends the process; called when QUITTING is asked for."""
         self.logs = LogThread()
         try:
             self.log = self.logs.log_of(node.get_logger())
-            self._parameters = parameters
-            self._ros_args = ros_args
-            self._executor = executor
-            self._managers: dict[str, ControllerManagerNode] = {}
-            self._outgoing = SimulatedOutgoing(node)
-            self._outgoing.adopt(node)
+            outgoing = SimulatedOutgoing(node)
+            outgoing.adopt(node)
             self.world = MujocoWorld(parameters.world, log=self.log)
-            self.ground_truth = GroundTruth(
-                node, self._outgoing, self.world, parameters.ground_truth_rate
-            )
-            mailbox = Mailbox()
+            ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
+            mailbox = Mailbox(CLOCK_REMINDER)
+            self._pacer = WallPacer(parameters.real_time_factor, mailbox)
             self.owner = Owner(mailbox, executor)
             self.owner.loop = Loop(
-                WorldStepper(self.world),
-                WallPacer(parameters.real_time_factor, mailbox),
-                mailbox,
-                self._outgoing,
-                CLOCK_PERIOD,
+                WorldStepper(self.world), self._pacer, mailbox, outgoing, CLOCK_PERIOD
+            )
+            if parameters.paused:
+                self.owner.loop.pause()
+            self.robots = Robots(
+                self.owner,
+                self.world,
+                outgoing,
+                ground_truth,
+                executor=executor,
+                logs=self.logs,
+                log=self.log,
+                controllers=parameters.controllers,
+                ros_args=ros_args,
             )
         except Exception:
             self.logs.stop()
             raise
+        refuse_what_the_table_refuses(node, SimulationParameters)
+        node.add_post_set_parameters_callback(self._mind_parameters)
 
     def start(self) -> None:
-        """Let time begin."""
+        """Let the owner's thread run; time begins, unless it is paused."""
         self.owner.start()
 
     def close(self) -> None:
-        """Let time end; then remove the managers' nodes."""
+        """Let time end; then remove the robots' nodes."""
         self.owner.stop()
-        for manager in self._managers.values():
-            manager.destroy()
+        self.robots.destroy()
         self.logs.stop()
 
-    async def spawn(
-        self,
-        name: str,
-        robot: Robot,
-        pose: Transform,
-        namespace: str,
-        *,
-        allow_renaming: bool = False,
-    ) -> str:
+    @property
+    def state(self) -> State:
+        """What it is doing."""
+        if self._is_quitting:
+            return State.QUITTING
+        if self.owner.loop.is_running:
+            return State.PLAYING
+        return State.STOPPED if self._is_stopped else State.PAUSED
+
+    async def play(self) -> None:
+        """Let time go on."""
+        await self.owner.submit(self.owner.loop.resume)
+        self._is_stopped = False
+
+    async def pause(self) -> None:
+        """Let time stand still."""
+        await self.owner.submit(self.owner.loop.pause)
+        self._is_stopped = False
+
+    async def stop(self) -> None:
+        """Let time stand still, and everything be as at the start."""
+        await self.owner.submit(self.owner.loop.pause)
+        await self.robots.remove_all()
+        await self.reset()
+        self._is_stopped = True
+
+    async def quit(self) -> None:
+        """Stop, and end the process."""
+        await self.stop()
+        self._is_quitting = True
+        self.on_quit()
+
+    async def step(self, count: int) -> int:
         """
-        Put a robot into the world and, if it asks for control, start its controller manager.
+        While paused, make ``count`` physics steps; return how many were not made.
 
-        Return its name: another than ``name`` where that is taken and ``allow_renaming``. Raises
-        SpawnError, DescriptionError, HardwareError, ParameterError, or whatever the constructor
-        of a foreign component raises; nothing is then left of the robot.
+        Less than all are made when somebody lets time go on, or resets it, meanwhile. Raises
+        SimulationError: it is not paused, or stepping already.
         """
-        hardware = hardware_of(robot)
-        node = self._manager_node(robot, hardware, namespace) if hardware else None
+        step = self.world.timestep
+        return -(-await self.owner.step(count * step) // step)
 
-        def insert() -> str:
-            given = free_name(name, self.world.names) if allow_renaming else name
-            check_name(given, self.world.names)
-            if node is not None:
-                self._check_namespace(node.node.get_namespace())
-            self._insert(given, robot, pose, node)
-            return given
+    async def reset(self, *, time: bool = True, state: bool = True) -> None:
+        """
+        Begin anew; what runs goes on running, what is active stays active.
 
-        try:
-            given = await self.owner.submit(insert)
-        except Exception:
-            if node is not None:
-                node.destroy()
-            raise
-        if node is not None:
-            self._executor.add_node(node.node)
-            DescriptionSource(node.node, node.log, robot=robot)
-            node.start()
-        self.ground_truth.add(given, namespace)
-        return given
+        ``time``: let it be 0. ``state``: put every robot to where it was spawned, at rest, its
+        odometry to zero.
+        """
 
-    def _check_namespace(self, namespace: str) -> None:
-        """Refuse a second controller manager of one name: nobody could tell the two apart."""
-        taken = {each.node.get_namespace() for each in self._managers.values()}
-        if namespace in taken:
-            raise SpawnError(
-                f"the namespace '{namespace}' has a controller manager already; give the robot "
-                'one of its own (entity_namespace; create: --ros-args -r __ns:=/other)',
-                SpawnCode.NAMESPACE_INVALID,
-            )
+        def reset() -> None:
+            world, loop = self.world, self.owner.loop
+            now = world.time
+            if state:
+                world.reset()
+            world.time = 0 if time else now
+            if state:
+                loop.reset()
+            else:
+                loop.set_clock()
 
-    def _insert(
-        self,
-        name: str,
-        robot: Robot,
-        pose: Transform,
-        node: ControllerManagerNode | None,
-    ) -> None:
-        """On the owner's thread, in one go: robot, components, all of them active, manager."""
-        if node is not None and not self.owner.loop.managers:
-            self.world.timestep = physics_stepping(_period_of(node.parameters.update_rate)).step
-        view = self.world.spawn(name, robot, pose)
-        if node is None:
-            return
-        try:
-            manager = node.bring_up(view, self._period(node.parameters.update_rate))
-        except Exception:
-            self.world.remove(name)
-            raise
-        manager.begin(self.owner.loop.time)
-        self.owner.loop.managers.append(manager)
-        self._managers[name] = node
+        await self.owner.submit(reset)
 
-    def _manager_node(
-        self, robot: Robot, hardware: Sequence[HardwareInfo], namespace: str
-    ) -> ControllerManagerNode:
-        arguments = [*self._ros_args, *self._parameter_files(robot)]
-        with argument_errors():
-            node = ControllerManagerNode(
-                self.owner,
-                self._outgoing,
-                self.logs,
-                namespace=namespace,
-                arguments=arguments,
-            )
-        node.prepare(robot, hardware)
-        return node
-
-    def _parameter_files(self, robot: Robot) -> Sequence[str]:
-        """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""
-        paths = [self._parameters.controllers] if self._parameters.controllers else []
-        if not paths:
-            hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
-            paths = [path for plugin in hosts for path in plugin.parameters]
-        if not paths:
-            paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
-        for path in paths:
-            read_parameter_file(Path(path))  # rcl would not say where it is wrong
-        return [argument for path in paths for argument in ('--params-file', path)]
-
-    def _period(self, rate: int) -> int:
-        """The tick of a manager at ``rate`` Hz in whole physics steps, ns; said if it differs."""
-        asked = _period_of(rate)
-        period = steps_in(asked, self.world.timestep).period
-        if period != asked:
-            self.log(
-                Severity.WARN,
-                f'an update rate of {rate} Hz is {asked} ns, which physics steps of '
-                f'{self.world.timestep} ns do not divide; the controllers run every {period} ns',
-            )
-        return period
-
-
-def _period_of(rate: int) -> int:
-    return round(NANOSECONDS / rate)
+    def _mind_parameters(self, _: Sequence[Parameter]) -> None:
+        """One was set: the factor, as no other can be."""
+        factor = values(self._node, SimulationParameters).real_time_factor
+        loop = self.owner.loop
+        self.owner.submit(lambda: self._pacer.set_factor(factor, loop.time))
