@@ -22,6 +22,7 @@ Every error that this package raises on purpose.
     │   ├── ConnectivityException   the frames are in different trees
     │   ├── ExtrapolationException  nothing is known about that time
     │   └── InvalidArgumentException  a name or a transform cannot be used
+    ├── CalibrationError     the parameters of a drive cannot be told from how it was driven
     ├── BringupError         a stack is malformed, or one of its steps failed
     └── UsageError           a command line cannot be understood (exit code 2, as argparse)
 
@@ -107,6 +108,10 @@ class ExtrapolationException(TransformException):
 
 class InvalidArgumentException(TransformException):
     """The name of a frame, or a transform, cannot be used."""
+
+
+class CalibrationError(AmrError):
+    """The parameters of a drive cannot be told from how it was driven."""
 
 
 class BringupError(AmrError):

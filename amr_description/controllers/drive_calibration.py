@@ -1,0 +1,172 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The multipliers of a differential drive from runs whose true motion is known.
+
+Odometry has, from the turning angles of the wheels times ``wheel_radius`` (l and r, m)::
+
+    distance = (m_l l + m_r r) / 2        turn = (m_r r - m_l l) / (m_s separation)
+
+with the multipliers m_l, m_r (radii) and m_s (separation). Written for each side, with the true
+distance d and turn t of a run, and the effective separation s = m_s separation::
+
+    m_l l + s t / 2 = d                   m_r r - s t / 2 = d
+
+which is linear in m_l, m_r and s: least squares over all runs, in metres of travel of a side.
+Straight runs tell the radii, turns tell the separation.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from amr_description.errors import CalibrationError
+
+_SMALL_TURN = 1e-6
+"""rad; a shorter arc is a line."""
+
+_LEAST_INFORMATION = 1e-3
+"""rad² (per run): less turning than this, beside what straight runs explain, tells nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """A differential drive as diff_drive_controller has it in its parameters."""
+
+    separation: float
+    """m, wheel_separation."""
+    separation_multiplier: float = 1.0
+    left_multiplier: float = 1.0
+    """left_wheel_radius_multiplier."""
+    right_multiplier: float = 1.0
+    """right_wheel_radius_multiplier."""
+
+    @property
+    def effective_separation(self) -> float:
+        """m."""
+        return self.separation * self.separation_multiplier
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """How far the point midway between the wheels went along its path, and turned."""
+
+    distance: float
+    """m, backward negative."""
+    turn: float
+    """rad, counter-clockwise, not wrapped."""
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One drive from rest to rest."""
+
+    name: str
+    left: float
+    """m: turning of the left wheels (rad) times wheel_radius."""
+    right: float
+    """m, the same on the right."""
+    truth: Travel
+
+    @classmethod
+    def from_odometry(cls, name: str, odometry: Travel, truth: Travel, used: Geometry) -> 'Run':
+        """Undo what odometry made of the wheels' turning with the geometry ``used``."""
+        half = odometry.turn * used.effective_separation / 2.0
+        return cls(
+            name,
+            left=(odometry.distance - half) / used.left_multiplier,
+            right=(odometry.distance + half) / used.right_multiplier,
+            truth=truth,
+        )
+
+    def odometry(self, geometry: Geometry) -> Travel:
+        """What odometry says of the run with some geometry."""
+        left = geometry.left_multiplier * self.left
+        right = geometry.right_multiplier * self.right
+        return Travel((left + right) / 2.0, (right - left) / geometry.effective_separation)
+
+
+class Path:
+    """Adds up poses (x, y in m, heading in rad) to the :class:`Travel` between them."""
+
+    def __init__(self, x: float, y: float, heading: float) -> None:
+        self._pose = x, y, heading
+        self.distance = self.turn = 0.0
+
+    def add(self, x: float, y: float, heading: float) -> None:
+        """
+        Go on to a pose, along an arc of less than half a turn.
+
+        The arc's length is chord * (turn / 2) / sin(turn / 2): exact for any arc, however few
+        poses there are.
+        """
+        x0, y0, heading0 = self._pose
+        turn = math.remainder(heading - heading0, 2.0 * math.pi)
+        middle = heading0 + turn / 2.0
+        chord = (x - x0) * math.cos(middle) + (y - y0) * math.sin(middle)
+        half = turn / 2.0
+        self.distance += chord if abs(turn) < _SMALL_TURN else chord * half / math.sin(half)
+        self.turn += turn
+        self._pose = x, y, heading
+
+    @property
+    def travel(self) -> Travel:
+        """From the first pose to the last."""
+        return Travel(self.distance, self.turn)
+
+
+def fit(runs: Sequence[Run], separation: float) -> Geometry:
+    """
+    Fit the three multipliers to runs that go straight and turn; ``separation``: m, as in the
+    parameters. Raises CalibrationError where the runs do not tell them.
+    """
+    left = [run.left for run in runs]
+    right = [run.right for run in runs]
+    half = [run.truth.turn / 2.0 for run in runs]
+    true = [run.truth.distance for run in runs]
+    left_left, right_right = math.sumprod(left, left), math.sumprod(right, right)
+    if not min(left_left, right_right) > 0.0:
+        side = 'left' if left_left < right_right else 'right'
+        raise CalibrationError(f'the wheels on the {side} did not turn in any run')
+    left_half, right_half = math.sumprod(left, half), math.sumprod(right, half)
+    left_true, right_true = math.sumprod(left, true), math.sumprod(right, true)
+    # The normal equations, the two radii eliminated.
+    turning = 2.0 * math.sumprod(half, half)
+    information = turning - left_half**2 / left_left - right_half**2 / right_right
+    if information < _LEAST_INFORMATION * len(runs):
+        raise CalibrationError(
+            f'{len(runs)} runs turn too little, or only turn, to tell the separation from the '
+            'radii; it takes a straight run and a turn on the spot at least'
+        )
+    effective = (
+        right_half * right_true / right_right - left_half * left_true / left_left
+    ) / information
+    geometry = Geometry(
+        separation,
+        separation_multiplier=effective / separation,
+        left_multiplier=(left_true - effective * left_half) / left_left,
+        right_multiplier=(right_true + effective * right_half) / right_right,
+    )
+    _check(geometry)
+    return geometry
+
+
+def yaw_error(run: Run, geometry: Geometry) -> float:
+    """|turn by odometry / true turn - 1|; NaN for a run that does not turn."""
+    if abs(run.truth.turn) < math.radians(30.0):
+        return math.nan
+    return abs(run.odometry(geometry).turn / run.truth.turn - 1.0)
+
+
+def _check(geometry: Geometry) -> None:
+    found = {
+        'wheel_separation_multiplier': geometry.separation_multiplier,
+        'left_wheel_radius_multiplier': geometry.left_multiplier,
+        'right_wheel_radius_multiplier': geometry.right_multiplier,
+    }
+    for name, value in found.items():
+        if not value > 0.0:
+            raise CalibrationError(
+                f'the fit gives {name} = {value:.4g}: the robot goes against its wheels; are the '
+                'axes of their joints, and left and right, as they should be (check_urdf)?'
+            )
