@@ -26,6 +26,7 @@ from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import GetEntityState
 from tf2_msgs.msg import TFMessage
 
+from amr_description.control.interfaces import NANOSECONDS
 from amr_description.model.frames import yaw_of
 from amr_description.nodes.clients import call, wait_until
 from amr_description.nodes.manager_client import ManagerClient
@@ -207,6 +208,7 @@ def test_no_command_makes_a_wheel_run_away(driver, value, age):
     command = TwistStamped()
     command.twist.linear.x = command.twist.angular.z = value
     if math.isfinite(age):
+        driver.wait(lambda: driver.get_clock().now().nanoseconds > age * NANOSECONDS)
         stamp = driver.get_clock().now() - Duration(seconds=age)
         command.header.stamp = stamp.to_msg()
     for _ in range(5):
