@@ -294,6 +294,24 @@ def limited(lower, upper):
     return f'<limit lower="{lower}" upper="{upper}" effort="1" velocity="1"/>'
 
 
+@pytest.mark.parametrize(
+    ('axis', 'severity'),
+    [
+        ('0 0 1', None),
+        ('0.577 0.577 0.577', None),
+        ('0 0 2', 'warning'),
+        ('0 0 0.01', 'warning'),
+        ('0 0 1e7', 'error'),
+        ('1e300 1e300 0', 'error'),
+        ('0 1e-7 0', 'error'),
+    ],
+)
+def test_axis_is_a_unit_vector(axis, severity):
+    found = findings(two_links(joint_text('a', 'b', inside=f'<axis xyz="{axis}"/>')))
+    told = [line.partition(':')[0] for line in found if 'the axis is no unit vector' in line]
+    assert told == ([severity] if severity else [])
+
+
 def two_links(joint):
     return robot_text(f'<link name="a">{SOLID}</link><link name="b">{SOLID}</link>\n{joint}')
 

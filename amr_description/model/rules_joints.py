@@ -12,6 +12,8 @@ from amr_description.model.subject import Subject
 
 # An axis written with three digits, as 0.707 0.707 0, counts as a unit vector.
 _UNIT_TOLERANCE = 1e-3
+# Beyond this factor no solver knows the direction any more.
+_EXTREME = 1e6
 # Joints that mimic each other in a row: nobody builds more, and a made-up file may.
 _LONGEST_CHAIN = 100
 
@@ -81,7 +83,8 @@ def axis_is_a_unit_vector(subject: Subject) -> Iterator[Finding]:
         length = _length(axis.get('xyz', '1 0 0'))
         if 0.0 < length < math.inf and abs(length - 1.0) > _UNIT_TOLERANCE:
             parts = (float(part) / length for part in axis.get('xyz', '').split())
-            yield subject.warning(
+            judge = subject.warning if 1.0 / _EXTREME < length < _EXTREME else subject.error
+            yield judge(
                 line_of(axis),
                 f'joint {quote(element.get("name", ""))}: the axis is no unit vector',
                 found=f'length {length:.4g}',
