@@ -3,11 +3,13 @@
 """The MuJoCo model and its state: built, stepped, and rebuilt when a robot comes or goes."""
 
 import mujoco
+import numpy as np
 
 from amr_description.errors import SimulationError
 from amr_description.sim.stepping import LONGEST_STEP
 
 NANOSECONDS = 1_000_000_000
+_INTEGRATION = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
 class Engine:
@@ -55,6 +57,12 @@ class Engine:
         self.forget_truth()
         seconds = timestep / NANOSECONDS
         self.spec.option.timestep = self.model.opt.timestep = seconds
+
+    def state(self) -> bytes:
+        """All that the next step follows from, and the time: equal bytes, equal futures."""
+        state = np.empty(mujoco.mj_stateSize(self.model, _INTEGRATION))
+        mujoco.mj_getState(self.model, self.data, state, _INTEGRATION)
+        return self.time.to_bytes(8) + state.tobytes()
 
     def step(self, count: int) -> None:
         """Advance by ``count`` physics steps, in one call into C."""

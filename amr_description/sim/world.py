@@ -153,6 +153,10 @@ class MujocoWorld:
         self.engine.step(count)
         self.faults.check(self._roots)
 
+    def state(self) -> bytes:
+        """All that the next step follows from: to compare two runs, bit by bit."""
+        return self.engine.state()
+
     def reset(self) -> None:
         """Time 0, every robot as it was spawned, its joints held."""
         self.engine.reset()
