@@ -110,6 +110,17 @@ def test_stamps_are_exact_instants_also_after_time_went_back(host, period):
     assert milliseconds == pytest.approx([*one, *one])
 
 
+def test_while_time_stands_still_each_reminder_tells_the_present_instant(host):
+    host.spawn('amr', '')
+    host.turn(2)
+    host.world.step(1)
+    with host.heard(Odometry, '/ground_truth/odom') as messages:
+        for _ in range(3):
+            host.outgoing.publish(host.world.time)
+        host.wait(lambda: len(messages) == 3)
+    assert {nanoseconds(each.header.stamp) for each in messages} == {22_000_000}
+
+
 def test_wheels_carry_the_robot(host):
     host.spawn('amr', '/')
     host.world.step(500)

@@ -14,9 +14,10 @@ In the namespace of the robot, reliable, depth 10, stamped with the exact simula
         slip_along        m/s, of the tread over the ground, in the wheel's rolling direction
         slip_across       m/s, the same along the axle: the scrub of a skid-steered robot
 
-Nothing is computed for a topic that nobody hears. The child frame has the prefix that the
-controllers' frames have: the namespace. Of several robots in one namespace, the first has these
-topics; those of the others lie below their own names.
+While time stands still the present instant is told ten times a second of the wall clock. Nothing
+is computed for a topic that nobody hears. The child frame has the prefix that the controllers'
+frames have: the namespace. Of several robots in one namespace, the first has these topics; those
+of the others lie below their own names.
 """
 
 from collections.abc import Callable
@@ -82,7 +83,7 @@ class GroundTruth:
         self._outgoing = outgoing
         self._world = world
         self._period = round(NANOSECONDS / rate) if rate else 0
-        self._latest = -1
+        self._latest = self._interval = -1
         self._robots: dict[str, _RobotTruth] = {}
         outgoing.reporters.append(self.report)
 
@@ -104,9 +105,12 @@ class GroundTruth:
 
     def report(self, time: int) -> None:
         """Send what is due at the turn of ``time``, ns."""
-        if not self._robots or time // self._period == self._latest:
+        stands_still, self._latest = time == self._latest, time
+        if not self._robots:
             return
-        self._latest = time // self._period
+        is_due, self._interval = time // self._period != self._interval, time // self._period
+        if not (is_due or stands_still):
+            return
         present = self._world.names
         for name, truth in self._robots.items():
             if name in present:

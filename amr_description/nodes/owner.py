@@ -68,14 +68,15 @@ class WallPacer:
     """
 
     def __init__(self, factor: float, mailbox: Mailbox) -> None:
-        self._factor = factor
+        self.factor = factor
+        """The one it keeps to; :meth:`set_factor` sets it."""
         self._mailbox = mailbox
         self._wall_start = self._start = 0.0
         self._yielded = 0.0
 
     def set_factor(self, factor: float, time_now: int) -> None:
         """Keep to another factor from now on, simulated time being ``time_now``, ns."""
-        self._factor = factor
+        self.factor = factor
         self.resume(time_now)
 
     def resume(self, time_now: int) -> None:
@@ -85,10 +86,10 @@ class WallPacer:
 
     def pace(self, time_due: int) -> bool:
         """Sleep until the instant ``time_due`` (ns) is due; False: a call came before."""
-        if self._factor == 0.0:
+        if self.factor == 0.0:
             self._yield()
             return True
-        due = self._wall_start + (time_due / NANOSECONDS - self._start) / self._factor
+        due = self._wall_start + (time_due / NANOSECONDS - self._start) / self.factor
         delay = due - time.monotonic()
         if delay > 0.0:
             return not self._mailbox.wait(delay)

@@ -23,6 +23,7 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
 from amr_description.nodes.ground_truth import GroundTruth
 from amr_description.nodes.node_log import LogThread
@@ -30,6 +31,7 @@ from amr_description.nodes.node_parameters import refuse_what_the_table_refuses,
 from amr_description.nodes.outgoing import SimulatedOutgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 from amr_description.nodes.robots import Robots
+from amr_description.nodes.stage_watch import StageWatch
 from amr_description.parameters import parameter
 from amr_description.sim.world import MujocoWorld
 
@@ -58,6 +60,11 @@ class SimulationParameters:
         'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
         'names, else that of this package',
         read_only=True,
+    )
+    on_fault: str = parameter(
+        'continue',
+        'What the simulation does when the physics goes wrong, beside saying so',
+        choices=('continue', 'pause'),
     )
     ground_truth_rate: float = parameter(
         50.0,
@@ -125,10 +132,17 @@ class Simulation:
             ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
             mailbox = Mailbox(CLOCK_REMINDER)
             self._pacer = WallPacer(parameters.real_time_factor, mailbox)
+            watch = StageWatch(self.log, lambda: self._pacer.factor)
             self.owner = Owner(mailbox, executor)
             self.owner.loop = Loop(
-                WorldStepper(self.world), self._pacer, mailbox, outgoing, CLOCK_PERIOD
+                watch.stepper(WorldStepper(self.world)),
+                watch.pacer(self._pacer),
+                mailbox,
+                watch.publisher(outgoing),
+                CLOCK_PERIOD,
             )
+            self._pauses_on_fault = parameters.on_fault == 'pause'
+            self.world.faults.on_fault = lambda: mailbox.put(self._mind_fault)
             if parameters.paused:
                 self.owner.loop.pause()
             self.robots = Robots(
@@ -222,7 +236,19 @@ class Simulation:
         await self.owner.submit(reset)
 
     def _mind_parameters(self, _: Sequence[Parameter]) -> None:
-        """One was set: the factor, as no other can be."""
-        factor = values(self._node, SimulationParameters).real_time_factor
-        loop = self.owner.loop
-        self.owner.submit(lambda: self._pacer.set_factor(factor, loop.time))
+        """One was set: the factor, or what a fault does, as no other can be."""
+        now = values(self._node, SimulationParameters)
+        self._pauses_on_fault = now.on_fault == 'pause'
+        if now.real_time_factor != self._pacer.factor:
+            loop = self.owner.loop
+            self.owner.submit(lambda: self._pacer.set_factor(now.real_time_factor, loop.time))
+
+    def _mind_fault(self) -> None:
+        """Between two turns, after a fault was told; on the owner's thread."""
+        if self._pauses_on_fault:
+            self.owner.loop.pause()
+            self.log(
+                Severity.WARN,
+                'paused, as on_fault says; ~/set_simulation_state lets time go on, '
+                '~/reset_simulation begins anew',
+            )

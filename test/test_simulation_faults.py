@@ -1,0 +1,71 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the running simulator does when the physics goes wrong: it says so, and stops if asked."""
+
+import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
+from running_programs import PATIENCE, Program
+from simulation_interfaces.msg import SimulationState
+from simulation_interfaces.srv import (
+    GetSimulationState,
+    ResetSimulation,
+    SetSimulationState,
+    SpawnEntity,
+)
+
+from amr_description.nodes.clients import call, wait_until
+
+GHOST = """<robot name="ghost"><link name="ghost"><inertial><mass value="1"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""
+FALLEN = r"robot 'ghost' is below the ground: its root is at z = -0\.\d+ m at \d\.\d+ s\. Likely"
+
+
+@pytest.fixture
+def node():
+    rclpy.init(args=[])
+    node = Node('test_simulation_faults')
+    yield node
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+def ask(node, service_type, service, /, **fields):
+    service = f'/mujoco_sim/{service}'
+    return call(node, service_type, service, service_type.Request(**fields), timeout=PATIENCE)
+
+
+def state(node):
+    return ask(node, GetSimulationState, 'get_simulation_state').state.state
+
+
+def test_a_fault_pauses_if_asked_and_a_reset_lets_it_come_again(node, tmp_path):
+    options = ('--ros-args', '-p', 'on_fault:=pause')
+    with Program.module('mujoco_sim', *options, cwd=tmp_path) as sim:
+        sim.expect('waiting for robots')
+        ask(node, SpawnEntity, 'spawn_entity', name='ghost', resource_string=GHOST)
+        sim.expect(FALLEN)
+        sim.expect('paused, as on_fault says')
+        assert state(node) == SimulationState.STATE_PAUSED
+
+        since = len(sim.output)
+        client = AsyncParameterClient(node, 'mujoco_sim')
+        assert client.wait_for_services(PATIENCE)
+        future = client.set_parameters([Parameter('on_fault', value='continue')])
+        assert wait_until(node, lambda: future.done() or None, timeout=PATIENCE)
+        assert future.result().results[0].successful
+        ask(node, ResetSimulation, 'reset_simulation', scope=ResetSimulation.Request.SCOPE_STATE)
+        playing = SimulationState(state=SimulationState.STATE_PLAYING)
+        ask(node, SetSimulationState, 'set_simulation_state', state=playing)
+        sim.expect(FALLEN, since)
+        assert state(node) == SimulationState.STATE_PLAYING
+        assert 'paused' not in sim.output[since:]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_another_word_for_on_fault_is_refused():
+    with Program.module('mujoco_sim', '--ros-args', '-p', 'on_fault:=reset') as sim:
+        assert sim.end() == 1
+        assert "parameter 'on_fault' must be one of continue, pause, found reset" in sim.output
