@@ -429,8 +429,15 @@ def test_every_transition_is_told_as_it_begins_and_as_it_ends():
     controller.faults['activate'] = ControllerError('not now')
     with pytest.raises(ControllerError, match='Unable to activate'):
         manager.switch(['fake'], [], Strictness.STRICT, 0)
-    assert new() == ['inactive > active: ...', 'inactive > active: inactive']
+    assert new() == [
+        'inactive > active: ...',
+        'inactive > active: inactive',
+        'inactive > unconfigured: ...',
+        'inactive > unconfigured: unconfigured',
+    ]
     del controller.faults['activate']
+    manager.configure('fake', None)
+    new()
     manager.switch(['fake'], [], Strictness.STRICT, 0)
     manager.switch(['fake'], ['fake'], Strictness.STRICT, 0)
     assert new() == [

@@ -440,6 +440,20 @@ def test_an_activation_that_fails(bench, strictness, left, error):
     assert begun - ended == {f'{name.lower()}/velocity' for name in left - {'S'}}
 
 
+@pytest.mark.parametrize('error', [ControllerError('too hot'), KeyError('too hot')])
+def test_whoever_fails_to_be_activated_is_unconfigured(bench, error):
+    """Its own ``activate`` raised; who only lacked an interface stays inactive."""
+    bench.controllers['A'].faults['activate'] = error
+    bench.controllers['A'].faults['cleanup'] = RuntimeError('never mind')
+    with pytest.raises(ControllerError, match='Unable to activate'):
+        bench.switch('A B')
+    states = {each.name: each.state for each in bench.manager.snapshot.controllers}
+    assert states['A'] is LifecycleState.UNCONFIGURED
+    assert states['B'] is LifecycleState.INACTIVE
+    assert bench.controllers['A'].count('cleanup') == 1
+    assert bench.refuses("'A' is in 'unconfigured' state", 'A')
+
+
 def test_after_a_failed_activation_the_interface_is_free(bench):
     bench.controllers['A'].faults['activate'] = ControllerError('too hot')
     with pytest.raises(ControllerError, match='Unable to activate'):

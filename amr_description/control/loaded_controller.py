@@ -63,6 +63,8 @@ class LoadedController:
         """What links it to other controllers, once configured."""
         self.is_busy = False
         """True while its ``configure`` may be running, on whatever thread."""
+        self.has_failed = False
+        """True when its own ``activate`` raised."""
         self._wishes = (NO_INTERFACES, NO_INTERFACES)
         """Commands and states; asked once, as are the inputs: a stranger's answer may raise."""
         self._inputs: tuple[Input[Any], ...] = ()
@@ -144,6 +146,7 @@ class LoadedController:
 
         Raises; all claims are then given back, and it stays inactive.
         """
+        self.has_failed = False
         with self.transition(LifecycleState.ACTIVE):
             self._activate(resources, time, chained)
 
@@ -155,7 +158,9 @@ class LoadedController:
             )
             commands = resources.claim(self.name, self.required_commands)
             states = resources.lend_states(self.required_states)
+            self.has_failed = True
             self.controller.activate(commands, states, time)
+            self.has_failed = False
         except Exception:
             resources.release(self.name)
             self._set_chained_mode(False)

@@ -32,8 +32,9 @@ class SwitchExecution:
 
         Raises ControllerError when the hardware refuses (nothing has then changed), when it then
         fails all the same (what was to be deactivated is), and when a controller cannot be
-        activated: STRICT then deactivates the plan's others again. Those that the request did not
-        name, and which only were to change their mode, go on.
+        activated (it is unconfigured then, if it raised itself): STRICT then deactivates the
+        plan's others again. Those that the request did not name, and which only were to change
+        their mode, go on.
         """
         stop = [name for c in plan.deactivate for name in c.required_commands]
         self._prepare(plan.start, stop)
@@ -51,10 +52,26 @@ class SwitchExecution:
             self.drop([c for c in named if c.is_active], time)
         self._release_commands(failed)
         self._mend(time)
+        self._clean_up(failed)
         raise ControllerError(
             'Failed switching controllers.... '
             f'Unable to activate controllers: [ {names_of(failed)} ]'
         )
+
+    def _clean_up(self, controllers: Iterable[LoadedController]) -> None:
+        """Bring what raised in its own ``activate`` to unconfigured, as ros2_control does."""
+        for controller in controllers:
+            if not controller.has_failed:
+                continue
+            try:
+                controller.cleanup()
+            except Exception as error:  # it is unconfigured all the same
+                self._log(
+                    Severity.ERROR,
+                    f"Failed to clean '{controller.name}' up: {describe(error)}",
+                )
+                log_traceback(self._log, error)
+        self._controllers.link()
 
     def drop(self, controllers: Sequence[LoadedController], time: int) -> None:
         """Deactivate controllers that cannot go on; nobody is asked."""

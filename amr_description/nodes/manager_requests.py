@@ -163,9 +163,18 @@ class ManagerRequests:
             time = self._owner.loop.time
             return self.manager.switch(activate, deactivate, strictness, time, timeout)
 
-        message = await self._owner.submit(switch)
+        try:
+            message = await self._owner.submit(switch)
+        finally:
+            self._disconnect_what_was_cleaned_up()
         self.log(Severity.INFO, message)
         return message
+
+    def _disconnect_what_was_cleaned_up(self) -> None:
+        """A controller that failed to be activated is unconfigured, and has no topics."""
+        for each in self.manager.snapshot.controllers:
+            if each.state is LifecycleState.UNCONFIGURED and each.name in self.controllers:
+                self.controllers[each.name].disconnect()
 
     async def set_component_state(self, name: str, state: LifecycleState) -> None:
         """Bring a hardware component to a state. Raises HardwareError."""
