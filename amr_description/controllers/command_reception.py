@@ -14,8 +14,11 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.samples import TwistSample
 
-FOREIGN_CLOCK = NANOSECONDS
-"""ns: a command stamped further ahead than this was stamped by another clock."""
+FOREIGN_CLOCK = 60 * NANOSECONDS
+"""
+ns: a command stamped further ahead than this was stamped by another clock (a wall clock and a
+simulation's are decades apart). Below it a stamp ahead extends the hold, as in ros2_control.
+"""
 
 _AT_REST = (0.0, 0.0)
 

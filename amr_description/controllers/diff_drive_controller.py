@@ -12,7 +12,7 @@ Where this departs from diff_drive_controller 4.x:
 - odometry begins with the first command in force after activation, not at time and position zero,
   so neither an encoder that does not start at zero nor a late start makes the pose jump;
 - when time goes back, odometry and its publication begin anew instead of falling silent;
-- a stamp that is further ahead than clocks drift apart
+- a stamp that is a minute ahead or more
   (:data:`~amr_description.controllers.command_reception.FOREIGN_CLOCK`) is of another clock: it
   counts as now, so that the time-out still brakes when that publisher dies;
 - "Braking." is said when a command times out, not every second of rest;

@@ -52,7 +52,7 @@ def unload(
         message = manager.switch(deactivate=active, timeout=switch_timeout)
         if message is not None:
             raise ControllerError(f'Failed to deactivate controllers : {active}: {message}')
-        log.info('Deactivated controller')
+    log.info('Deactivated controller')
     failures = []
     for name in dict.fromkeys(names):
         if name not in states:
