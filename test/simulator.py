@@ -42,8 +42,8 @@ class Simulator:
         """The response, whatever its result."""
         client = self._clients.get(service_type)
         if client is None:
-            snake = re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()
-            client = self.node.create_client(service_type, f'{SIMULATOR}/{snake}')
+            name = f'{SIMULATOR}/{_snake(service_type)}'
+            client = self.node.create_client(service_type, name)
             self._clients[service_type] = client
         request = service_type.Request(**fields)
         return call_with(self.node, client, request, timeout=PATIENCE)
@@ -68,17 +68,30 @@ class Simulator:
         assert found, 'it waited in vain'
         return found
 
-    def goal(self, action_type, name, feedback, **fields):
-        """The handle of an accepted goal."""
-        client = ActionClient(self.node, action_type, f'{SIMULATOR}/{name}')
+    def action(self, action_type):
+        """A client whose server is there; destroy it at the end."""
+        client = ActionClient(self.node, action_type, f'{SIMULATOR}/{_snake(action_type)}')
         self.wait(client.server_is_ready)
+        return client
+
+    def goal(self, client, feedback, goal):
+        """The handle of an accepted goal; ``feedback``: a list for what is told."""
         future = client.send_goal_async(
-            action_type.Goal(**fields),
-            feedback_callback=lambda message: feedback.append(message.feedback),
+            goal, feedback_callback=lambda message: feedback.append(message.feedback)
         )
         self.wait(future.done)
         assert future.result().accepted
-        return client, future.result()
+        return future.result()
+
+    def end(self, handle):
+        """Status and result of a goal, in the end."""
+        ended = handle.get_result_async()
+        self.wait(ended.done)
+        return ended.result().status, ended.result().result.result
+
+
+def _snake(interface_type):
+    return re.sub('(?<!^)(?=[A-Z])', '_', interface_type.__name__).lower()
 
 
 @contextmanager

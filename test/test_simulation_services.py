@@ -184,37 +184,42 @@ def test_steps_that_are_overtaken_are_told(sim):
     sim.node.destroy_client(client)
 
 
-def test_the_action_tells_of_every_step(sim):
+@pytest.fixture
+def action(sim):
+    client = sim.action(SimulateSteps)
+    yield client
+    client.destroy()
+
+
+def test_the_action_is_canceled_and_otherwise_tells_of_every_step(sim, action):
     feedback = []
-    client, handle = sim.goal(SimulateSteps, 'simulate_steps', feedback, steps=8)
-    ended = handle.get_result_async()
-    sim.wait(ended.done)
-    assert ended.result().status == GoalStatus.STATUS_SUCCEEDED
-    assert ended.result().result.result.result == Result.RESULT_OK
+    endless = sim.goal(action, feedback, SimulateSteps.Goal(steps=10**9))
+    sim.wait(lambda: feedback)  # from here on none is lost
+    sim.wait(endless.cancel_goal_async().done)
+    status, result = sim.end(endless)
+    assert (status, result.result) == (
+        GoalStatus.STATUS_CANCELED,
+        Result.RESULT_OPERATION_FAILED,
+    )
+    assert 'of 1000000000 steps' in result.error_message
+    sim.do(ResetSimulation)
+    feedback = []
+    handle = sim.goal(action, feedback, SimulateSteps.Goal(steps=8))
+    status, result = sim.end(handle)
+    assert (status, result.result) == (GoalStatus.STATUS_SUCCEEDED, Result.RESULT_OK)
     sim.wait(lambda: len(feedback) == 8)
     told = [(each.completed_steps, each.remaining_steps) for each in feedback]
     assert told == [(n, 8 - n) for n in range(1, 9)]
     sim.wait(lambda: sim.time == 8 * STEP)
-    client.destroy()
 
 
-def test_the_action_can_be_canceled_and_needs_a_pause(sim):
-    feedback = []
-    client, handle = sim.goal(SimulateSteps, 'simulate_steps', feedback, steps=10**9)
-    sim.wait(lambda: feedback)
-    sim.wait(handle.cancel_goal_async().done)
-    ended = handle.get_result_async()
-    sim.wait(ended.done)
-    assert ended.result().status == GoalStatus.STATUS_CANCELED
-    assert 'of 1000000000 steps' in ended.result().result.result.error_message
-    client.destroy()
+def test_the_action_needs_a_pause(sim, action):
     turn(sim, S.STATE_PLAYING)
-    client, handle = sim.goal(SimulateSteps, 'simulate_steps', feedback, steps=1)
-    ended = handle.get_result_async()
-    sim.wait(ended.done)
-    assert ended.result().status == GoalStatus.STATUS_ABORTED
-    assert ended.result().result.result.result == Result.RESULT_INCORRECT_STATE
-    client.destroy()
+    status, result = sim.end(sim.goal(action, [], SimulateSteps.Goal(steps=1)))
+    assert (status, result.result) == (
+        GoalStatus.STATUS_ABORTED,
+        Result.RESULT_INCORRECT_STATE,
+    )
 
 
 def test_the_real_time_factor_is_set_while_it_runs(sim):
