@@ -200,7 +200,8 @@ class Robots:
         if node is not None:
             self._check_namespace(node.node.get_namespace())
             if not loop.managers:
-                world.timestep = physics_stepping(_period_of(node.parameters.update_rate)).step
+                period = _period_of(node.parameters.update_rate)
+                world.timestep = physics_stepping(period, world.longest_step).step
         view = world.spawn(name, robot, pose)
         if node is None:
             return

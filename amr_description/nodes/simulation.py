@@ -32,8 +32,9 @@ from amr_description.nodes.outgoing import SimulatedOutgoing
 from amr_description.nodes.owner import Mailbox, Owner, WallPacer
 from amr_description.nodes.robots import Robots
 from amr_description.nodes.stage_watch import StageWatch
-from amr_description.parameters import parameter
+from amr_description.parameters import group, parameter
 from amr_description.sim.world import MujocoWorld
+from amr_description.sim.world_settings import WorldSettings
 
 CLOCK_PERIOD = 10_000_000
 """ns: the longest time between two messages on ``/clock``."""
@@ -47,6 +48,7 @@ class SimulationParameters:
     """The parameters of the node ``mujoco_sim``."""
 
     world: str = parameter('empty', 'A shipped world, or the path of an MJCF file', read_only=True)
+    physics: WorldSettings = group('physics', WorldSettings)
     real_time_factor: float = parameter(
         1.0,
         'Simulated seconds per second of the wall clock; 0: as fast as possible',
@@ -128,7 +130,7 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             outgoing = SimulatedOutgoing(node)
             outgoing.adopt(node)
-            self.world = MujocoWorld(parameters.world, log=self.log)
+            self.world = MujocoWorld(parameters.world, settings=parameters.physics, log=self.log)
             ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
             mailbox = Mailbox(CLOCK_REMINDER)
             self._pacer = WallPacer(parameters.real_time_factor, mailbox)

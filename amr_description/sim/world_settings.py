@@ -33,6 +33,8 @@ import mujoco
 
 from amr_description.parameters import parameter
 
+AS_IN_WORLD = 'world'
+
 _INTEGRATORS = {
     'Euler': mujoco.mjtIntegrator.mjINT_EULER,
     'RK4': mujoco.mjtIntegrator.mjINT_RK4,
@@ -61,42 +63,52 @@ MEASURED_OPTIONS = (
 
 @dataclass(frozen=True)
 class WorldSettings:
-    """Physics of the world; NaN, 0 and '' leave it to the world's file."""
+    """Physics of the world; NaN, 0 and 'world' leave it to the world's file."""
 
     gravity: float = parameter(
-        math.nan, 'Acceleration of free fall, down', unit='m/s²', nan=True, read_only=True
+        math.nan,
+        'Acceleration of free fall, down; NaN: as in the world',
+        unit='m/s²',
+        nan=True,
+        read_only=True,
     )
     friction: float = parameter(
         math.nan,
-        'Sliding friction of every static surface',
+        'Sliding friction of every static surface; NaN: as in the world',
         nan=True,
         minimum=0.0,
         read_only=True,
     )
     physics_step: float = parameter(
         math.nan,
-        'The longest physics step; the control period is divided into equal ones',
+        'The longest physics step, the control period is divided into equal ones; NaN: that of '
+        'the world',
         unit='s',
         nan=True,
         above=0.0,
         read_only=True,
     )
     integrator: str = parameter(
-        '', 'Integrator of MuJoCo', choices=('', *_INTEGRATORS), read_only=True
+        AS_IN_WORLD, 'Integrator', choices=(AS_IN_WORLD, *_INTEGRATORS), read_only=True
     )
-    cone: str = parameter('', 'Friction cone', choices=('', *_CONES), read_only=True)
+    cone: str = parameter(
+        AS_IN_WORLD, 'Friction cone', choices=(AS_IN_WORLD, *_CONES), read_only=True
+    )
     impratio: float = parameter(
         math.nan,
-        'How much harder friction is than the normal direction of a contact',
+        'How much harder friction is than the normal direction of a contact; NaN: as in the world',
         nan=True,
         above=0.0,
         read_only=True,
     )
     solver: str = parameter(
-        '', 'Constraint solver of MuJoCo', choices=('', *_SOLVERS), read_only=True
+        AS_IN_WORLD, 'Constraint solver', choices=(AS_IN_WORLD, *_SOLVERS), read_only=True
     )
     iterations: int = parameter(
-        0, 'The most iterations of the solver in a step', minimum=0, read_only=True
+        0,
+        'The most iterations of the solver in a step; 0: as in the world',
+        minimum=0,
+        read_only=True,
     )
 
 
@@ -113,7 +125,7 @@ def apply_settings(option: mujoco.MjOption, settings: WorldSettings) -> None:
         option.iterations = settings.iterations
     for name, table in (('integrator', _INTEGRATORS), ('cone', _CONES), ('solver', _SOLVERS)):
         chosen = getattr(settings, name)
-        if chosen:
+        if chosen != AS_IN_WORLD:
             setattr(option, name, table[chosen])
     # MuJoCo's reset after a fault would set time and robots back behind our back.
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
