@@ -184,7 +184,5 @@ def test_what_the_manager_will_refuse_is_left_to_it(tmp_path):
     robot = urdf.load(ROOT / 'urdf/amr.urdf')
     path = tmp_path / 'c.yaml'
     assert drive_warnings(robot, [str(path)]) == ()
-    path.write_text(
-        f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS}    base_frame_id: base_footprint\n'
-    )
-    assert drive_warnings(robot, [str(path)]) == (), 'no such wheels'
+    path.write_text(f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS}')
+    assert drive_warnings(robot, [str(path)]) == (), 'no such wheels: those of another robot'

@@ -228,6 +228,24 @@ def test_spawners_tell_why_they_fail(tmp_path):
         assert 'is active already' in again.stderr
 
 
+def test_each_fault_of_the_tutorial_is_named_once_and_nothing_else():
+    tutorial = ROOT / 'test' / 'fixtures' / 'tutorial'
+    controllers = tutorial / 'controllers.yaml'
+    arguments = ['--ros-args', '-p', f'controllers:={controllers}']
+    with running('mujoco_sim', *arguments, until='waiting for robots') as process:
+        assert run('create', '-file', str(tutorial / 'amr.urdf'), '-name', 'amr').returncode == 0
+        said = []
+        for line in process.stderr:
+            said.append(line)
+            if "Successful 'activate' of hardware" in line:
+                break
+    axles, frames, scrubbing = [line for line in said if '[WARN]' in line or '[ERROR]' in line]
+    assert 'a positive speed drives the robot backwards' in axles
+    place = f'{controllers}:{{}}: diff_drive_controller: {{}}'
+    assert place.format(20, '"base_link" gets two parents in TF') in frames
+    assert place.format(16, 'wheels one behind the other scrub in a turn') in scrubbing
+
+
 def test_a_parameter_file_that_is_not_yaml_is_named_with_its_line(tmp_path):
     broken = tmp_path / 'broken.yaml'
     broken.write_text('controller_manager:\n  ros__parameters: {update_rate: 100\n')

@@ -73,12 +73,18 @@ def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     Return in what the differential drives of parameter files are mistaken about a sound robot.
 
     What keeps a controller from running is not told here: the manager does, when it is loaded.
+    Nor is a drive for the wheels of another robot.
     """
     try:
         drives = read_drives(*paths)
     except ParameterError:
         return ()
-    found = examine(robot.text, robot.source, Surroundings(drives=drives)).warnings
+    mine = tuple(
+        drive
+        for drive in drives
+        if all(map(robot.has_joint, (*drive.left_wheels, *drive.right_wheels)))
+    )
+    found = examine(robot.text, robot.source, Surroundings(drives=mine)).warnings
     return tuple(finding for finding in found if finding.source != robot.source)
 
 

@@ -25,6 +25,7 @@ from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.nodes.controller_manager_node import ControllerManagerNode
 from amr_description.nodes.description_source import DescriptionSource
+from amr_description.nodes.drive_files import drive_warnings
 from amr_description.nodes.ground_truth import GroundTruth
 from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.outgoing import Outgoing
@@ -277,6 +278,8 @@ class Robots:
             paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
         for path in paths:
             read_parameter_file(Path(path))  # rcl would not say where it is wrong
+        for finding in drive_warnings(robot, paths):
+            self._log(Severity.WARN, finding.text)
         return [argument for path in paths for argument in ('--params-file', path)]
 
 
