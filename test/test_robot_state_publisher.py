@@ -211,6 +211,17 @@ def test_time_going_back_starts_anew(start, listener, capfd):
     assert warning in capfd.readouterr().err
 
 
+def test_what_was_on_its_way_when_time_went_back_holds_nothing_up(start, listener):
+    """A message of before, in the middle of the times that come again."""
+    node = start(TWO_LINKS.format(kind='continuous', x=5), use_sim_time=True)
+    listener.set_clock(node, Time(nanosec=500_000_000))
+    listener.hear((0, 500_000_000))
+    listener.set_clock(node, Time(nanosec=1))
+    listener.say(stamp=(0, 490_000_000))
+    (transform,) = listener.hear((0, 10_000_000))
+    assert transform.header.stamp.nanosec == 10_000_000
+
+
 def test_a_new_description_replaces_the_old_one(start, listener):
     node = start(TWO_LINKS.format(kind='fixed', x=5))
     new = TWO_LINKS.format(kind='fixed', x=10)

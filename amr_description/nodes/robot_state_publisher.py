@@ -63,7 +63,13 @@ from amr_description.nodes.node_parameters import (
     PUBLISHER_POLICIES,
     values,
 )
-from amr_description.nodes.robot_state import LinkTransform, period_of, RobotState, Throttle
+from amr_description.nodes.robot_state import (
+    LinkTransform,
+    period_of,
+    RobotState,
+    Throttle,
+    TimeGoingBack,
+)
 from amr_description.nodes.runtime import run
 from amr_description.parameters import parameter
 
@@ -107,7 +113,7 @@ class RobotStatePublisher(Node):
         self._throttle = Throttle()
         self._heads = HeadReader()
         self._parts: dict[str, TransformStamped] = {}  # by link
-        self._last_now = 0  # ns
+        self._going_back = TimeGoingBack()
         self._description = self.create_publisher(String, 'robot_description', _LATCHED)
         self._static = self.create_publisher(
             TFMessage,
@@ -187,16 +193,17 @@ class RobotStatePublisher(Node):
     def _on_joint_state(self, data: bytes) -> None:
         """Take a serialized JointState: most of them are not published, so not decoded either."""
         now = self.get_clock().now().nanoseconds
-        if now < self._last_now:
+        if self._going_back.observe(now):
             self.get_logger().warning('Moved backwards in time, re-publishing joint transforms!')
             self._throttle.forget()
-        self._last_now = now
         try:
             head = self._heads.read(data)
         except ValueError as error:
             self._complain(str(error))
             return
         stamp = head.stamp or now
+        if self._going_back.has_overtaken(stamp):
+            return
         if not (self._throttle.admit(head.names, stamp) or self._settings.ignore_timestamp):
             return
         message = deserialize_message(data, JointState)
