@@ -17,5 +17,10 @@ def test_counts_simulated_against_wall_time():
     assert factor == pytest.approx(100 * 5 * 0.002 / 0.1)
 
 
+def test_a_fleet_is_slower_than_one_and_still_fast():
+    one, ten = (bare_real_time_factor(AMR, seconds=0.1, robots=count) for count in (1, 10))
+    assert one > ten > 2
+
+
 def test_physics_is_far_from_being_the_bottleneck():
     assert bare_real_time_factor(AMR, seconds=0.05) > 10

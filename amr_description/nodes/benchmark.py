@@ -5,8 +5,9 @@
 
 The stack is started as a user starts it, in a ROS domain of its own: once as fast as possible
 (real-time factor 0), to see how fast that is, and once in real time, to see how long a warm start
-takes. The same robot, stepped by nothing but ``mj_step``, is measured before and after, so that a
-machine that changes its speed meanwhile is noticed.
+takes. Then a simulator is filled with 1, 5, 10 and 20 robots. The same robots, stepped by nothing
+but ``mj_step``, are measured beside it; one of them before and after, so that a machine that
+changes its speed meanwhile is noticed.
 """
 
 import argparse
@@ -25,6 +26,7 @@ from simulation_interfaces.srv import GetEntityState
 from amr_description.errors import BringupError
 from amr_description.nodes.clients import call, wait_until
 from amr_description.nodes.command_benchmark import command_figures
+from amr_description.nodes.fleet_benchmark import fleet_figures
 from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.startup_stages import stages_of, table
 from amr_description.nodes.transform_benchmark import transform_figures
@@ -144,6 +146,8 @@ def benchmark(options: argparse.Namespace) -> int:
         print('robot_state_publisher ...', flush=True)
         transforms = transform_figures(node, options.seconds)
         after = bare_real_time_factor(urdf, options.seconds / 2)
+        print('many robots ...', flush=True)
+        fleet = fleet_figures(node, urdf, options.seconds / 2)
         node.destroy_node()
     bare = (before + after) / 2
     print(f"""
@@ -153,6 +157,8 @@ real-time factor                        at factor 0
 mj_step alone, before and after      {before:8.1f} {after:8.1f}
 full stack                           {full:8.1f}
 full stack / mj_step alone           {full / bare:8.3f}
+
+{fleet}
 
 {commands}
 
