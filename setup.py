@@ -41,6 +41,7 @@ setup(
     entry_points={
         'console_scripts': [
             'bringup = amr_description.bringup.main:main',
+            'calibrate = amr_description.nodes.calibrate:main',
             'create = amr_description.nodes.create:main',
             'hardware_spawner = amr_description.nodes.hardware_spawner:main',
             'joint_state_publisher = amr_description.nodes.joint_state_publisher:main',

@@ -7,13 +7,14 @@ Odometry has, from the turning angles of the wheels times ``wheel_radius`` (l an
 
     distance = (m_l l + m_r r) / 2        turn = (m_r r - m_l l) / (m_s separation)
 
-with the multipliers m_l, m_r (radii) and m_s (separation). Written for each side, with the true
-distance d and turn t of a run, and the effective separation s = m_s separation::
+with the multipliers m_l, m_r (radii) and m_s (separation). Wheels roll where they go straight and
+scrub where they turn, so each kind of run is asked only what it knows. With the true distance d
+and turn t of a run, and the effective separation s = m_s separation:
 
-    m_l l + s t / 2 = d                   m_r r - s t / 2 = d
+- straight runs: m_l l = d - s t / 2 and m_r r = d + s t / 2, least squares in m of travel;
+- turns: (m_r r - m_l l) / s = t, least squares in rad.
 
-which is linear in m_l, m_r and s: least squares over all runs, in metres of travel of a side.
-Straight runs tell the radii, turns tell the separation.
+The three are solved together, as a drift of the straight runs (t) tells radii only if s is known.
 """
 
 from collections.abc import Sequence
@@ -24,9 +25,6 @@ from amr_description.errors import CalibrationError
 
 _SMALL_TURN = 1e-6
 """rad; a shorter arc is a line."""
-
-_LEAST_INFORMATION = 1e-3
-"""rad² (per run): less turning than this, beside what straight runs explain, tells nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,37 +113,25 @@ class Path:
         return Travel(self.distance, self.turn)
 
 
-def fit(runs: Sequence[Run], separation: float) -> Geometry:
+def fit(straight: Sequence[Run], turning: Sequence[Run], separation: float) -> Geometry:
     """
-    Fit the three multipliers to runs that go straight and turn; ``separation``: m, as in the
-    parameters. Raises CalibrationError where the runs do not tell them.
+    Fit the three multipliers; ``separation``: m, as in the parameters.
+
+    Raises CalibrationError where the runs do not tell them.
     """
-    left = [run.left for run in runs]
-    right = [run.right for run in runs]
-    half = [run.truth.turn / 2.0 for run in runs]
-    true = [run.truth.distance for run in runs]
-    left_left, right_right = math.sumprod(left, left), math.sumprod(right, right)
-    if not min(left_left, right_right) > 0.0:
-        side = 'left' if left_left < right_right else 'right'
-        raise CalibrationError(f'the wheels on the {side} did not turn in any run')
-    left_half, right_half = math.sumprod(left, half), math.sumprod(right, half)
-    left_true, right_true = math.sumprod(left, true), math.sumprod(right, true)
-    # The normal equations, the two radii eliminated.
-    turning = 2.0 * math.sumprod(half, half)
-    information = turning - left_half**2 / left_left - right_half**2 / right_right
-    if information < _LEAST_INFORMATION * len(runs):
-        raise CalibrationError(
-            f'{len(runs)} runs turn too little, or only turn, to tell the separation from the '
-            'radii; it takes a straight run and a turn on the spot at least'
-        )
-    effective = (
-        right_half * right_true / right_right - left_half * left_true / left_left
-    ) / information
+    # m_l = left - s left_drift and m_r = right + s right_drift.
+    left, left_drift = _side('left', [run.left for run in straight], straight)
+    right, right_drift = _side('right', [run.right for run in straight], straight)
+    rolled = [right * run.right - left * run.left for run in turning]
+    turned = [run.truth.turn - right_drift * run.right - left_drift * run.left for run in turning]
+    if not math.sumprod(rolled, turned):
+        raise CalibrationError(f'the robot did not turn in any of {len(turning)} turns')
+    effective = math.sumprod(rolled, rolled) / math.sumprod(rolled, turned)
     geometry = Geometry(
         separation,
         separation_multiplier=effective / separation,
-        left_multiplier=(left_true - effective * left_half) / left_left,
-        right_multiplier=(right_true + effective * right_half) / right_right,
+        left_multiplier=left - effective * left_drift,
+        right_multiplier=right + effective * right_drift,
     )
     _check(geometry)
     return geometry
@@ -156,6 +142,15 @@ def yaw_error(run: Run, geometry: Geometry) -> float:
     if abs(run.truth.turn) < math.radians(30.0):
         return math.nan
     return abs(run.odometry(geometry).turn / run.truth.turn - 1.0)
+
+
+def _side(name: str, travel: Sequence[float], runs: Sequence[Run]) -> tuple[float, float]:
+    """Least squares of true distance, and of half the true turn, over a side's travel."""
+    square = math.sumprod(travel, travel)
+    if not square:
+        raise CalibrationError(f'the wheels on the {name} did not turn in any straight run')
+    distance = math.sumprod(travel, [run.truth.distance for run in runs])
+    return distance / square, math.sumprod(travel, [run.truth.turn / 2.0 for run in runs]) / square
 
 
 def _check(geometry: Geometry) -> None:
