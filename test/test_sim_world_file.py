@@ -80,6 +80,52 @@ def test_wheels_drive_on_every_static_surface(tmp_path, surface):
     assert yaw_rate == pytest.approx(5.0 * 0.1 / 0.15 * 0.36, rel=0.03)
 
 
+GROUND = '<geom type="plane" size="0 0 1"/>'
+BALL = '<body pos="3 0 1"><freejoint/><geom type="sphere" size="0.1"/></body>'
+DOOR = """<body pos="4 0 0.5"><joint name="hinge"/><geom type="box" size="0.5 0.02 0.4"/></body>"""
+
+
+@pytest.mark.parametrize(
+    'body',
+    [
+        f'<worldbody>{GROUND}{BALL}</worldbody>'
+        '<keyframe><key name="up" qpos="3 0 2 1 0 0 0"/></keyframe>',
+        f'<worldbody>{GROUND}{DOOR}</worldbody>'
+        '<actuator><position joint="hinge"/></actuator><sensor><jointpos joint="hinge"/></sensor>',
+        f'<include file="part.xml"/><worldbody>{GROUND}</worldbody>',
+        '<asset><mesh name="tile" file="tile.obj"/></asset>'
+        '<worldbody><geom type="mesh" mesh="tile"/></worldbody>',
+        '<asset><hfield name="flat" nrow="9" ncol="9" size="4 4 0.1 0.1"/></asset>'
+        '<worldbody><geom type="hfield" hfield="flat"/></worldbody>',
+        # What the world says about its own joints and shapes is not said about a robot's.
+        '<compiler angle="radian"/><default><joint damping="100"/><geom contype="0"/></default>'
+        '<worldbody><geom type="plane" size="0 0 1" contype="1"/></worldbody>',
+    ],
+    ids=['keyframe', 'mechanism', 'include', 'mesh', 'height field', 'defaults'],
+)
+def test_any_mjcf_is_driven_on(tmp_path, body):
+    write(
+        tmp_path / 'part.xml', '<worldbody><geom type="box" size="1 1 1" pos="0 9 0"/></worldbody>'
+    )
+    corners = [(x, y, z) for z in (0, -1) for y in (-4, 4) for x in (-4, 4)]
+    vertices = ''.join(f'v {x} {y} {z}\n' for x, y, z in corners)
+    (tmp_path / 'tile.obj').write_text(f'{vertices}f 1 2 4\nf 1 4 3\nf 5 6 8\nf 5 8 7\n')
+    world = MujocoWorld(write(tmp_path / 'world.xml', body))
+    robots = [
+        world.spawn(name, AMR, Transform((0.0, y, 0.01))) for name, y in (('a', 0), ('b', 2))
+    ]
+    for _ in range(2):
+        for robot in robots:
+            robot.joints(WHEELS).command('velocity', [-5.0, 5.0] * 2)
+        world.step(1500)
+        for robot in robots:
+            _, (_, _, yaw_rate) = robot.velocity('base_footprint')
+            assert yaw_rate == pytest.approx(5.0 * 0.1 / 0.15 * 0.36, rel=0.03)
+        world.reset()
+    world.remove('a')
+    world.step(10)
+
+
 @pytest.mark.parametrize(
     'text, fault',
     [
