@@ -269,10 +269,17 @@ def test_the_spawner_waits_only_as_long_as_it_is_told():
     )
 
 
-def test_a_world_that_is_not_there_ends_the_simulator():
-    ended = run('mujoco_sim', '--ros-args', '-p', 'world:=atlantis')
+@pytest.mark.parametrize(
+    ('parameter', 'message'),
+    [
+        ('world:=atlantis', "world 'atlantis'"),
+        ('physics.solver:=newton', "'physics.solver' must be one of world, PGS, CG, Newton"),
+    ],
+)
+def test_a_world_that_cannot_be_ends_the_simulator(parameter, message):
+    ended = run('mujoco_sim', '--ros-args', '-p', parameter)
     assert ended.returncode == 1
-    assert "world 'atlantis'" in ended.stderr
+    assert message in ended.stderr
     assert 'Traceback' not in ended.stderr
 
 
