@@ -135,3 +135,30 @@ def test_what_is_forgotten_is_not_driven_again(listener):
     listener.receive((0.5, 0.0), stamp=T0, now=T0)
     listener.reception.forget(T0 + 1)
     assert listener.at(T0 + 2) is None
+
+
+# --- time going back -----------------------------------------------------------------------------
+
+
+def drive_until(listener, end):
+    for time in range(T0, end, 10 * MS):
+        listener.receive((0.5, 0.0), stamp=time, now=time)
+        assert listener.at(time + 10 * MS) == (0.5, 0.0)
+
+
+@pytest.mark.parametrize('age', [0, 10 * MS, 900 * MS])
+def test_a_command_of_before_a_reset_does_not_drive_until_its_time_comes_again(listener, age):
+    before = T0 + 30_000 * MS
+    drive_until(listener, before)
+    listener.reception.forget(0)
+    listener.receive((0.5, 0.0), stamp=before - age, now=-10 * MS)
+    assert listener.at(0) is None
+    assert listener.at(TIMEOUT + 1) == (0.0, 0.0)
+
+
+def test_commands_after_a_reset_count_at_once(listener):
+    drive_until(listener, T0 + 1000 * MS)
+    listener.reception.forget(T0)
+    for time in range(T0, T0 + 3000 * MS, 10 * MS):
+        listener.receive((time / T0, 0.0), stamp=time, now=time - 10 * MS)
+        assert listener.at(time) == (time / T0, 0.0)

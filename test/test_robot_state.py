@@ -15,7 +15,7 @@ import yourdfpy
 from amr_description.model.description_file import description_text
 from amr_description.model.frames import Transform
 from amr_description.model.urdf import load, parse
-from amr_description.nodes.robot_state import period_of, RobotState, Throttle, TimeGoingBack
+from amr_description.nodes.robot_state import period_of, RobotState, Throttle
 
 ROOT = Path(__file__).parents[1]
 FIXTURES = ROOT / 'test/fixtures/urdf'
@@ -298,42 +298,3 @@ def test_after_forgetting_everything_is_due():
     assert not throttle.admit(['wheel'], 10)
     throttle.forget()
     assert throttle.admit(['wheel'], 10)
-
-
-# --- time going back -----------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    'stamps',
-    [
-        [220, 0, 10, 20],  # one of before is still on its way
-        [210, 220, 0, 10],
-        [0, 10, 20],
-        [30, 40],  # the clock is a little behind
-    ],
-)
-def test_only_what_was_sent_before_time_went_back_is_left_out(stamps):
-    clock = TimeGoingBack()
-    assert not clock.observe(220 * MILLISECOND)
-    assert not clock.has_overtaken(220 * MILLISECOND)
-    assert clock.observe(0)
-    kept = [stamp for stamp in stamps if not clock.has_overtaken(stamp * MILLISECOND)]
-    assert kept == [stamp for stamp in stamps if stamp < 200]
-
-
-def test_the_time_that_begins_anew_may_reach_that_of_before():
-    clock = TimeGoingBack()
-    clock.observe(220 * MILLISECOND)
-    clock.observe(0)
-    for now in range(0, 400, 10):
-        assert not clock.observe(now * MILLISECOND)
-        assert not clock.has_overtaken((now + 10) * MILLISECOND)
-
-
-def test_a_source_that_is_ahead_for_good_is_heard_again():
-    """Its clock is another one: what is on its way is not as old as that, nor as new."""
-    for stamp in (2000, 7000):
-        clock = TimeGoingBack()
-        clock.observe(5000 * MILLISECOND)
-        clock.observe(0)
-        assert not clock.has_overtaken(stamp * MILLISECOND)

@@ -13,6 +13,7 @@ import math
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.samples import TwistSample
+from amr_description.control.time_going_back import TimeGoingBack
 
 FOREIGN_CLOCK = 60 * NANOSECONDS
 """
@@ -30,10 +31,12 @@ class CommandReception:
         """``timeout``: the age at which a command ends; 0: never."""
         self._timeout = timeout
         self._log = log
+        self._going_back = TimeGoingBack()
         self.forget(0)
 
     def forget(self, time: int) -> None:
-        """Have no command; the time-out counts from ``time``."""
+        """Have no command; the time-out counts from ``time``, which may have gone back."""
+        self._going_back.observe(time)
         self._stamp = time
         self._twist: tuple[float, float] | None = None
         self._is_driving = False
@@ -41,6 +44,8 @@ class CommandReception:
     def receive(self, samples: Iterable[TwistSample], now: int) -> None:
         """Take what arrived, oldest first, when the sender's clock could read ``now``."""
         for sample in samples:
+            if self._going_back.has_overtaken(sample.stamp):
+                continue  # it would hold until its own time is reached again
             stamp = self._trusted_stamp(sample.stamp, now)
             if self._timeout and now - stamp >= self._timeout:
                 self._refuse(stamp, now)
@@ -59,6 +64,7 @@ class CommandReception:
         Return the twist (m/s, rad/s) to drive at ``time``: the newest command, or rest once it
         has timed out. ``None``: nothing new, what was in force stays.
         """
+        self._going_back.observe(time)
         if self._timeout and time - self._stamp > self._timeout:
             if self._is_driving:
                 self._log(Severity.WARN, 'Velocity command timed out. Braking.', throttle=1.0)

@@ -15,7 +15,6 @@ from amr_description.model.frames import joint_transform, Transform
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 
 _RESTART = 1_000_000_000  # ns: messages of one source do not overtake one another by so much
-_EARLY = 50_000_000  # ns: a message may be here before its time is heard on /clock by so much
 _PATIENCE = 2  # periods that a joint may be late before its turns are counted anew
 
 
@@ -112,37 +111,6 @@ class Throttle:
     def forget(self) -> None:
         """Start anew: time went back, or the period is another."""
         self._joints.clear()
-
-
-class TimeGoingBack:
-    """
-    Notices that the clock went back, and what was on its way then, still stamped as before.
-
-    Such a message tells where a robot was before a reset; taken for news of the time that begins
-    anew, it would hold back all that comes until its own time is reached again.
-    """
-
-    def __init__(self) -> None:
-        self._now = 0
-        self._before: int | None = None
-
-    def observe(self, now: int) -> bool:
-        """Take what the clock shows, ns; return whether it went back."""
-        went_back = now < self._now
-        if went_back:
-            self._before = self._now
-        self._now = now
-        return went_back
-
-    def has_overtaken(self, stamp: int) -> bool:
-        """Whether a message stamped ``stamp`` (ns) is of before; asked of each, in its order."""
-        if self._before is None:
-            return False
-        earliest = max(self._now + _EARLY, self._before - _RESTART)
-        is_of_before = earliest < stamp <= self._before + _EARLY
-        if not is_of_before:
-            self._before = None
-        return is_of_before
 
 
 class _Turn(NamedTuple):

@@ -53,6 +53,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control.interfaces import NANOSECONDS
+from amr_description.control.time_going_back import TimeGoingBack
 from amr_description.errors import AmrError, DescriptionError, ParameterError
 from amr_description.model.urdf import parse
 from amr_description.nodes.description_argument import read_description, split_arguments
@@ -63,13 +64,7 @@ from amr_description.nodes.node_parameters import (
     PUBLISHER_POLICIES,
     values,
 )
-from amr_description.nodes.robot_state import (
-    LinkTransform,
-    period_of,
-    RobotState,
-    Throttle,
-    TimeGoingBack,
-)
+from amr_description.nodes.robot_state import LinkTransform, period_of, RobotState, Throttle
 from amr_description.nodes.runtime import run
 from amr_description.parameters import parameter
 

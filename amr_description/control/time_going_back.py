@@ -1,0 +1,45 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What was on its way when time went back.
+
+A simulation is reset, or a clock set: messages that were sent before still come in, stamped with
+times that are now ahead. Taken for news they would hold up, or outlast, all that comes until their
+own time is reached again.
+"""
+
+_AGE = 1_000_000_000
+"""ns: nothing is on its way for longer."""
+
+_EARLY = 100_000_000
+"""ns: a message may be here before its time is known here by so much."""
+
+
+class TimeGoingBack:
+    """Notices that time went back, and which messages are of before; all times in ns."""
+
+    def __init__(self) -> None:
+        self._now = 0
+        self._before: int | None = None
+
+    def observe(self, now: int) -> bool:
+        """Take what the clock shows; return whether it went back."""
+        went_back = now < self._now
+        if went_back:
+            self._before = self._now
+        self._now = now
+        return went_back
+
+    def has_overtaken(self, stamp: int) -> bool:
+        """
+        Tell whether a message stamped so was sent before time went back; ask of each, in turn.
+
+        The first that was sent since ends the search.
+        """
+        if self._before is None:
+            return False
+        earliest = max(self._now + _EARLY, self._before - _AGE)
+        is_of_before = earliest < stamp <= self._before + _EARLY
+        if not is_of_before:
+            self._before = None
+        return is_of_before
