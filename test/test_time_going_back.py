@@ -43,3 +43,21 @@ def test_a_source_that_is_ahead_for_good_is_heard_again():
         clock.observe(5000 * MILLISECOND)
         clock.observe(0)
         assert not clock.has_overtaken(stamp * MILLISECOND)
+
+
+def test_one_that_was_sent_since_does_not_hide_another_of_before():
+    clock = TimeGoingBack()
+    clock.observe(5000 * MILLISECOND)
+    clock.observe(0)
+    for stamp, is_of_before in ((4990, True), (10, False), (5000, True), (5200, False)):
+        assert clock.has_overtaken(stamp * MILLISECOND) is is_of_before
+
+
+def test_after_a_second_nothing_is_on_its_way_any_more():
+    clock = TimeGoingBack()
+    clock.observe(5000 * MILLISECOND)
+    clock.observe(0)
+    assert clock.is_recent
+    clock.observe(1001 * MILLISECOND)
+    assert not clock.is_recent
+    assert not clock.has_overtaken(5000 * MILLISECOND)

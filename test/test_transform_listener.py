@@ -189,6 +189,25 @@ def test_time_that_goes_back_clears_what_moves(context):
     assert buffer.can_transform('base', 'laser', Time())
 
 
+def test_what_was_on_its_way_when_time_went_back_keeps_nothing_out(context):
+    """Taken for the newest, it would make what follows too old for the cache of 10 s."""
+    second = 1_000_000_000
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+    clock.set_ros_time_override(Time(nanoseconds=60 * second, clock_type=clock.clock_type))
+    buffer = Buffer(clock=clock)
+    buffer._logger = FakeLogger()
+    buffer.set_transform(message('odom', 'base', 1.0, 60 * second), 'me')
+    clock.set_ros_time_override(Time(nanoseconds=0, clock_type=clock.clock_type))
+    buffer.set_transform(message('odom', 'base', 1.0, 60 * second - second // 100), 'me')
+    buffer.set_transform(message('base', 'wheel', 2.0, second // 50), 'me')
+    buffer.set_transform(message('odom', 'base', 1.0, 60 * second), 'me')
+    buffer.set_transform(message('odom', 'base', 0.0, second // 50), 'me')
+    found = buffer.lookup_transform('odom', 'base', Time()).transform.translation.x
+    assert found == 0.0
+    assert buffer._logger.said == ['Detected jump back in time. Clearing tf buffer.']
+
+
 def test_a_listener_hears_moving_and_static_transforms_also_of_before(context):
     talker, hearer = Node('talker'), Node('hearer')
     static, moving = StaticTransformBroadcaster(talker), TransformBroadcaster(talker)

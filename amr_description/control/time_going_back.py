@@ -19,27 +19,27 @@ class TimeGoingBack:
     """Notices that time went back, and which messages are of before; all times in ns."""
 
     def __init__(self) -> None:
-        self._now = 0
+        self._now = self._since = 0
         self._before: int | None = None
+
+    @property
+    def is_recent(self) -> bool:
+        """Whether something may still be on its way."""
+        return self._before is not None
 
     def observe(self, now: int) -> bool:
         """Take what the clock shows; return whether it went back."""
         went_back = now < self._now
         if went_back:
-            self._before = self._now
+            self._before, self._since = self._now, now
+        elif now > self._since + _AGE:
+            self._before = None
         self._now = now
         return went_back
 
     def has_overtaken(self, stamp: int) -> bool:
-        """
-        Tell whether a message stamped so was sent before time went back; ask of each, in turn.
-
-        The first that was sent since ends the search.
-        """
+        """Tell whether a message stamped so was sent before time went back."""
         if self._before is None:
             return False
         earliest = max(self._now + _EARLY, self._before - _AGE)
-        is_of_before = earliest < stamp <= self._before + _EARLY
-        if not is_of_before:
-            self._before = None
-        return is_of_before
+        return earliest < stamp <= self._before + _EARLY

@@ -24,6 +24,7 @@ from rclpy.task import Future
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 
+from amr_description.control.time_going_back import TimeGoingBack
 from amr_description.errors import TransformException
 from amr_description.model.frame_report import frames_as_string, frames_as_yaml
 from amr_description.model.frame_tree import FrameRecord
@@ -71,6 +72,8 @@ class Buffer:
         if node is not None:
             self.srv = node.create_service(FrameGraph, 'tf2_frames', self._answer)
             clock = node.get_clock()
+        self._clock = clock
+        self._going_back = TimeGoingBack()
         self._jumps = clock and clock.create_jump_callback(
             JumpThreshold(
                 min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
@@ -187,6 +190,8 @@ class Buffer:
             self._core.clear()
 
     def _insert(self, transform: TransformStamped, authority: str, *, static: bool) -> None:
+        if not static and self._is_of_before(transform):
+            return
         with self._changed:
             remark = self._core.set_transform(
                 stamped_transform(transform), authority, static=static
@@ -197,6 +202,16 @@ class Buffer:
             self._say(remark)
         if self._awaited:
             self._serve_awaited()
+
+    def _is_of_before(self, transform: TransformStamped) -> bool:
+        """
+        Whether it was on its way when time went back: taken as the newest that is known, it would
+        keep out, as too old, all that comes since.
+        """
+        if not self._going_back.is_recent:
+            return False
+        self._going_back.observe(self._clock.now().nanoseconds)
+        return self._going_back.has_overtaken(nanoseconds(transform.header.stamp))
 
     def _wait(self, lookup: _Lookup, timeout: Duration) -> TransformStamped:
         self._until(lookup, timeout)
@@ -249,6 +264,9 @@ class Buffer:
             what = 'jump back in time' if jump.delta.nanoseconds < 0 else 'time source change'
             self._logger.warning(f'Detected {what}. Clearing tf buffer.')
         self.clear()
+        now, step = self._clock.now().nanoseconds, jump.delta.nanoseconds
+        self._going_back.observe(now - step)
+        self._going_back.observe(now)
 
     def _answer(
         self, _request: FrameGraph.Request, response: FrameGraph.Response
