@@ -110,6 +110,22 @@ def test_stamps_are_exact_instants_also_after_time_went_back(host, period):
     assert milliseconds == pytest.approx([*one, *one])
 
 
+def test_the_base_of_a_robot_that_stands_fixed_is_what_hangs_on_the_world(host):
+    urdf = AMR.replace(
+        '<link name="base_footprint"/>',
+        '<link name="world"/><link name="base_footprint"/><joint name="bolts" type="fixed">'
+        '<parent link="world"/><child link="base_footprint"/><origin xyz="0 0 2"/></joint>',
+    )
+    host.spawn('amr', 'one', Transform((1.0, 0.0, 0.0)), urdf)
+    with host.heard(Odometry, '/one/ground_truth/odom') as messages:
+        host.turn(41)
+        host.wait(lambda: len(messages) == 21)
+    (pose,) = {transform_of(each.pose.pose).translation for each in messages}
+    assert pose == (1.0, 0.0, 2.0)
+    assert messages[-1].child_frame_id == 'one/base_footprint'
+    assert linear(messages[-1]) == (0.0, 0.0, 0.0)
+
+
 def test_while_time_stands_still_each_reminder_tells_the_present_instant(host):
     host.spawn('amr', '')
     host.turn(2)

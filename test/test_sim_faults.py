@@ -171,6 +171,20 @@ def test_a_solver_that_stays_at_its_cap_is_named_with_the_robot_that_keeps_it_th
     assert log.text.count('at its cap') == 2
 
 
+def test_a_floor_below_zero_is_ground_too(log, tmp_path):
+    path = tmp_path / 'cellar.xml'
+    path.write_text(
+        '<mujoco><worldbody><geom name="floor" type="plane" size="5 5 1" pos="0 0 -2"/>'
+        '</worldbody></mujoco>'
+    )
+    world = MujocoWorld(str(path), log=log)
+    world.spawn('amr', AMR, Transform((0.0, 0.0, -1.8)))
+    for _ in range(200):
+        world.step(5)
+    assert world.robot('amr').pose('base_footprint').translation[2] == pytest.approx(-2, abs=1e-3)
+    assert log.lines == []
+
+
 def test_what_goes_on_is_told_once_and_each_telling_calls_on_fault(log, tmp_path):
     path = tmp_path / 'table.xml'
     path.write_text(

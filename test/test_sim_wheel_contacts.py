@@ -22,7 +22,7 @@ def drive():
 
 @pytest.fixture
 def contacts(drive):
-    return WheelContacts.of(drive.world.engine, drive.robot)
+    return WheelContacts(drive.world.engine, drive.robot)
 
 
 def by_joint(contacts):
@@ -76,7 +76,7 @@ def test_in_the_air_there_is_no_load_and_no_slip(drive, contacts):
     aloft = drive.world.spawn('aloft', AMR, Transform((0.0, 3.0, 1.0)))
     drive.tick()
     assert not any(
-        wheel.is_touching for wheel in WheelContacts.of(drive.world.engine, aloft).read()
+        wheel.is_touching for wheel in WheelContacts(drive.world.engine, aloft).read()
     )
     assert all(wheel.is_touching for wheel in contacts.read())  # found again in the new model
 
@@ -86,4 +86,4 @@ def test_a_robot_without_wheels_has_none(drive):
         <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
         <collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>"""
     view = drive.world.spawn('box', box, Transform((0.0, 3.0, 1.0)))
-    assert WheelContacts.of(drive.world.engine, view).read() == ()
+    assert WheelContacts(drive.world.engine, view).read() == ()

@@ -6,13 +6,15 @@ What is true of every simulated robot, beside what its sensors and its odometry 
 In the namespace of the robot, reliable, depth 10, stamped with the exact simulated time::
 
     ground_truth/odom    nav_msgs/msg/Odometry
-        pose     of the root link in the frame 'world'; no errors, so no covariances
-        twist    of the root link's origin, in the link's own axes (child_frame_id)
+        pose     of the base in the frame 'world'; no errors, so no covariances
+        twist    of the base's origin, in the base's own axes (child_frame_id)
     ground_truth/wheels  control_msgs/msg/DynamicJointState, of a robot that has wheels
         contact           1 while the wheel bears on something, else 0
         normal_force      N
         slip_along        m/s, of the tread over the ground, in the wheel's rolling direction
         slip_across       m/s, the same along the axle: the scrub of a skid-steered robot
+
+The base is the root link; of a robot whose root is ``world``, the first link that hangs on it.
 
 While time stands still the present instant is told ten times a second of the wall clock. Nothing
 is computed for a topic that nobody hears. The child frame has the prefix that the controllers'
@@ -34,6 +36,7 @@ from rclpy.qos import QoSProfile
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.samples import DynamicJointStateSample, DynamicLayout
 from amr_description.model.frames import Transform, Vector
+from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.nodes.converters import (
     fill_dynamic_joint_state,
     fill_pose,
@@ -123,10 +126,10 @@ class _RobotTruth:
     def __init__(self, node: Node, robot: RobotView, engine: Engine, place: str) -> None:
         self.place = place
         self._robot = robot
-        self._root = robot.description.root.name
-        self._contacts = WheelContacts.of(engine, robot)
+        self._base = _base_of(robot.description)
+        self._contacts = WheelContacts(engine, robot)
         self._odom = node.create_publisher(Odometry, f'{place}/{ODOM_TOPIC}', _QOS)
-        self._odometry = Odometry(child_frame_id=f'{place}/{self._root}'.removeprefix('/'))
+        self._odometry = Odometry(child_frame_id=f'{place}/{self._base}'.removeprefix('/'))
         self._odometry.header.frame_id = WORLD_FRAME
         self._wheels: Publisher | None = None
         joints = self._contacts.joints
@@ -145,7 +148,7 @@ class _RobotTruth:
     def report(self, time: int, send: Callable[..., None]) -> None:
         """Look at the robot, as far as anybody listens."""
         if _is_heard(self._odom):
-            pose, velocity = self._robot.pose(self._root), self._robot.velocity(self._root)
+            pose, velocity = self._robot.pose(self._base), self._robot.velocity(self._base)
             send(_fill_motion, Motion(time, pose, velocity), self._odometry, self._odom)
         if self._wheels is not None and _is_heard(self._wheels):
             values = tuple(
@@ -154,6 +157,12 @@ class _RobotTruth:
             )
             sample = DynamicJointStateSample(time, values, self._layout)
             send(fill_dynamic_joint_state, sample, self._states, self._wheels)
+
+
+def _base_of(robot: Robot) -> str:
+    root = robot.root.name
+    hanging = robot.child_joints(root) if root == WORLD_LINK else ()
+    return hanging[0].child if hanging else root
 
 
 def _is_heard(publisher: Publisher) -> bool:

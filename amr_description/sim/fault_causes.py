@@ -7,12 +7,21 @@ from dataclasses import dataclass
 import math
 
 import mujoco
+import numpy as np
 
 _DEEP = 0.005
 """m; bodies that overlap by more are pushed apart with forces that nothing real has."""
 
 _LIGHT = 1e-6
 """kg·m² or kg; what an actuator or a contact moves to any speed within a step."""
+
+
+_DOWN = np.array([0.0, 0.0, -1.0])
+_SINK = 0.1
+"""m; what stands on a floor is not deeper in it."""
+_SKIP = 1e-6
+"""m; a ray goes on so far behind what it has hit."""
+_MOST_HITS = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +76,19 @@ def _split(name: str) -> tuple[str, str]:
     """Robot and part of a name in the world; what is of the world's own file has no robot."""
     robot, slash, part = name.partition('/')
     return (robot, part) if slash else ('', name)
+
+
+def has_ground(model: mujoco.MjModel, data: mujoco.MjData, place: np.ndarray) -> bool:
+    """Whether there is anything of the world itself below a place (m), or just above it."""
+    start, hit = place - _DOWN * _SINK, np.zeros(1, np.int32)
+    for _ in range(_MOST_HITS):
+        distance = mujoco.mj_ray(model, data, start, _DOWN, None, 1, -1, hit)
+        if hit[0] < 0:
+            return False
+        if model.body_weldid[model.geom_bodyid[hit[0]]] == 0:
+            return True
+        start = start + _DOWN * (distance + _SKIP)  # through a robot
+    return False
 
 
 def likely_cause(

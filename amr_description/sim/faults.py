@@ -20,6 +20,7 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.sim.engine import Engine, NANOSECONDS
 from amr_description.sim.fault_causes import (
     dof_of_position,
+    has_ground,
     likely_cause,
     place_of_actuator,
     place_of_dof,
@@ -27,7 +28,7 @@ from amr_description.sim.fault_causes import (
 )
 
 FALL_HEIGHT = -0.1
-"""m; the root of a robot below this height has left the ground."""
+"""m; the root of a robot below this height, with nothing under it, has left the ground."""
 
 HIGHEST_SPEED = 2000.0
 """m/s or rad/s; no part of a robot is so fast, a rotor of a drone included."""
@@ -100,7 +101,9 @@ class FaultMonitor:
             return
         for name, index in roots:
             height = float(data.qpos[index])
-            if height < FALL_HEIGHT:
+            if height < FALL_HEIGHT and not has_ground(
+                self._engine.model, data, data.qpos[index - 2 : index + 1]
+            ):
                 self._tell_fall(name, height)
 
     # --- what MuJoCo says ---------------------------------------------------------------------

@@ -8,12 +8,10 @@ Odometry takes a wheel's turning for travel; the slip seen here is what it is wr
 """
 
 from dataclasses import dataclass
-from typing import Self
 
 import mujoco
 import numpy as np
 
-from amr_description.model.wheels import Wheel
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_spec import tread_name
 from amr_description.sim.robot_view import RobotView
@@ -44,21 +42,14 @@ class WheelContact:
 class WheelContacts:
     """Reads the contacts of one robot's wheels; valid as long as its :class:`RobotView` is."""
 
-    def __init__(self, engine: Engine, name: str, wheels: tuple[Wheel, ...]) -> None:
-        """``name``: of the robot in the world."""
-        self.joints = tuple(wheel.joint for wheel in wheels)
+    def __init__(self, engine: Engine, robot: RobotView) -> None:
+        self.joints = tuple(wheel.joint for wheel in robot.wheels)
         """The joint of each wheel, in the order of :meth:`read`."""
         self._engine = engine
-        self._name = name
-        self._wheels = wheels
+        self._robot = robot
         self._generation = -1
         self._place_of: dict[int, int] = {}
         self._joint_ids: list[int] = []
-
-    @classmethod
-    def of(cls, engine: Engine, robot: RobotView) -> Self:
-        """Those of the wheels that the world found when it spawned the robot."""
-        return cls(engine, robot.name, robot.wheels)
 
     def read(self) -> tuple[WheelContact, ...]:
         """
@@ -69,9 +60,8 @@ class WheelContacts:
         self._bind()
         self._engine.refresh_truth()
         model, data = self._engine.model, self._engine.data
-        loads = [0.0] * len(self._wheels)
-        heaviest = [0.0] * len(self._wheels)
-        places = [_NO_CONTACT] * len(self._wheels)
+        count = len(self.joints)
+        loads, heaviest, places = [0.0] * count, [0.0] * count, [_NO_CONTACT] * count
         force = np.empty(6)
         for contact, geoms in enumerate(data.contact.geom.tolist() if data.ncon else ()):
             wheel = self._place_of.get(geoms[0], self._place_of.get(geoms[1]))
@@ -114,10 +104,10 @@ class WheelContacts:
         """Find the wheels in the model, after it was built anew."""
         if self._generation == self._engine.generation:
             return
-        model = self._engine.model
+        model, name = self._engine.model, self._robot.name
         self._place_of = {
-            model.geom(f'{self._name}/{tread_name(wheel.link)}').id: place
-            for place, wheel in enumerate(self._wheels)
+            model.geom(f'{name}/{tread_name(wheel.link)}').id: place
+            for place, wheel in enumerate(self._robot.wheels)
         }
-        self._joint_ids = [model.joint(f'{self._name}/{joint}').id for joint in self.joints]
+        self._joint_ids = [model.joint(f'{name}/{joint}').id for joint in self.joints]
         self._generation = self._engine.generation
