@@ -171,6 +171,21 @@ def test_a_solver_that_stays_at_its_cap_is_named_with_the_robot_that_keeps_it_th
     assert log.text.count('at its cap') == 2
 
 
+def test_an_absurd_effort_is_named_as_the_cause_and_its_effects_are_not_told(log):
+    driven = '<command_interface name="velocity"/>'
+    world = MujocoWorld('empty', log=log)
+    robot = world.spawn('amr', AMR.replace(driven, driven.replace('velocity', 'effort')))
+    robot.joints(['joint_wheel_back_left']).command('effort', [1e6])
+    for _ in range(100):
+        world.step(5)
+    (line,) = log.text.splitlines()
+    assert line.startswith("ERROR robot 'amr': ")
+    assert (
+        "Likely: joint 'joint_wheel_back_left' is driven with an effort of 1e+06, on an inertia "
+        'of 0.0'
+    ) in line
+
+
 def test_a_floor_below_zero_is_ground_too(log, tmp_path):
     path = tmp_path / 'cellar.xml'
     path.write_text(

@@ -2,19 +2,29 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where in a model something went wrong, in the names of the URDF, and what most likely did it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 import math
 
 import mujoco
 import numpy as np
 
+from amr_description.sim.actuators import rotor_name
+
 _DEEP = 0.005
 """m; bodies that overlap by more are pushed apart with forces that nothing real has."""
+
+_TOO_DEEP = 1.0
+"""m; it was thrown there: an effect, no cause."""
+
+_ABSURD = 1e5
+"""m/s² or rad/s²."""
 
 _LIGHT = 1e-6
 """kg·m² or kg; what an actuator or a contact moves to any speed within a step."""
 
+
+_ROTOR = rotor_name('')
 
 _DOWN = np.array([0.0, 0.0, -1.0])
 _SINK = 0.1
@@ -43,6 +53,7 @@ def place_of_dof(model: mujoco.MjModel, dof: int) -> Place:
     """Name an index into ``qvel``."""
     joint = int(model.dof_jntid[dof])
     robot, name = _split(model.joint(joint).name)
+    name = name.removesuffix(_ROTOR)
     kind = model.jnt_type[joint]
     if kind == mujoco.mjtJoint.mjJNT_FREE:
         _, link = _split(model.body(int(model.jnt_bodyid[joint])).name)
@@ -97,11 +108,12 @@ def likely_cause(
     """
     The best explanation of a huge velocity (or of what comes after it) at ``dof``, with a remedy.
     """
-    joint = int(model.dof_jntid[dof])
+    root = int(model.body_rootid[model.dof_bodyid[dof]])
     return (
-        _command_cause(model, data, joint, velocity)
+        _command_cause(model, data, int(model.dof_jntid[dof]), velocity)
+        or _effort_cause(model, data, root)
         or _inertia_cause(model, dof)
-        or _overlap_cause(model, data, int(model.body_rootid[model.dof_bodyid[dof]]))
+        or _overlap_cause(model, data, root)
         or 'look at the masses and inertias there, at the gains and limits of its actuators, and '
         'at what was commanded'
     )
@@ -110,18 +122,39 @@ def likely_cause(
 def _command_cause(
     model: mujoco.MjModel, data: mujoco.MjData, joint: int, velocity: float
 ) -> str | None:
-    for actuator in range(model.nu):
-        if int(model.actuator_trnid[actuator, 0]) != joint:
-            continue
+    """A command of the joint that is about as fast as it became."""
+    for actuator in _actuators(model):
         command = float(data.ctrl[actuator])
-        if not math.isfinite(command):
-            return f'its command is {command:g}: command finite values'
-        if math.isfinite(velocity) and abs(command) > 0.5 * abs(velocity):
+        if int(model.actuator_trnid[actuator, 0]) == joint and abs(command) > abs(velocity) / 2.0:
             return (
                 f'it is commanded to {command:.4g}: command less, or give the joint a '
                 '<limit velocity="…"> in the URDF'
             )
     return None
+
+
+def _effort_cause(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> str | None:
+    """A motor of the robot whose root is the body ``root``, told to exert an absurd effort."""
+    for actuator in _actuators(model):
+        joint = int(model.actuator_trnid[actuator, 0])
+        is_its_own = model.body_rootid[model.jnt_bodyid[joint]] == root
+        if not is_its_own or model.actuator_biastype[actuator] != mujoco.mjtBias.mjBIAS_NONE:
+            continue  # of another, or a servo
+        effort = float(model.actuator_gainprm[actuator, 0] * data.ctrl[actuator])
+        inertia = float(model.dof_M0[model.jnt_dofadr[joint]])
+        if abs(effort) > _ABSURD * inertia:
+            where = place_of_dof(model, int(model.jnt_dofadr[joint])).part
+            return (
+                f'{where} is driven with an effort of {effort:.4g}, on an inertia of '
+                f'{inertia:.2g}: command less, or give it a <limit effort="…"> in the URDF'
+            )
+    return None
+
+
+def _actuators(model: mujoco.MjModel) -> Iterator[int]:
+    """Those that drive a joint."""
+    joints = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
+    return (index for index in range(model.nu) if joints[index])
 
 
 def _inertia_cause(model: mujoco.MjModel, dof: int) -> str | None:
@@ -140,7 +173,8 @@ def _overlap_cause(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> str
     deepest, bodies = -_DEEP, None
     for contact in data.contact:
         pair = [int(model.geom_bodyid[geom]) for geom in contact.geom]
-        if root in (model.body_rootid[body] for body in pair) and contact.dist < deepest:
+        is_its_own = root in (model.body_rootid[body] for body in pair)
+        if is_its_own and -_TOO_DEEP < contact.dist < deepest:
             deepest, bodies = float(contact.dist), pair
     if bodies is None:
         return None

@@ -96,7 +96,7 @@ class FaultMonitor:
             warning.number = 0  # else MuJoCo says each of them once in its life
         if self._state_is_lost:
             # It may have gone with the robot that was taken out of the world.
-            if np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all():
+            if np.isfinite(data.qpos).all() and data.qvel.dot(data.qvel) < HIGHEST_SPEED**2:
                 self.reset()
             return
         for name, index in roots:
