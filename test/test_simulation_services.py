@@ -205,9 +205,9 @@ def test_the_action_is_canceled_and_otherwise_tells_of_every_step(sim, action):
     sim.do(ResetSimulation)
     feedback = []
     handle = sim.goal(action, feedback, SimulateSteps.Goal(steps=8))
+    sim.wait(lambda: len(feedback) == 8)  # a client that has the result hears no more of it
     status, result = sim.end(handle)
     assert (status, result.result) == (GoalStatus.STATUS_SUCCEEDED, Result.RESULT_OK)
-    sim.wait(lambda: len(feedback) == 8)
     told = [(each.completed_steps, each.remaining_steps) for each in feedback]
     assert told == [(n, 8 - n) for n in range(1, 9)]
     sim.wait(lambda: sim.time == 8 * STEP)
