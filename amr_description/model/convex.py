@@ -9,7 +9,7 @@ most four of its points is led towards the origin until it encloses it, or canno
 
 from collections.abc import Callable
 
-from amr_description.model.frames import Vector
+from amr_description.model.frames import cross, Vector
 
 # Bodies that merely graze each other may go round for ever; they count as apart.
 _MOST_STEPS = 64
@@ -52,16 +52,16 @@ def _towards_origin(simplex: list[Vector]) -> tuple[list[Vector], Vector]:
 def _from_line(a: Vector, b: Vector) -> tuple[list[Vector], Vector]:
     ab, ao = _minus(b, a), _opposite(a)
     if _dot(ab, ao) > 0.0:
-        return [b, a], _cross(_cross(ab, ao), ab)
+        return [b, a], cross(cross(ab, ao), ab)
     return [a], ao
 
 
 def _from_triangle(a: Vector, b: Vector, c: Vector) -> tuple[list[Vector], Vector]:
     ab, ac, ao = _minus(b, a), _minus(c, a), _opposite(a)
-    normal = _cross(ab, ac)
-    if _dot(_cross(normal, ac), ao) > 0.0:
+    normal = cross(ab, ac)
+    if _dot(cross(normal, ac), ao) > 0.0:
         return _from_line(a, c) if _dot(ac, ao) > 0.0 else _from_line(a, b)
-    if _dot(_cross(ab, normal), ao) > 0.0:
+    if _dot(cross(ab, normal), ao) > 0.0:
         return _from_line(a, b)
     if _dot(normal, ao) > 0.0:
         return [c, b, a], normal
@@ -71,21 +71,13 @@ def _from_triangle(a: Vector, b: Vector, c: Vector) -> tuple[list[Vector], Vecto
 def _from_tetrahedron(a: Vector, b: Vector, c: Vector, d: Vector) -> tuple[list[Vector], Vector]:
     ao = _opposite(a)
     for p, q in ((b, c), (c, d), (d, b)):
-        if _dot(_cross(_minus(p, a), _minus(q, a)), ao) > 0.0:
+        if _dot(cross(_minus(p, a), _minus(q, a)), ao) > 0.0:
             return _from_triangle(a, p, q)
     return [d, c, b, a], (0.0, 0.0, 0.0)
 
 
 def _dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
 
 
 def _minus(a: Vector, b: Vector) -> Vector:

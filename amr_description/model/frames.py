@@ -82,6 +82,15 @@ def rotate(rotation: Quaternion, vector: Vector) -> Vector:
     )
 
 
+def cross(a: Vector, b: Vector) -> Vector:
+    """The vector product."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """Return R = Rz(yaw)·Ry(pitch)·Rx(roll): turns about the fixed axes x, then y, then z."""
     sr, cr = math.sin(roll / 2.0), math.cos(roll / 2.0)

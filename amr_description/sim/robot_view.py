@@ -12,6 +12,7 @@ from amr_description.control.world import ImuReading
 from amr_description.errors import SimulationError
 from amr_description.model.frames import (
     conjugate,
+    cross,
     multiply,
     rotate,
     Transform,
@@ -124,7 +125,7 @@ class RobotView:
         lever = rotate(pose.rotation, place.translation)
         # a + α × r + ω × (ω × r)
         parts = zip(
-            acceleration, _cross(turning, lever), _cross(rate, _cross(rate, lever)), strict=True
+            acceleration, cross(turning, lever), cross(rate, cross(rate, lever)), strict=True
         )
         x, y, z = (sum(part) for part in parts)
         orientation = multiply(pose.rotation, place.rotation)
@@ -169,11 +170,3 @@ class RobotView:
 def _vector(array: np.ndarray) -> Vector:
     x, y, z = array.tolist()
     return (x, y, z)
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

@@ -8,10 +8,12 @@ Odometry takes a wheel's turning for travel; the slip seen here is what it is wr
 """
 
 from dataclasses import dataclass
+import math
 
 import mujoco
 import numpy as np
 
+from amr_description.model.frames import cross, Vector
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_spec import tread_name
 from amr_description.sim.robot_view import RobotView
@@ -83,22 +85,34 @@ class WheelContacts:
         contact = data.contact[place]
         is_first = int(contact.geom[0]) in self._place_of
         # MuJoCo's normal points from the first geom to the second; this one, to the wheel.
-        normal = -contact.frame[:3] if is_first else contact.frame[:3]
-        tread, surface = contact.geom if is_first else contact.geom[::-1]
-        slip = self._velocity_at(tread, contact.pos) - self._velocity_at(surface, contact.pos)
-        forward = np.cross(data.xaxis[self._joint_ids[wheel]], normal)
-        length = float(np.linalg.norm(forward))
+        sign = -1.0 if is_first else 1.0
+        x, y, z = contact.frame[:3].tolist()
+        normal = (sign * x, sign * y, sign * z)
+        tread, surface = contact.geom.tolist() if is_first else contact.geom[::-1].tolist()
+        point = contact.pos.tolist()
+        pairs = zip(
+            self._velocity_at(tread, point), self._velocity_at(surface, point), strict=True
+        )
+        slip = [of_tread - of_surface for of_tread, of_surface in pairs]
+        forward = cross(data.xaxis[self._joint_ids[wheel]].tolist(), normal)
+        length = math.hypot(*forward)
         if length == 0.0:  # it stands on its flat side
             return 0.0, 0.0
-        forward /= length
-        return float(slip @ forward), float(slip @ np.cross(normal, forward))
+        sideways = cross(normal, forward)
+        return math.sumprod(slip, forward) / length, math.sumprod(slip, sideways) / length
 
-    def _velocity_at(self, geom: int, point: np.ndarray) -> np.ndarray:
+    def _velocity_at(self, geom: int, point: Vector) -> tuple[float, ...]:
         """The velocity of a geom's material at a point of the world, m/s."""
         model, data = self._engine.model, self._engine.data
-        body, motion = model.geom_bodyid[geom], np.empty(6)
+        body = int(model.geom_bodyid[geom])
+        if body == 0:
+            return (0.0, 0.0, 0.0)
+        motion = np.empty(6)
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, motion, 0)
-        return motion[3:] + np.cross(motion[:3], point - data.xpos[body])
+        *rate, vx, vy, vz = motion.tolist()
+        x, y, z = data.xpos[body].tolist()
+        wx, wy, wz = cross(rate, (point[0] - x, point[1] - y, point[2] - z))
+        return (vx + wx, vy + wy, vz + wz)
 
     def _bind(self) -> None:
         """Find the wheels in the model, after it was built anew."""
