@@ -6,7 +6,6 @@ Give each test process a ROS of its own: a free domain, this host only, its own 
 So several can run side by side: of several checkouts, or of one (``scripts/test``).
 """
 
-import fcntl
 import os
 from pathlib import Path
 import signal
@@ -16,12 +15,11 @@ import tempfile
 from hypothesis import settings
 import pytest
 
+from amr_description.testing.domains import take_domain
+
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces')]  # their parts are tested too
 
-# Domains whose ports lie below the system's ephemeral ones; 0 is everybody's.
-DOMAINS = range(1, 102)
-LOCKS = Path(tempfile.gettempdir())
 KEPT = {}  # what has to last as long as the run
 
 # Where files run side by side, these start first, longest first: none is left alone at the end.
@@ -34,30 +32,6 @@ LONGEST = (
 )  # fmt: skip
 
 settings.load_profile('ci')  # everywhere the same numbers, and no deadline on a busy machine
-
-
-def take_domain() -> tuple[int, int]:
-    """
-    Return a domain that no other test run holds, and the open file that holds it.
-
-    Never the one of the shell: a robot may be listening there.
-    """
-    forbidden = os.environ.get('ROS_DOMAIN_ID')
-    start = os.getpid() % len(DOMAINS)
-    for domain in (*DOMAINS[start:], *DOMAINS[:start]):
-        if str(domain) == forbidden:
-            continue
-        try:
-            lock = os.open(LOCKS / f'ros_domain_{domain}.lock', os.O_CREAT | os.O_RDWR, 0o666)
-        except PermissionError:  # another user's
-            continue
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(lock)
-            continue
-        return domain, lock
-    raise RuntimeError(f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken')
 
 
 def pytest_configure(config):

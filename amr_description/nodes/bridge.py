@@ -125,7 +125,7 @@ class ControllerNode:
     def _subscribe(self, port: Input[Any]) -> Subscription:
         convert = resolve(port.port.convert)
 
-        def receive(message: Any) -> None:
+        def receive(message: Any, about: Any) -> None:
             try:
                 sample = convert(message)
             except Exception as error:  # a stranger's converter; the robot must go on
@@ -134,13 +134,19 @@ class ControllerNode:
                     throttle_duration_sec=1.0,
                 )
                 return
-            if not port.put(sample):
+            if port.put(sample):
+                self._outgoing.confirm(
+                    subscription.topic_name, about['publication_sequence_number']
+                )
+            else:
                 self.node.get_logger().warning(
                     "Can't accept new commands. subscriber is inactive", throttle_duration_sec=1.0
                 )
 
-        message = message_type(port.port.message)
-        return self.node.create_subscription(message, port.port.name, receive, qos(port.port.qos))
+        subscription = self.node.create_subscription(
+            message_type(port.port.message), port.port.name, receive, qos(port.port.qos)
+        )
+        return subscription
 
     def _advertise(self, port: Output[Any]) -> Publisher:
         fill = resolve(port.port.convert)

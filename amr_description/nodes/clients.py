@@ -38,7 +38,7 @@ def wait_until[Result](
     timeout: float = 0.0,
 ) -> Result | None:
     """
-    Serve the node until ``condition()`` is something, and return it.
+    Serve the node, by its executor if it has one, until ``condition()`` is something; return it.
 
     ``say`` is called every ``every`` s of waiting. ``timeout``: s, 0 for ever; then ``None``.
     """
@@ -51,7 +51,7 @@ def wait_until[Result](
         if now - said >= every:
             said = now
             say()
-        rclpy.spin_once(node, timeout_sec=_POLL)
+        rclpy.spin_once(node, executor=node.executor, timeout_sec=_POLL)
     return result
 
 

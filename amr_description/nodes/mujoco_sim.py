@@ -11,6 +11,8 @@ of ``simulation_interfaces``, below ``/mujoco_sim/``::
     ~/set_simulation_state, ~/step_simulation, ~/reset_simulation …
                                           nodes/simulation_services.py
     ~/get_available_worlds …              nodes/world_services.py
+
+On ``~/received`` it says which commands have arrived; see nodes/receipts.py.
 """
 
 from collections.abc import Sequence

@@ -23,6 +23,7 @@ from rosgraph_msgs.msg import Clock
 
 from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import NANOSECONDS
+from amr_description.nodes.receipts import Receipts
 
 CLOCK_QOS = QoSProfile(depth=10)
 """Reliable, as ros_gz_bridge publishes it; time sources that subscribe best effort match too."""
@@ -76,6 +77,9 @@ class Outgoing:
     def release(self, node: Node) -> None:
         """Let a node go, before it is destroyed."""
 
+    def confirm(self, topic: str, number: int) -> None:
+        """A controller accepted a publisher's message ``number``, from 1; on the ROS thread."""
+
     def send(
         self, fill: Callable[[Any, Any], None], sample: Any, message: Any, publisher: Publisher
     ) -> None:
@@ -114,6 +118,7 @@ class SimulatedOutgoing(Outgoing):
         self._clocks: list[ROSClock] = []
         self._message = Clock()
         self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
+        self._receipts = Receipts(node)
 
     def adopt(self, node: Node) -> None:
         """
@@ -130,6 +135,10 @@ class SimulatedOutgoing(Outgoing):
     def release(self, node: Node) -> None:
         """Forget the node's clock."""
         self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
+
+    def confirm(self, topic: str, number: int) -> None:
+        """Say so, to whoever drives in lock-step."""
+        self._receipts.confirm(topic, number)
 
     def set_clocks(self, time: int) -> None:
         """Set every clock to ``time``, ns."""

@@ -1,0 +1,171 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A simulator that stands still but for what it is asked: its services, and commands that are known
+to have arrived.
+
+A command is published with the present simulated time as its stamp, and is waited for until the
+simulator has confirmed it (:mod:`amr_description.nodes.receipts`). As time stands still meanwhile,
+the next step acts on it, at the same instant with the same bits in every run.
+"""
+
+from collections.abc import Callable
+import re
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import KeyValue
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
+from simulation_interfaces.msg import EntityState, Result
+from simulation_interfaces.srv import (
+    GetEntityState,
+    GetSimulationState,
+    ResetSimulation,
+    StepSimulation,
+)
+
+from amr_description.control.interfaces import NANOSECONDS
+from amr_description.errors import SimulationError
+from amr_description.nodes import receipts
+from amr_description.nodes.clients import ask_until_answered, wait_until
+from amr_description.testing.program import Program
+
+PATIENCE = 30.0
+"""s: how long anything is waited for."""
+_AGAIN = 0.5
+"""s: then a command counts as lost, as best effort allows, and is published again."""
+_STRETCH = 1000
+"""Physics steps in one request, so that none takes long."""
+
+type Condition = Callable[[], Any]
+
+
+class LockStep:
+    """Asks one simulator, in the thread that calls."""
+
+    def __init__(self, node: Node, program: Program, name: str = '/mujoco_sim') -> None:
+        """``node`` is served by its executor here, and by nobody else."""
+        self.node = node
+        self._program = program
+        self._name = name
+        self._clients: dict[Any, Client] = {}
+        self._publishers: dict[str, Publisher] = {}
+        self._counts: dict[str, int] = {}
+        self._received: dict[str, int] = {}
+        self.time = 0
+        """Simulated time, ns."""
+        topic = receipts.TOPIC.replace('~', name)
+        node.create_subscription(KeyValue, topic, self._note_receipt, receipts.QOS)
+
+    # --- services -----------------------------------------------------------------------------
+
+    def connect(self) -> None:
+        """Wait until the simulator is there and answers. Raises SimulationError."""
+        client = self._client(GetSimulationState)
+        self.wait(client.service_is_ready, 'the simulator')
+        ask_until_answered(self.node, client, GetSimulationState.Request(), timeout=PATIENCE)
+
+    def ask(self, service_type: Any, **fields: Any) -> Any:
+        """
+        Call a service of the simulator, whose name follows from its type; return the response.
+
+        Raises SimulationError: it refuses, in its words, or it has ended.
+        """
+        client, name = self._client(service_type), _snake(service_type)
+        self.wait(client.service_is_ready, f"the simulator's service {name}")
+        future = client.call_async(service_type.Request(**fields))
+        self.wait(future.done, f'the answer of {name}')
+        response = future.result()
+        result = response.result
+        if result.result != Result.RESULT_OK:
+            raise SimulationError(f'{name}: {result.error_message}')
+        return response
+
+    def state(self, entity: str) -> EntityState:
+        """Where an entity is at the present instant."""
+        return self.ask(GetEntityState, entity=entity).state
+
+    def step(self, count: int) -> None:
+        """Let ``count`` physics steps be made; return when they are."""
+        while count > 0:
+            stretch = min(count, _STRETCH)
+            self.ask(StepSimulation, steps=stretch)
+            count -= stretch
+
+    def reset(self) -> None:
+        """Let time be 0 and all robots where they were spawned; controllers stay as they are."""
+        request = ResetSimulation.Request
+        self.ask(ResetSimulation, scope=request.SCOPE_TIME | request.SCOPE_STATE)
+        self.time = 0
+
+    # --- topics -------------------------------------------------------------------------------
+
+    def send(self, topic: str, message: Any) -> None:
+        """
+        Publish a message to a controller and wait until it has taken it.
+
+        A header without a stamp gets that of the present simulated time. What is lost, as best
+        effort allows, is published again. Raises SimulationError: no controller takes it.
+        """
+        topic = self.node.resolve_topic_name(topic)
+        publisher = self._publishers.get(topic)
+        if publisher is None:
+            publisher = self.node.create_publisher(type(message), topic, QoSProfile(depth=10))
+            self._publishers[topic] = publisher
+            self._counts[topic] = 0
+        if hasattr(message, 'header') and message.header.stamp == Time():
+            stamp = message.header.stamp
+            stamp.sec, stamp.nanosec = divmod(self.time, NANOSECONDS)
+        self.wait(
+            publisher.get_subscription_count,
+            f"a subscriber of '{topic}' ({type(message).__name__})",
+        )
+        first = self._counts[topic] + 1
+
+        def has_arrived() -> bool | None:
+            return self._received.get(topic, 0) >= first or None
+
+        for _ in range(round(PATIENCE / _AGAIN)):
+            self._counts[topic] += 1
+            publisher.publish(message)
+            if wait_until(self.node, has_arrived, timeout=_AGAIN):
+                return
+            self._program.check()
+        raise SimulationError(
+            f"no controller takes what is sent on '{topic}'; is the one that hears it active?"
+        )
+
+    def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
+        """
+        Serve the node until ``condition()`` holds; return what it returned.
+
+        ``timeout``: s of the wall clock, :data:`PATIENCE` by default. Raises SimulationError.
+        """
+        timeout = PATIENCE if timeout is None else timeout
+
+        def holds() -> Any:
+            self._program.check()
+            return condition() or None
+
+        found = wait_until(self.node, holds, timeout=timeout)
+        if found is None:
+            raise SimulationError(f'waited {timeout:g} s for {what}, in vain')
+        return found
+
+    def _note_receipt(self, message: KeyValue) -> None:
+        number = int(message.value)
+        self._received[message.key] = max(number, self._received.get(message.key, 0))
+
+    def _client(self, service_type: Any) -> Client:
+        client = self._clients.get(service_type)
+        if client is None:
+            name = f'{self._name}/{_snake(service_type)}'
+            client = self._clients[service_type] = self.node.create_client(service_type, name)
+        return client
+
+
+def _snake(service_type: Any) -> str:
+    return re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()

@@ -1,0 +1,372 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A robot in simulation, in the hands of a test.
+
+::
+
+    with Simulation('my_robot.urdf', 'controllers.yaml', world='ramp') as sim:
+        sim.drive(0.5, 0.0, seconds=2)
+        assert sim.truth.x == pytest.approx(1.0, rel=0.01)
+        assert sim.odometry.x == pytest.approx(sim.truth.x, abs=0.02)
+
+The simulator is the real one, in a process of its own and a ROS domain of its own; all goes over
+DDS. Time stands still but in :meth:`Simulation.drive`, :meth:`Simulation.run` and
+:meth:`Simulation.step`: the same calls give the same bits, on a busy machine too. When the block
+is left, in whatever way, everything has ended.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+import math
+from pathlib import Path
+import time as wall
+from types import TracebackType
+from typing import Any, Self
+import warnings
+
+from controller_manager_msgs.srv import ListControllers
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from simulation_interfaces.srv import SpawnEntity
+
+from amr_description.bringup.packages import path_of
+from amr_description.control.interfaces import NANOSECONDS
+from amr_description.errors import SimulationError
+from amr_description.model.frames import conjugate, rotate, Transform
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.urdf import parse as parse_urdf
+from amr_description.nodes.converters import fill_pose, transform_of, vector_of
+from amr_description.nodes.manager_client import ManagerClient
+from amr_description.nodes.quick_discovery import use_quick_discovery
+from amr_description.nodes.spawner import Spawner
+from amr_description.nodes.spawner_arguments import parse
+from amr_description.sim.resources import description_at
+from amr_description.testing.domains import own_domain
+from amr_description.testing.latest import Latest
+from amr_description.testing.lock_step import Condition, LockStep, PATIENCE
+from amr_description.testing.program import simulator
+from amr_description.testing.readings import Joint, Motion
+
+_AT_ORIGIN = Transform()
+_COMMAND_PERIOD = 0.1
+"""s between two commands of a drive: well below the usual time-out of 0.5 s."""
+_PACED = 0.02
+"""s of simulated time between two looks at the wall clock, where it counts."""
+_BRAKING = 10.0
+"""s: the longest time in which a drive is waited to stand."""
+_STILL = 1e-3
+"""m/s and rad/s: slower is taken for standing."""
+_DRIVE = 'DiffDriveController'
+
+
+class Simulation:
+    """
+    One robot in a world, ready to drive while inside the ``with`` block, at time 0.
+
+    Every method raises SimulationError, in one line, when the simulator refuses or has ended.
+    """
+
+    def __init__(
+        self,
+        urdf: str | Path,
+        controllers: str | Path | None = None,
+        *,
+        world: str | Path = 'empty',
+        rtf: float = 0.0,
+        activate: Sequence[str] | None = None,
+        pose: Transform = _AT_ORIGIN,
+        parameters: Mapping[str, Any] | None = None,
+    ) -> None:
+        """
+        ``urdf``: a URDF or xacro file, a ``package://`` URI, or the text itself.
+
+        ``controllers``: parameter file of the controller manager; None: what the URDF names, else
+        that of this package. ``world``: a shipped name or an MJCF file. ``rtf``: simulated
+        seconds per second of the wall clock, to watch it; 0: as fast as possible; the results are
+        the same. ``activate``: the controllers to spawn, in order; None: all of the parameter
+        file. ``pose``: from the robot's root link to the world. ``parameters``: further ones of
+        ``mujoco_sim``.
+        """
+        if not (math.isfinite(rtf) and rtf >= 0.0):
+            raise SimulationError(f'rtf is {rtf}; a real-time factor is 0 or above')
+        self._urdf = str(urdf)
+        self._activate = activate
+        self._pose = pose
+        self._rtf = rtf
+        self._parameters: dict[str, Any] = {
+            'world': _absolute(world),
+            'paused': True,
+            'real_time_factor': float(rtf),
+            'controllers': str(path_of(str(controllers))) if controllers else '',
+            **(parameters or {}),
+        }
+        self._stack = ExitStack()
+
+    # --- beginning and end --------------------------------------------------------------------
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            description = self._description()
+            is_controlled = bool(hardware_of(parse_urdf(description)))
+            stack.enter_context(own_domain())
+            self._program = stack.enter_context(simulator(self._parameters))
+            context = self._ros(stack)
+            self._lock_step = LockStep(self.node, self._program)
+            self._lock_step.connect()
+            self._readings = Node(
+                'simulation_readings', context=context, use_global_arguments=False
+            )
+            stack.callback(self._readings.destroy_node)
+            self._spawn(description)
+            if is_controlled:
+                self._spawn_controllers()
+            self._measure_step()
+            self._stack = stack.pop_all()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._stack.__exit__(kind, error, traceback)
+
+    def _ros(self, stack: ExitStack) -> Context:
+        """A context of its own: the test may have rclpy initialised, or not, for itself."""
+        use_quick_discovery()
+        context = Context()
+        rclpy.init(args=[], context=context)
+        stack.callback(context.try_shutdown)
+        executor = SingleThreadedExecutor(context=context)
+        stack.callback(executor.shutdown)
+        self.node = Node('simulation_client', context=context, use_global_arguments=False)
+        """For the test's own subscriptions, publishers and clients; :meth:`wait` serves it."""
+        stack.callback(self.node.destroy_node)
+        executor.add_node(self.node)
+        return context
+
+    def _description(self) -> str:
+        if self._urdf.lstrip().startswith('<'):
+            return self._urdf
+        return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=5))
+
+    def _spawn(self, description: str) -> None:
+        request = SpawnEntity.Request(resource_string=description)
+        fill_pose(self._pose, request.initial_pose.pose)
+        self.name = self._lock_step.ask(
+            SpawnEntity,
+            resource_string=description,
+            initial_pose=request.initial_pose,
+        ).entity_name
+        """The robot's, as the simulator knows it."""
+        self._cmd_vel = ''
+        self._odometry: Latest | None = None
+        self._joints = Latest(self._readings, JointState, '/joint_states')
+
+    def _spawn_controllers(self) -> None:
+        manager = ManagerClient(self.node, 'controller_manager', timeout=PATIENCE, silent=5.0)
+        names = self._activate
+        if names is None:
+            names = manager.typed_controllers()
+        if names:
+            Spawner(self.node, manager, parse([*names])).spawn()
+        for controller in manager.look(ListControllers).controller:
+            if controller.type.endswith(_DRIVE) and controller.state == 'active':
+                self._find_drive(controller.name)
+                return
+
+    def _find_drive(self, name: str) -> None:
+        """The topics of a drive, whatever they are remapped to."""
+        node, wait = self.node, self._lock_step.wait
+
+        def of_type(found: Sequence[tuple[str, Sequence[str]]], message_type: str) -> list[str]:
+            return [topic for topic, types in found if message_type in types]
+
+        def commands() -> list[str]:
+            found = node.get_subscriber_names_and_types_by_node(name, '/')
+            return of_type(found, 'geometry_msgs/msg/TwistStamped')
+
+        def odometry() -> list[str]:
+            found = node.get_publisher_names_and_types_by_node(name, '/')
+            return of_type(found, 'nav_msgs/msg/Odometry')
+
+        wait(lambda: (name, '/') in node.get_node_names_and_namespaces(), f"the node '{name}'")
+        self._cmd_vel = wait(commands, f"the commands of '{name}'")[0]
+        topic = wait(odometry, f"the odometry of '{name}'")[0]
+        self._odometry = Latest(self._readings, Odometry, topic)
+
+    def _measure_step(self) -> None:
+        """How long a physics step is; and begin as every reset begins."""
+        before = self._stamp()
+        self._lock_step.step(1)
+        self._step = self._stamp() - before
+        self.reset()
+
+    # --- time ---------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s."""
+        return self._lock_step.time / NANOSECONDS
+
+    def step(self, count: int = 1) -> None:
+        """Make ``count`` physics steps; each lasts :attr:`timestep`."""
+        if count < 0:
+            raise SimulationError(f'{count} steps are asked; time goes on, and back by reset()')
+        begin, start = self._lock_step.time, wall.monotonic()
+        while count > 0:
+            stretch = count
+            if self._rtf:
+                stretch = min(count, max(1, round(_PACED * NANOSECONDS / self._step)))
+            self._lock_step.step(stretch)
+            count -= stretch
+            self._lock_step.time += stretch * self._step
+            if self._rtf:
+                passed = (self._lock_step.time - begin) / NANOSECONDS
+                self._serve_until(start + passed / self._rtf)
+
+    def run(self, seconds: float) -> None:
+        """Let time pass, to the nearest physics step; commands in force stay until they expire."""
+        self.step(self._steps_in(seconds))
+
+    def drive(self, linear: float, angular: float, *, seconds: float, stop: bool = True) -> None:
+        """
+        Command ``linear`` (m/s, forward) and ``angular`` (rad/s, to the left) for a time.
+
+        As a teleoperator does: ten commands a second of simulated time. Then, with ``stop``, rest
+        is commanded until the robot stands, ten seconds at most: what is lost in speeding up is
+        made good in braking, so that it goes as far as the command says. Without, the last
+        command stays in force until the controller's time-out.
+        """
+        self._command(linear, angular, self._steps_in(seconds))
+        end = self.time + _BRAKING
+        while stop and self.time < end and self._moves():
+            self._command(0.0, 0.0, self._steps_in(_COMMAND_PERIOD))
+
+    def _command(self, linear: float, angular: float, count: int) -> None:
+        """For ``count`` physics steps."""
+        if not self._cmd_vel:
+            raise SimulationError(
+                f"no {_DRIVE} of '{self.name}' is active; send() commands other controllers"
+            )
+        stretch = max(1, self._steps_in(_COMMAND_PERIOD))
+        while count > 0:
+            command = TwistStamped()
+            command.twist.linear.x, command.twist.angular.z = float(linear), float(angular)
+            self.send(self._cmd_vel, command)
+            self.step(min(stretch, count))
+            count -= stretch
+
+    def _moves(self) -> bool:
+        truth = self.truth
+        return math.hypot(*truth.linear) > _STILL or math.hypot(*truth.angular) > _STILL
+
+    def send(self, topic: str, message: Any) -> None:
+        """
+        Send a message to a controller; return when it has it: it counts from the next step on.
+
+        A header without a stamp gets that of the simulated time.
+        """
+        self._lock_step.send(topic, message)
+
+    def reset(self) -> None:
+        """Begin anew: time 0, the robot where it was spawned, odometry at zero; a few ms."""
+        self._lock_step.reset()
+        for topic in (self._joints, self._odometry):
+            if topic is not None:
+                topic.forget()
+
+    def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
+        """
+        Serve the callbacks of :attr:`node`, time standing still, until ``condition()`` holds.
+
+        Return what it returned. ``what``: for the error; ``timeout``: s of the wall clock (30).
+        """
+        return self._lock_step.wait(condition, what, timeout)
+
+    # --- what is read -------------------------------------------------------------------------
+
+    @property
+    def timestep(self) -> float:
+        """A physics step, s."""
+        return self._step / NANOSECONDS
+
+    @property
+    def truth(self) -> Motion:
+        """How the robot's root link really moves in the world, at this instant."""
+        state = self._lock_step.state(self.name)
+        pose = transform_of(state.pose)
+        back = conjugate(pose.rotation)
+        return Motion(
+            time=_nanoseconds(state.header.stamp) / NANOSECONDS,
+            pose=pose,
+            linear=rotate(back, vector_of(state.twist.linear)),
+            angular=rotate(back, vector_of(state.twist.angular)),
+        )
+
+    @property
+    def odometry(self) -> Motion:
+        """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
+        if self._odometry is None:
+            raise SimulationError(f"no {_DRIVE} of '{self.name}' is active")
+        message = self._newest(self._odometry)
+        return Motion(
+            time=_nanoseconds(message.header.stamp) / NANOSECONDS,
+            pose=transform_of(message.pose.pose),
+            linear=vector_of(message.twist.twist.linear),
+            angular=vector_of(message.twist.twist.angular),
+        )
+
+    @property
+    def joints(self) -> dict[str, Joint]:
+        """What ``/joint_states`` said last, by the names of the joints."""
+        message = self._newest(self._joints)
+        columns = (message.position, message.velocity, message.effort)
+        padded = ([*column] or [math.nan] * len(message.name) for column in columns)
+        return {name: Joint(*values) for name, *values in zip(message.name, *padded, strict=True)}
+
+    @property
+    def log(self) -> str:
+        """What the simulator has said so far."""
+        return self._program.log
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether the simulator runs."""
+        return self._program.process.poll() is None
+
+    def _newest(self, topic: Latest) -> Any:
+        if not self._lock_step.time:
+            raise SimulationError(
+                f'nothing is on {topic.topic} at time 0; let time pass: step(), run() or drive()'
+            )
+        return topic.take() or self.wait(topic.take, f"a message on '{topic.topic}'", 5.0)
+
+    def _stamp(self) -> int:
+        return _nanoseconds(self._lock_step.state(self.name).header.stamp)
+
+    def _steps_in(self, seconds: float) -> int:
+        if not (math.isfinite(seconds) and seconds >= 0.0):
+            raise SimulationError(f'{seconds} s are asked; a finite time, not below 0, will do')
+        return round(seconds * NANOSECONDS / self._step)
+
+    def _serve_until(self, instant: float) -> None:
+        """Keep to the wall clock (``time.monotonic``, s)."""
+        while (delay := instant - wall.monotonic()) > 0.0:
+            self.node.executor.spin_once(timeout_sec=delay)
+
+
+def _nanoseconds(stamp: Any) -> int:
+    return stamp.sec * NANOSECONDS + stamp.nanosec
+
+
+def _absolute(world: str | Path) -> str:
+    """The simulator runs in the same folder, but a Path is meant as a file all the same."""
+    return str(world.absolute()) if isinstance(world, Path) else world
