@@ -4,7 +4,8 @@
 
 import pytest
 
-from amr_description.nodes.teleop_keys import CTRL_Z, HELP, Hold, MOVES, SPEEDS, Teleop, Velocity
+from amr_description.nodes.key_events import CTRL_Z
+from amr_description.nodes.teleop_keys import HELP, Hold, MOVES, SPEEDS, Teleop, Velocity
 
 REST = Velocity()
 CONTROLLER_TIMEOUT = 0.5  # s, of diff_drive_controller
@@ -79,6 +80,9 @@ def test_the_help_names_every_key():
         assert line in HELP.splitlines()
 
 
+RELEASE = 'release of '
+
+
 def drive(presses, *, period=0.1, key_timeout=0.7, until=5.0):
     """Run the two as the node does; return what is published: [(time, velocity)]."""
     teleop, hold = Teleop(0.5, 1.0), Hold(period, key_timeout)
@@ -90,9 +94,14 @@ def drive(presses, *, period=0.1, key_timeout=0.7, until=5.0):
         due = until if wait is None else now + wait
         if presses and presses[0][0] <= due:
             now, key = presses.pop(0)
+            if key.startswith(RELEASE):
+                if hold.release(key.removeprefix(RELEASE)):
+                    teleop.stop()
+                    published.append((now, teleop.velocity))
+                continue
             teleop.press(key)
             published.append((now, teleop.velocity))
-            hold.press(key, now, moving=teleop.is_moving)
+            hold.press(key, now, moving=teleop.is_moving, name=key)
         elif due >= until:
             return published
         else:
@@ -173,3 +182,37 @@ def test_without_a_key_timeout_the_command_is_repeated_until_the_next_key():
 
 def test_without_repetition_the_release_still_stops():
     assert drive([(1.0, 'i')], period=0.0) == [(1.0, Velocity(x=0.5)), (1.7, REST)]
+
+
+def test_a_release_that_is_told_stops_at_once_with_one_zero():
+    published = drive([(1.0, 'i'), (1.3, f'{RELEASE}i')])
+    assert published[-1] == (1.3, REST)
+    assert [velocity for _, velocity in published].count(REST) == 1
+
+
+def test_the_release_of_another_key_stops_nothing():
+    published = drive([(1.0, 'i'), (1.2, 'j'), (1.3, f'{RELEASE}i'), (1.6, f'{RELEASE}j')])
+    assert published[-1] == (1.6, REST)
+    assert all(velocity == Velocity(yaw=1.0) for time, velocity in published if 1.2 <= time < 1.6)
+
+
+def test_a_speed_key_between_does_not_take_over_the_drive():
+    presses = [(1.0, 'i'), (1.2, 'q'), (1.3, f'{RELEASE}q'), (1.5, f'{RELEASE}i')]
+    published = drive(presses)
+    assert published[-1] == (1.5, REST)
+    assert REST not in [velocity for time, velocity in published if time < 1.5]
+
+
+def test_a_release_that_never_comes_is_made_up_for_by_the_timeout():
+    presses = held('i', delay=0.5, rate=25.0, duration=2.0)  # then the network is gone
+    assert drive(presses)[-1] == (pytest.approx(presses[-1][0] + 0.25), REST)
+
+
+def test_a_release_after_the_timeout_is_no_second_zero():
+    published = drive([(1.0, 'i'), (3.0, f'{RELEASE}i')])
+    assert published[-1] == (pytest.approx(1.7), REST)
+
+
+def test_a_latched_command_outlives_the_release():
+    published = drive([(1.0, 'i'), (1.2, f'{RELEASE}i')], key_timeout=0.0)
+    assert REST not in [velocity for _, velocity in published]

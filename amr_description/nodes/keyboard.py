@@ -7,50 +7,76 @@ Keys come at once and are not shown, while Ctrl-C and Ctrl-Z remain signals for 
 its user expects. Ctrl-Z is told as a key too, for the reader to call :meth:`Keyboard.suspend` when
 it has stopped the robot; ``fg`` takes the terminal again.
 
+A terminal that knows the kitty keyboard protocol (:mod:`amr_description.nodes.key_events`) tells
+releases too. It is asked at the start and nobody waits for its answer: until it comes, and where
+it never comes, keys are ordinary ones. An answer that is still due when the terminal is given
+back is waited for, 0.5 s at most, or the shell would find it on its command line.
+
 This module imports no rclpy.
 """
 
+import codecs
 import contextlib
 import copy
 import os
-import re
 import select
 import signal
 import termios
+import time
 import tty
 from types import FrameType, TracebackType
-from typing import Any, Self
+from typing import Self
 
 from amr_description.errors import AmrError
-from amr_description.nodes.teleop_keys import CTRL_C, CTRL_Z
-
-# An arrow or function key is one key: ESC [ parameters letter, or ESC O letter.
-_KEY = re.compile(r'\x1b\[[0-?]*[ -/]*[@-~]|\x1bO.|.', re.DOTALL)
+from amr_description.nodes.key_events import (
+    ASK,
+    BEGIN_REPORTS,
+    CTRL_C,
+    CTRL_Z,
+    END_REPORTS,
+    KeyEvent,
+    KeyParser,
+)
 
 _RESUMED = '\x00'
-_ON_SIGNAL = {signal.SIGTSTP: CTRL_Z, signal.SIGCONT: _RESUMED}
+_ON_SIGNAL = {signal.SIGTSTP: CTRL_Z, signal.SIGCONT: _RESUMED, signal.SIGQUIT: CTRL_C}
+_SIGNAL_OF = {CTRL_C: signal.SIGINT, CTRL_Z: signal.SIGTSTP}
+_MUTE_TERMINALS = ('', 'dumb', 'linux')  # values of TERM: they answer nothing, or garbage
+_NO_KEY = b'\x00'  # _POSIX_VDISABLE of Linux
+
+# Within a sequence the next byte follows at once; after the key Escape nothing follows, s.
+_ESCAPE_TIMEOUT = 0.05
+_ANSWER_TIMEOUT = 0.5  # s: more than a round trip around the world
 
 
 class Keyboard:
     """
-    The keys of a terminal, while inside this context manager (main thread only).
+    The keys of a terminal, while inside this context manager (main thread only), once.
 
     :param descriptor: The terminal, such as ``sys.stdin.fileno()``.
+    :param instead: What the user may do without a terminal, for the error.
+    :param releases: Ask the terminal to tell the releases of keys.
     :raises AmrError: It is not a terminal.
     """
 
-    def __init__(self, descriptor: int) -> None:
+    def __init__(self, descriptor: int, *, instead: str, releases: bool) -> None:
         if not os.isatty(descriptor):
             raise AmrError(
                 'standard input is not a terminal, so there are no keys to read; run '
                 'teleop_twist_keyboard in a terminal of its own, outside of a launch file or a '
-                'pipe, or drive with: ros2 topic pub -r 10 <topic> <type> "<message>"'
+                f'pipe, or {instead}'
             )
         self._descriptor = descriptor
+        self._parser = KeyParser()
+        self._decoder = codecs.getincrementaldecoder('utf-8')(errors='replace')
+        self._is_to_ask = releases and os.environ.get('TERM', '') not in _MUTE_TERMINALS
+        self._reports = False
+        self._questions = 0
+        self._answer_by = 0.0
+        self._pipe_out, self._pipe_in = os.pipe()
 
     def __enter__(self) -> Self:
         self._attributes = termios.tcgetattr(self._descriptor)
-        self._pipe_out, self._pipe_in = os.pipe()
         self._poll = select.poll()
         self._poll.register(self._pipe_out, select.POLLIN)
         self._poll.register(self._descriptor, select.POLLIN)
@@ -74,23 +100,27 @@ class Keyboard:
         """Have :meth:`read` return Ctrl-C; may be called from any thread."""
         os.write(self._pipe_in, CTRL_C.encode())
 
-    def read(self, timeout: float | None) -> list[str]:
+    def read(self, timeout: float | None) -> list[KeyEvent]:
         """
         Return the keys pressed by now, waiting up to ``timeout`` s for the first (None: for ever).
 
         An arrow or function key is one string, its whole escape sequence. A terminal that is gone
         counts as Ctrl-C.
         """
+        if self._parser.has_escape:
+            timeout = min(_ESCAPE_TIMEOUT, _ESCAPE_TIMEOUT if timeout is None else timeout)
         ready = dict(self._poll.poll(None if timeout is None else 1000.0 * timeout))
         if self._pipe_out in ready:
             keys = os.read(self._pipe_out, 16).decode()
             if _RESUMED in keys:
                 self._take_terminal()
-            return list(keys.replace(_RESUMED, ''))
+            return [KeyEvent(key) for key in keys.replace(_RESUMED, '')]
         events = ready.get(self._descriptor, 0)
         if events & ~select.POLLIN:
-            return [CTRL_C]
-        return self._typed() if events else []
+            return [KeyEvent(CTRL_C)]
+        if events:
+            return self._typed()
+        return self._parser.flush() if self._parser.has_escape else []
 
     def suspend(self) -> None:
         """Give the terminal back and stop until ``fg``; without a shell, the kernel goes on."""
@@ -100,35 +130,80 @@ class Keyboard:
         signal.signal(signal.SIGTSTP, self._on_signal)
         self._take_terminal()
 
-    def _typed(self) -> list[str]:
+    def _typed(self) -> list[KeyEvent]:
         """Return what has been typed: nothing if a Ctrl-Z, which drops input, came in between."""
         try:
-            typed = os.read(self._descriptor, 1024)
+            events = self._take_input()
         except OSError:  # EIO: the terminal is gone
-            return [CTRL_C]
-        return _KEY.findall(typed.decode(errors='replace'))
+            return [KeyEvent(CTRL_C)]
+        if self._parser.offers_releases:
+            self._begin_reports()
+        for event in events:
+            if event.key in _SIGNAL_OF and not event.is_release:
+                os.killpg(0, _SIGNAL_OF[event.key])  # as the terminal does without the protocol
+        return [event for event in events if event.key not in _SIGNAL_OF]
+
+    def _take_input(self) -> list[KeyEvent]:
+        return self._parser.feed(self._decoder.decode(os.read(self._descriptor, 1024)))
 
     def _on_signal(self, signum: int, _frame: FrameType | None) -> None:
         os.write(self._pipe_in, _ON_SIGNAL[signal.Signals(signum)].encode())
 
     def _take_terminal(self) -> None:
+        if not self._is_in_foreground():
+            return
         attributes = copy.deepcopy(self._attributes)
         tty.cfmakecbreak(attributes)
         attributes[tty.CC][termios.VMIN] = 0  # a read never waits
+        attributes[tty.CC][termios.VQUIT] = _NO_KEY  # Ctrl-\ would leave all as it is
         attributes[tty.IFLAG] &= ~termios.IXON  # Ctrl-S and Ctrl-V are keys like any other
         attributes[tty.LFLAG] &= ~termios.IEXTEN
-        self._set_terminal(attributes)
+        with contextlib.suppress(termios.error):  # the terminal is gone
+            termios.tcsetattr(self._descriptor, termios.TCSANOW, attributes)
+        if self._is_to_ask:
+            self._is_to_ask = False
+            self._ask(ASK)
+        elif self._parser.offers_releases:
+            self._begin_reports()
 
     def _give_terminal(self) -> None:
         """Restore the settings and drop the keys not yet read: they are not for the shell."""
-        self._set_terminal(self._attributes, drop_keys=True)
+        if not self._is_in_foreground():
+            return
+        if self._reports:
+            self._reports = False
+            self._ask(END_REPORTS)
+        self._await_answers()
+        with contextlib.suppress(termios.error):  # the terminal is gone
+            termios.tcsetattr(self._descriptor, termios.TCSANOW, self._attributes)
+            termios.tcflush(self._descriptor, termios.TCIFLUSH)
 
-    def _set_terminal(self, attributes: list[Any], *, drop_keys: bool = False) -> None:
-        if self._is_in_foreground():
-            with contextlib.suppress(termios.error):  # the terminal is gone
-                termios.tcsetattr(self._descriptor, termios.TCSANOW, attributes)
-                if drop_keys:
-                    termios.tcflush(self._descriptor, termios.TCIFLUSH)
+    def _begin_reports(self) -> None:
+        if not self._reports:
+            self._reports = True
+            self._write(BEGIN_REPORTS)
+
+    def _ask(self, question: str) -> None:
+        self._questions += 1
+        self._answer_by = time.monotonic() + _ANSWER_TIMEOUT
+        self._write(question)
+
+    def _await_answers(self) -> None:
+        """Take what the terminal sends up to its last answer, if it is to be expected still."""
+        terminal = select.poll()
+        terminal.register(self._descriptor, select.POLLIN)
+        while self._parser.identities < self._questions:
+            left = self._answer_by - time.monotonic()
+            if left <= 0.0 or terminal.poll(1000.0 * left) != [(self._descriptor, select.POLLIN)]:
+                return
+            try:
+                self._take_input()
+            except OSError:  # EIO: the terminal is gone
+                return
+
+    def _write(self, text: str) -> None:
+        with contextlib.suppress(OSError):  # opened for reading only, or gone
+            os.write(self._descriptor, text.encode())
 
     def _is_in_foreground(self) -> bool:
         """

@@ -8,9 +8,6 @@ This module imports no rclpy and knows no terminal and no clock: keys and times 
 
 from dataclasses import dataclass
 
-CTRL_C = '\x03'
-CTRL_Z = '\x1a'
-
 HELP = """
 This node takes keypresses from the keyboard and publishes them
 as Twist/TwistStamped messages. It works best with a US keyboard layout.
@@ -140,9 +137,11 @@ class Hold:
     """
     When to repeat a command, and when the key has been let go.
 
-    A terminal tells no release of a key. A key that is held down comes once, after 0.25 to 0.66 s
-    again, and then 10 to 33 times a second. So a command holds for ``key_timeout`` after a press,
-    long enough to reach the first repetition; and for 0.25 s once the key repeats.
+    An ordinary terminal tells no release of a key. A key that is held down comes once, after 0.25
+    to 0.66 s again, and then 10 to 33 times a second. So a command holds for ``key_timeout`` after
+    a press, long enough to reach the first repetition; and for 0.25 s once the key repeats. The
+    times hold as well where releases are told: a terminal that loses the focus, or the network,
+    tells none.
 
     :param period: Time between two repetitions of the command, s; 0: it is not repeated.
     :param key_timeout: How long a single press holds, s; 0: until the next key.
@@ -151,18 +150,31 @@ class Hold:
     def __init__(self, period: float, key_timeout: float) -> None:
         self._period = period
         self._key_timeout = key_timeout
-        self._key = ''
+        self._key = self._driving = ''
         self._pressed = 0.0
         self._repeat_at: float | None = None
         self._release_at: float | None = None
 
-    def press(self, key: str, now: float, *, moving: bool) -> None:
-        """Take the time of a key press; ``moving`` as the command is after it."""
+    def press(self, key: str, now: float, *, moving: bool, name: str = '') -> None:
+        """
+        Take the time of a key press; ``moving`` as the command is after it.
+
+        ``name``: what the release of this key will be told with.
+        """
+        if key not in SPEEDS:
+            self._driving = name
         repeats = key == self._key and now - self._pressed < _REPEAT_GAP
         timeout = min(_RELEASE_TIMEOUT, self._key_timeout) if repeats else self._key_timeout
         self._key, self._pressed = key, now
         self._repeat_at = now + self._period if moving and self._period else None
         self._release_at = now + timeout if moving and self._key_timeout else None
+
+    def release(self, name: str) -> bool:
+        """Take the release of a key; tell whether it is the one that drives."""
+        if self._release_at is None or name != self._driving:
+            return False
+        self._repeat_at = self._release_at = None
+        return True
 
     def wait(self, now: float) -> float | None:
         """Return how long (s) nothing is to be done unless a key comes; None: for ever."""

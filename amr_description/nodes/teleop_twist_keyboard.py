@@ -5,45 +5,75 @@
 
 It publishes ``cmd_vel``, ``geometry_msgs/Twist`` or, with ``stamped``, ``TwistStamped`` (reliable,
 depth 10). Keys, texts and the parameters ``stamped``, ``frame_id``, ``speed`` and ``turn`` are
-those of the original; every key press publishes one message. Two things are added, because the
-original stutters on a controller that brakes 0.5 s after the last command (the second message of a
-held key comes up to 0.66 s after the first), and because on a controller that does not brake the
-robot drives on when the key is let go:
+those of the original; every key press publishes one message. What is added, and why:
 
+``stamped`` need not be given
+    The type is the one that the listeners on the topic want, also if they come later, and it is
+    said. Of the wrong type no command would arrive, without a word.
 ``repeat_rate``
-    While a key is held, and ``key_timeout`` after a single press, the command is repeated.
+    While a key is held the command is repeated. The original stutters on a controller that brakes
+    0.5 s after the last command: the second message of a held key comes up to 0.66 s after the
+    first.
 ``key_timeout``
-    Then one zero is sent, and nothing more: other publishers of ``cmd_vel`` have their turn.
+    A key that is let go stops the robot: at once where the terminal tells it (the kitty keyboard
+    protocol), else when it repeats no more, or that long after a single press. One zero is sent,
+    and nothing more: other publishers of ``cmd_vel`` have their turn.
+``--latch``
+    The robot drives on until the next key, as with the original. With ``-p repeat_rate:=0.0`` it
+    is the original: one message per key press.
 
-``-p repeat_rate:=0.0 -p key_timeout:=0.0`` is the original: one message per key press.
-
-In every way out (Ctrl-C, SIGTERM, SIGHUP, a fault, Ctrl-Z for the time being) a zero is sent and
-the terminal restored.
+In every way out (Ctrl-C, SIGTERM, SIGHUP, SIGQUIT, a fault, Ctrl-Z for the time being) a zero is
+sent and the terminal restored.
 """
 
+import argparse
+from collections.abc import Iterable
 from dataclasses import dataclass
 import sys
 import time
 
-from geometry_msgs.msg import Twist, TwistStamped
+from geometry_msgs.msg import TwistStamped
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
+from rclpy.utilities import remove_ros_args
 
 from amr_description.errors import ParameterError
+from amr_description.nodes.command_type import (
+    await_listeners,
+    choice,
+    is_wanted,
+    listeners,
+    MESSAGES,
+    nobody,
+    other_topics,
+    TYPE_NAMES,
+    wants_stamped,
+    warnings,
+)
+from amr_description.nodes.key_events import CTRL_C, CTRL_Z, KeyEvent
 from amr_description.nodes.keyboard import Keyboard
 from amr_description.nodes.node_parameters import declare
 from amr_description.nodes.runtime import argument_errors, program, ros, spinning
-from amr_description.nodes.teleop_keys import CTRL_C, CTRL_Z, HELP, Hold, Teleop, Velocity
+from amr_description.nodes.teleop_keys import HELP, Hold, Teleop, Velocity
 from amr_description.parameters import parameter
 
 _GOODBYE_TIMEOUT = Duration(seconds=0.2)
+_TOPIC = 'cmd_vel'
+_DISCOVERY = 1.0  # s: how long the first listener is waited for
+_LOOK_PERIOD = 0.5  # s: how soon another listener is seen; a look takes 0.1 ms
 
 
 @dataclass(frozen=True)
 class Settings:
     """The parameters of teleop_twist_keyboard; none can be changed while it runs."""
 
-    stamped: bool = parameter(False, 'Publish TwistStamped instead of Twist', read_only=True)
+    stamped: bool = parameter(
+        False,
+        'Publish TwistStamped instead of Twist; not given: what the listeners want',
+        read_only=True,
+    )
     frame_id: str = parameter('', 'Frame of the commands, with stamped only', read_only=True)
     speed: float = parameter(0.5, 'Linear speed at the start', unit='m/s', read_only=True)
     turn: float = parameter(1.0, 'Angular speed at the start', unit='rad/s', read_only=True)
@@ -65,15 +95,61 @@ class Settings:
 
 
 class TeleopTwistKeyboard(Node):
-    """The publisher of commands; it knows no keys."""
+    """
+    The publisher of commands; it knows no keys.
 
-    def __init__(self) -> None:
+    :param latch: A command holds until the next one: ``key_timeout`` is 0.
+    :raises ParameterError: The parameters contradict each other.
+    """
+
+    def __init__(self, *, latch: bool = False) -> None:
         super().__init__('teleop_twist_keyboard')
-        self.settings = declare(self, Settings)
+        self._chooses = 'stamped' not in self._parameter_overrides
+        defaults = {'key_timeout': 0.0} if latch else {}
+        if self._chooses:
+            found = await_listeners(self, _TOPIC, _DISCOVERY)
+            defaults['stamped'] = wants_stamped(found, otherwise=False)
+        self.settings = declare(self, Settings, defaults=defaults)
+        if latch and self.settings.key_timeout:
+            raise ParameterError(
+                f"'key_timeout' is {self.settings.key_timeout:g} s, but --latch holds a key until "
+                'the next one: give one of them'
+            )
         if self.settings.frame_id and not self.settings.stamped:
             raise ParameterError("'frame_id' can only be set when 'stamped' is True")
-        message_type = TwistStamped if self.settings.stamped else Twist
-        self._commands = self.create_publisher(message_type, 'cmd_vel', 10)
+        self._is_stamped = self.settings.stamped
+        self._commands = self._publisher()
+        self._served: bool | None = None
+        self._said: set[str] = set()
+
+    @property
+    def instead(self) -> str:
+        """What sends commands without a keyboard, to be typed."""
+        twist = '{linear: {x: 0.2}}'
+        message = f'{{twist: {twist}}}' if self._is_stamped else twist
+        topic, type_name = self._commands.topic_name, TYPE_NAMES[self._is_stamped]
+        return f'drive with: ros2 topic pub -r 10 {topic} {type_name} "{message}"'
+
+    def look(self) -> list[str]:
+        """Take the type that is wanted, unless it was given; return what is new to be said."""
+        found = listeners(self, _TOPIC)
+        topic, chosen = self._commands.topic_name, self._chooses
+        if chosen and not self.settings.frame_id:
+            self._change_type(wants_stamped(found, otherwise=self._is_stamped))
+        lines = warnings(topic, found, stamped=self._is_stamped)
+        if chosen and self._served != self._is_stamped and is_wanted(found, self._is_stamped):
+            self._served = self._is_stamped
+            lines.insert(0, choice(topic, found, stamped=self._is_stamped))
+        new = [line for line in lines if line not in self._said]
+        self._said.update(new)
+        return new
+
+    def look_first(self) -> list[str]:
+        """As :meth:`look`, and say when nobody listens."""
+        if listeners(self, _TOPIC):
+            return self.look()
+        line = nobody(self._commands.topic_name, other_topics(self), stamped=self._is_stamped)
+        return [line]
 
     def publish(self, velocity: Velocity) -> None:
         """Publish one command, stamped with the node's clock."""
@@ -81,7 +157,7 @@ class TeleopTwistKeyboard(Node):
         twist = message.twist
         twist.linear.x, twist.linear.y, twist.linear.z = velocity.x, velocity.y, velocity.z
         twist.angular.z = velocity.yaw
-        if self.settings.stamped:
+        if self._is_stamped:
             message.header.stamp = self.get_clock().now().to_msg()
             message.header.frame_id = self.settings.frame_id
             self._commands.publish(message)
@@ -93,47 +169,113 @@ class TeleopTwistKeyboard(Node):
         self.publish(Velocity())
         self._commands.wait_for_all_acked(_GOODBYE_TIMEOUT)
 
+    def _publisher(self) -> Publisher:
+        return self.create_publisher(MESSAGES[self._is_stamped], _TOPIC, 10)
 
-def drive(node: TeleopTwistKeyboard, keyboard: Keyboard) -> None:
-    """Turn keys into commands until Ctrl-C."""
-    settings = node.settings
-    teleop = Teleop(settings.speed, settings.turn)
-    hold = Hold(1.0 / settings.repeat_rate if settings.repeat_rate else 0.0, settings.key_timeout)
-    print(HELP)
-    print(teleop.speeds, flush=True)
-    while True:
-        for key in keyboard.read(hold.wait(time.monotonic())):
-            if key == CTRL_C:
-                return
-            text = teleop.press(key)
-            if text:
-                print(text, flush=True)
-            node.publish(teleop.velocity)
-            hold.press(key, time.monotonic(), moving=teleop.is_moving)
-            if key == CTRL_Z:  # has stopped the robot, as every key without a meaning
-                keyboard.suspend()
-        if hold.is_released(time.monotonic()):
-            teleop.stop()
-            node.publish(teleop.velocity)
-        elif hold.is_repeat_due(time.monotonic()):
-            node.publish(teleop.velocity)
+    def _change_type(self, stamped: bool) -> None:
+        """Publish the other type from now on, and have the parameter say so."""
+        if stamped == self._is_stamped:
+            return
+        self._is_stamped = stamped
+        self.destroy_publisher(self._commands)
+        self._commands = self._publisher()
+        # Read-only for others: only with a descriptor may the node itself set it.
+        self._set_parameters_atomically_common(
+            [Parameter('stamped', value=stamped)],
+            {'stamped': self.describe_parameter('stamped')},
+        )
+
+
+class Driver:
+    """Keys in, commands and prints out."""
+
+    def __init__(self, node: TeleopTwistKeyboard, keyboard: Keyboard) -> None:
+        settings = node.settings
+        self._node, self._keyboard = node, keyboard
+        self._teleop = Teleop(settings.speed, settings.turn)
+        period = 1.0 / settings.repeat_rate if settings.repeat_rate else 0.0
+        self._hold = Hold(period, settings.key_timeout)
+
+    def drive(self) -> None:
+        """Turn keys into commands until Ctrl-C."""
+        say([HELP, *self._node.look_first(), self._teleop.speeds])
+        look_at = time.monotonic() + _LOOK_PERIOD
+        while True:
+            now = time.monotonic()
+            due = self._hold.wait(now)
+            until_look = max(0.0, look_at - now)
+            timeout = until_look if due is None else min(due, until_look)
+            for event in self._keyboard.read(timeout):
+                if event.key == CTRL_C:
+                    return
+                self._take(event)
+            self._keep_on(time.monotonic())
+            if time.monotonic() >= look_at:
+                say(self._node.look())
+                look_at = time.monotonic() + _LOOK_PERIOD
+
+    def _take(self, event: KeyEvent) -> None:
+        if event.is_release:
+            if self._hold.release(event.name):
+                self._stop()
+            return
+        text = self._teleop.press(event.key)
+        say([text] if text else [])
+        self._node.publish(self._teleop.velocity)
+        self._hold.press(
+            event.key, time.monotonic(), moving=self._teleop.is_moving, name=event.name
+        )
+        if event.key == CTRL_Z:  # has stopped the robot, as every key without a meaning
+            self._keyboard.suspend()
+
+    def _keep_on(self, now: float) -> None:
+        """Repeat the command of a held key, or stop when it has been let go."""
+        if self._hold.is_released(now):
+            self._stop()
+        elif self._hold.is_repeat_due(now):
+            self._node.publish(self._teleop.velocity)
+
+    def _stop(self) -> None:
+        self._teleop.stop()
+        self._node.publish(self._teleop.velocity)
+
+
+def say(lines: Iterable[str]) -> None:
+    """Print for the driver, at once."""
+    for line in lines:
+        print(line, flush=True)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line, without ROS arguments."""
+    options = argparse.ArgumentParser(
+        prog='teleop_twist_keyboard',
+        description='Drive a robot with the keys of a terminal; they are shown at the start.',
+        epilog='Parameters, after --ros-args: stamped, frame_id, speed, turn, repeat_rate, '
+        'key_timeout; a topic: -r cmd_vel:=/diff_drive_controller/cmd_vel',
+    )
+    options.add_argument(
+        '--latch', action='store_true', help='drive on until the next key, also when one is let go'
+    )
+    return options
 
 
 def teleop_twist_keyboard(args: list[str] | None) -> None:
     """Set up node and terminal, drive, and leave both in order."""
+    words = sys.argv if args is None else ['teleop_twist_keyboard', *args]
+    options = parser().parse_args(remove_ros_args(words)[1:])
     with ros(args) as stop:
         with argument_errors():
-            node = TeleopTwistKeyboard()
-        with (
-            spinning(node),
-            Keyboard(sys.stdin.fileno()) as keyboard,
-            stop.on_stop(keyboard.leave),
-        ):
-            try:
-                drive(node, keyboard)
-            finally:
-                stop.leave()
-                node.stop_robot()
+            node = TeleopTwistKeyboard(latch=options.latch)
+        with spinning(node):
+            releases = node.settings.key_timeout > 0.0
+            keyboard = Keyboard(sys.stdin.fileno(), instead=node.instead, releases=releases)
+            with stop.on_stop(keyboard.leave), keyboard:
+                try:
+                    Driver(node, keyboard).drive()
+                finally:
+                    stop.leave()
+                    node.stop_robot()
 
 
 def main(args: list[str] | None = None) -> int:
