@@ -19,6 +19,8 @@ The simulated world, and the only package that imports MuJoCo.
 ``drives``          which of a joint's actuators act
 ``initial_state``   where joints begin
 ``contact``         how a wheel touches the ground
+``wheel_trim``      … so that each robot rests on its wheels' true radius
+``wheel_contacts``  … and how much it bears and slips
 ``spawning``        the request to spawn, checked; simulation_interfaces' codes
 ``overlap``         a robot spawned inside something, and how much higher it would stand free
 ``resources``       ``package://`` and ``file://``, world names

@@ -45,10 +45,14 @@ class RobotSpec:
     spec: mujoco.MjSpec
     wheels: tuple[Wheel, ...]
     """The links that touch the ground as wheels, each with a geom of :func:`tread_name`."""
+    balls: tuple[str, ...]
+    """The geoms of a wheeled robot that are spheres and no wheels: casters, if they bear."""
     commands: Mapping[str, Collection[str]]
     """The command interfaces of each joint in a ``<ros2_control>`` block."""
     initial: Mapping[str, JointState]
     """The joints that do not begin at rest at 0."""
+    free_joint: str | None
+    """The joint by which it moves in the world; None: it stands fixed."""
 
 
 def root_joint(robot: Robot) -> str:
@@ -81,6 +85,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         wheels = find_wheels(robot, [j for j, i in commands.items() if _DRIVING & {*i}])
         for wheel in wheels:
             _make_tread(spec, wheel)
+        balls = _name_balls(spec) if wheels else ()
         _exclude_self_collision(spec, robot)
         # Tried alone first, so that a robot that MuJoCo refuses never touches the world.
         spec.copy().compile()
@@ -89,7 +94,9 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
             f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
-    return RobotSpec(spec, wheels, commands, initial_states(robot, controlled))
+    free = None if robot.root.name == WORLD_LINK else root_joint(robot)
+    initial = initial_states(robot, controlled)
+    return RobotSpec(spec, wheels, balls, commands, initial, free)
 
 
 def _prepared_xml(robot: Robot, log: Log) -> str:
@@ -137,6 +144,18 @@ def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> None:
     tread.name = tread_name(wheel.link)
     tread.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
     tread.size = [wheel.radius, wheel.radius, wheel.half_width]
+
+
+def _name_balls(spec: mujoco.MjSpec) -> tuple[str, ...]:
+    """Name the spheres that touch and are no wheels; return the names."""
+    spheres = [
+        geom
+        for geom in spec.geoms
+        if geom.type == mujoco.mjtGeom.mjGEOM_SPHERE and (geom.contype or geom.conaffinity)
+    ]
+    for number, ball in enumerate(spheres):
+        ball.name = f'{ball.parent.name}/ball_{number}'
+    return tuple(ball.name for ball in spheres)
 
 
 def _exclude_self_collision(spec: mujoco.MjSpec, robot: Robot) -> None:

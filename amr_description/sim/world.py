@@ -14,6 +14,8 @@ The simulated world: a ground, robots that come and go, and time.
     robot.pose('base_footprint')
 """
 
+import numpy as np
+
 from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
@@ -22,7 +24,7 @@ from amr_description.sim.contact import add_wheel_contact, ContactSettings, WHEE
 from amr_description.sim.engine import Engine
 from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
 from amr_description.sim.overlap import refuse_overlap
-from amr_description.sim.robot_spec import build_robot, RobotSpec, tread_name
+from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import (
     check_name,
@@ -32,6 +34,7 @@ from amr_description.sim.spawning import (
     SpawnCode,
 )
 from amr_description.sim.stepping import LONGEST_STEP
+from amr_description.sim.wheel_trim import Contacts, trimmed_contacts
 from amr_description.sim.world_file import load_world, longest_step, static_surfaces
 from amr_description.sim.world_settings import WorldSettings
 
@@ -69,10 +72,11 @@ class MujocoWorld:
             log(
                 Severity.WARN,
                 f"world '{world}': a physics step of {self.longest_step / 1e6:g} ms is asked; "
-                f'the wheels\' contacts are tuned for {LONGEST_STEP / 1e6:g} ms and less',
+                f"the wheels' contacts are tuned for {LONGEST_STEP / 1e6:g} ms and less",
             )
         self._surfaces = static_surfaces(spec)
         self._contact = contact
+        self._contacts: dict[tuple[str, str], Contacts] = {}
         try:
             self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
             """Model and data, for this package and its tests."""
@@ -130,7 +134,7 @@ class MujocoWorld:
         if isinstance(description, str):
             description = read_description(description, name, self._log)
         model = build_robot(description, self._log)
-        self._attach(name, model, pose)
+        self._attach(name, model, pose, self._contacts_of(description, model))
         view = RobotView(self.engine, name, description, model, pose, self._log)
         try:
             refuse_overlap(self.engine, name)
@@ -164,17 +168,24 @@ class MujocoWorld:
             view.start()
         self.faults.reset()
 
-    def _attach(self, name: str, model: RobotSpec, pose: Transform) -> None:
+    def _contacts_of(self, robot: Robot, model: RobotSpec) -> Contacts:
+        """What its wheels and casters have; found once for all robots of one description."""
+        key = (robot.source, robot.text)
+        if key not in self._contacts:
+            gravity = float(np.linalg.norm(self.engine.spec.option.gravity))
+            self._contacts[key] = trimmed_contacts(model, self._contact, gravity)
+        return self._contacts[key]
+
+    def _attach(self, name: str, model: RobotSpec, pose: Transform, contacts: Contacts) -> None:
         spec = self.engine.spec
         place = spec.worldbody.add_frame(
             name=name, pos=pose.translation, quat=wxyz_from_xyzw(pose.rotation)
         )
         try:
             spec.attach(model.spec, frame=place, prefix=f'{name}/')
-            for wheel in model.wheels:
-                tread = f'{name}/{tread_name(wheel.link)}'
+            for geom, contact in contacts.items():
                 for surface in self._surfaces:
-                    add_wheel_contact(spec, tread, surface, self._contact)
+                    add_wheel_contact(spec, f'{name}/{geom}', surface, contact)
             self.engine.recompile()
         except ValueError as cause:
             spec.delete(place)

@@ -1,0 +1,105 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The contacts on which a wheeled robot rests, each trimmed so that it rests at its true height.
+
+The soft contacts of :mod:`amr_description.sim.contact` sink under a load; a ``margin`` cancels
+that. How much it takes follows from how the robot's weight and inertia lie on its wheels, so each
+robot is let down onto flat ground once, by itself, before it is spawned. Measured with the margin
+of the shipped robot: a robot on two wheels of 50 mm and a ball sinks by 0.65 mm and drives 0.6 %
+short; trimmed, by 2 µm.
+
+A ball on which it rests, a caster, slides as a wheel does when the robot turns. With MuJoCo's
+default contacts it hops, and its wheels slip by a tenth; so it gets a wheel's contact too.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+
+from amr_description.sim.contact import add_wheel_contact, ContactSettings
+from amr_description.sim.faults import listen_to_mujoco
+from amr_description.sim.robot_spec import RobotSpec, tread_name
+from amr_description.sim.world_settings import apply_settings, WorldSettings
+
+type Contacts = Mapping[str, ContactSettings]
+"""The contact with the ground of each geom that is to have one of its own."""
+
+_HIGH = 100.0
+"""m; nothing of a robot is so far below its root."""
+_STEPS = 1000
+_STEP = 0.002
+"""s."""
+_STILL = 0.01
+"""m/s and rad/s; what moves faster is not at rest, and says nothing."""
+
+
+def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float) -> Contacts:
+    """
+    The contact of each wheel, and of each ball on which the robot rests: ``settings`` with a
+    margin of its own; ``gravity``: m/s².
+
+    A wheel that does not come to rest on the ground keeps ``settings``. Raises MuJoCo's
+    ValueError.
+    """
+    contacts = dict.fromkeys((tread_name(wheel.link) for wheel in model.wheels), settings)
+    for geom, height in _rest_heights(model, settings, gravity).items():
+        contacts[geom] = replace(settings, margin=max(0.0, settings.margin - height))
+    return contacts
+
+
+def _rest_heights(
+    model: RobotSpec, settings: ContactSettings, gravity: float
+) -> Mapping[str, float]:
+    """How high the wheels and balls that come to rest on the ground are above it, m."""
+    if not model.wheels or model.free_joint is None:
+        return {}
+    spec = mujoco.MjSpec()
+    apply_settings(spec.option, WorldSettings(gravity=gravity))
+    spec.option.timestep = _STEP
+    spec.compiler.fusestatic = False
+    ground = spec.worldbody.add_geom(
+        name='ground', type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 1.0]
+    )
+    spec.attach(model.spec.copy(), frame=spec.worldbody.add_frame(), prefix='robot/')
+    round_ones = [*(tread_name(wheel.link) for wheel in model.wheels), *model.balls]
+    for geom in round_ones:
+        add_wheel_contact(spec, f'robot/{geom}', ground, settings)
+    compiled = spec.compile()
+    data = mujoco.MjData(compiled)
+    _set_down(compiled, data, model)
+    # What goes wrong here goes wrong in the world too, and is told then.
+    mujoco.set_mju_user_warning(lambda text: None)
+    mujoco.mj_step(compiled, data, _STEPS)
+    listen_to_mujoco()
+    if not np.abs(data.qvel).max() < _STILL:
+        return {}
+    contacts = zip(data.contact.geom.tolist(), data.contact.dist.tolist(), strict=True)
+    height_of = {compiled.geom(max(geoms)).name: height for geoms, height in contacts}
+    return {
+        geom: height_of[f'robot/{geom}'] for geom in round_ones if f'robot/{geom}' in height_of
+    }
+
+
+def _set_down(compiled: mujoco.MjModel, data: mujoco.MjData, model: RobotSpec) -> None:
+    """Put the joints where they begin, and the lowest point of the robot on the ground."""
+    for name, state in model.initial.items():
+        joint = f'robot/{name}'
+        data.joint(joint).qpos[:] = state.position
+        for actuator in range(compiled.nu):
+            # A spring that pulls at the joint itself; behind a clutch it pulls at the rotor.
+            if compiled.actuator_trnid[actuator, 0] == compiled.joint(joint).id:
+                is_spring = compiled.actuator_biasprm[actuator, 1] != 0.0
+                data.ctrl[actuator] = state.position if is_spring else 0.0
+    height = compiled.jnt_qposadr[compiled.joint(f'robot/{model.free_joint}').id] + 2
+    data.qpos[height] = _HIGH
+    mujoco.mj_forward(compiled, data)
+    ground = compiled.geom('ground').id
+    touching = np.flatnonzero(compiled.geom_contype | compiled.geom_conaffinity)
+    data.qpos[height] -= min(
+        mujoco.mj_geomDistance(compiled, data, ground, geom, 2.0 * _HIGH, None)
+        for geom in touching.tolist()
+        if geom != ground
+    )
