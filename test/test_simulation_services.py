@@ -270,6 +270,19 @@ def test_a_reset_is_as_wide_as_its_scope(sim, scope, time, fallen, there):
     sim.wait(lambda: sim.time == time)
 
 
+def test_after_a_reset_everything_happens_again_to_the_last_bit(sim):
+    begin = SpawnEntity.Request().initial_pose
+    begin.pose.position.z, begin.pose.orientation.x = 0.3, 0.1
+    sim.do(SpawnEntity, name='amr', resource_string=URDF, initial_pose=begin)
+    runs = []
+    for _ in range(2):
+        sim.do(StepSimulation, steps=300)
+        runs.append(sim.do(GetEntityState, entity='amr').state)
+        sim.do(ResetSimulation, scope=RESET.SCOPE_TIME | RESET.SCOPE_STATE)
+    assert runs[0] == runs[1]
+    assert sim.do(GetEntityState, entity='amr').state.pose.position.z == 0.3
+
+
 def test_a_scope_that_nobody_knows_changes_nothing(sim):
     sim.do(StepSimulation, steps=10)
     code, reason = sim.refused(ResetSimulation, scope=9)

@@ -7,12 +7,13 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 import enum
 from pathlib import Path
 
 from rclpy.executors import Executor
+from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.foreign_errors import describe
@@ -167,7 +168,8 @@ class Robots:
         manager = entity.manager
         nodes = manager.nodes() if manager is not None else []
         for node in nodes:
-            self._executor.remove_node(node)  # none of their callbacks goes on behind this
+            self._executor.remove_node(node)
+        self._cancel_callbacks(nodes)
         self._ground_truth.remove(name)
         await self._owner.submit(lambda: self._take_out(entity))
         if manager is not None:
@@ -180,6 +182,16 @@ class Robots:
             await self.remove(next(iter(self._entities)))
             count += 1
         return count
+
+    def _cancel_callbacks(self, nodes: Collection[Node]) -> None:
+        """
+        End those of ``nodes`` that have begun, or were about to; nobody else would.
+
+        The executor goes on with the tasks of its own nodes only, and keeps the others for ever.
+        """
+        for task, _, node in list(self._executor._tasks):
+            if node in nodes:
+                task.cancel()
 
     def destroy(self) -> None:
         """Remove all nodes; the owner has stopped."""
