@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ways out of a command: exit codes, and what stands on which stream."""
 
+import shlex
 import signal
 import sys
 from types import SimpleNamespace
@@ -79,6 +80,22 @@ def test_a_reader_who_leaves_is_not_complained_about():
     )
     result = run(reader_leaves)
     assert (result.returncode, result.stderr) == (128 + signal.SIGPIPE, '')
+
+
+def test_a_full_disk_is_named():
+    full = 'import os; os.dup2(os.open("/dev/full", os.O_WRONLY), 1); print("lost"); return 0'
+    result = run(full)
+    assert result.returncode == 1
+    assert result.stderr == 'the output cannot be written: No space left on device\n'
+
+
+@pytest.mark.parametrize('closed', ['<&-', '>&-', '2>&-'])
+def test_a_closed_stream_is_an_empty_one(closed):
+    program = RUN.format(body='print(repr(sys.stdin.read()), file=sys.stderr); return 0')
+    line = f'exec {shlex.quote(sys.executable)} -c {shlex.quote(program)} {closed}'
+    result = python('-c', f'import os; os.execv("/bin/sh", ["sh", "-c", {line!r}])')
+    assert (result.returncode, result.stdout) == (0, '')
+    assert result.stderr == ('' if closed == '2>&-' else "''\n")
 
 
 def test_what_cannot_be_encoded_is_escaped():

@@ -13,11 +13,13 @@ the command line is wrong                         argparse's usage and error    
 Ctrl-C                                            nothing                        2 (SIGINT)
 SIGTERM while ROS is in use                       nothing                        15 (SIGTERM)
 the reader of the output is gone (``| head``)     nothing                        141
+the output cannot be written, as on a full disk   why, on stderr                 1
 any other exception: a bug                        its traceback                  1
 ================================================  =============================  ============
 """
 
 from collections.abc import Sequence
+import errno
 import importlib
 import signal
 import sys
@@ -29,6 +31,7 @@ PROGRAMS = {
     'ros2': 'amr_description.cli.ros2',
     'check_urdf': 'amr_description.cli.check_urdf',
 }
+_FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
 def main(command: str, argv: Sequence[str]) -> int:
@@ -38,6 +41,7 @@ def main(command: str, argv: Sequence[str]) -> int:
     Ready for ``sys.exit()``: everything is written out, and nothing is left to fail at exit.
     """
     try:
+        streams.open_missing()
         streams.make_line_buffered()
         code = importlib.import_module(PROGRAMS[command]).main(list(argv))
         sys.stdout.flush()
@@ -50,6 +54,12 @@ def main(command: str, argv: Sequence[str]) -> int:
     except BrokenPipeError:
         streams.abandon_stdout()
         return 128 + signal.SIGPIPE
+    except OSError as error:
+        if error.errno not in _FULL:
+            raise
+        streams.abandon_stdout()
+        print(f'the output cannot be written: {error.strerror}', file=sys.stderr)
+        return AmrError.exit_code
 
 
 def ros2() -> int:

@@ -10,6 +10,13 @@ _STDOUT = 1
 _STDERR = 2
 
 
+def open_missing() -> None:
+    """Put an empty stream where the caller closed one (``<&-``, ``>&-``), and Python has None."""
+    for name, mode in (('stdin', 'r'), ('stdout', 'w'), ('stderr', 'w')):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115 - as long as the process
+
+
 def make_line_buffered() -> None:
     """
     Write each line of stdout at once, so that ``| grep`` shows it live.
