@@ -4,6 +4,7 @@
 
 import asyncio
 import threading
+from types import SimpleNamespace
 
 from builtin_interfaces.msg import Time as TimeMessage
 import pytest
@@ -243,6 +244,16 @@ def test_a_listener_hears_moving_and_static_transforms_also_of_before(context):
     assert "laser: \n  parent: 'base'\n  broadcaster: 'default_authority'" in answer.frame_yaml
     listener.unregister()
     assert publishers_of(hearer, '/nothing') == []
+
+
+def test_a_publisher_whose_node_is_not_known_yet_has_no_name():
+    unknown = ('_NODE_NAMESPACE_UNKNOWN_', '_NODE_NAME_UNKNOWN_')
+    infos = [
+        SimpleNamespace(node_namespace=namespace, node_name=name)
+        for namespace, name in (unknown, ('/a', 'b'))
+    ]
+    hearer = SimpleNamespace(get_publishers_info_by_topic=lambda _topic: infos)
+    assert publishers_of(hearer, '/tf') == ['/a/b']
 
 
 def test_a_listener_can_serve_itself(context):

@@ -3,8 +3,11 @@
 """The programs of tf2: their words, their texts, and they themselves over real DDS."""
 
 import math
+import os
 from pathlib import Path
 import signal
+import subprocess
+import sys
 
 import pytest
 import rclpy
@@ -279,6 +282,21 @@ def test_view_frames_writes_three_files(frames, tmp_path):
         in (tmp_path / 'robot.gv').read_text()
     )
     assert '>laser</text>' in (tmp_path / 'robot.svg').read_text()
+
+
+def test_names_that_the_terminal_cannot_show_are_spelt_out():
+    code = (
+        'from amr_description.nodes.transform_tools import say, tool\n'
+        'raise SystemExit(tool(lambda: say("las\\xe9r")))'
+    )
+    done = subprocess.run(
+        (sys.executable, '-c', code),
+        env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path), 'PYTHONIOENCODING': 'ascii'},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout) == (0, 'las\\xe9r\n'), done.stderr
 
 
 @pytest.mark.parametrize(

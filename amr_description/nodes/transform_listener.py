@@ -28,6 +28,8 @@ from amr_description.nodes.transform_buffer import Buffer
 
 DEFAULT_TF_TOPIC = '/tf'
 DEFAULT_STATIC_TF_TOPIC = '/tf_static'
+# What rcl calls the node of a publisher that was found a moment before its node was.
+_NOT_KNOWN_YET = '_NODE_NAME_UNKNOWN_'
 
 
 class TransformListener:
@@ -126,11 +128,12 @@ class TransformListener:
 
 
 def publishers_of(node: Node, topic: str) -> list[str]:
-    """Return the full names of the nodes that publish on a topic, sorted."""
+    """Return the full names of the nodes that publish on a topic, sorted, as far as known yet."""
     return sorted(
         {
             f'{info.node_namespace.rstrip("/")}/{info.node_name}'
             for info in node.get_publishers_info_by_topic(topic)
+            if info.node_name != _NOT_KNOWN_YET
         }
     )
 

@@ -60,6 +60,8 @@ def tool(body: Callable[[], int | None]) -> int:
     """Run a tool that prints; return its exit code: 0 after Ctrl-C, its normal end."""
 
     def printing() -> int | None:
+        if hasattr(sys.stdout, 'reconfigure'):  # names of frames come from the network
+            sys.stdout.reconfigure(errors='backslashreplace')
         try:
             return body()
         except BrokenPipeError:  # | head has seen enough

@@ -79,9 +79,9 @@ def write(name: str, records: list[FrameRecord], recorded: int) -> None:
     """Write the three files. Raises UsageError."""
     drawing = draw(records, recorded)
     try:
-        Path(f'{name}.gv').write_text(as_dot(records, recorded))
+        Path(f'{name}.gv').write_text(as_dot(records, recorded), 'utf-8')
         Path(f'{name}.pdf').write_bytes(as_pdf(drawing))
-        Path(f'{name}.svg').write_text(as_svg(drawing))
+        Path(f'{name}.svg').write_text(as_svg(drawing), 'utf-8')
     except OSError as error:
         raise UsageError(f"-o '{name}': {error.filename}: {error.strerror}") from error
 
