@@ -80,6 +80,7 @@ def test_find_looks_into_the_ament_index(tmp_path):
         ('<xacro:include filename="nowhere.xacro"/>', r'No such file or directory: \S+nowhere'),
         ('<xacro:include filename="robot.urdf.xacro"/>', 'does a macro or an include contain'),
         ('\n<link>', 'robot.urdf.xacro:2: not well-formed XML: mismatched tag'),
+        ("${xacro.load_yaml('no.yaml')}", r'robot.urdf.xacro: FileNotFoundError: .*no.yaml'),
         ('${__import__}', r'Use of invalid name\(s\): __import__'),
     ],
 )

@@ -136,7 +136,7 @@ def _words(error: BaseException) -> Iterator[str]:
         yield f'{kind.__name__}: {error}' if kind.__module__ == 'builtins' else str(error)
         return
     own = ' '.join(str(word) for word in error.args if word)
-    if isinstance(error.exc, OSError):  # of a missing include: own words say it all
+    if isinstance(error.exc, OSError) and own:  # of a missing include: own words say it all
         yield own
     elif error.exc is not None:
         yield '' if _CLASS.match(own) else own
