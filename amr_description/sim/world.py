@@ -76,7 +76,7 @@ class MujocoWorld:
             )
         self._surfaces = static_surfaces(spec)
         self._contact = contact
-        self._contacts: dict[tuple[str, str], Contacts] = {}
+        self._contacts: dict[str, Contacts] = {}
         try:
             self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
             """Model and data, for this package and its tests."""
@@ -170,11 +170,10 @@ class MujocoWorld:
 
     def _contacts_of(self, robot: Robot, model: RobotSpec) -> Contacts:
         """What its wheels and casters have; found once for all robots of one description."""
-        key = (robot.source, robot.text)
-        if key not in self._contacts:
+        if robot.text not in self._contacts:
             gravity = float(np.linalg.norm(self.engine.spec.option.gravity))
-            self._contacts[key] = trimmed_contacts(model, self._contact, gravity)
-        return self._contacts[key]
+            self._contacts[robot.text] = trimmed_contacts(model, self._contact, gravity)
+        return self._contacts[robot.text]
 
     def _attach(self, name: str, model: RobotSpec, pose: Transform, contacts: Contacts) -> None:
         spec = self.engine.spec
