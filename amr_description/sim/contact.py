@@ -27,7 +27,10 @@ class ContactSettings:
     solreffriction: tuple[float, float]
     """Time constant in s and damping ratio of the tangential directions."""
     margin: float
-    """m; contacts begin this far above the surface, which cancels the sink under the weight."""
+    """
+    m; contacts begin this far above the surface, which cancels the sink under the weight. Each
+    robot gets its own: :mod:`amr_description.sim.wheel_trim`.
+    """
     torsional_friction: float = 0.005
     """m; without effect at ``condim`` 3."""
     rolling_friction: float = 0.0001
