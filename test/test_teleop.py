@@ -68,22 +68,20 @@ def stamped_parameter(robot):
 
 def test_every_key_of_the_original(robot, teleop):
     program = teleop(*ONE_KEY_ONE_MESSAGE)
-    speed, turn, expected = 0.5, 1.0, []
-    for key, (x, y, z, yaw) in MOVES.items():
-        expected.append((x * speed, y * speed, z * speed, yaw * turn))
-        program.type(key)
-    for key in 'k K':
-        expected.append((0.0, 0.0, 0.0, 0.0))
-        program.type(key)
-    expected.append((speed, 0.0, 0.0, turn))
-    program.type('u')
+    speed, turn = 0.5, 1.0
+    expected = [
+        (key, (x * speed, y * speed, z * speed, yaw * turn))
+        for key, (x, y, z, yaw) in MOVES.items()
+    ]
+    expected += [('k', (0.0,) * 4), ('K', (0.0,) * 4), ('u', (speed, 0.0, 0.0, turn))]
     for key, (linear, angular) in SPEEDS.items():
         speed, turn = speed * linear, turn * angular
-        expected.append((speed, 0.0, 0.0, turn))
+        expected.append((key, (speed, 0.0, 0.0, turn)))
+    for count, (key, _) in enumerate(expected, 1):
         program.type(key)
-    robot.until(lambda: len(robot.messages) == len(expected))
+        robot.until(lambda count=count: len(robot.messages) >= count)  # ten wait in a queue
     heard = [(t.linear.x, t.linear.y, t.linear.z, t.angular.z) for t in robot.twists]
-    assert heard == expected
+    assert heard == [velocity for _, velocity in expected]
     for twist in robot.twists:
         assert (twist.angular.x, twist.angular.y) == (0.0, 0.0)
     program.expect(f'currently:\tspeed {speed}\tturn {turn} ')
@@ -294,6 +292,21 @@ def test_it_does_not_start_on_what_it_cannot_use(arguments, terminal, words):
         assert program.end() == 1
         assert 'Traceback' not in program.output
         assert program.output.count('[FATAL]') == 1
+
+
+@pytest.mark.parametrize(
+    ('redirection', 'words'),
+    [('<&-', 'standard input is not a terminal'), ('| true', 'nobody reads standard output')],
+)
+def test_a_closed_stream_is_one_line(redirection, words):
+    command = f'{COMMAND} --ros-args -p stamped:=false {redirection}'
+    with Program('bash', '-o', 'pipefail', '-c', command, terminal=True, env=XTERM) as program:
+        before = termios.tcgetattr(program.terminal)
+        assert program.end() == 1
+        assert words in program.output
+        assert 'Traceback' not in program.output
+        assert 'Exception ignored' not in program.output
+        assert termios.tcgetattr(program.terminal) == before
 
 
 def test_latch_and_a_timeout_contradict_each_other():

@@ -100,6 +100,7 @@ def test_a_terminal_without_the_protocol_is_left_alone(robot):
     ids=['latch', 'dumb', 'linux'],
 )
 def test_it_is_not_asked_where_the_answer_is_no_use(words, env):
+    words = [*words, '--ros-args', '-p', 'stamped:=false']  # looks for nobody
     with Program.module('teleop_twist_keyboard', *words, terminal=True, env=env) as program:
         program.expect('currently:')
         program.type('\x03')
@@ -169,6 +170,34 @@ def test_ctrl_z_leaves_the_protocol_and_fg_takes_it_up_again(robot):
         robot.until(lambda: robot.commands[-1] == REST)
         shell.type('echo it ended with $?\n')
         shell.expect('it ended with 0')
+
+
+# A supervisor, which gives its child a session of its own, and the terminal as it is.
+SUPERVISOR = """
+import signal, subprocess, sys
+command = [sys.executable, '-m', 'amr_description.nodes.teleop_twist_keyboard']
+child = subprocess.Popen(command, start_new_session=True)
+signal.signal(signal.SIGINT, lambda *_: child.send_signal(signal.SIGINT))
+print('child left with', child.wait())
+"""
+
+
+@pytest.mark.parametrize('has_protocol', [True, False], ids=['protocol', 'plain'])
+def test_with_the_terminal_of_a_supervisor(robot, has_protocol):
+    robot.listen()
+    with Program.of(SUPERVISOR, terminal=True, env=XTERM) as program:
+        before = termios.tcgetattr(program.terminal)
+        if has_protocol:
+            agree(program)
+        program.expect('currently:')
+        robot.until(lambda: program.type('i') or FORWARD in robot.commands)
+        program.type(PRESS_CTRL_C if has_protocol else '\x03')
+        if has_protocol:
+            let_go(program)
+        program.expect('child left with 0')
+        assert program.end() == 0
+        robot.until(lambda: robot.commands[-1] == REST)
+        assert termios.tcgetattr(program.terminal) == before
 
 
 class Tmux:

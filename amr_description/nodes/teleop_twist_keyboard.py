@@ -29,6 +29,7 @@ sent and the terminal restored.
 import argparse
 from collections.abc import Iterable
 from dataclasses import dataclass
+import os
 import sys
 import time
 
@@ -39,7 +40,7 @@ from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.utilities import remove_ros_args
 
-from amr_description.errors import ParameterError
+from amr_description.errors import AmrError, ParameterError
 from amr_description.nodes.command_type import (
     await_listeners,
     choice,
@@ -60,6 +61,7 @@ from amr_description.nodes.teleop_keys import HELP, Hold, Teleop, Velocity
 from amr_description.parameters import parameter
 
 _GOODBYE_TIMEOUT = Duration(seconds=0.2)
+_STDIN = 0  # sys.stdin is None where it was closed
 _TOPIC = 'cmd_vel'
 _DISCOVERY = 1.0  # s: how long the first listener is waited for
 _LOOK_PERIOD = 0.5  # s: how soon another listener is seen; a look takes 0.1 ms
@@ -241,9 +243,16 @@ class Driver:
 
 
 def say(lines: Iterable[str]) -> None:
-    """Print for the driver, at once."""
-    for line in lines:
-        print(line, flush=True)
+    """Print for the driver, at once. Raises AmrError: nobody reads it any more (``| head``)."""
+    try:
+        for line in lines:
+            print(line, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise AmrError(
+            'nobody reads standard output any more, so the robot is stopped; pipe the output of '
+            'teleop_twist_keyboard only into what reads to the end'
+        ) from None
 
 
 def parser() -> argparse.ArgumentParser:
@@ -269,7 +278,7 @@ def teleop_twist_keyboard(args: list[str] | None) -> None:
             node = TeleopTwistKeyboard(latch=options.latch)
         with spinning(node):
             releases = node.settings.key_timeout > 0.0
-            keyboard = Keyboard(sys.stdin.fileno(), instead=node.instead, releases=releases)
+            keyboard = Keyboard(_STDIN, instead=node.instead, releases=releases)
             with stop.on_stop(keyboard.leave), keyboard:
                 try:
                     Driver(node, keyboard).drive()
