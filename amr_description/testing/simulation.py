@@ -276,6 +276,15 @@ class Simulation:
         """
         self._lock_step.send(topic, message)
 
+    def ask(self, service_type: Any, **fields: Any) -> Any:
+        """
+        Call a service of the simulator, of ``simulation_interfaces``; return the response.
+
+        Its name follows from its type; ``fields``: of the request. Whoever lets time go on by it
+        calls :meth:`reset` before the next step.
+        """
+        return self._lock_step.ask(service_type, **fields)
+
     def reset(self) -> None:
         """Begin anew: time 0, the robot where it was spawned, odometry at zero; a few ms."""
         self._lock_step.reset()
