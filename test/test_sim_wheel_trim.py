@@ -49,21 +49,17 @@ def test_it_rests_on_its_wheels_true_radius(urdf, gravity):
 
 
 @pytest.mark.parametrize(
-    'left, right, friction',
-    [
-        (10.0, 10.0, 1.0),
-        (20.0, 20.0, 1.0),
-        (-3.4, 3.4, 1.0),
-        (4.0, 8.0, 1.0),
-        # Pushed ahead on rough ground, a ball that cannot roll jams and hops, as chalk does.
-        (-10.0, -10.0, 0.2),
-    ],
+    'left, right', [(10.0, 10.0), (20.0, 20.0), (-10.0, -10.0), (-3.4, 3.4), (4.0, 8.0)]
 )
-def test_it_drives_and_turns_as_its_wheels_say(left, right, friction):
-    world = MujocoWorld('empty', settings=WorldSettings(friction=friction))
+def test_it_drives_and_turns_as_its_wheels_say(left, right):
+    world = MujocoWorld('empty')
     robot = world.spawn('robot', TWO_WHEELS)
-    robot.joints(['left', 'right']).command('velocity', [left, right])
-    world.step(500)
+    wheels = robot.joints(['left', 'right'])
+    for tick in range(200):
+        # Within 1.5 s, or it would rear up on the way back.
+        share = min(1.0, tick / 150)
+        wheels.command('velocity', [share * left, share * right])
+        world.step(5)
     speeds, rates = [], []
     for _ in range(100):
         world.step(5)

@@ -19,6 +19,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``drives``          which of a joint's actuators act
 ``initial_state``   where joints begin
 ``contact``         how a wheel touches the ground
+``link_friction``   the friction that a URDF made for Gazebo gives its links
 ``wheel_trim``      … so that each robot rests on its wheels' true radius
 ``wheel_contacts``  … and how much it bears and slips
 ``spawning``        the request to spawn, checked; simulation_interfaces' codes

@@ -71,9 +71,12 @@ def add_wheel_contact(
 ) -> None:
     """
     Let the geom named ``wheel`` touch ``surface`` with these settings and the surface's own
-    sliding friction.
+    sliding friction, or the wheel's where that prevails and is smaller.
     """
     mu = float(surface.friction[0])
+    tread = spec.geom(wheel)
+    if tread.priority > surface.priority:
+        mu = min(mu, float(tread.friction[0]))
     pair = spec.add_pair(geomname1=wheel, geomname2=surface.name)
     pair.condim = 3
     pair.friction = [

@@ -26,6 +26,7 @@ from amr_description.model.xml_source import parse_xml
 from amr_description.sim.actuators import add_actuators
 from amr_description.sim.faults import one_line
 from amr_description.sim.initial_state import initial_states, JointState
+from amr_description.sim.link_friction import link_frictions, make_slippery
 from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
 
@@ -86,6 +87,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         for wheel in wheels:
             _make_tread(spec, wheel)
         balls = _name_balls(spec) if wheels else ()
+        make_slippery(spec, link_frictions(robot, log))
         _exclude_self_collision(spec, robot)
         # Tried alone first, so that a robot that MuJoCo refuses never touches the world.
         spec.copy().compile()
