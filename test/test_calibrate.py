@@ -11,10 +11,12 @@ import rclpy
 from rclpy.node import Node
 from ros_processes import ROOT, run, running
 from running_programs import PATIENCE, Program
+from simulation_interfaces.msg import Result, SimulationState
+from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
 from amr_description.controllers.drive_calibration import Geometry, Run, Travel
 from amr_description.nodes.calibrate import manoeuvres, patch, report
-from amr_description.nodes.clients import wait_until
+from amr_description.nodes.clients import call, wait_until
 
 # Shorter and wider than the shipped robot; and the parameters believe in larger wheels.
 URDF = (
@@ -39,7 +41,7 @@ drive:
     wheel_separation: 0.4
     wheel_radius: 0.105
     base_frame_id: base_footprint
-    cmd_vel_timeout: 0.0  # on a busy machine as fast as possible, commands come late
+    cmd_vel_timeout: 0.0  # on a busy machine commands come late
 """
 BRISK = ('--linear', '0.4', '--angular', '1.2', '--distance', '0.8')
 # name, true and its unit, before, its error in %, after, its error in %
@@ -48,14 +50,14 @@ ROW = re.compile(r'^(.+?) +([+-]\S+) (deg|m) +(\S+) \S+ +(\S+)% +(\S+) \S+ +(\S+
 
 @pytest.fixture(scope='module')
 def robot(tmp_path_factory):
-    """A simulator, as fast as it can, with the robot and its controller ``/one/drive``."""
+    """A fast simulator, with the robot and its controller ``/one/drive``."""
     path = tmp_path_factory.mktemp('calibrate') / 'controllers.yaml'
     path.write_text(
         YAML.replace('\ncontroller_manager:', '\n/one/controller_manager:').replace(
             '\ndrive:', '\n/one/drive:'
         )
     )
-    options = f'-p real_time_factor:=0.0 -p controllers:={path}'.split()
+    options = f'-p real_time_factor:=8.0 -p controllers:={path}'.split()
     with running('mujoco_sim', '--ros-args', *options, until='waiting for robots'):
         assert run('create', '-string', URDF, '--ros-args', '-r', '__ns:=/one').returncode == 0
         assert run('spawner', 'drive', '-c', '/one/controller_manager').returncode == 0
@@ -98,34 +100,73 @@ def test_a_robot_with_another_wheelbase_turns_as_odometry_says_afterwards(robot,
     assert max(before) < 2.0
 
 
-def test_ctrl_c_stops_the_robot(robot):
+@pytest.fixture
+def node():
     rclpy.init(args=[])
-    node = Node('listener')
-    commands = []
+    node = Node('test_calibrate')
+    yield node
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def commands(node):
+    """The twists that the controller is sent."""
+    heard = []
     topic = '/one/drive/cmd_vel'
-    node.create_subscription(TwistStamped, topic, lambda it: commands.append(it.twist), 1000)
-    try:
-        with calibrate('--controller', '/one/drive', '--linear', '0.1') as program:
-            assert wait_until(
-                node,
-                lambda: commands and commands[-1].linear.x == 0.1 or None,
-                timeout=PATIENCE,
-            )
-            program.signal(signal.SIGINT)
-            assert program.end() == 128 + signal.SIGINT
-            assert 'Traceback' not in program.output
-        assert wait_until(node, lambda: commands[-1].linear.x == 0.0 or None, timeout=PATIENCE)
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
+    node.create_subscription(TwistStamped, topic, lambda it: heard.append(it.twist), 1000)
+    return heard
+
+
+def wait_for_speed(node, commands, speed):
+    def is_last():
+        return bool(commands) and commands[-1].linear.x == speed or None
+
+    assert wait_until(node, is_last, timeout=PATIENCE)
+
+
+def test_ctrl_c_stops_the_robot(robot, node, commands):
+    with calibrate('--controller', '/one/drive', '--linear', '0.1') as program:
+        wait_for_speed(node, commands, 0.1)
+        program.signal(signal.SIGINT)
+        assert program.end() == 128 + signal.SIGINT
+        assert 'Traceback' not in program.output
+    wait_for_speed(node, commands, 0.0)
+
+
+def set_state(node, state):
+    request = SetSimulationState.Request(state=SimulationState(state=state))
+    service = '/mujoco_sim/set_simulation_state'
+    response = call(node, SetSimulationState, service, request, timeout=PATIENCE)
+    assert response.result.result == Result.RESULT_OK
+
+
+def test_a_simulation_that_is_paused_or_reset_meanwhile_is_told(robot, node, commands):
+    slowly = ('--controller', '/one/drive', '--linear', '0.1', '--timeout', '5')
+    with calibrate(*slowly) as program:
+        wait_for_speed(node, commands, 0.1)
+        set_state(node, SimulationState.STATE_PAUSED)
+        assert program.end() == 1
+        assert 'the truth has stood still for 5 s: is the simulation paused' in program.output
+    set_state(node, SimulationState.STATE_PLAYING)
+    wait_for_speed(node, commands, 0.0)  # its last word
+    with calibrate(*slowly) as program:
+        wait_for_speed(node, commands, 0.1)
+        service = '/mujoco_sim/reset_simulation'
+        request = ResetSimulation.Request(scope=ResetSimulation.Request.SCOPE_TIME)
+        response = call(node, ResetSimulation, service, request, timeout=PATIENCE)
+        assert response.result.result == Result.RESULT_OK, response.result.error_message
+        assert program.end() == 1
+        assert 'simulated time went back: the simulation was reset' in program.output
+    wait_for_speed(node, commands, 0.0)
 
 
 def test_what_is_missing_is_told_in_one_line(robot):
-    for name, line in (
-        ('/two/drive', "there is no controller '/two/drive' after 1 s: is the robot up"),
-        ('/one/controller_manager', "'/one/controller_manager' is no differential drive"),
+    for name, timeout, line in (
+        ('/two/drive', 1, "there is no controller '/two/drive' after 1 s: is the robot up"),
+        ('/one/controller_manager', 10, "'/one/controller_manager' is no differential drive"),
     ):
-        ended = run('calibrate', '--controller', name, '--timeout', '1')
+        ended = run('calibrate', '--controller', name, '--timeout', str(timeout))
         assert ended.returncode == 1
         (said,) = ended.stderr.splitlines()
         assert line in said

@@ -9,6 +9,7 @@ Everything goes by the stamps of the messages, simulated time: the same at any r
 from collections.abc import Callable
 from dataclasses import dataclass
 import math
+import time
 
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
@@ -31,7 +32,11 @@ STILL = 1e-3
 REST = NANOSECONDS // 2
 """ns for which it has to be, so that odometry is at rest too."""
 
-_QOS = QoSProfile(depth=100)
+_QOS = QoSProfile(depth=1000)
+"""Deep, for a simulation that runs as fast as it can."""
+_LARGEST_STEP = math.pi / 2.0
+"""rad between two messages; with more, whole turns could be missed."""
+
 _GOODBYE = Duration(seconds=2.0)
 """Of the wall clock: the longest wait for the last zero to be received."""
 
@@ -76,20 +81,22 @@ class _Track:
         self.stamp = -1
         self.moved = 0
         """ns: the stamp of the last message in which it moved."""
-        self.has_jumped = False
+        self.has_jumped = self.has_gap = False
         self._path: Path | None = None
         self._pose = (0.0, 0.0, 0.0)
 
     def hear(self, message: Odometry) -> None:
         stamp = nanoseconds(message.header.stamp)
         self.has_jumped = self.has_jumped or stamp < self.stamp
-        self.stamp = stamp
+        gap, self.stamp = (stamp - self.stamp) / NANOSECONDS, stamp
         pose = transform_of(message.pose.pose)
         x, y, _ = pose.translation
         self._pose = x, y, yaw_of(pose.rotation)
         if self._path is not None:
             self._path.add(*self._pose)
         twist = message.twist.twist
+        if self._path is not None and gap * abs(twist.angular.z) > _LARGEST_STEP:
+            self.has_gap = True
         if max(abs(twist.linear.x), abs(twist.linear.y), abs(twist.angular.z)) > STILL:
             self.moved = stamp
 
@@ -141,11 +148,16 @@ class CalibrationDrive:
         self._come_to_rest()
         self._truth.restart()
         self._odometry.restart()
-        end = self._truth.stamp + round(manoeuvre.patience * NANOSECONDS)
+        late = self._odometry.stamp + round(manoeuvre.patience * NANOSECONDS)
+        # Simulated seconds may be over before a command has arrived, as fast as they can pass.
+        too_late = time.monotonic() + self._timeout
         self._command = manoeuvre.linear, manoeuvre.angular
         self._send()
         self._serve(
-            lambda: manoeuvre.is_done(self._odometry.travel) or self._truth.stamp > end,
+            lambda: (
+                manoeuvre.is_done(self._odometry.travel)
+                or (self._odometry.stamp > late and time.monotonic() > too_late)
+            )
         )
         if not manoeuvre.is_done(self._odometry.travel):
             travel = self._odometry.travel
@@ -206,6 +218,11 @@ class CalibrationDrive:
             self._give_up()
             if self._truth.has_jumped:
                 raise CalibrationError('simulated time went back: the simulation was reset')
+            if self._truth.has_gap or self._odometry.has_gap:
+                raise CalibrationError(
+                    'messages get lost: the simulation is faster than they can be read; try again '
+                    'after: ros2 param set /mujoco_sim real_time_factor 5.0'
+                )
             return condition() or None
 
         stamp = self._truth.stamp
