@@ -133,12 +133,13 @@ def test_the_nodes_of_the_test_are_served_while_it_waits(sim):
         sim.wait(lambda: False, 'a wonder', timeout=0.1)
 
 
-def test_a_simulation_that_was_started_again_has_the_same_bits(sim):
+@pytest.mark.parametrize('rtf', [0.0, 3.0])
+def test_a_simulation_that_was_started_again_has_the_same_bits(sim, rtf):
     def scenario(sim):
         sim.drive(0.5, 0.8, seconds=0.5)
         return bits(sim)
 
-    with Simulation(URDF) as other:
+    with Simulation(URDF, rtf=rtf) as other:
         assert scenario(other) == scenario(sim)
 
 

@@ -25,7 +25,6 @@ from types import TracebackType
 from typing import Any, Self
 import warnings
 
-from controller_manager_msgs.srv import ListControllers
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 import rclpy
@@ -33,25 +32,27 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from simulation_interfaces.srv import SpawnEntity
 
 from amr_description.bringup.packages import path_of
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.errors import SimulationError
-from amr_description.model.frames import conjugate, rotate, Transform
+from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
-from amr_description.nodes.converters import fill_pose, transform_of, vector_of
-from amr_description.nodes.manager_client import ManagerClient
 from amr_description.nodes.quick_discovery import use_quick_discovery
-from amr_description.nodes.spawner import Spawner
-from amr_description.nodes.spawner_arguments import parse
 from amr_description.sim.resources import description_at
 from amr_description.testing.domains import own_domain
 from amr_description.testing.latest import Latest
-from amr_description.testing.lock_step import Condition, LockStep, PATIENCE
+from amr_description.testing.lock_step import Condition, LockStep
+from amr_description.testing.message_readings import (
+    joints_of,
+    motion_of_entity,
+    motion_of_odometry,
+    nanoseconds,
+)
 from amr_description.testing.program import simulator
 from amr_description.testing.readings import Joint, Motion
+from amr_description.testing.robot import DRIVE, spawn, spawn_controllers
 
 _AT_ORIGIN = Transform()
 _COMMAND_PERIOD = 0.1
@@ -62,7 +63,6 @@ _BRAKING = 10.0
 """s: the longest time in which a drive is waited to stand."""
 _STILL = 1e-3
 """m/s and rad/s: slower is taken for standing."""
-_DRIVE = 'DiffDriveController'
 
 
 class Simulation:
@@ -123,9 +123,7 @@ class Simulation:
                 'simulation_readings', context=context, use_global_arguments=False
             )
             stack.callback(self._readings.destroy_node)
-            self._spawn(description)
-            if is_controlled:
-                self._spawn_controllers()
+            self._spawn(description, is_controlled)
             self._measure_step()
             self._stack = stack.pop_all()
         return self
@@ -157,50 +155,14 @@ class Simulation:
             return self._urdf
         return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=5))
 
-    def _spawn(self, description: str) -> None:
-        request = SpawnEntity.Request(resource_string=description)
-        fill_pose(self._pose, request.initial_pose.pose)
-        self.name = self._lock_step.ask(
-            SpawnEntity,
-            resource_string=description,
-            initial_pose=request.initial_pose,
-        ).entity_name
+    def _spawn(self, description: str, is_controlled: bool) -> None:
+        self.name = spawn(self._lock_step, description, self._pose)
         """The robot's, as the simulator knows it."""
-        self._cmd_vel = ''
-        self._odometry: Latest | None = None
+        self._drive = spawn_controllers(self._lock_step, self._activate) if is_controlled else None
         self._joints = Latest(self._readings, JointState, '/joint_states')
-
-    def _spawn_controllers(self) -> None:
-        manager = ManagerClient(self.node, 'controller_manager', timeout=PATIENCE, silent=5.0)
-        names = self._activate
-        if names is None:
-            names = manager.typed_controllers()
-        if names:
-            Spawner(self.node, manager, parse([*names])).spawn()
-        for controller in manager.look(ListControllers).controller:
-            if controller.type.endswith(_DRIVE) and controller.state == 'active':
-                self._find_drive(controller.name)
-                return
-
-    def _find_drive(self, name: str) -> None:
-        """The topics of a drive, whatever they are remapped to."""
-        node, wait = self.node, self._lock_step.wait
-
-        def of_type(found: Sequence[tuple[str, Sequence[str]]], message_type: str) -> list[str]:
-            return [topic for topic, types in found if message_type in types]
-
-        def commands() -> list[str]:
-            found = node.get_subscriber_names_and_types_by_node(name, '/')
-            return of_type(found, 'geometry_msgs/msg/TwistStamped')
-
-        def odometry() -> list[str]:
-            found = node.get_publisher_names_and_types_by_node(name, '/')
-            return of_type(found, 'nav_msgs/msg/Odometry')
-
-        wait(lambda: (name, '/') in node.get_node_names_and_namespaces(), f"the node '{name}'")
-        self._cmd_vel = wait(commands, f"the commands of '{name}'")[0]
-        topic = wait(odometry, f"the odometry of '{name}'")[0]
-        self._odometry = Latest(self._readings, Odometry, topic)
+        self._odometry: Latest | None = None
+        if self._drive is not None:
+            self._odometry = Latest(self._readings, Odometry, self._drive.odometry)
 
     def _measure_step(self) -> None:
         """How long a physics step is; and begin as every reset begins."""
@@ -252,15 +214,15 @@ class Simulation:
 
     def _command(self, linear: float, angular: float, count: int) -> None:
         """For ``count`` physics steps."""
-        if not self._cmd_vel:
+        if self._drive is None:
             raise SimulationError(
-                f"no {_DRIVE} of '{self.name}' is active; send() commands other controllers"
+                f"no {DRIVE} of '{self.name}' is active; send() commands other controllers"
             )
         stretch = max(1, self._steps_in(_COMMAND_PERIOD))
         while count > 0:
             command = TwistStamped()
             command.twist.linear.x, command.twist.angular.z = float(linear), float(angular)
-            self.send(self._cmd_vel, command)
+            self.send(self._drive.command, command)
             self.step(min(stretch, count))
             count -= stretch
 
@@ -310,36 +272,19 @@ class Simulation:
     @property
     def truth(self) -> Motion:
         """How the robot's root link really moves in the world, at this instant."""
-        state = self._lock_step.state(self.name)
-        pose = transform_of(state.pose)
-        back = conjugate(pose.rotation)
-        return Motion(
-            time=_nanoseconds(state.header.stamp) / NANOSECONDS,
-            pose=pose,
-            linear=rotate(back, vector_of(state.twist.linear)),
-            angular=rotate(back, vector_of(state.twist.angular)),
-        )
+        return motion_of_entity(self._lock_step.state(self.name))
 
     @property
     def odometry(self) -> Motion:
         """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
         if self._odometry is None:
-            raise SimulationError(f"no {_DRIVE} of '{self.name}' is active")
-        message = self._newest(self._odometry)
-        return Motion(
-            time=_nanoseconds(message.header.stamp) / NANOSECONDS,
-            pose=transform_of(message.pose.pose),
-            linear=vector_of(message.twist.twist.linear),
-            angular=vector_of(message.twist.twist.angular),
-        )
+            raise SimulationError(f"no {DRIVE} of '{self.name}' is active")
+        return motion_of_odometry(self._newest(self._odometry))
 
     @property
     def joints(self) -> dict[str, Joint]:
         """What ``/joint_states`` said last, by the names of the joints."""
-        message = self._newest(self._joints)
-        columns = (message.position, message.velocity, message.effort)
-        padded = ([*column] or [math.nan] * len(message.name) for column in columns)
-        return {name: Joint(*values) for name, *values in zip(message.name, *padded, strict=True)}
+        return joints_of(self._newest(self._joints))
 
     @property
     def log(self) -> str:
@@ -359,7 +304,7 @@ class Simulation:
         return topic.take() or self.wait(topic.take, f"a message on '{topic.topic}'", 5.0)
 
     def _stamp(self) -> int:
-        return _nanoseconds(self._lock_step.state(self.name).header.stamp)
+        return nanoseconds(self._lock_step.state(self.name).header.stamp)
 
     def _steps_in(self, seconds: float) -> int:
         if not (math.isfinite(seconds) and seconds >= 0.0):
@@ -370,10 +315,6 @@ class Simulation:
         """Keep to the wall clock (``time.monotonic``, s)."""
         while (delay := instant - wall.monotonic()) > 0.0:
             self.node.executor.spin_once(timeout_sec=delay)
-
-
-def _nanoseconds(stamp: Any) -> int:
-    return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
 def _absolute(world: str | Path) -> str:
