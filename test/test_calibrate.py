@@ -6,6 +6,7 @@ import re
 import signal
 
 from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
 import pytest
 import rclpy
 from rclpy.node import Node
@@ -14,9 +15,12 @@ from running_programs import PATIENCE, Program
 from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
+from amr_description.control.interfaces import NANOSECONDS
 from amr_description.controllers.drive_calibration import Geometry, Run, Travel
 from amr_description.nodes.calibrate import manoeuvres, patch, report
+from amr_description.nodes.calibration_drive import Track
 from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.converters import fill_stamp
 
 # Shorter and wider than the shipped robot; and the parameters believe in larger wheels.
 URDF = (
@@ -142,12 +146,12 @@ def set_state(node, state):
 
 
 def test_a_simulation_that_is_paused_or_reset_meanwhile_is_told(robot, node, commands):
-    slowly = ('--controller', '/one/drive', '--linear', '0.1', '--timeout', '5')
+    slowly = ('--controller', '/one/drive', '--linear', '0.1', '--timeout', '4')
     with calibrate(*slowly) as program:
         wait_for_speed(node, commands, 0.1)
         set_state(node, SimulationState.STATE_PAUSED)
         assert program.end() == 1
-        assert 'the truth has stood still for 5 s: is the simulation paused' in program.output
+        assert 'the truth has stood still for 4 s: is the simulation paused' in program.output
     set_state(node, SimulationState.STATE_PLAYING)
     wait_for_speed(node, commands, 0.0)  # its last word
     with calibrate(*slowly) as program:
@@ -179,6 +183,22 @@ def test_options_must_be_positive_numbers(option, value):
 
     with pytest.raises(SystemExit, match='2'):
         parser().parse_args([f'{option}={value}'])
+
+
+@pytest.mark.parametrize('gap, is_lost', [(1.0, False), (2.0, True)])
+def test_messages_that_leave_room_for_a_missed_turn_are_not_trusted(gap, is_lost):
+    track = Track()
+    message = Odometry()
+    track.hear(message)
+    track.restart()
+    message.twist.twist.angular.z = 1.2
+    for count in range(1, 4):
+        fill_stamp(round(count * gap * NANOSECONDS), message.header.stamp)
+        track.hear(message)
+    assert (track.has_gap, track.has_jumped) == (is_lost, False)
+    fill_stamp(0, message.header.stamp)
+    track.hear(message)
+    assert track.has_jumped
 
 
 def test_every_manoeuvre_has_its_counterpart_and_a_limit():

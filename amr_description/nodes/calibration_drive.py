@@ -74,7 +74,7 @@ class Manoeuvre:
         return abs(travel.distance) >= self.distance or abs(travel.turn) >= self.turn
 
 
-class _Track:
+class Track:
     """The messages of one odometry: the latest, and the path since the last :meth:`restart`."""
 
     def __init__(self) -> None:
@@ -82,10 +82,12 @@ class _Track:
         self.moved = 0
         """ns: the stamp of the last message in which it moved."""
         self.has_jumped = self.has_gap = False
+        """Time went back; so much passed between two messages that a turn may be missed."""
         self._path: Path | None = None
         self._pose = (0.0, 0.0, 0.0)
 
     def hear(self, message: Odometry) -> None:
+        """Take a message."""
         stamp = nanoseconds(message.header.stamp)
         self.has_jumped = self.has_jumped or stamp < self.stamp
         gap, self.stamp = (stamp - self.stamp) / NANOSECONDS, stamp
@@ -102,14 +104,17 @@ class _Track:
 
     @property
     def is_at_rest(self) -> bool:
+        """Whether it has not moved for a while."""
         return self.stamp >= 0 and self.stamp - self.moved > REST
 
     @property
     def travel(self) -> Travel:
+        """Since the last restart."""
         assert self._path is not None, 'it was restarted'
         return self._path.travel
 
     def restart(self) -> None:
+        """Let the path begin here."""
         self._path = Path(*self._pose)
 
 
@@ -133,7 +138,7 @@ class CalibrationDrive:
         self._command: tuple[float, float] | None = None
         self._namespace, _, self._name = controller.rpartition('/')
         self.geometry = self._read_geometry(controller)
-        self._truth, self._odometry = _Track(), _Track()
+        self._truth, self._odometry = Track(), Track()
         truth_topic = f'{self._namespace}/{ODOM_TOPIC}'
         odometry_topic, command_topic = self._find_topics(truth_topic)
         self._commands = node.create_publisher(TwistStamped, command_topic, 10)
@@ -290,7 +295,7 @@ class CalibrationDrive:
             if type_name in types
         }
 
-    def _wait_for_messages(self, topic: str, track: _Track) -> None:
+    def _wait_for_messages(self, topic: str, track: Track) -> None:
         self._wait(
             lambda: track.stamp >= 0,
             f"no message has come on '{topic}' for {self._timeout:g} s: is the simulation paused, "
