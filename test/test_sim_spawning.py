@@ -56,6 +56,13 @@ def without_inertial_of_the_first_wheel(urdf):
             106,
             'link "wheel_front_left".*inertial',
         ),
+        (
+            'x',
+            '<robot name="x"><link name="base"/></robot>',
+            Transform(),
+            106,
+            'x: no link has mass, so nothing can move the robot; add <inertial>',
+        ),
         ('x', AMR, Transform((0, 0, math.nan)), 109, r'pose is position \(0, 0, nan\)'),
         ('x', AMR, Transform((0, 0, 0), (0, 0, 0, 0)), 109, 'quaternion of length 1'),
     ],

@@ -68,6 +68,12 @@ def tread_name(link: str) -> str:
 
 def build_robot(robot: Robot, log: Log) -> RobotSpec:
     """Build the spec of a sound robot; ``log`` is told what is left out. Raises SpawnError."""
+    if robot.root.name != WORLD_LINK and not any(link.inertial for link in robot.links):
+        raise SpawnError(
+            f'{robot.source}: no link has mass, so nothing can move the robot; add <inertial> '
+            'with <mass value="…"/> (kg) and <inertia …/> (kg·m²)',
+            SpawnCode.RESOURCE_PARSE_ERROR,
+        )
     controlled = [joint for hardware in hardware_of(robot) for joint in hardware.joints]
     commands: dict[str, tuple[str, ...]] = {}
     for joint in controlled:
