@@ -52,7 +52,7 @@ def let_go(program, rest=''):
 
 def unread(terminal):
     """Return what a shell would find in the terminal."""
-    tty.setraw(terminal)
+    tty.setraw(terminal, termios.TCSANOW)  # by default it drops what is there
     return os.read(terminal, 1024) if select.select([terminal], [], [], 0.0)[0] else b''
 
 

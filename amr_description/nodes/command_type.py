@@ -22,7 +22,7 @@ MESSAGES: dict[bool, type[Twist] | type[TwistStamped]] = {False: Twist, True: Tw
 """By whether it is stamped."""
 
 
-NAMELESS = 'a node whose name is not known'
+NAMELESS = 'a listener'
 """A node is heard of a moment after its subscriptions, and one without ROS never."""
 _UNKNOWN = '_NODE_NAME_UNKNOWN_'  # of rmw
 
