@@ -177,6 +177,25 @@ def test_what_cannot_be_started_says_so_in_a_line(arguments, message):
     assert dict(os.environ) == before
 
 
+def test_outside_of_its_block_it_does_nothing():
+    with pytest.raises(SimulationError, match='runs inside its block'):
+        Simulation(URDF).drive(1.0, 0.0, seconds=1.0)
+    with Simulation(URDF, activate=[]) as sim:
+        assert sim.truth.time == 0.0
+        assert 'Spawned' in sim.log
+        with pytest.raises(SimulationError, match='began without an active JointStateBroadcaster'):
+            assert sim.joints
+    for read in (lambda: sim.truth, lambda: sim.joints, lambda: sim.time, sim.reset):
+        with pytest.raises(SimulationError, match='runs inside its block'):
+            read()
+
+
+def test_nothing_is_said_at_time_zero(sim):
+    for read in (lambda: sim.odometry, lambda: sim.joints):
+        with pytest.raises(SimulationError, match='at time 0; let time pass'):
+            read()
+
+
 def test_the_end_of_the_simulator_is_told_and_another_is_started(simulation):
     first = simulation(URDF, activate=[])
     with pytest.raises(SimulationError, match='no DiffDriveController of .* is active'):

@@ -5,7 +5,9 @@ Receipts: who commands a simulation that stands still has to know when the comma
 
 Between a topic and a service DDS keeps no order, so a step may overtake the command that it was
 meant for; and as controllers subscribe best effort, as in ros2_control, DDS acknowledges nothing.
-So the simulator says on
+Above all, Fast DDS finds the endpoints of two participants in either direction by itself: of 60
+new publishers that had seen their subscriber, 29 lost their first message. So the simulator says
+on
 
 ``~/received``  (``diagnostic_msgs/msg/KeyValue``, reliable)
     for every message that a controller has accepted: ``key``: the topic; ``value``: the

@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot in a simulation that stands still: spawned, controlled, and found by its topics."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from controller_manager_msgs.srv import ListControllers
-from rclpy.node import Node
 from simulation_interfaces.srv import SpawnEntity
 
 from amr_description.model.frames import Transform
@@ -20,14 +19,22 @@ DRIVE = 'DiffDriveController'
 """How the types of drives end whose topics are looked for."""
 
 
-@dataclass(frozen=True)
-class DriveTopics:
-    """Of the drive that is active, whatever they are remapped to."""
+_BROADCASTER = 'JointStateBroadcaster'
 
-    command: str
-    """geometry_msgs/msg/TwistStamped."""
-    odometry: str
-    """nav_msgs/msg/Odometry."""
+type Found = Sequence[tuple[str, Sequence[str]]]
+"""Names of topics, and their types."""
+
+
+@dataclass(frozen=True)
+class Topics:
+    """Of the active controllers, whatever they are remapped to; empty: there is none."""
+
+    command: str = ''
+    """geometry_msgs/msg/TwistStamped, of the first drive."""
+    odometry: str = ''
+    """nav_msgs/msg/Odometry, of the same."""
+    joints: str = ''
+    """sensor_msgs/msg/JointState."""
 
 
 def spawn(lock_step: LockStep, description: str, pose: Transform) -> str:
@@ -40,39 +47,38 @@ def spawn(lock_step: LockStep, description: str, pose: Transform) -> str:
     return response.entity_name
 
 
-def spawn_controllers(lock_step: LockStep, names: Sequence[str] | None) -> DriveTopics | None:
+def spawn_controllers(lock_step: LockStep, names: Sequence[str] | None) -> Topics:
     """
     Load, configure and activate controllers, in order; None: all that the manager has a type for.
 
-    Return the topics of the first drive among them. Raises ControllerError, ParameterError.
+    Return the topics of those that are active then. Raises ControllerError, ParameterError.
     """
     manager = ManagerClient(lock_step.node, 'controller_manager', timeout=PATIENCE, silent=5.0)
     wanted = manager.typed_controllers() if names is None else [*names]
     if wanted:
         Spawner(lock_step.node, manager, parse(wanted)).spawn()
-    for controller in manager.look(ListControllers).controller:
-        if controller.type.endswith(DRIVE) and controller.state == 'active':
-            return _topics_of(lock_step, controller.name)
-    return None
+    listed = manager.look(ListControllers).controller
+    active = [(each.type, each.name) for each in listed if each.state == 'active']
+    drive = next((name for kind, name in active if kind.endswith(DRIVE)), None)
+    broadcaster = next((name for kind, name in active if kind.endswith(_BROADCASTER)), None)
+    node = lock_step.node
 
+    def topic(owner: str | None, find: Callable[[str, str], Found], message_type: str) -> str:
+        """The one that a node has of a type."""
+        if owner is None:
+            return ''
 
-def _topics_of(lock_step: LockStep, name: str) -> DriveTopics:
-    node, wait = lock_step.node, lock_step.wait
-    wait(lambda: _is_known(node, name), f"the node '{name}'")
+        def found() -> list[str]:
+            if (owner, '/') not in node.get_node_names_and_namespaces():
+                return []
+            return [name for name, types in find(owner, '/') if message_type in types]
 
-    def commands() -> list[str]:
-        found = node.get_subscriber_names_and_types_by_node(name, '/')
-        return [topic for topic, types in found if 'geometry_msgs/msg/TwistStamped' in types]
+        return lock_step.wait(found, f"the {message_type} of '{owner}'")[0]
 
-    def odometry() -> list[str]:
-        found = node.get_publisher_names_and_types_by_node(name, '/')
-        return [topic for topic, types in found if 'nav_msgs/msg/Odometry' in types]
-
-    return DriveTopics(
-        command=wait(commands, f"the commands of '{name}'")[0],
-        odometry=wait(odometry, f"the odometry of '{name}'")[0],
+    publishers = node.get_publisher_names_and_types_by_node
+    subscribers = node.get_subscriber_names_and_types_by_node
+    return Topics(
+        command=topic(drive, subscribers, 'geometry_msgs/msg/TwistStamped'),
+        odometry=topic(drive, publishers, 'nav_msgs/msg/Odometry'),
+        joints=topic(broadcaster, publishers, 'sensor_msgs/msg/JointState'),
     )
-
-
-def _is_known(node: Node, name: str) -> bool:
-    return (name, '/') in node.get_node_names_and_namespaces()

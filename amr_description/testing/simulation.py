@@ -48,17 +48,18 @@ from amr_description.testing.message_readings import (
     joints_of,
     motion_of_entity,
     motion_of_odometry,
-    nanoseconds,
 )
 from amr_description.testing.program import simulator
 from amr_description.testing.readings import Joint, Motion
-from amr_description.testing.robot import DRIVE, spawn, spawn_controllers
+from amr_description.testing.robot import DRIVE, spawn, spawn_controllers, Topics
 
 _AT_ORIGIN = Transform()
 _COMMAND_PERIOD = 0.1
 """s between two commands of a drive: well below the usual time-out of 0.5 s."""
 _PACED = 0.02
 """s of simulated time between two looks at the wall clock, where it counts."""
+_LISTENING = 20
+"""Physics steps between two looks for the first messages, at the beginning."""
 _BRAKING = 10.0
 """s: the longest time in which a drive is waited to stand."""
 _STILL = 1e-3
@@ -107,6 +108,9 @@ class Simulation:
             **(parameters or {}),
         }
         self._stack = ExitStack()
+        self._lock_step: LockStep | None = None
+        self._odometry: Latest | None = None
+        self._joints: Latest | None = None
 
     # --- beginning and end --------------------------------------------------------------------
 
@@ -118,13 +122,13 @@ class Simulation:
             self._program = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack)
             self._lock_step = LockStep(self.node, self._program)
-            self._lock_step.connect()
+            self._running.connect()
             self._readings = Node(
                 'simulation_readings', context=context, use_global_arguments=False
             )
             stack.callback(self._readings.destroy_node)
             self._spawn(description, is_controlled)
-            self._measure_step()
+            self._begin()
             self._stack = stack.pop_all()
         return self
 
@@ -134,7 +138,16 @@ class Simulation:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
+        self._lock_step = None
         self._stack.__exit__(kind, error, traceback)
+
+    @property
+    def _running(self) -> LockStep:
+        if self._lock_step is None:
+            raise SimulationError(
+                "a simulation runs inside its block: 'with Simulation(…) as sim:'"
+            )
+        return self._lock_step
 
     def _ros(self, stack: ExitStack) -> Context:
         """A context of its own: the test may have rclpy initialised, or not, for itself."""
@@ -156,19 +169,27 @@ class Simulation:
         return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=5))
 
     def _spawn(self, description: str, is_controlled: bool) -> None:
-        self.name = spawn(self._lock_step, description, self._pose)
+        self.name = spawn(self._running, description, self._pose)
         """The robot's, as the simulator knows it."""
-        self._drive = spawn_controllers(self._lock_step, self._activate) if is_controlled else None
-        self._joints = Latest(self._readings, JointState, '/joint_states')
-        self._odometry: Latest | None = None
-        if self._drive is not None:
-            self._odometry = Latest(self._readings, Odometry, self._drive.odometry)
+        topics = spawn_controllers(self._running, self._activate) if is_controlled else Topics()
+        self._cmd_vel = topics.command
+        self._odometry = self._listen(Odometry, topics.odometry)
+        self._joints = self._listen(JointState, topics.joints)
 
-    def _measure_step(self) -> None:
-        """How long a physics step is; and begin as every reset begins."""
-        before = self._stamp()
-        self._lock_step.step(1)
-        self._step = self._stamp() - before
+    def _listen(self, message_type: Any, topic: str) -> Latest | None:
+        return Latest(self._readings, message_type, topic) if topic else None
+
+    def _begin(self) -> None:
+        """Let time pass until every topic is heard, as that may take DDS a while; then reset."""
+        lock_step = self._running
+        lock_step.measure(self.name)
+        topics = [topic for topic in (self._odometry, self._joints) if topic is not None]
+
+        def is_heard() -> bool:
+            lock_step.step(_LISTENING)
+            return all(topic.take() is not None for topic in topics)
+
+        lock_step.wait(is_heard, ' and '.join(topic.topic for topic in topics))
         self.reset()
 
     # --- time ---------------------------------------------------------------------------------
@@ -176,22 +197,22 @@ class Simulation:
     @property
     def time(self) -> float:
         """Simulated time, s."""
-        return self._lock_step.time / NANOSECONDS
+        return self._running.time / NANOSECONDS
 
     def step(self, count: int = 1) -> None:
         """Make ``count`` physics steps; each lasts :attr:`timestep`."""
         if count < 0:
             raise SimulationError(f'{count} steps are asked; time goes on, and back by reset()')
-        begin, start = self._lock_step.time, wall.monotonic()
+        begin, start = self._running.time, wall.monotonic()
         while count > 0:
             stretch = count
             if self._rtf:
-                stretch = min(count, max(1, round(_PACED * NANOSECONDS / self._step)))
-            self._lock_step.step(stretch)
+                stretch = min(count, max(1, round(_PACED * NANOSECONDS / self._running.timestep)))
+            self._running.step(stretch)
             count -= stretch
-            self._lock_step.time += stretch * self._step
+            self._running.time += stretch * self._running.timestep
             if self._rtf:
-                passed = (self._lock_step.time - begin) / NANOSECONDS
+                passed = (self._running.time - begin) / NANOSECONDS
                 self._serve_until(start + passed / self._rtf)
 
     def run(self, seconds: float) -> None:
@@ -214,7 +235,7 @@ class Simulation:
 
     def _command(self, linear: float, angular: float, count: int) -> None:
         """For ``count`` physics steps."""
-        if self._drive is None:
+        if not self._cmd_vel:
             raise SimulationError(
                 f"no {DRIVE} of '{self.name}' is active; send() commands other controllers"
             )
@@ -222,7 +243,7 @@ class Simulation:
         while count > 0:
             command = TwistStamped()
             command.twist.linear.x, command.twist.angular.z = float(linear), float(angular)
-            self.send(self._drive.command, command)
+            self.send(self._cmd_vel, command)
             self.step(min(stretch, count))
             count -= stretch
 
@@ -236,7 +257,7 @@ class Simulation:
 
         A header without a stamp gets that of the simulated time.
         """
-        self._lock_step.send(topic, message)
+        self._running.send(topic, message)
 
     def ask(self, service_type: Any, **fields: Any) -> Any:
         """
@@ -245,11 +266,11 @@ class Simulation:
         Its name follows from its type; ``fields``: of the request. Whoever lets time go on by it
         calls :meth:`reset` before the next step.
         """
-        return self._lock_step.ask(service_type, **fields)
+        return self._running.ask(service_type, **fields)
 
     def reset(self) -> None:
         """Begin anew: time 0, the robot where it was spawned, odometry at zero; a few ms."""
-        self._lock_step.reset()
+        self._running.reset()
         for topic in (self._joints, self._odometry):
             if topic is not None:
                 topic.forget()
@@ -260,31 +281,29 @@ class Simulation:
 
         Return what it returned. ``what``: for the error; ``timeout``: s of the wall clock (30).
         """
-        return self._lock_step.wait(condition, what, timeout)
+        return self._running.wait(condition, what, timeout)
 
     # --- what is read -------------------------------------------------------------------------
 
     @property
     def timestep(self) -> float:
         """A physics step, s."""
-        return self._step / NANOSECONDS
+        return self._running.timestep / NANOSECONDS
 
     @property
     def truth(self) -> Motion:
         """How the robot's root link really moves in the world, at this instant."""
-        return motion_of_entity(self._lock_step.state(self.name))
+        return motion_of_entity(self._running.state(self.name))
 
     @property
     def odometry(self) -> Motion:
         """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
-        if self._odometry is None:
-            raise SimulationError(f"no {DRIVE} of '{self.name}' is active")
-        return motion_of_odometry(self._newest(self._odometry))
+        return motion_of_odometry(self._newest(self._odometry, DRIVE))
 
     @property
     def joints(self) -> dict[str, Joint]:
-        """What ``/joint_states`` said last, by the names of the joints."""
-        return joints_of(self._newest(self._joints))
+        """What the JointStateBroadcaster said last, by the names of the joints."""
+        return joints_of(self._newest(self._joints, 'JointStateBroadcaster'))
 
     @property
     def log(self) -> str:
@@ -296,20 +315,20 @@ class Simulation:
         """Whether the simulator runs."""
         return self._program.process.poll() is None
 
-    def _newest(self, topic: Latest) -> Any:
-        if not self._lock_step.time:
+    def _newest(self, topic: Latest | None, controller: str) -> Any:
+        lock_step = self._running
+        if topic is None:
+            raise SimulationError(f"'{self.name}' began without an active {controller}")
+        if not lock_step.time:
             raise SimulationError(
                 f'nothing is on {topic.topic} at time 0; let time pass: step(), run() or drive()'
             )
         return topic.take() or self.wait(topic.take, f"a message on '{topic.topic}'", 5.0)
 
-    def _stamp(self) -> int:
-        return nanoseconds(self._lock_step.state(self.name).header.stamp)
-
     def _steps_in(self, seconds: float) -> int:
         if not (math.isfinite(seconds) and seconds >= 0.0):
             raise SimulationError(f'{seconds} s are asked; a finite time, not below 0, will do')
-        return round(seconds * NANOSECONDS / self._step)
+        return round(seconds * NANOSECONDS / self._running.timestep)
 
     def _serve_until(self, instant: float) -> None:
         """Keep to the wall clock (``time.monotonic``, s)."""
