@@ -59,6 +59,7 @@ STRING_ARRAY = ParameterType.PARAMETER_STRING_ARRAY
         ('2026-01-01', '2026-01-01', STRING),
         ('{a: 1}', '{a: 1}', STRING),
         ('[left', '[left', STRING),
+        ('<?xml version="1.0"?>\n<!-- a: b # c -->\n<robot/>\n',) * 2 + (STRING,),
         ('[1, 2.0]', '[1, 2.0]', STRING),
         ('[true, 1]', '[true, 1]', STRING),
         ('[[1], [2]]', '[[1], [2]]', STRING),

@@ -162,6 +162,12 @@ def test_a_stand_in_is_named_once_and_steps_back_for_the_original(only_ours):
     assert result.stderr.startswith('No executable found')
 
 
+def test_what_stands_in_for_others_of_a_package_is_told(only_ours):
+    result = ros2('run', 'tf2_tools', 'view_frames.py', AMENT_PREFIX_PATH=str(only_ours))
+    assert result.returncode == 1
+    assert result.stderr == "Package 'tf2_tools' not found; of it there are here: view_frames\n"
+
+
 def test_a_stand_in_has_the_names_of_the_original_unless_told_otherwise(only_ours):
     result = ros2(
         *('run', 'demo_nodes_py', 'talker', '--ros-args', '-r', '__node:=mine'),

@@ -97,6 +97,9 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     known = packages()
     if package not in known and (package, name) in INSTEAD:
         raise AmrError(f"Package '{package}' not found: {INSTEAD[package, name]}")
+    others = sorted(other for owner, other in STAND_INS if owner == package)
+    if package not in known and _OURS in known and others and name not in others:
+        raise AmrError(f"Package '{package}' not found; of it there are here: {', '.join(others)}")
     if package in known or (package, name) not in STAND_INS or _OURS not in known:
         return _only_one(executables_of(package), package, name), ()
     stand_in, *words = STAND_INS[package, name].split()

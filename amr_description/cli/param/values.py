@@ -41,6 +41,8 @@ _INTEGERS = range(-(2**63), 2**63)
 
 def typed(text: str) -> Value:
     """Return what stands behind a parameter's name on a command line. Raises AmrError."""
+    if text.lstrip().startswith('<'):
+        return text  # XML, such as a robot_description: as YAML it would lose lines, or fail
     try:
         value = read_value(text)
     except AmrError as error:
