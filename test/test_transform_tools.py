@@ -20,7 +20,7 @@ from amr_description.errors import UsageError
 from amr_description.model.frames import quaternion_from_rpy, Transform
 from amr_description.model.transform_cache import SECOND
 from amr_description.model.transform_input import StampedTransform
-from amr_description.nodes import static_transform_publisher, tf2_echo
+from amr_description.nodes import static_transform_publisher, tf2_echo, view_frames
 from amr_description.nodes.clients import wait_until
 from amr_description.nodes.runtime import spinning
 from amr_description.nodes.tf2_echo import Request
@@ -282,6 +282,12 @@ def test_view_frames_writes_three_files(frames, tmp_path):
         in (tmp_path / 'robot.gv').read_text()
     )
     assert '>laser</text>' in (tmp_path / 'robot.svg').read_text()
+
+
+def test_view_frames_does_not_listen_for_what_it_may_not_write(monkeypatch, tmp_path):
+    monkeypatch.setattr(os, 'access', lambda path, mode: False)  # root may write everywhere
+    with pytest.raises(UsageError, match=f"no permission to write into '{tmp_path}'"):
+        view_frames.view(['-o', str(tmp_path / 'robot')])
 
 
 def test_names_that_the_terminal_cannot_show_are_spelt_out():

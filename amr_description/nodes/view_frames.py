@@ -16,6 +16,7 @@ told to come from the nodes that publish on its topic instead of ``default_autho
 from argparse import ArgumentParser, ArgumentTypeError
 from dataclasses import replace
 import math
+import os
 from pathlib import Path
 import threading
 import time
@@ -95,6 +96,8 @@ def _require_folder(name: Path) -> None:
     """Do not listen for seconds only to fail then."""
     if not name.parent.is_dir():
         raise UsageError(f"-o '{name}': there is no folder '{name.parent}'")
+    if not os.access(name.parent, os.W_OK):
+        raise UsageError(f"-o '{name}': no permission to write into '{name.parent.resolve()}'")
 
 
 def _with_broadcasters(
