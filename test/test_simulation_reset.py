@@ -8,6 +8,7 @@ The simulator begins paused, and everything is brought up before time begins.
 
 from collections import defaultdict
 from itertools import pairwise
+import math
 import signal
 import subprocess
 
@@ -52,12 +53,14 @@ YAML = """
     wheel_radius: 0.1
     base_frame_id: base_footprint
 """
-LONGEST_GAPS = {'joint_states': 10, 'odom': 30, 'odom_tf': 30, 'wheel_tf': 300}
-LONGEST_GAPS = {name: gap * MS for name, gap in LONGEST_GAPS.items()}
+HEARD = ('joint_states', 'odom', 'odom_tf', 'wheel_tf')
+LONGEST_SILENCE = 500 * MS
 """
-ns between two messages, beginning at the reset. Odometry's period is 20 ms, but the first time
-more, as in the original. robot_state_publisher, 50 ms, hears joint states at best effort.
+ns between two messages, beginning at the reset. They come every 10 to 50 ms, but a writer keeps
+one sample: on a busy machine some are lost.
 """
+FASTEST = 0.55
+"""m/s; what the robot is told, and a little."""
 
 
 @pytest.fixture(scope='module')
@@ -158,8 +161,10 @@ def compare_with_truth(sim, driver):
     asked = nanoseconds(state.header.stamp)
     sim.wait(lambda: driver.heard['odom'][-1] >= asked)
     heard = zip(driver.heard['odom'], driver.odometry, strict=True)
-    _, odometry = min(heard, key=lambda pair: abs(pair[0] - asked))
-    assert odometry.pose.pose.position.x == pytest.approx(state.pose.position.x, abs=0.02)
+    stamp, odometry = min(heard, key=lambda pair: abs(pair[0] - asked))
+    meanwhile = FASTEST * abs(stamp - asked) / NANOSECONDS
+    truth = state.pose.position.x
+    assert odometry.pose.pose.position.x == pytest.approx(truth, abs=0.01 + meanwhile)
 
 
 def turn(sim, state):
@@ -238,14 +243,14 @@ def reset_and_drive_on(sim, driver):
     # What was on its way at the reset still bears a time of before.
     sim.wait(lambda: any(stamp < before for stamp in driver.heard['odom']))
     sim.wait(lambda: driver.travelled > 0.05)
-    sim.wait(lambda: all(len(driver.heard[name]) > 5 for name in LONGEST_GAPS))
-    for name, longest in LONGEST_GAPS.items():
+    sim.wait(lambda: all(len(driver.heard[name]) > 5 for name in HEARD))
+    for name in HEARD:
         stamps = since_reset(driver.heard[name])
-        assert stamps[0] <= longest, name
-        assert max(after - last for last, after in pairwise(stamps)) <= longest, name
-    first = driver.odometry[driver.heard['odom'].index(min(driver.heard['odom']))]
-    place, twist = first.pose.pose.position, first.twist.twist
-    assert (place.x, place.y, twist.linear.x, twist.angular.z) == (0.0, 0.0, 0.0, 0.0)
+        assert stamps[0] <= LONGEST_SILENCE, name
+        assert max(after - last for last, after in pairwise(stamps)) <= LONGEST_SILENCE, name
+    first = min(driver.heard['odom'])
+    place = driver.odometry[driver.heard['odom'].index(first)].pose.pose.position
+    assert math.hypot(place.x, place.y) <= FASTEST * first / NANOSECONDS
     compare_with_truth(sim, driver)
 
 
