@@ -132,15 +132,17 @@ def _answer(
     attempts: int,
 ) -> Any:
     """Wait for the response of a service. Raises NoAnswerError."""
-    service, was_there = client.srv_name, False
+    service, was_there, is_gone = client.srv_name, False, False
 
     def answered_or_gone() -> Any | None:
-        nonlocal was_there
+        nonlocal was_there, is_gone
         if (response := answered()) is not None:
             return response
-        is_there = client.service_is_ready()
-        if was_there and not is_there:
+        if is_gone:
             raise NoAnswerError(f'service {service} went away before it answered')
+        is_there = client.service_is_ready()
+        # Who answers as its last deed is gone before the response is taken: look once more.
+        is_gone = was_there and not is_there
         was_there = is_there
         return None
 
