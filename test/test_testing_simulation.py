@@ -5,6 +5,7 @@
 import os
 from pathlib import Path
 import select
+import shutil
 import signal
 import subprocess
 import sys
@@ -213,18 +214,19 @@ KILLED = """
 import os, signal, sys
 from amr_description.testing.simulation import Simulation
 with Simulation(sys.argv[1], activate=[]) as sim:
-    print('pid', sim._program.process.pid, flush=True)
+    print('pid', sim._program.process.pid, sim._program._log.parent, flush=True)
     sys.stdin.read() if sys.argv[2] == 'wait' else 1 / 0
 """
 
 
 def test_it_ends_with_the_test_that_is_killed():
     with Program.of(KILLED, str(URDF), 'wait', terminal=True) as test:
-        pid = int(test.expect(r'pid (\d+)')[1])
-        simulator = os.pidfd_open(pid)
+        _, pid, folder = test.expect(r'pid (\d+) (\S+)\s')[0].split()
+        simulator = os.pidfd_open(int(pid))
         test.signal(signal.SIGKILL)
         test.end()
         assert is_over(simulator)
+    shutil.rmtree(folder)  # nobody is left to do so
 
 
 def test_it_ends_with_the_test_that_fails():
