@@ -146,7 +146,13 @@ def test_a_refused_update_rate_leaves_no_node_behind(tmp_path, node):
     ):
         result = spawn(node, name='amr', resource_string=URDF).result
         assert "parameter 'update_rate'" in result.error_message
-        assert 'controller_manager' not in node.get_node_names()
+        assert wait_until(
+            node,
+            lambda: 'controller_manager' not in node.get_node_names() or None,
+            lambda: None,
+            every=1.0,
+            timeout=PATIENCE,
+        )
 
 
 @pytest.mark.parametrize(
