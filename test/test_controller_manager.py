@@ -158,7 +158,7 @@ def test_a_controllers_life():
     ]  # fmt: skip
     assert controller.calls[0] == ('configure', 'parameters')
     manager.unload('fake')
-    assert not manager.is_loaded('fake')
+    assert manager.snapshot.controllers == ()
     assert states_of(manager) == {}
 
 

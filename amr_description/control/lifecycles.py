@@ -158,10 +158,6 @@ class ControllerLifecycles:
         """The controllers in the order of their updates; on the owner's thread."""
         return tuple(self._controllers)
 
-    def is_loaded(self, name: str) -> bool:
-        """Tell whether a controller of that name is there."""
-        return name in self._controllers
-
     def _find(self, name: str, verb: str) -> LoadedController:
         loaded = self._controllers.get(name)
         if loaded is None:
