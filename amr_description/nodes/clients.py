@@ -24,6 +24,8 @@ class NoAnswerError(AmrError):
 
 def client_node(name: str) -> Node:
     """Make the node of such a program. Raises ParameterError: ``name`` is none."""
+    # Made before anything is said: an executor that is interrupted half-made complains.
+    rclpy.get_global_executor()
     with argument_errors():
         validate_node_name(name)  # Node() does so too, but leaves a warning behind
         return Node(name)
