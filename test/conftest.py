@@ -61,8 +61,11 @@ def has_workers(config):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers():
-    """How many processes ``-n auto`` is: two for each core, as they mostly wait for others."""
-    return 2 * len(os.sched_getaffinity(0))
+    """
+    How many processes ``-n auto`` is: one more than cores, as they often wait for others; with
+    two for each core the programs under test do not answer in time.
+    """
+    return len(os.sched_getaffinity(0)) + 1
 
 
 def pytest_collection_modifyitems(config, items):
