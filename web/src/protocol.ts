@@ -1,0 +1,227 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * What the page and the node `viewer` say to each other, over one WebSocket at `/ws`.
+ *
+ * Text frames are JSON, one message each, told apart by `type`. The only binary frames are states,
+ * from the node to the page; see `stateLayout` below. Lengths are in m, angles in rad, times in s,
+ * frames and axes as in REP 103 (x ahead, y left, z up), quaternions in the order x, y, z, w.
+ *
+ * The node's side of this page is amr_description/viewer/protocol.py; a test holds the two equal.
+ */
+
+export const PROTOCOL = 'amr.v1'; // the WebSocket's subprotocol: a page of another version is refused
+
+export type Vector = [number, number, number];
+export type Quaternion = [number, number, number, number];
+export type Colour = [number, number, number, number]; // r, g, b, a in 0..1
+
+// ---- node -> page: text ------------------------------------------------------------------------
+
+/** The first message of every connection. */
+export interface Hello {
+  type: 'hello';
+  client: string; // the name of this page, as the others see it: "page 3"
+  version: string; // of the package
+  domain: number; // ROS_DOMAIN_ID
+  rate: number; // states per second, at most
+  drive_timeout: number; // s after the last `drive` until the node stops the robot by itself
+}
+
+/** What there is in the ROS graph. Sent on every change. */
+export interface Graph {
+  type: 'graph';
+  robots: RobotInfo[];
+  simulators: SimulatorInfo[];
+  hint: string | null; // what to do when there is nothing to see: "nothing publishes /robot_description; start …"
+}
+
+export interface RobotInfo {
+  id: string; // its namespace: "/" or "/robot1"; the name of the robot in every other message
+  name: string; // of the URDF
+  command: { topic: string; message: string } | null; // message: "geometry_msgs/msg/TwistStamped" or ".../Twist"
+  odometry: string | null; // topics
+  truth: string | null;
+  wheels: string | null;
+  joint_states: string | null;
+  joint_publisher: string | null; // the joint_state_publisher that takes positions, so that there are sliders
+  manager: string | null; // the controller manager
+}
+
+export interface SimulatorInfo {
+  id: string; // the node: "/mujoco_sim"
+  worlds: string[]; // what it offers
+}
+
+/** A robot's description. Sent when it first comes, and when it changes. */
+export interface Model {
+  type: 'model';
+  robot: string;
+  urdf: string;
+  root: string; // the link that is nobody's child
+  meshes: Record<string, string>; // file name as in the URDF -> where the page fetches it: "/mesh/3f2a…stl"
+  joints: JointInfo[]; // all that move, in the order of the URDF
+  findings: Finding[]; // of check_urdf
+}
+
+export interface JointInfo {
+  name: string;
+  kind: 'revolute' | 'continuous' | 'prismatic';
+  lower: number; // -pi and pi of a continuous joint
+  upper: number;
+  zero: number; // where Center puts it
+  follows: string | null; // a mimic joint has no slider
+}
+
+export interface Finding {
+  level: 'error' | 'warning' | 'note';
+  line: number | null;
+  text: string; // what is wrong
+  remedy: string; // what would do; may be empty
+}
+
+/** The static surroundings, drawn in the frame `world`. Sent when they come and when they change. */
+export interface World {
+  type: 'world';
+  simulator: string;
+  shapes: Shape[];
+}
+
+export interface Shape {
+  name: string;
+  kind: 'box' | 'sphere' | 'cylinder' | 'capsule' | 'plane' | 'triangles';
+  size: Vector; // whole extents along x, y, z; a plane's are 0 where it has no end
+  position: Vector;
+  orientation: Quaternion;
+  colour: Colour;
+  points: number[]; // of 'triangles' only: x, y, z of three corners a triangle
+}
+
+/** What stands where in the states that follow. Sent before the first state, and on every change. */
+export interface Layout {
+  type: 'layout';
+  id: number; // 0..65535; a state with another id is of an older layout and is dropped
+  frames: { name: string; parent: string }[]; // the TF tree, parents before children; a root is no child
+  robots: { id: string; joints: string[]; wheels: string[] }[];
+}
+
+/** The simulator's clock and health; sent a few times a second while there is one. */
+export interface SimulationStatus {
+  type: 'simulation';
+  simulator: string;
+  state: 'playing' | 'paused' | 'stopped' | 'unknown';
+  time: number;
+  factor: number | null; // the real-time factor asked for; 0: as fast as possible
+  real_factor: number | null; // the one that is, over the last second
+}
+
+/** Time went back (a reset): trails and plots begin anew. */
+export interface TimeReset {
+  type: 'reset';
+  time: number;
+}
+
+export interface Controllers {
+  type: 'controllers';
+  robot: string;
+  controllers: { name: string; kind: string; state: string; claims: string[] }[];
+  hardware: { name: string; kind: string; state: string }[];
+}
+
+export interface Diagnostics {
+  type: 'diagnostics';
+  robot: string;
+  items: { level: 'ok' | 'warn' | 'error' | 'stale'; name: string; message: string }[];
+}
+
+/** Who drives; sent to every page on every change. */
+export interface Driver {
+  type: 'driver';
+  robot: string;
+  client: string | null; // null: nobody
+}
+
+/** The answer to a request, by its `id`. */
+export interface Reply {
+  type: 'reply';
+  id: number;
+  ok: boolean;
+  message: string; // one line: what was done, or what was asked, found, and would do
+}
+
+/** Something that a person should know: a robot went away, a plain Twist nobody hears … */
+export interface Notice {
+  type: 'notice';
+  level: 'info' | 'warning' | 'error';
+  text: string;
+}
+
+export type ServerMessage =
+  | Hello | Graph | Model | World | Layout | SimulationStatus | TimeReset | Controllers
+  | Diagnostics | Driver | Reply | Notice;
+
+// ---- page -> node: text ------------------------------------------------------------------------
+
+/**
+ * Drive a robot: while a key, the joystick or a gamepad says so, at most 60 times a second. The
+ * first one takes the wheel, if nobody has it; `stop` (or drive_timeout without a `drive`) stops
+ * the robot and gives it back. Without an `id` there is no reply, but for a refusal.
+ */
+export interface Drive {
+  type: 'drive';
+  robot: string;
+  linear: number; // m/s ahead
+  angular: number; // rad/s to the left
+}
+
+/** Stop a robot, whoever drives it: everybody may. Null: all robots. */
+export interface Stop {
+  type: 'stop';
+  robot: string | null;
+}
+
+/** Move joints that joint_state_publisher publishes. */
+export interface SetJoints {
+  type: 'set_joints';
+  robot: string;
+  positions: Record<string, number>;
+}
+
+export type Request =
+  | { type: 'play' | 'pause'; id: number; simulator: string }
+  | { type: 'step'; id: number; simulator: string; steps: number }
+  | { type: 'reset_simulation'; id: number; simulator: string } // all robots back to their starts, time to 0
+  | { type: 'set_factor'; id: number; simulator: string; factor: number }
+  | { type: 'spawn'; id: number; simulator: string; name: string; namespace: string;
+      position: Vector; yaw: number; like: string } // the URDF of robot `like`
+  | { type: 'delete'; id: number; simulator: string; name: string }
+  | { type: 'switch'; id: number; robot: string; activate: string[]; deactivate: string[] };
+
+export type ClientMessage = Drive | Stop | SetJoints | Request;
+
+// ---- node -> page: binary ----------------------------------------------------------------------
+
+/**
+ * A state, little-endian. Not a number stands for what is not known.
+ *
+ *     0  u8   1, the kind of the frame
+ *     1  u8   0
+ *     2  u16  id of the layout
+ *     4  u32  number of the state; it grows by one a state, so that gaps can be seen
+ *     8  f64  time, s, of /clock where there is a simulator, else of the system
+ *    16  f32  …
+ *
+ * and the f32 are: for each frame of the layout its pose in its parent (x y z qx qy qz qw); then
+ * for each robot of the layout
+ *
+ *     position of each joint, then velocity of each joint       2 × joints
+ *     odometry: x y z qx qy qz qw, linear x, angular z           9, in the frame of the message
+ *     truth: the same                                            9, in `world`
+ *     command: linear x, angular z                               2, the last on the command topic
+ *     wheels: contact, normal force, slip along, slip across     4 × wheels
+ */
+export const HEADER_BYTES = 16;
+export const POSE_FLOATS = 7;
+export const MOTION_FLOATS = 9;
+export const COMMAND_FLOATS = 2;
+export const WHEEL_FLOATS = 4;
