@@ -21,8 +21,8 @@ def robot():
 def load(path):
     """Return the parameters of the manager and of the drive controller."""
     nodes = yaml.safe_load((ROOT / path).read_text())
-    names = ('controller_manager', 'diff_drive_controller')
-    return [nodes[name]['ros__parameters'] for name in names]
+    tables = {name.removeprefix('/**/'): each['ros__parameters'] for name, each in nodes.items()}
+    return [tables[name] for name in ('controller_manager', 'diff_drive_controller')]
 
 
 @pytest.fixture(scope='module')
@@ -61,11 +61,16 @@ def test_multiplier_is_near_that_of_a_robot_that_scrubs(robot, drive):
     assert drive['wheel_separation_multiplier'] == pytest.approx((a * a + b * b) / b**2, rel=0.05)
 
 
+def test_serves_every_namespace():
+    nodes = yaml.safe_load((ROOT / 'config/controllers.yaml').read_text())
+    assert list(nodes) == ['/**/controller_manager', '/**/diff_drive_controller']
+
+
 def test_departs_from_the_tutorial_where_it_must_and_nowhere_else():
     manager, drive = load('config/controllers.yaml')
     their_manager, their_drive = load('test/fixtures/tutorial/controllers.yaml')
     remap = manager['diff_drive_controller'].pop('node_options_args')
-    assert remap == ['-r', '~/odom:=/odom']
+    assert remap == ['-r', '~/odom:=odom']
     # The simulator says so to all of its nodes; without it the file serves a real robot too.
     assert their_manager.pop('use_sim_time') is True
     assert manager == their_manager

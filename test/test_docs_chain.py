@@ -17,7 +17,10 @@ from amr_description.errors import ControllerError
 PAGE = Page('chain_a_controller.md')
 CIRCLE, CHAINABLE = PAGE.blocks('python')
 TABLE, FALLBACK = PAGE.tables()
-SHIPPED = yaml.safe_load((ROOT / 'config' / 'controllers.yaml').read_text())
+SHIPPED = {
+    node.removeprefix('/**/'): table
+    for node, table in yaml.safe_load((ROOT / 'config/controllers.yaml').read_text()).items()
+}
 (MOCK,) = Page('write_your_own_controller.md').blocks('xml')
 DRIVE = 'diff_drive_controller'
 

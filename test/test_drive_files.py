@@ -45,7 +45,7 @@ def test_shipped_file_with_its_lines():
     assert drive.place.source == str(path)
     assert (drive.separation, drive.radius, drive.separation_multiplier) == (0.30, 0.10, 2.82)
     assert (drive.base_frame, drive.publishes_transform) == ('base_footprint', True)
-    assert lines[drive.place.line - 1] == 'diff_drive_controller:'
+    assert lines[drive.place.line - 1] == '/**/diff_drive_controller:'
     for name in ('wheel_separation', 'wheel_radius', 'base_frame_id', 'left_wheel_names'):
         assert lines[drive.place_of(name).line - 1].strip().startswith(f'{name}: ')
     assert drive.place_of('open_loop') == drive.place, 'the file does not set it'

@@ -185,7 +185,7 @@ def test_separation_is_that_of_the_shipped_controllers():
     import yaml
 
     parameters = yaml.safe_load((ROOT / 'config' / 'controllers.yaml').read_text())
-    drive = parameters['diff_drive_controller']['ros__parameters']
+    drive = parameters['/**/diff_drive_controller']['ros__parameters']
     multiplier = drive['wheel_separation_multiplier']
     assert drive['wheel_separation'] * multiplier == pytest.approx(SEPARATION)
     assert drive['wheel_radius'] == WHEEL_RADIUS

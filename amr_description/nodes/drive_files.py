@@ -127,7 +127,7 @@ def _settings(node: str, blocks: list[_Block]) -> DriveSettings:
         values |= block.values
         places |= block.places
     name = node.rpartition('/')[2]
-    own = [block.place for block in mine if '*' not in block.node]
+    own = [block.place for block in mine if block.node.rpartition('/')[2] == name]
     place = own[-1] if own else blocks[0].place
     try:
         drive = build(DiffDriveParameters, values)

@@ -4,18 +4,14 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 import signal
 import subprocess
 import sys
-from tempfile import TemporaryDirectory
 import time
-from typing import Any
 
 from rclpy.node import Node
 from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
-import yaml
 
 from amr_description.errors import BringupError
 from amr_description.nodes.clients import ask_until_answered, call_with, wait_until
@@ -40,7 +36,7 @@ def fleet_figures(node: Node, urdf: str, seconds: float) -> str:
     ``seconds``: wall time of each measurement.
     """
     rows = []
-    with TemporaryDirectory() as folder, _simulator(Path(folder)), _Fleet(node, urdf) as fleet:
+    with _simulator(), _Fleet(node, urdf) as fleet:
         for size in SIZES:
             took = fleet.grow(size)
             full = fleet.real_time_factor(seconds)
@@ -51,10 +47,9 @@ def fleet_figures(node: Node, urdf: str, seconds: float) -> str:
 
 
 @contextmanager
-def _simulator(folder: Path) -> Iterator[None]:
+def _simulator() -> Iterator[None]:
     """``mujoco_sim`` as fast as possible; it is ended in every way out."""
-    controllers = folder / 'controllers.yaml'
-    controllers.write_text(yaml.safe_dump(_for_every_namespace()), encoding='utf-8')
+    controllers = package_share('amr_description') / 'config' / 'controllers.yaml'
     process = subprocess.Popen(
         [
             *(sys.executable, '-m', 'amr_description.nodes.mujoco_sim'),
@@ -75,13 +70,6 @@ def _simulator(folder: Path) -> Iterator[None]:
             raise BringupError(
                 f'the simulator did not end within {_STOP_TIMEOUT:g} s of SIGINT'
             ) from None
-
-
-def _for_every_namespace() -> dict[str, Any]:
-    """The shipped parameters, for nodes in whatever namespace."""
-    path = package_share('amr_description') / 'config' / 'controllers.yaml'
-    shipped = yaml.safe_load(path.read_text(encoding='utf-8'))
-    return {f'/**/{node.lstrip("/*")}': tables for node, tables in shipped.items()}
 
 
 class _Fleet:

@@ -77,7 +77,7 @@ def _files(folder: Path, log: Path, seconds: float) -> tuple[Path, Path]:
     urdf = share / 'urdf' / 'amr.urdf'
     table = yaml.safe_load((share / 'config' / 'controllers.yaml').read_text(encoding='utf-8'))
     kind = f'{__package__}.recorded_drive/RecordedDrive'
-    table['controller_manager']['ros__parameters'][_CONTROLLER] = {'type': kind}
+    table['/**/controller_manager']['ros__parameters'][_CONTROLLER] = {'type': kind}
     table[_CONTROLLER] = {'ros__parameters': {'log': str(log), 'seconds': float(seconds)}}
     controllers = folder / 'controllers.yaml'
     controllers.write_text(yaml.safe_dump(table), encoding='utf-8')
