@@ -42,6 +42,8 @@ class Node:
     """Whether its failure (an exit code other than 0, or a signal) stops the stack."""
     on_exit: Literal['continue', 'shutdown'] = 'continue'
     """What its end with exit code 0 means to the rest of the stack."""
+    terminal: bool = False
+    """Whether it reads keys: it gets the terminal itself (see terminal.py); one of a stack may."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,11 @@ class Stack:
             raise BringupError(
                 f"the same Node('{twice.executable}') stands twice in the stack; "
                 'make a second Node'
+            )
+        with_terminal = [node.executable for node in self.nodes if node.terminal]
+        if len(with_terminal) > 1:
+            raise BringupError(
+                f'{" and ".join(with_terminal)} want the terminal, which one node can have'
             )
         conditions = [node.start_when for node in self.nodes] + [self.ready_when]
         for condition in filter(None, conditions):
