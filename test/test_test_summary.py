@@ -36,6 +36,15 @@ def test_line_and_exit_code(results, capsys, counts, line, code):
     assert capsys.readouterr().out == f'{line}\n'
 
 
+def test_why_tests_were_skipped_is_said(tmp_path, capsys):
+    file = tmp_path / 'pytest.xml'
+    case = '<testcase><skipped type="pytest.skip" message="no chromium"/></testcase>'
+    file.write_text(f'<testsuite tests="3" failures="0" errors="0" skipped="2">{case * 2}'
+                    '<testcase/></testsuite>')  # fmt: skip
+    assert main(file, 0) == 0
+    assert capsys.readouterr().out == ('2 not run: no chromium\n1 passed, 0 failed, 2 skipped\n')
+
+
 def test_failing_colcon_fails(results, capsys):
     assert main(results(3), 1) == 1
     assert capsys.readouterr().out == '3 passed, 0 failed\n'

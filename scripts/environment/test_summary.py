@@ -1,12 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``test_summary.py RESULTS CODE``: the last line of ``scripts/test``, and its exit code.
+``test_summary.py RESULTS CODE``: the last lines of ``scripts/test``, and its exit code.
+
+Why tests were skipped stands before the line that counts.
 
 RESULTS is pytest's JUnit file, CODE what ``colcon test`` ended with. An error (a test that could
 not be collected, a fixture that raised) counts as failed; so does a run without a result.
 """
 
+from collections import Counter
 from pathlib import Path
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -23,10 +26,18 @@ def count(results: Path) -> tuple[int, int, int]:
     return total - failed - skipped, failed, skipped
 
 
+def reasons_to_skip(results: Path) -> Counter[str]:
+    """Return how many tests were skipped for each reason."""
+    skipped = ElementTree.parse(results).getroot().iter('skipped')
+    return Counter(element.get('message', 'no reason given') for element in skipped)
+
+
 def main(results: Path, colcon_code: int) -> int:
-    """Print the line; return the exit code."""
+    """Print the lines; return the exit code."""
     try:
         passed, failed, skipped = count(results)
+        for reason, number in reasons_to_skip(results).items():
+            print(f'{number} not run: {reason}')
     except (OSError, ElementTree.ParseError) as error:
         print(f'scripts/test: no test result: {error}')
         passed, failed, skipped = 0, 0, 0
