@@ -205,6 +205,7 @@ class Page:
               const look = () => {{
                 let value;
                 try {{ value = {expression}; }} catch (error) {{ value = null; }}
+                if (value instanceof Node) value = true;
                 if (value || performance.now() - begin > {0.9 * PATIENCE * 1000}) resolve(value);
                 else setTimeout(look, 20);
               }};
