@@ -69,23 +69,42 @@ def test_beyond_the_limit_it_slides_as_coulomb_has_it(tmp_path, friction, headin
 # --- kerbs -------------------------------------------------------------------------------------
 
 
+def sine_at_edge(height):
+    """Of the angle between the vertical and the radius of a wheel at the edge of a kerb (m)."""
+    return math.sqrt(1.0 - (1.0 - height / WHEEL_RADIUS) ** 2)
+
+
+def surplus(mu, sine):
+    """
+    What pushes the robot on while its rear axle, the harder one, climbs; share of the weight.
+
+    The front wheels on top push with all their friction. N: share of the weight across the edge,
+    that the moments about the front contacts ask for when the rear wheels leave the ground.
+    """
+    cosine = math.sqrt(1.0 - sine**2)
+    lifted = HALF_BASE / (2.0 * HALF_BASE - WHEEL_RADIUS * sine)
+    normal = lifted / (cosine + mu * sine)
+    return mu * (1.0 - lifted) + normal * (mu * cosine - sine)
+
+
 def least_friction(height):
+    """With which four driven wheels get over a kerb (m) without momentum: by statics."""
+    sine = sine_at_edge(height)
+    return next(mu / 1000.0 for mu in range(1, 2000) if surplus(mu / 1000.0, sine) > 0.0)
+
+
+def least_speed(height, friction):
     """
-    With which four driven wheels get the rear axle, the harder one, onto a kerb (m); by statics.
-
-    At the edge the wheel's radius is ``angle`` off the vertical, and the front wheels on top push
-    with all their friction. N: share of the weight across the edge, that the moments about the
-    front contacts ask for when the rear wheels leave the ground.
+    At which the momentum makes good what the friction lacks (m/s): by the energy, v²/2 against the
+    work that is missing on the way of the hub over the edge. What the impact takes comes on top.
     """
-    cosine = 1.0 - height / WHEEL_RADIUS
-    sine = math.sqrt(1.0 - cosine**2)
-
-    def surplus(mu):
-        lifted = HALF_BASE / (2.0 * HALF_BASE - WHEEL_RADIUS * sine)
-        normal = lifted / (cosine + mu * sine)
-        return mu * (1.0 - lifted) + normal * (mu * cosine - sine)
-
-    return next(mu / 1000.0 for mu in range(1, 2000) if surplus(mu / 1000.0) > 0.0)
+    way = WHEEL_RADIUS * sine_at_edge(height)
+    steps, work, least = 1000, 0.0, 0.0
+    for step in range(steps):
+        sine = (way - way * step / steps) / WHEEL_RADIUS
+        work += surplus(friction, sine) * way / steps
+        least = min(least, work)
+    return math.sqrt(-2.0 * GRAVITY * least)
 
 
 def climbs(tmp_path, height, friction, speed):
@@ -113,9 +132,81 @@ def test_on_dusty_tiles_20_mm_are_climbed_and_50_mm_are_not(tmp_path, speed):
     assert not climbs(tmp_path, 0.05, 0.42, speed)
 
 
+@pytest.mark.parametrize(
+    'height, friction', [(0.03, 0.3), (0.04, 0.42), (0.05, 0.42), (0.05, 0.5), (0.05, 0.6)]
+)
+def test_momentum_makes_good_what_friction_lacks(tmp_path, height, friction):
+    speed = least_speed(height, friction)
+    assert 0.1 < speed < 0.3
+    # Measured: from 1.06 to 1.36 of it on.
+    assert not climbs(tmp_path, height, friction, 0.95 * speed)
+    assert climbs(tmp_path, height, friction, 1.5 * speed)
+
+
 def test_on_rough_ground_50_mm_are_climbed(tmp_path):
     assert least_friction(0.05) < 1.0
     assert climbs(tmp_path, 0.05, 1.0, speed=0.05)
+
+
+# --- walls -------------------------------------------------------------------------------------
+
+WALL = '<geom type="box" pos="1.05 0 0.5" size="0.05 2 0.5" friction="{}"/>'
+FLOOR = '<geom type="plane" size="0 0 1" friction="{}"/>'
+BUMP = 0.06
+"""m; the root may rise by this much when the robot hits a wall at 2 m/s: measured 0.05."""
+
+
+def rears_up(ground, wall):
+    """Whether the moments about the rear contacts lift the front wheels, at these frictions."""
+    return ground * (WHEEL_RADIUS + wall * (HALF_BASE + WHEEL_RADIUS)) > HALF_BASE
+
+
+def rise(drive, speed, seconds):
+    """The greatest height on the way, m."""
+    highest = 0.0
+    for _ in range(round(seconds / drive.period)):
+        drive.run(speed, 0.0, drive.period)
+        highest = max(highest, drive.position[2])
+    return highest
+
+
+@pytest.mark.parametrize(
+    'ground, wall', [(0.63, 0.63), (0.7, 0.7), (1.0, 0.31), (1.0, 0.36), (0.8, 0.46), (0.8, 0.54)]
+)
+def test_slow_wheels_climb_a_wall_when_the_moments_say_so(tmp_path, ground, wall):
+    world = world_of(tmp_path, FLOOR.format(ground) + WALL.format(wall), math.nan)
+    # With one friction for both the limit is a / (a + r). Measured: from 0.98 to 1.03 of it on.
+    climbed = rise(Drive(world=world), 0.1, 11.0)
+    assert climbed > 0.1 if rears_up(ground, wall) else climbed < 0.01
+
+
+@pytest.mark.parametrize('heading', [0.0, 0.7])
+@pytest.mark.parametrize('speed', [0.1, 0.5, 1.0, 2.0])
+def test_a_wall_that_says_nothing_of_friction_is_not_climbed(tmp_path, speed, heading):
+    world = world_of(
+        tmp_path,
+        '<geom type="plane" size="0 0 1"/>' + WALL.replace(' friction="{}"', ''),
+        math.nan,
+    )
+    pose = Transform.from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.0, heading))
+    assert rise(Drive(world=world, pose=pose), speed, 1.0 / speed + 4.0) < BUMP
+
+
+@pytest.mark.parametrize('yaw', [math.pi, math.pi / 2, 2.5])
+@pytest.mark.parametrize('speed', [0.1, 0.5, 1.0, 2.0])
+def test_robots_that_run_into_each_other_do_not_climb(speed, yaw):
+    drive = Drive()
+    place = Transform.from_xyz_rpy((1.0, 0.05, 0.0), (0.0, 0.0, yaw))
+    other = drive.world.spawn('other', AMR, place)
+    wheels = other.joints(WHEELS)
+    wheels.command('velocity', [speed / WHEEL_RADIUS] * 4)
+    highest = 0.0
+    for _ in range(round((0.5 / speed + 3.0) / drive.period)):
+        drive.run(speed, 0.0, drive.period)
+        heights = (drive.position[2], other.pose('base_footprint').translation[2])
+        highest = max(highest, *heights)
+    # Measured: 9 mm at 2 m/s.
+    assert highest < 0.02
 
 
 # --- torque and energy -------------------------------------------------------------------------

@@ -80,6 +80,36 @@ def test_wheels_drive_on_every_static_surface(tmp_path, surface):
     assert yaw_rate == pytest.approx(5.0 * 0.1 / 0.15 * 0.36, rel=0.03)
 
 
+@pytest.mark.parametrize(
+    'body, frictions',
+    [
+        ('<worldbody><geom size="1"/><geom size="1" friction="1"/></worldbody>', [0.5, 1.0]),
+        (
+            '<default><default class="own"><geom friction="1"/></default></default>'
+            '<worldbody><geom size="1" class="own"/><geom size="1"/></worldbody>',
+            [1.0, 0.5],
+        ),
+        (
+            '<default class="main"><geom friction="1 0.1"/></default>'
+            '<worldbody><geom size="1"/></worldbody>',
+            [1.0],
+        ),
+        (
+            '<include file="part.xml"/><worldbody><geom size="1" friction="0.9"/></worldbody>',
+            [0.5, 1.0, 0.9],
+        ),
+    ],
+    ids=['geom', 'class', 'default', 'include'],
+)
+def test_only_what_the_world_leaves_open_gets_our_friction(tmp_path, body, frictions):
+    write(
+        tmp_path / 'part.xml',
+        '<worldbody><geom size="2"/><geom size="3" friction="1"/></worldbody>',
+    )
+    spec = load_world(write(tmp_path / 'world.xml', body))
+    assert [geom.friction[0] for geom in spec.geoms] == frictions
+
+
 GROUND = '<geom type="plane" size="0 0 1"/>'
 BALL = '<body pos="3 0 1"><freejoint/><geom type="sphere" size="0.1"/></body>'
 DOOR = """<body pos="4 0 0.5"><joint name="hinge"/><geom type="box" size="0.5 0.02 0.4"/></body>"""

@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 import mujoco
 
+from amr_description.sim.link_friction import LINK_PRIORITY
+
 
 @dataclass(frozen=True, slots=True)
 class ContactSettings:
@@ -75,7 +77,7 @@ def add_wheel_contact(
     """
     mu = float(surface.friction[0])
     tread = spec.geom(wheel)
-    if tread.priority > surface.priority:
+    if tread.priority >= LINK_PRIORITY > surface.priority:
         mu = min(mu, float(tread.friction[0]))
     pair = spec.add_pair(geomname1=wheel, geomname2=surface.name)
     pair.condim = 3

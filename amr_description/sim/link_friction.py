@@ -5,6 +5,10 @@ The friction that a URDF made for Gazebo gives its links: ``<gazebo reference="c
 
 As in Gazebo, the smaller friction of the two that touch counts. So a link's own is of use where it
 is small, above all for a caster that Gazebo's users make slippery because it cannot roll.
+
+A wheel is slippery on whatever moves, which is above all the side of another robot: with MuJoCo's
+1 robots that run into each other climb. What it drives on has its own friction; see
+:mod:`amr_description.sim.contact`.
 """
 
 from collections.abc import Mapping
@@ -17,6 +21,17 @@ from amr_description.model.findings import raise_error
 from amr_description.model.robot import Robot
 from amr_description.model.xml_source import parse_xml
 
+SIDE_FRICTION = 0.2
+"""
+Of a wheel on what moves: smooth paint. From ``(a - r) / (a + r)`` on, 0.33 for the shipped robot,
+it would rear up there, the friction of the ground being 1; see
+:mod:`amr_description.sim.silent_friction`.
+"""
+
+SIDE_PRIORITY, LINK_PRIORITY = 1, 2
+"""Whose friction counts between two that touch, in MuJoCo's terms; a URDF's own prevails."""
+
+_MUJOCOS = 1.0
 _TAGS = ('mu1', 'mu', 'collision/surface/friction/ode/mu')
 
 
@@ -47,9 +62,10 @@ def make_slippery(spec: mujoco.MjSpec, frictions: Mapping[str, float]) -> None:
     """Let a link that is more slippery than MuJoCo's default have its own friction prevail."""
     for link, friction in frictions.items():
         for geom in spec.body(link).geoms:
-            if friction < geom.friction[0]:
+            is_tread = geom.priority == SIDE_PRIORITY
+            if friction < (_MUJOCOS if is_tread else geom.friction[0]):
                 geom.friction[0] = friction
-                geom.priority = 1
+                geom.priority = LINK_PRIORITY
 
 
 def _number(text: str | None) -> float:

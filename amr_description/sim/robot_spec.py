@@ -26,7 +26,12 @@ from amr_description.model.xml_source import parse_xml
 from amr_description.sim.actuators import add_actuators
 from amr_description.sim.faults import one_line
 from amr_description.sim.initial_state import initial_states, JointState
-from amr_description.sim.link_friction import link_frictions, make_slippery
+from amr_description.sim.link_friction import (
+    link_frictions,
+    make_slippery,
+    SIDE_FRICTION,
+    SIDE_PRIORITY,
+)
 from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
 
@@ -152,6 +157,7 @@ def _make_tread(spec: mujoco.MjSpec, wheel: Wheel) -> None:
     tread.name = tread_name(wheel.link)
     tread.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
     tread.size = [wheel.radius, wheel.radius, wheel.half_width]
+    tread.friction[0], tread.priority = SIDE_FRICTION, SIDE_PRIORITY
 
 
 def _name_balls(spec: mujoco.MjSpec) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from amr_description.errors import SimulationError
 from amr_description.sim.engine import NANOSECONDS
 from amr_description.sim.faults import one_line
 from amr_description.sim.resources import world_path
+from amr_description.sim.silent_friction import fill_in_friction
 from amr_description.sim.world_settings import apply_settings, WorldSettings
 
 _FILE_SETTINGS = WorldSettings()
@@ -23,6 +24,7 @@ def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.M
         spec = mujoco.MjSpec.from_file(str(path))
     except ValueError as cause:
         raise SimulationError(f"world '{world}': {path}: {one_line(str(cause))}") from cause
+    fill_in_friction(spec, path)
     prepare_world(spec, settings)
     return spec
 

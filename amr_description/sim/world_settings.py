@@ -7,7 +7,8 @@ Physics of a world: what is set from outside, over what its file says, over what
 what               when nobody sets    why not MuJoCo's default
 =================  ==================  =====================================================
 ``gravity``        9.81 m/s² down
-``friction``       1                   MuJoCo's own
+``friction``       0.5                 with 1 driven wheels climb walls: see
+                                       :mod:`amr_description.sim.silent_friction`
 ``physics_step``   2 ms                MuJoCo's own; :mod:`amr_description.sim.contact` is tuned
                                        for it. It is the longest: see ``sim/stepping.py``
 ``integrator``     ``discrete``        it puts the stiff speed servos of the wheels inside the
@@ -22,8 +23,8 @@ jacobian           dense               MuJoCo 4.0.0's sparse Newton hits its ite
                                        robots touch
 =================  ==================  =====================================================
 
-A file that writes one of MuJoCo's own defaults cannot be told from one that is silent: to get the
-Euler integrator, set it here.
+An option for which a file writes MuJoCo's own default cannot be told from one on which it is
+silent: to get the Euler integrator, set it here.
 """
 
 from dataclasses import dataclass
