@@ -1,0 +1,156 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The WebSocket to the node: opens it, and opens it again when it closed. */
+import { PROTOCOL } from './protocol';
+import type { ClientMessage, Reply, Request, ServerMessage } from './protocol';
+
+const FIRST_WAIT = 250; // ms until the first new attempt
+const LONGEST_WAIT = 4000; // ms
+const GROWTH = 1.7;
+const REPLY_LIMIT = 20; // s; loading a controller may take a while
+
+export type Link =
+  | { state: 'connecting' }
+  | { state: 'open' }
+  | { state: 'waiting'; attempt: number; reason: string }; // until the next attempt
+
+/** A request before it has its number. */
+export type Asked = Request extends infer R ? (R extends Request ? Omit<R, 'id'> : never) : never;
+
+/** What is used of a WebSocket. */
+export type Socket = Pick<
+  WebSocket,
+  'binaryType' | 'readyState' | 'send' | 'close' | 'onopen' | 'onclose' | 'onmessage'
+>;
+
+/** What a connection needs of the world outside. */
+export interface ConnectionPort {
+  open(url: string, protocol: string): Socket;
+  after(milliseconds: number, call: () => void): () => void; // returns what takes it back
+}
+
+const BROWSER: ConnectionPort = {
+  open: (url, protocol) => new WebSocket(url, protocol),
+  after: (milliseconds, call) => {
+    const timer = setTimeout(call, milliseconds);
+    return () => clearTimeout(timer);
+  },
+};
+
+const OPEN = 1; // WebSocket.OPEN, which Node.js 20 does not have
+
+export class Connection {
+  link: Link = { state: 'connecting' };
+  onLink: (link: Link) => void = () => {};
+  onMessage: (message: ServerMessage) => void = () => {};
+  onState: (buffer: ArrayBuffer) => void = () => {};
+
+  private socket: Socket | null = null;
+  private attempt = 0;
+  private nextId = 1;
+  private readonly waiting = new Map<number, (reply: Reply) => void>();
+  private cancelRetry: (() => void) | null = null;
+  private ended = false;
+
+  constructor(
+    private readonly url: string,
+    private readonly port: ConnectionPort = BROWSER,
+  ) {}
+
+  /** Open now, also while waiting for the next attempt. */
+  open(): void {
+    this.cancelRetry?.();
+    this.cancelRetry = null;
+    this.tell({ state: 'connecting' });
+    const socket = this.port.open(this.url, PROTOCOL);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => {
+      this.attempt = 0;
+      this.tell({ state: 'open' });
+    };
+    socket.onmessage = (event) => this.receive(event.data);
+    socket.onclose = (event) => this.closed(event.reason);
+    this.socket = socket;
+  }
+
+  /** Close for good. */
+  close(): void {
+    this.ended = true;
+    this.cancelRetry?.();
+    this.socket?.close();
+  }
+
+  /** Whether the message could be given to the socket. */
+  send(message: ClientMessage): boolean {
+    if (this.socket === null || this.socket.readyState !== OPEN) {
+      return false;
+    }
+    this.socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  /** Ask the node for something. The reply always comes: a lost connection is a reply, too. */
+  request(asked: Asked): Promise<Reply> {
+    const id = this.nextId;
+    this.nextId += 1;
+    return new Promise((resolve) => {
+      const cancel = this.port.after(REPLY_LIMIT * 1000, () => {
+        this.answer(refusal(id, `No answer to "${asked.type}" within ${REPLY_LIMIT} s.`));
+      });
+      this.waiting.set(id, (reply) => {
+        cancel();
+        resolve(reply);
+      });
+      if (!this.send({ ...asked, id } as Request)) {
+        this.answer(refusal(id, 'There is no connection to the node.'));
+      }
+    });
+  }
+
+  private receive(data: unknown): void {
+    if (data instanceof ArrayBuffer) {
+      this.onState(data);
+    } else if (typeof data === 'string') {
+      const message = JSON.parse(data) as ServerMessage;
+      if (message.type !== 'reply' || !this.answer(message)) {
+        this.onMessage(message);
+      }
+    }
+  }
+
+  private answer(reply: Reply): boolean {
+    const resolve = this.waiting.get(reply.id);
+    this.waiting.delete(reply.id);
+    resolve?.(reply);
+    return resolve !== undefined;
+  }
+
+  private closed(reason: string): void {
+    this.socket = null;
+    for (const id of [...this.waiting.keys()]) {
+      this.answer(refusal(id, 'The connection to the node was lost.'));
+    }
+    if (this.ended) {
+      return;
+    }
+    const wait = Math.min(FIRST_WAIT * GROWTH ** this.attempt, LONGEST_WAIT);
+    this.attempt += 1;
+    this.cancelRetry = this.port.after(wait, () => this.open());
+    this.tell({ state: 'waiting', attempt: this.attempt, reason });
+  }
+
+  private tell(link: Link): void {
+    this.link = link;
+    this.onLink(link);
+  }
+}
+
+function refusal(id: number, message: string): Reply {
+  return { type: 'reply', id, ok: false, message };
+}
+
+/** Where the node of this page listens; a token in the page's address goes with it. */
+export function socketUrl(location: Pick<Location, 'protocol' | 'host' | 'search'>): string {
+  const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+  return `${scheme}://${location.host}/ws${location.search}`;
+}

@@ -1,0 +1,173 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The one who decides what is sent to a driven robot, and when.
+ *
+ * Hands (keys, joystick, gamepad) say what they want; while one of them does, a `drive` goes out at
+ * once on each change, at most 60 times a second, and again every 33 ms, so that the node knows
+ * that somebody is there. When the last hand lets go, a `stop` goes out at once.
+ */
+import type { Drive, Stop } from '../protocol';
+import { mix, toVelocity, type Demand, type Limits, type Velocity } from './mixing';
+
+const LEAST_GAP = 1000 / 60; // ms between two `drive`
+const REPEAT = 1000 / 30; // ms
+const OWN_STOP = 500; // ms in which "nobody drives" is the answer to a stop of our own
+
+/** What a pilot needs of the world outside. */
+export interface PilotPort {
+  send(message: Drive | Stop): boolean; // false: the connection is not open
+  now(): number; // ms
+  after(milliseconds: number, call: () => void): () => void; // returns what takes it back
+}
+
+export class Pilot {
+  limits: Limits = { linear: 0.5, angular: 1.0 };
+  /** Called when what is asked of the robot changes. */
+  onChange: (velocity: Velocity | null) => void = () => {};
+
+  private robot: string | null = null;
+  private readonly hands = new Map<string, Demand>();
+  private readonly blocked = new Set<string>(); // hands that must let go before they count again
+  private sentAt = -Infinity;
+  private stoppedAt = -Infinity;
+  private mine = false; // the node has said that this page drives
+  private cancel: (() => void) | null = null;
+
+  constructor(private readonly port: PilotPort) {}
+
+  /** Whether a hand drives now. */
+  get driving(): boolean {
+    return this.robot !== null && this.hands.size > 0;
+  }
+
+  /** What the hands ask of the robot; null when none does. */
+  get velocity(): Velocity | null {
+    return this.driving ? toVelocity(mix([...this.hands.values()]), this.limits) : null;
+  }
+
+  /** Drive another robot from now on; the one driven until now stops. */
+  setRobot(robot: string | null): void {
+    if (robot !== this.robot) {
+      this.release();
+      this.robot = robot;
+    }
+  }
+
+  setLimits(limits: Limits): void {
+    this.limits = limits;
+    if (this.driving) {
+      this.changed();
+    }
+  }
+
+  /** What a hand wants; null when it lets go. */
+  set(hand: string, demand: Demand | null): void {
+    if (demand === null) {
+      this.blocked.delete(hand);
+      if (this.hands.delete(hand)) {
+        this.changed();
+      }
+    } else if (!this.blocked.has(hand) && !same(this.hands.get(hand), demand)) {
+      this.hands.set(hand, demand);
+      this.changed();
+    }
+  }
+
+  /** Every hand lets go: focus, the tab or the pointer was lost. Does nothing when none holds. */
+  release(): void {
+    const driving = this.driving;
+    this.letGo();
+    if (driving) {
+      this.sendStop(this.robot);
+      this.onChange(null);
+    }
+  }
+
+  /** The big stop: every robot, whoever drives. A hand that holds must let go to drive again. */
+  stop(): void {
+    this.letGo();
+    this.sendStop(null);
+    this.onChange(null);
+  }
+
+  /** The node refused, or the connection went: nothing is sent, hands must let go to drive again. */
+  halt(): void {
+    const driving = this.driving;
+    this.letGo();
+    if (driving) {
+      this.onChange(null);
+    }
+  }
+
+  /**
+   * The node says who drives our robot. If that was us and we did not give the wheel back,
+   * somebody stopped the robot, and a hand that still holds must not drive on.
+   */
+  hearDriver(me: boolean): void {
+    const lost = this.mine && !me && this.port.now() - this.stoppedAt > OWN_STOP;
+    this.mine = me;
+    if (lost) {
+      this.halt();
+    }
+  }
+
+  private letGo(): void {
+    for (const hand of this.hands.keys()) {
+      this.blocked.add(hand);
+    }
+    this.hands.clear();
+    this.cancel?.();
+    this.cancel = null;
+  }
+
+  private changed(): void {
+    if (this.robot === null) {
+      return;
+    }
+    if (this.hands.size === 0) {
+      this.letGo();
+      this.sendStop(this.robot);
+      this.onChange(null);
+      return;
+    }
+    this.onChange(this.velocity);
+    const wait = this.sentAt + LEAST_GAP - this.port.now();
+    if (wait <= 0) {
+      this.sendDrive();
+    } else {
+      this.schedule(wait);
+    }
+  }
+
+  private sendDrive(): void {
+    const velocity = this.velocity;
+    if (this.robot === null || velocity === null) {
+      return;
+    }
+    this.sentAt = this.port.now();
+    if (this.port.send({ type: 'drive', robot: this.robot, ...velocity })) {
+      this.schedule(REPEAT);
+    } else {
+      this.halt();
+    }
+  }
+
+  private sendStop(robot: string | null): void {
+    this.stoppedAt = this.port.now();
+    this.port.send({ type: 'stop', robot });
+  }
+
+  private schedule(milliseconds: number): void {
+    this.cancel?.();
+    this.cancel = this.port.after(milliseconds, () => {
+      this.cancel = null;
+      this.sendDrive();
+    });
+  }
+}
+
+function same(one: Demand | undefined, other: Demand): boolean {
+  return one !== undefined && one.forward === other.forward && one.turn === other.turn;
+}
+

@@ -1,0 +1,44 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Run the unit tests: bundle each test/*.test.ts into a directory of its own and `node --test` it. */
+import { spawnSync } from 'node:child_process';
+import { mkdtemp, readdir, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import * as esbuild from 'esbuild';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const wanted = process.argv.slice(2);
+const tests = (await readdir(path.join(here, 'test')))
+  .filter((name) => name.endsWith('.test.ts'))
+  .filter((name) => wanted.length === 0 || wanted.some((part) => name.includes(part)));
+if (tests.length === 0) {
+  console.error(`no test/*${wanted.join('|')}*.test.ts`);
+  process.exit(2);
+}
+
+const out = await mkdtemp(path.join(tmpdir(), 'amr-web-test-'));
+try {
+  await esbuild.build({
+    absWorkingDir: here,
+    entryPoints: tests.map((name) => path.join('test', name)),
+    outdir: out,
+    outExtension: { '.js': '.mjs' },
+    bundle: true,
+    format: 'esm',
+    platform: 'node',
+    target: 'node20',
+    sourcemap: 'inline',
+    logLevel: 'warning',
+  });
+  const files = tests.map((name) => path.join(out, name.replace(/\.ts$/, '.mjs')));
+  const { status } = spawnSync(
+    process.execPath,
+    ['--enable-source-maps', '--test', '--test-reporter=spec', ...files],
+    { stdio: 'inherit' },
+  );
+  process.exitCode = status ?? 1;
+} finally {
+  await rm(out, { recursive: true, force: true });
+}

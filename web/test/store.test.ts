@@ -1,0 +1,103 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { Graph, Hello, RobotInfo } from '../src/protocol';
+import { Store } from '../src/store';
+
+const HELLO: Hello = {
+  type: 'hello', client: 'page 1', version: '1.0', domain: 0, rate: 60, drive_timeout: 0.4,
+};
+
+function robot(id: string): RobotInfo {
+  return {
+    id, name: 'amr', command: null, odometry: null, truth: null, wheels: null,
+    joint_states: null, joint_publisher: null, manager: null,
+  };
+}
+
+function graph(...ids: string[]): Graph {
+  return { type: 'graph', robots: ids.map(robot), simulators: [], hint: null };
+}
+
+function connected(...ids: string[]): Store {
+  const store = new Store();
+  store.take(HELLO);
+  store.take(graph(...ids));
+  return store;
+}
+
+test('the first robot is the one, until another is chosen, and again when that goes', () => {
+  const store = connected('/', '/robot1');
+  assert.equal(store.robot?.id, '/');
+  store.choose('/robot1');
+  assert.equal(store.robot?.id, '/robot1');
+  store.take(graph('/'));
+  assert.equal(store.robot?.id, '/');
+  store.take(graph());
+  assert.equal(store.robot, null);
+});
+
+test('what belongs to a robot goes with it', () => {
+  const store = connected('/', '/robot1');
+  store.take({ type: 'driver', robot: '/robot1', client: 'page 2' });
+  store.take({ type: 'diagnostics', robot: '/robot1', items: [] });
+  store.select({ robot: '/robot1', frame: 'base_link' });
+  store.take(graph('/'));
+  assert.equal(store.drivers.size + store.diagnostics.size, 0);
+  assert.equal(store.selection, null);
+});
+
+test('who drives is told from who looks', () => {
+  const store = connected('/');
+  assert.equal(store.driver, null);
+  store.take({ type: 'driver', robot: '/', client: 'page 2' });
+  assert.deepEqual(store.driver, { me: false, name: 'page 2' });
+  store.take({ type: 'driver', robot: '/', client: 'page 1' });
+  assert.deepEqual(store.driver, { me: true, name: 'page 1' });
+  store.take({ type: 'driver', robot: '/', client: null });
+  assert.equal(store.driver, null);
+});
+
+test('a node that starts anew makes all that an older one said void', () => {
+  const store = connected('/');
+  store.take({ type: 'layout', id: 7, frames: [], robots: [] });
+  store.take({ ...HELLO, client: 'page 9' });
+  assert.equal(store.layout, null);
+  assert.equal(store.robot, null);
+  assert.equal(store.notices.length, 0);
+  store.take({ ...HELLO, version: '1.1' });
+  assert.match(store.notices[0].text, /1\.0 → 1\.1.*reload/);
+});
+
+test('a listener hears its topics, at first and on each change', () => {
+  const store = new Store();
+  let calls = 0;
+  store.watch(['graph', 'robot'], () => {
+    calls += 1;
+  });
+  assert.equal(calls, 1);
+  store.take(graph('/'));
+  store.choose('/');
+  store.note('info', 'x');
+  assert.equal(calls, 3);
+});
+
+test('notices that repeat are counted, and only the latest are kept', () => {
+  const store = new Store();
+  store.note('info', 'same');
+  store.note('info', 'same');
+  assert.deepEqual(store.notices.map((notice) => notice.count), [2]);
+  for (let number = 0; number < 200; number += 1) {
+    store.note('warning', `notice ${number}`);
+  }
+  assert.equal(store.notices.length, 50);
+  assert.equal(store.notices[0].text, 'notice 199');
+});
+
+test('a refusal becomes a notice, a yes does not', () => {
+  const store = new Store();
+  store.take({ type: 'reply', id: 0, ok: true, message: 'yes' });
+  store.take({ type: 'reply', id: 0, ok: false, message: 'page 2 drives' });
+  assert.deepEqual(store.notices.map((notice) => notice.text), ['page 2 drives']);
+});
