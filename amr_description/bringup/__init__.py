@@ -26,6 +26,7 @@ parameter_file.py  pure: parameters as the YAML that rcl reads
 urdf_text.py       the text of a description; xacro runs in a child process
 file_notes.py      which files are used, and whether another copy of one is edited
 job.py             a node made ready to run: name, command line, environment
+discovery.py       who finds the nodes: domain, range, peers, discovery server
 environment.py     pure: the environment of a child, and of the user's next shell
 line_splitter.py   pure: bytes from a pipe -> lines
 child.py           one running process: its session, its output, its end

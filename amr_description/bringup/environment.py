@@ -8,6 +8,7 @@ from pathlib import Path
 import shutil
 import sys
 
+from amr_description.bringup.discovery import exports
 from amr_description.bringup.packages import package_prefix
 
 # The ROS wheels start each Python twice, to set LD_LIBRARY_PATH; this guard says that it is done.
@@ -66,9 +67,7 @@ def other_shell(package: str, base: Mapping[str, str]) -> str:
     candidates = [install.parent / 'scripts/activate', install / 'setup.bash']
     script = next((path for path in candidates if path.is_file()), None)
     steps = [f'source {_shortest(script)}'] if script else []
-    if base.get('ROS_DOMAIN_ID', '0') != '0':
-        steps.append(f'export ROS_DOMAIN_ID={base["ROS_DOMAIN_ID"]}')
-    return ' && '.join(steps)
+    return ' && '.join([*steps, *exports(base)])
 
 
 def _shortest(path: Path) -> Path:

@@ -11,6 +11,7 @@ import os
 from pathlib import Path
 import sys
 
+from amr_description.bringup import discovery
 from amr_description.bringup.arguments import declared, parse, resolve, show, suggestion
 from amr_description.bringup.console import Console, LAUNCH, wants_colour
 from amr_description.bringup.description import Stack
@@ -51,10 +52,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         '-p', '--print', action='store_true', help='print what would be started, and when'
     )
+    discovery.add_options(parser)
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
+    os.environ |= discovery.variables(options, os.environ)
     function = find_stack(options.stack)
     arguments = declared(function)
     if options.show_args:
@@ -109,6 +112,7 @@ def start(stack: Stack) -> int:
         console = Console(sys.stdout, folder, colour=wants_colour(sys.stdout, os.environ))
         where = _with_tilde(folder.path)
         console.say('INFO', LAUNCH, f'All log files can be found below {where}')
+        console.say('INFO', LAUNCH, discovery.told(os.environ))
         for level, text in stack.notes:
             console.say(level, LAUNCH, text)
         # The log files that the nodes write themselves belong to this run, too.

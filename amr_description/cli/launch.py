@@ -10,11 +10,14 @@ examples:
   ros2 launch amr_description simulation
   ros2 launch amr_description simulation --show-args
   ros2 launch amr_description simulation rtf:=0
+  ros2 launch --domain 5 --discovery subnet amr_description simulation
   ros2 launch my_stack.py times:=3
 """
 
 from argparse import ArgumentParser, Namespace
 import sys
+
+from amr_description.bringup import discovery
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -51,6 +54,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         action='store_true',
         help='Accepted for scripts: the output of every process is shown anyway',
     )
+    discovery.add_options(parser)
     parser.add_argument(
         'package_name',
         help='Name of the ROS package which contains the launch file, or path of a file',
@@ -77,6 +81,7 @@ def main(args: Namespace) -> int:
     options = [
         *(['--show-args'] if args.show_args else []),
         *(['--print'] if args.print else []),
+        *discovery.words(args),
     ]
     sys.stdout.flush()
     return bringup([*options, stack, *arguments], prog='ros2 launch')
