@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""One running process: its session, its output, its end."""
+"""One running process of a stack: its session, its output, its end."""
 
 import asyncio
 from collections import deque
@@ -18,13 +18,57 @@ LAST_LINES = 20  # kept for the post-mortem
 _READ_SIZE = 65_536  # bytes, the capacity of a pipe
 
 
-class Child:
+class RunningProcess:
+    """
+    A process that leads a process group; made, polled and signalled in the event loop's thread.
+
+    Its makers are :class:`Child` and :class:`terminal.TerminalChild`.
+    """
+
+    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+        """Take over a process that has just been started."""
+        self._process = process
+        self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
+        """What it wrote last, for the post-mortem."""
+        self.sent: signal.Signals | None = None
+        """The last signal that :meth:`send` sent."""
+
+    @property
+    def pid(self) -> int:
+        """Process id, also that of its process group."""
+        return self._process.pid
+
+    @property
+    def returncode(self) -> int | None:
+        """Exit code or minus the signal's number; None until :meth:`poll` found the end."""
+        return self._process.returncode
+
+    @property
+    def died_of_ctrl_c(self) -> bool:
+        """Whether it died of a SIGINT that is not from here, as programs without handler do."""
+        return self.sent is None and self.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
+
+    def poll(self) -> bool:
+        """Return whether the process has ended; if so, all its lines have been handed over."""
+        return self._process.poll() is not None
+
+    def send(self, number: signal.Signals) -> None:
+        """Signal its whole process group, as Ctrl-C in a terminal does."""
+        if self.returncode is None:
+            self.sent = number
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.pid, number)
+
+    def close(self) -> None:
+        """Have done with it, once it has ended."""
+
+
+class Child(RunningProcess):
     """
     A process in a session of its own, whose output is handed over line by line.
 
-    It is made, polled and signalled in the thread of the event loop. asyncio's own subprocesses
-    are not used because their exit and their last output arrive in no fixed order: here
-    :meth:`poll` hands over every line that was written before the process ended.
+    asyncio's own subprocesses are not used because their exit and their last output arrive in no
+    fixed order: here :meth:`poll` hands over every line that was written before the process ended.
     """
 
     def __init__(
@@ -47,7 +91,7 @@ class Child:
         """
         reader, writer = os.pipe()
         try:
-            self._process = subprocess.Popen(
+            process = subprocess.Popen(
                 command,
                 env=environment,
                 stdin=subprocess.DEVNULL,
@@ -62,37 +106,18 @@ class Child:
         finally:
             os.close(writer)
         os.set_blocking(reader, False)
-        self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
-        self.sent: signal.Signals | None = None
-        """The last signal that :meth:`send` sent."""
+        super().__init__(process)
         self._reader: int | None = reader
         self._on_line = on_line
         self._splitter = LineSplitter()
         asyncio.get_running_loop().add_reader(reader, self._read)
 
-    @property
-    def pid(self) -> int:
-        """Process id, also that of its session and process group."""
-        return self._process.pid
-
-    @property
-    def returncode(self) -> int | None:
-        """Exit code or minus the signal's number; None until :meth:`poll` found the end."""
-        return self._process.returncode
-
     def poll(self) -> bool:
-        """Return whether the process has ended; if so, all its lines have been handed over."""
-        if self._process.poll() is None:
+        """As in the base class."""
+        if not super().poll():
             return False
         self._drain()
         return True
-
-    def send(self, number: signal.Signals) -> None:
-        """Signal its whole process group, as Ctrl-C in a terminal does."""
-        if self.returncode is None:
-            self.sent = number
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(self.pid, number)
 
     def close(self) -> None:
         """Stop listening to its output, which its own children may still hold open."""

@@ -6,16 +6,22 @@ from collections.abc import Callable, Mapping
 import contextlib
 import io
 import itertools
+import re
+import shutil
 import time
 from typing import Literal, TextIO
 
-from amr_description.bringup.log_folder import LogFolder
+from amr_description.bringup.log_folder import LogFolder, with_tilde
+from amr_description.bringup.terminal import as_foreground
 
 type Level = Literal['INFO', 'WARNING', 'ERROR']
 
 LAUNCH = 'launch'
 """The name under which the orchestrator itself speaks."""
 
+# A line that matters also to a person who drives: ``[WARN] [1795273609.66] [name]: text``.
+_ALARM = re.compile(r'\[(WARN|ERROR|FATAL)\] \[')
+_ERASE_LINE = '\r\x1b[K'
 _RESET = '\x1b[0m'
 _LEVEL_COLOURS: dict[Level, str] = {'WARNING': '\x1b[33m', 'ERROR': '\x1b[31m'}
 _NAME_COLOURS = [f'\x1b[{code}m' for code in (36, 32, 35, 34, 96, 92, 95, 94)]
@@ -29,6 +35,11 @@ def wants_colour(screen: TextIO, environment: Mapping[str, str]) -> bool:
     if environment.get('NO_COLOR') or environment.get('TERM') == 'dumb':
         return False
     return screen.isatty()
+
+
+def can_erase(screen: TextIO, environment: Mapping[str, str]) -> bool:
+    """Say whether a line on the screen can be written anew."""
+    return screen.isatty() and environment.get('TERM', 'dumb') != 'dumb'
 
 
 def _with_buffer(screen: TextIO) -> TextIO:
@@ -52,8 +63,14 @@ class Console:
         folder: LogFolder,
         *,
         colour: bool,
+        erases: bool = False,
     ) -> None:
-        """Write to ``screen`` and below ``folder``."""
+        """
+        Write to ``screen`` and below ``folder``.
+
+        :param colour: Whether the screen is to show colours; see :func:`wants_colour`.
+        :param erases: Whether it can take a line back; see :func:`can_erase`.
+        """
         self._screen: TextIO | None = _with_buffer(screen)
         self._folder = folder
         self._colour = colour
@@ -62,6 +79,10 @@ class Console:
         self._name_colours: dict[str, str] = {}
         self._free_colours = itertools.cycle(_NAME_COLOURS)
         self._log_failure_told = False
+        self.erases = erases
+        """Whether it has a status line."""
+        self._status = ''
+        self._is_lent = False
         with contextlib.suppress(AttributeError):  # not a TextIOWrapper
             self._screen.reconfigure(errors='backslashreplace')
 
@@ -69,26 +90,53 @@ class Console:
         """Print ``[INFO] [name]: text``."""
         colour = _LEVEL_COLOURS.get(level, '')
         shown = f'[{level}] [{self._named(name, name)}]: {self._painted(text, colour)}'
-        self._show(shown, f'[{level}] [{name}]: {text}')
+        self._show(shown, f'[{level}] [{name}]: {text}', alarm=level != 'INFO')
 
     def output(self, name: str, line: str) -> None:
         """Print a line that a process wrote, ``[name] line``; it has a log file of its own too."""
         self._folder.write(name, line)
-        self._show(f'{self._named(name, f"[{name}]")} {line}', f'[{name}] {line}')
+        shown = f'{self._named(name, f"[{name}]")} {line}'
+        self._show(shown, f'[{name}] {line}', alarm=bool(_ALARM.search(line)))
 
-    def _show(self, line: str, logged: str) -> None:
+    def log_of(self, name: str) -> str:
+        """Return the path of a log file, as a person reads it."""
+        return with_tilde(self._folder.path / f'{name}.log')
+
+    def status(self, text: str) -> None:
+        """Have ``text`` as the last line of the screen, in the place of the one before."""
+        text = text[: shutil.get_terminal_size().columns - 1]
+        if self.erases and text != self._status and not self._is_lent:
+            self._status = text
+            self._write(_ERASE_LINE + text)
+
+    def lend(self, is_lent: bool) -> None:
+        """Show warnings and errors only, while a process of the stack has the terminal."""
+        self.status('')
+        self._is_lent = is_lent
+
+    def _show(self, line: str, logged: str, *, alarm: bool) -> None:
         self._folder.write(LAUNCH, f'{time.time():.7f} {logged}')
-        self._print(line)
+        if alarm or not self._is_lent:
+            self._print(line)
         if self._folder.failure is not None and not self._log_failure_told:
             self._log_failure_told = True
             self._print(f'[WARNING] [{LAUNCH}]: no log files from here on: {self._folder.failure}')
 
     def _print(self, line: str) -> None:
+        if self._is_lent and self.erases:  # it may be in raw mode, in the midst of a line
+            self._write(f'{_ERASE_LINE}{line}\r\n')
+        elif self._status:
+            self._write(f'{_ERASE_LINE}{line}\n{self._status}')
+        else:
+            self._write(f'{line}\n')
+
+    def _write(self, text: str) -> None:
         if self._screen is None:
             return
         try:
-            self._screen.write(f'{line}\n')
-            self._screen.flush()
+            with as_foreground() if self._is_lent else contextlib.nullcontext():
+                self._screen.write(text)
+                self._screen.flush()
         except BlockingIOError:  # a terminal that another program made non-blocking is busy
             pass
         except OSError:

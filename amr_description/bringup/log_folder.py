@@ -24,6 +24,11 @@ def run_name(now: datetime) -> str:
     return f'{now:%Y-%m-%d-%H-%M-%S-%f}-{socket.gethostname()}-{os.getpid()}'
 
 
+def with_tilde(path: Path) -> str:
+    """Return a path as a person reads it, ``~`` for the home."""
+    return f'~/{path.relative_to(Path.home())}' if path.is_relative_to(Path.home()) else str(path)
+
+
 class LogFolder:
     """
     Log files of one run, each opened at its first line.

@@ -13,12 +13,13 @@ import sys
 
 from amr_description.bringup import discovery
 from amr_description.bringup.arguments import declared, parse, resolve, show, suggestion
-from amr_description.bringup.console import Console, LAUNCH, wants_colour
+from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
 from amr_description.bringup.description import Stack
 from amr_description.bringup.job import Job, jobs_of
-from amr_description.bringup.log_folder import log_base, LogFolder, run_name
+from amr_description.bringup.log_folder import log_base, LogFolder, run_name, with_tilde
 from amr_description.bringup.orchestrator import Orchestrator
 from amr_description.bringup.stacks import STACKS
+from amr_description.bringup.terminal import require_terminal
 from amr_description.errors import AmrError, BringupError, UsageError
 from amr_description.registry import resolve as import_target
 
@@ -105,12 +106,20 @@ def describe(stack: Stack, jobs: list[Job]) -> str:
 
 def start(stack: Stack) -> int:
     """Run a stack until it ends or is stopped; return the exit code."""
+    for node in stack.nodes:
+        if node.terminal:
+            require_terminal(node.executable, node.package)
     run = run_name(datetime.now())
     folder = LogFolder(log_base(os.environ), run)
     try:
         jobs = jobs_of(stack, folder.path)
-        console = Console(sys.stdout, folder, colour=wants_colour(sys.stdout, os.environ))
-        where = _with_tilde(folder.path)
+        console = Console(
+            sys.stdout,
+            folder,
+            colour=wants_colour(sys.stdout, os.environ),
+            erases=can_erase(sys.stdout, os.environ),
+        )
+        where = with_tilde(folder.path)
         console.say('INFO', LAUNCH, f'All log files can be found below {where}')
         console.say('INFO', LAUNCH, discovery.told(os.environ))
         for level, text in stack.notes:
@@ -126,10 +135,6 @@ async def _orchestrate(
     stack: Stack, jobs: list[Job], console: Console, run: str, environment: dict[str, str]
 ) -> int:
     return await Orchestrator(stack, jobs, console, run, environment).run()
-
-
-def _with_tilde(path: Path) -> str:
-    return f'~/{path.relative_to(Path.home())}' if path.is_relative_to(Path.home()) else str(path)
 
 
 if __name__ == '__main__':

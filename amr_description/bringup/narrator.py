@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 import signal
 import time
 
-from amr_description.bringup.child import Child
+from amr_description.bringup.child import RunningProcess
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.job import Job
@@ -39,7 +39,7 @@ class Narrator:
         """Say that its process could not be started."""
         self._console.say('ERROR', self._name_of(node), f'process {reason}')
 
-    def ended(self, node: Node, child: Child) -> None:
+    def ended(self, node: Node, child: RunningProcess) -> None:
         """Say how its process ended; launch calls it an error, too, if it did as it was told."""
         if child.returncode == 0:
             text = f'process has finished cleanly [pid {child.pid}]'
@@ -66,6 +66,17 @@ class Narrator:
             took = time.monotonic() - self._begin
             steps = f': {self._stack.next_steps}' if self._stack.next_steps else ''
             self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
+
+    def lends_terminal(self, node: Node) -> None:
+        """Say that from here on the screen is that of its process."""
+        log = self._console.log_of(LAUNCH)
+        text = f'has the terminal; what the others say goes to {log}, their warnings also here'
+        self._console.say('INFO', self._name_of(node), text)
+        self._console.lend(True)
+
+    def terminal_lent(self, is_lent: bool) -> None:
+        """Note whether a process has the terminal."""
+        self._console.lend(is_lent)
 
     def guardian_replaced(self) -> None:
         """Say that somebody ended the guardian."""

@@ -16,7 +16,7 @@ import contextlib
 import signal
 import time
 
-from amr_description.bringup.child import Child
+from amr_description.bringup.child import Child, RunningProcess
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
@@ -24,6 +24,7 @@ from amr_description.bringup.job import Job
 from amr_description.bringup.lifeline import Lifeline
 from amr_description.bringup.narrator import Narrator
 from amr_description.bringup.progress import Progress
+from amr_description.bringup.terminal import TerminalChild
 
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed
 _NOBODY_READS = 128 + signal.SIGPIPE  # as of a program that wrote into a closed pipe
@@ -55,7 +56,7 @@ class Orchestrator:
         self._environment = environment
         self._narrator = Narrator(stack, jobs, console)
         self._progress = Progress(stack)
-        self._children: dict[Node, Child] = {}  # in the order of their start
+        self._children: dict[Node, RunningProcess] = {}  # in the order of their start
         self._last_lines: dict[Node, Collection[str]] = {}
         self._wake = asyncio.Event()
         self._stop_requests = 0
@@ -130,12 +131,7 @@ class Orchestrator:
         try:
             environment = child_environment(job.executable, self._environment)
             job.write_parameter_files()
-            child = Child(
-                job.command,
-                environment | self._lifeline.variables,
-                self._lifeline.reader,
-                lambda line: self._narrator.output(node, line),
-            )
+            child = self._child(job, environment | self._lifeline.variables)
         except OSError as error:
             reason = f'could not be started: {error}'
             self._narrator.not_started(node, reason)
@@ -147,17 +143,33 @@ class Orchestrator:
         self._last_lines[node] = child.last_lines
         self._narrator.started(node, child.pid)
 
+    def _child(self, job: Job, environment: Mapping[str, str]) -> RunningProcess:
+        reader, narrator = self._lifeline.reader, self._narrator
+        if job.node.terminal:
+            narrator.progress(self._progress)  # as long as all of it can be seen
+            narrator.lends_terminal(job.node)
+            try:
+                return TerminalChild(job.command, environment, reader, narrator.terminal_lent)
+            except OSError:
+                narrator.terminal_lent(False)
+                raise
+        return Child(
+            job.command, environment, reader, lambda line: narrator.output(job.node, line)
+        )
+
     def _collect(self) -> None:
         """Take note of all processes that have ended."""
         for node, child in self._running().items():
             if child.poll():
                 self._narrator.ended(node, child)
+                if node.terminal and child.died_of_ctrl_c:  # which it alone has heard
+                    self._on_stop_signal(signal.SIGINT)
                 self._progress.end(node, child.returncode)
         if self._lifeline.revive():
             self._narrator.guardian_replaced()
         self._lifeline.reap_adopted(self._running_pids())
 
-    def _running(self) -> dict[Node, Child]:
+    def _running(self) -> dict[Node, RunningProcess]:
         return {n: child for n, child in self._children.items() if child.returncode is None}
 
     def _running_pids(self) -> set[int]:
