@@ -3,6 +3,7 @@
 """The ready-made stacks; ``bringup`` without arguments lists them."""
 
 STACKS = {
+    'fleet': 'amr_description.bringup.stacks.fleet:fleet',
     'mock': 'amr_description.bringup.stacks.hardware:mock',
     'serial': 'amr_description.bringup.stacks.hardware:serial',
     'simulation': 'amr_description.bringup.stacks.simulation:simulation',

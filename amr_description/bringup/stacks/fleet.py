@@ -1,0 +1,146 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The stack ``fleet``: several robots of one kind in one simulation.
+
+``robot1``, ``robot2`` … each have their topics, their controller manager and their frames in the
+namespace of their name. All of them are on one ``/tf``: a tree of frames each, ``robot1/odom`` and
+below, that hangs on ``world``.
+"""
+
+from collections.abc import Iterator
+import os
+from typing import Annotated
+from xml.sax.saxutils import quoteattr
+
+from amr_description.bringup import (
+    all_of,
+    exited_cleanly,
+    Node,
+    notes_on,
+    path_of,
+    robot_description,
+    Stack,
+)
+from amr_description.bringup.environment import other_shell
+from amr_description.errors import UsageError
+from amr_description.model.footprint import grid, horizontal_reach
+from amr_description.model.urdf import parse
+
+_ROOM = 1.0
+"""m between two robots, however they turn on the spot."""
+
+_CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
+
+type _Place = tuple[float, float]
+
+
+def fleet(
+    robots: Annotated[int, 'how many'] = 3,
+    urdf: Annotated[
+        str, 'robot description, URDF or xacro'
+    ] = 'package://amr_description/urdf/amr.urdf',
+    xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
+    controllers: Annotated[
+        str, 'parameters of the controllers, for any namespace: /**/controller_manager: …'
+    ] = 'package://amr_description/config/controllers.yaml',
+    world: Annotated[str, 'world to simulate'] = 'empty',
+    rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
+    spacing: Annotated[float, 'm between two robots; 0: by their size'] = 0.0,
+) -> Stack:
+    """Several robots in MuJoCo, each in its namespace with both controllers, ready to drive."""
+    _require(robots >= 1, f'robots:={robots}: a fleet has 1 robot or more')
+    _require(rtf >= 0, f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
+    _require(spacing >= 0, f'spacing:={spacing}: a distance is 0 (by their size) or more')
+    description = robot_description(urdf, xacro_args)
+    needed = 2.0 * horizontal_reach(parse(description, urdf))
+    _require(
+        not 0 < spacing <= needed,
+        f'spacing:={spacing}: the robots would touch; they need more than {needed:.2f} m',
+    )
+    places = dict(_places(robots, spacing or needed + _ROOM))
+    # 1. The simulated world, empty so far; it publishes /clock.
+    mujoco_sim = Node(
+        'mujoco_sim',
+        parameters=[
+            {'world': world, 'real_time_factor': rtf, 'controllers': str(path_of(controllers))}
+        ],
+        on_exit='shutdown',
+    )
+    # 2. Where each odometry begins, so that all robots are in one tree of frames.
+    map_publisher = Node(
+        'robot_state_publisher',
+        name='fleet_map',
+        namespace='fleet',
+        parameters=[{'robot_description': _map_of(places), 'use_sim_time': True}],
+    )
+    # 3. The robots, side by side.
+    members = [_robot(name, place, description) for name, place in places.items()]
+    return Stack(
+        [mujoco_sim, map_publisher, *(node for member in members for node in member)],
+        ready_when=all_of(*(exited_cleanly(spawner) for *_, spawner in members)),
+        next_steps=_how_to_drive(list(places)),
+        notes=notes_on([path_of(urdf), path_of(controllers)]),
+    )
+
+
+def _robot(name: str, place: _Place, description: str) -> tuple[Node, Node, Node]:
+    """One robot: its URDF told, itself put into the world, then its controllers."""
+    robot_state_publisher = Node(
+        'robot_state_publisher',
+        namespace=name,
+        parameters=[
+            {
+                'robot_description': description,
+                'frame_prefix': f'{name}/',
+                'use_sim_time': True,
+            }
+        ],
+    )
+    x, y = place
+    create = Node(
+        'create',
+        namespace=name,
+        arguments=['-topic', 'robot_description', '-name', name, '-x', x, '-y', y, '-z', '0.2'],
+    )
+    # One process for both controllers: with ten robots the start of a process is what counts.
+    spawner = Node(
+        'spawner', namespace=name, arguments=_CONTROLLERS, start_when=exited_cleanly(create)
+    )
+    return robot_state_publisher, create, spawner
+
+
+def _places(count: int, spacing: float) -> Iterator[tuple[str, _Place]]:
+    for number, place in enumerate(grid(count, spacing), start=1):
+        yield f'robot{number}', place
+
+
+def _map_of(places: dict[str, _Place]) -> str:
+    """A description of fixed joints only: robot_state_publisher says them all on /tf_static."""
+    lines = ['<robot name="fleet">', '<link name="world"/>']
+    for name, (x, y) in places.items():
+        odom = quoteattr(f'{name}/odom')
+        lines += [
+            f'<link name={odom}/>',
+            f'<joint name={odom} type="fixed"><parent link="world"/><child link={odom}/>'
+            f'<origin xyz="{x} {y} 0"/></joint>',
+        ]
+    return '\n'.join([*lines, '</robot>'])
+
+
+def _how_to_drive(names: list[str]) -> str:
+    """What a person would type next."""
+    first, last = names[0], names[-1]
+    return f"""drive {first} with, in another shell,
+    {other_shell('amr_description', os.environ)}
+    ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
+        -r /cmd_vel:=/{first}/diff_drive_controller/cmd_vel
+or {last} in a circle
+    ros2 topic pub -r 10 /{last}/diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \\
+        "{{twist: {{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}}}"
+Ctrl-C stops all."""
+
+
+def _require(holds: bool, text: str) -> None:
+    if not holds:
+        raise UsageError(text)
