@@ -7,7 +7,6 @@ import math
 import pytest
 import rclpy
 
-from amr_description.bringup.description import Node
 from amr_description.bringup.parameter_file import node_key, yaml_text
 from amr_description.errors import BringupError
 
@@ -81,7 +80,7 @@ def test_not_a_number_is_one_too(tmp_path):
     ],
 )
 def test_parameters_stand_under_the_full_name_if_it_is_known(name, namespace, key):
-    assert node_key(Node('x', name=name, namespace=namespace)) == key
+    assert node_key(name, namespace) == key
 
 
 def test_what_ros_has_no_type_for_is_refused_by_name():

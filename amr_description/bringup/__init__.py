@@ -16,47 +16,72 @@ A stack is a function that returns a :class:`Stack`; its parameters are what a u
 
 What stands where:
 
-================== ============================================================================
-description.py     pure: Node and Stack, the words of a stack
-conditions.py      pure: when a node starts (exited_cleanly, started, all_of)
-arguments.py       pure: name:=value, from the signature of the stack's function
-progress.py        pure: what may start now, what failed, when it is ready or over
-packages.py        where the ament index has packages, executables and shared files
-parameter_file.py  pure: parameters as the YAML that rcl reads
-urdf_text.py       the text of a description; xacro runs in a child process
-file_notes.py      which files are used, and whether another copy of one is edited
-job.py             a node made ready to run: name, command line, environment
-discovery.py       who finds the nodes: domain, range, peers, discovery server
-environment.py     pure: the environment of a child, and of the user's next shell
-line_splitter.py   pure: bytes from a pipe -> lines
-child.py           one running process: its session, its output, its end
-orchestrator.py    the engine: start, watch, stop
-lifeline.py        what a child sees of the orchestrator's life; the guardian is started here
-guardian.py        a program of its own: ends what is left, whatever became of the orchestrator
-log_folder.py      the folder of log files of one run
-narrator.py        what the orchestrator says of a stack, in launch's words
-post_mortem.py     pure: what is said of the failure that stopped a stack
-console.py         what a person reads: prefixes, colours, log files
-main.py            the command ``bringup``
-stacks/            the ready-made stacks
-================== ============================================================================
+====================== ============================================================================
+description.py         pure: Node, Group, Stack and Respawn, the words of a stack
+conditions.py          pure: when a node starts, by what the other nodes did, and by time
+outside_conditions.py  pure: by what is on the ROS graph, and by files
+situation.py           pure: what conditions judge
+placement.py           pure: the tree of groups and stacks, flattened
+arguments.py           pure: name:=value, from the signature of the stack's function
+progress.py            pure: what may start now, what failed, when it is ready or over
+waits.py               pure: how long each wait may take
+packages.py            where the ament index has packages, executables and shared files
+parameter_file.py      pure: parameters as the YAML that rcl reads
+urdf_text.py           the text of a description; xacro runs in a child process
+file_notes.py          which files are used, and whether another copy of one is edited
+job.py                 a node made ready to run: name, command line, environment
+discovery.py           who finds the nodes: domain, range, peers, discovery server
+environment.py         pure: the environment of a child, and of the user's next shell
+line_splitter.py       pure: bytes from a pipe -> lines
+child.py               one running process: its session, its output, its end
+orchestrator.py        the engine: start, watch, stop
+lifeline.py            what a child sees of the orchestrator's life; the guardian is started here
+guardian.py            a program of its own: ends what is left, whatever became of the orchestrator
+log_folder.py          the folder of log files of one run
+narrator.py            what the orchestrator says of a stack, in launch's words
+post_mortem.py         pure: what is said of the failure that stopped a stack
+console.py             what a person reads: prefixes, colours, log files
+main.py                the command ``bringup``
+stacks/                the ready-made stacks
+====================== ============================================================================
 
 Only the standard library is imported here, so that no crash of rclpy can take the supervisor down.
 """
 
-from amr_description.bringup.conditions import all_of, exited_cleanly, started
-from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.conditions import (
+    after,
+    all_of,
+    any_of,
+    exited_cleanly,
+    failed,
+    logged,
+    ready,
+    started,
+)
+from amr_description.bringup.description import Group, Node, Respawn, Stack
 from amr_description.bringup.file_notes import notes_on
+from amr_description.bringup.outside_conditions import path_exists, ros_node, service, topic
 from amr_description.bringup.packages import path_of
 from amr_description.bringup.urdf_text import robot_description
 
 __all__ = [
+    'Group',
     'Node',
+    'Respawn',
     'Stack',
+    'after',
     'all_of',
+    'any_of',
     'exited_cleanly',
+    'failed',
+    'logged',
     'notes_on',
+    'path_exists',
     'path_of',
+    'ready',
     'robot_description',
+    'ros_node',
+    'service',
     'started',
+    'topic',
 ]

@@ -1,22 +1,30 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-When a node of a stack starts: conditions on what happened to the other nodes.
+When a node of a stack starts: conditions on the other nodes and on time, and how they combine.
 
-A condition is pure: it judges the states of the nodes, and is asked again after every event.
+A condition is pure: it judges a :class:`Situation`, and is asked again after every event. What
+looks at the world outside of the stack's processes stands in ``outside_conditions.py``.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 import enum
-from typing import Protocol, TYPE_CHECKING
+import re
+from typing import TYPE_CHECKING
+
+from amr_description.bringup.situation import Situation
+from amr_description.errors import BringupError
 
 if TYPE_CHECKING:
-    from amr_description.bringup.description import Node
+    from amr_description.bringup.description import Node, Stack
+
+type NameOf = 'Callable[[Node], str]'
 
 
 class Verdict(enum.Enum):
-    """What a condition says of the present states."""
+    """What a condition says of the present situation."""
 
     HOLDS = 'holds'
     NOT_YET = 'not yet'
@@ -24,83 +32,270 @@ class Verdict(enum.Enum):
 
 
 @dataclass(frozen=True)
-class NodeState:
-    """How far a node has come."""
+class Scope:
+    """Where a condition stands in a stack: what its relative names mean."""
 
-    started: bool = False
-    returncode: int | None = None
-    """None until it ended; then its exit code, or minus the number of the signal it died of."""
+    namespace: str = '/'
+    stacks: 'Mapping[Stack, str]' = field(default_factory=dict)
+    """The namespaces of the stacks that stand in the whole one."""
 
-    @property
-    def running(self) -> bool:
-        """Started, and not ended."""
-        return self.started and self.returncode is None
+    def absolute(self, name: str) -> str:
+        """Return the full name of a topic, a service or a node."""
+        return name if name.startswith('/') else f'{self.namespace.rstrip("/")}/{name}'
 
 
-class Condition(Protocol):
-    """What ``start_when`` and ``ready_when`` take."""
+class Condition(ABC):
+    """What ``start_when`` and ``ready_when`` take; compared by value."""
 
     @property
     def nodes(self) -> 'tuple[Node, ...]':
         """The nodes it depends on."""
+        return tuple(node for part in self.parts for node in part.nodes)
 
-    def judge(self, states: 'Mapping[Node, NodeState]') -> Verdict:
+    @property
+    def parts(self) -> 'tuple[Condition, ...]':
+        """The conditions that it is made of."""
+        return ()
+
+    @property
+    def delay(self) -> float:
+        """How long it waits on purpose, s; no patience is lost by that."""
+        return max((part.delay for part in self.parts), default=0.0)
+
+    @property
+    def looks_outside(self) -> bool:
+        """Whether it can come to hold although no process of the stack does anything."""
+        return any(part.looks_outside for part in self.parts)
+
+    @abstractmethod
+    def judge(self, situation: Situation) -> Verdict:
         """Say whether it holds; called after every event of the stack."""
 
-    def describe(self, name_of: 'Callable[[Node], str]') -> str:
+    @abstractmethod
+    def describe(self, name_of: NameOf) -> str:
         """Say it in words: ``create-3 exited with code 0``."""
+
+    @abstractmethod
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        """Say why it does not hold, and what is there instead: ``create-3 still runs``."""
+
+    def resolved(self, scope: Scope) -> 'Condition':
+        """Return it with full names."""
+        return self
+
+
+def leaves(condition: Condition | None) -> Iterator[Condition]:
+    """Yield a condition, or what it is made of, innermost first."""
+    if condition is not None:
+        for part in condition.parts:
+            yield from leaves(part)
+        yield condition
 
 
 @dataclass(frozen=True)
-class _ExitedCleanly:
+class _OfNode(Condition):
+    """On one node."""
+
     node: 'Node'
 
     @property
     def nodes(self) -> 'tuple[Node, ...]':
         return (self.node,)
 
-    def judge(self, states: 'Mapping[Node, NodeState]') -> Verdict:
-        returncode = states[self.node].returncode
-        if returncode is None:
-            return Verdict.NOT_YET
-        return Verdict.HOLDS if returncode == 0 else Verdict.NEVER
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        state, name = situation.states[self.node], name_of(self.node)
+        if state.returncode is not None:
+            return f'{name} ended with {state.returncode}'
+        if state.restart_at is not None:
+            return f'{name} waits for its next start'
+        return f'{name} still runs' if state.started else f'{name} was not started'
 
-    def describe(self, name_of: 'Callable[[Node], str]') -> str:
+
+@dataclass(frozen=True)
+class _ExitedCleanly(_OfNode):
+    def judge(self, situation: Situation) -> Verdict:
+        state = situation.states[self.node]
+        if state.returncode is None:
+            return Verdict.NEVER if state.never else Verdict.NOT_YET
+        return Verdict.HOLDS if state.returncode == 0 else Verdict.NEVER
+
+    def describe(self, name_of: NameOf) -> str:
         return f'{name_of(self.node)} exited with code 0'
 
 
 @dataclass(frozen=True)
-class _Started:
-    node: 'Node'
+class _Failed(_OfNode):
+    def judge(self, situation: Situation) -> Verdict:
+        state = situation.states[self.node]
+        if state.returncode is None:
+            return Verdict.NEVER if state.never else Verdict.NOT_YET
+        return Verdict.NEVER if state.returncode == 0 else Verdict.HOLDS
 
-    @property
-    def nodes(self) -> 'tuple[Node, ...]':
-        return (self.node,)
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} failed'
 
-    def judge(self, states: 'Mapping[Node, NodeState]') -> Verdict:
-        return Verdict.HOLDS if states[self.node].started else Verdict.NOT_YET
 
-    def describe(self, name_of: 'Callable[[Node], str]') -> str:
+@dataclass(frozen=True)
+class _Started(_OfNode):
+    def judge(self, situation: Situation) -> Verdict:
+        state = situation.states[self.node]
+        if state.started:
+            return Verdict.HOLDS
+        return Verdict.NEVER if state.never else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
         return f'{name_of(self.node)} was started'
 
 
 @dataclass(frozen=True)
-class _AllOf:
+class _Settled(_Started):
+    """Started, or optional and given up."""
+
+    def judge(self, situation: Situation) -> Verdict:
+        given_up = situation.states[self.node].never and not self.node.required
+        return Verdict.HOLDS if given_up else super().judge(situation)
+
+
+@dataclass(frozen=True)
+class Logged(_OfNode):
+    """See :func:`logged`."""
+
+    pattern: str
+
+    def __post_init__(self) -> None:
+        """Refuse what is no regular expression."""
+        try:
+            re.compile(self.pattern)
+        except re.error as error:
+            raise BringupError(f'logged(…, {self.pattern!r}): {error}') from None
+
+    def matches(self, line: str) -> bool:
+        """Say whether this is the line."""
+        return re.search(self.pattern, line) is not None
+
+    def judge(self, situation: Situation) -> Verdict:
+        if self in situation.said:
+            return Verdict.HOLDS
+        state = situation.states[self.node]
+        over = state.never or state.returncode is not None
+        return Verdict.NEVER if over else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} said {self.pattern!r}'
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} has not said {self.pattern!r}'
+
+
+@dataclass(frozen=True)
+class _Combined(Condition):
     conditions: tuple[Condition, ...]
 
     @property
-    def nodes(self) -> 'tuple[Node, ...]':
-        return tuple(node for condition in self.conditions for node in condition.nodes)
+    def parts(self) -> tuple[Condition, ...]:
+        return self.conditions
 
-    def judge(self, states: 'Mapping[Node, NodeState]') -> Verdict:
-        verdicts = {condition.judge(states) for condition in self.conditions}
+    def resolved(self, scope: Scope) -> Condition:
+        return replace(self, conditions=tuple(part.resolved(scope) for part in self.parts))
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        lacking = [c for c in self.conditions if c.judge(situation) is not Verdict.HOLDS]
+        return '; '.join(dict.fromkeys(c.lack(situation, name_of) for c in lacking))
+
+
+@dataclass(frozen=True)
+class _AllOf(_Combined):
+    def judge(self, situation: Situation) -> Verdict:
+        verdicts = {condition.judge(situation) for condition in self.conditions}
         for verdict in (Verdict.NEVER, Verdict.NOT_YET):
             if verdict in verdicts:
                 return verdict
         return Verdict.HOLDS
 
-    def describe(self, name_of: 'Callable[[Node], str]') -> str:
+    def describe(self, name_of: NameOf) -> str:
         return ' and '.join(condition.describe(name_of) for condition in self.conditions)
+
+
+@dataclass(frozen=True)
+class _AnyOf(_Combined):
+    def judge(self, situation: Situation) -> Verdict:
+        verdicts = {condition.judge(situation) for condition in self.conditions}
+        for verdict in (Verdict.HOLDS, Verdict.NOT_YET):
+            if verdict in verdicts:
+                return verdict
+        return Verdict.NEVER
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'({" or ".join(condition.describe(name_of) for condition in self.conditions)})'
+
+
+@dataclass(frozen=True)
+class After(Condition):
+    """See :func:`after`."""
+
+    seconds: float
+    condition: Condition | None
+
+    @property
+    def parts(self) -> tuple[Condition, ...]:
+        return (self.condition,) if self.condition else ()
+
+    @property
+    def delay(self) -> float:
+        return self.seconds + super().delay
+
+    @property
+    def looks_outside(self) -> bool:
+        return self.condition is None or self.condition.looks_outside
+
+    def due(self, situation: Situation) -> float | None:
+        """Return the time at which it will hold; None: that is not known yet."""
+        if self.condition is None:
+            return situation.began + self.seconds
+        since = situation.held_since.get(self.condition)
+        return None if since is None else since + self.seconds
+
+    def judge(self, situation: Situation) -> Verdict:
+        due = self.due(situation)
+        if due is None:
+            verdict = self.condition.judge(situation)
+            return Verdict.NEVER if verdict is Verdict.NEVER else Verdict.NOT_YET
+        return Verdict.HOLDS if situation.time >= due else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        origin = f'since {self.condition.describe(name_of)}' if self.condition else 'of the stack'
+        return f'{self.seconds:g} s have passed {origin}'
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        due = self.due(situation)
+        if due is None:
+            return self.condition.lack(situation, name_of)
+        return f'{due - situation.time:.1f} s are left'
+
+    def resolved(self, scope: Scope) -> Condition:
+        inner = self.condition.resolved(scope) if self.condition else None
+        return replace(self, condition=inner)
+
+
+@dataclass(frozen=True)
+class _Ready(Condition):
+    stack: 'Stack'
+
+    @property
+    def parts(self) -> tuple[Condition, ...]:
+        return (self.stack.readiness,)
+
+    def judge(self, situation: Situation) -> Verdict:
+        return self.stack.readiness.judge(situation)
+
+    def describe(self, name_of: NameOf) -> str:
+        return self.stack.readiness.describe(name_of)
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        return self.stack.readiness.lack(situation, name_of)
+
+    def resolved(self, scope: Scope) -> Condition:
+        return self.stack.readiness.resolved(replace(scope, namespace=scope.stacks[self.stack]))
 
 
 def exited_cleanly(node: 'Node') -> Condition:
@@ -112,11 +307,43 @@ def exited_cleanly(node: 'Node') -> Condition:
     return _ExitedCleanly(node)
 
 
+def failed(node: 'Node') -> Condition:
+    """Hold once the node has ended otherwise; it is ``required=False``, or all stops then."""
+    return _Failed(node)
+
+
 def started(node: 'Node') -> Condition:
     """Hold once the node's process was started, as launch's OnProcessStart, even if it ended."""
     return _Started(node)
 
 
+def settled(node: 'Node') -> Condition:
+    """As :func:`started`; also if the node is optional and can never start."""
+    return _Settled(node)
+
+
+def logged(node: 'Node', pattern: str) -> Condition:
+    """Hold once a line that the node wrote matched, anywhere in it, a regular expression."""
+    return Logged(node, pattern)
+
+
+def after(seconds: float, condition: Condition | None = None) -> Condition:
+    """Hold so long after the condition came to hold; after the stack began, if there is none."""
+    if not 0 <= seconds < float('inf'):
+        raise BringupError(f'after({seconds!r}): it takes 0 s or more')
+    return After(seconds, condition)
+
+
 def all_of(*conditions: Condition) -> Condition:
     """Hold once every one of the conditions holds."""
     return _AllOf(conditions)
+
+
+def any_of(*conditions: Condition) -> Condition:
+    """Hold once one of the conditions holds."""
+    return _AnyOf(conditions)
+
+
+def ready(stack: 'Stack') -> Condition:
+    """Hold once a stack that stands in this one is ready."""
+    return _Ready(stack)

@@ -1,18 +1,44 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The words of a stack: :class:`Node` and :class:`Stack`, named as in launch_ros."""
+"""The words of a stack: :class:`Node`, :class:`Group` and :class:`Stack`, as launch has them."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, KW_ONLY
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, KW_ONLY
+import math
 from pathlib import Path
+import shlex
 from typing import Literal
 
-from amr_description.bringup.conditions import Condition
+from amr_description.bringup.conditions import all_of, Condition, ready, settled
 from amr_description.bringup.console import Level
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
 type ParameterValue = Scalar | Sequence[Scalar] | Mapping[str, ParameterValue]
+type Parameters = Sequence[Mapping[str, ParameterValue] | str | Path]
+type Member = Node | Group | Stack
+
+PATIENCE = 60.0
+"""s"""
+
+
+@dataclass(frozen=True)
+class Respawn:
+    """Start a node again whenever it ends, with whatever exit code, until the stack stops."""
+
+    delay: float = 1.0
+    """s from its end to its first new start."""
+    backoff: float = 2.0
+    """By which each further delay is longer than the one before."""
+    limit: int | None = 5
+    """How often in a row; when that is over, its next end is a failure. None: for ever."""
+    steady: float = 60.0
+    """s; once it ran for so long, delay and limit begin anew."""
+
+    def __post_init__(self) -> None:
+        """Refuse what would start it without a pause, or never."""
+        if not (self.delay > 0 and self.backoff >= 1 and (self.limit is None or self.limit > 0)):
+            raise BringupError(f'{self}: it takes delay > 0, backoff >= 1 and limit > 0 (or None)')
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,31 +55,71 @@ class Node:
     name: str | None = None
     """Name of the ROS node (``-r __node:=``); None: the name the program gives itself."""
     namespace: str | None = None
-    """Namespace of the ROS node (``-r __ns:=``); a leading slash is added where it lacks."""
-    parameters: Sequence[Mapping[str, ParameterValue] | str | Path] = ()
+    """Namespace of the ROS node (``-r __ns:=``), within that of its group unless it begins /."""
+    parameters: Parameters = ()
     """Tables of parameters and paths of YAML files, in order: the later wins."""
     remappings: Sequence[tuple[str, str]] = ()
     """Pairs (from, to), ``-r from:=to``."""
     arguments: Sequence[object] = ()
     """What stands before ``--ros-args``."""
+    environment: Mapping[str, str] = field(default_factory=dict)
+    """Environment variables, beside those of the bring-up and of its groups."""
+    prefix: str = ''
+    """What its command line begins with: ``gdb -ex run --args``, ``valgrind``, ``nice -n 10``."""
     start_when: Condition | None = None
     """None: at once."""
+    patience: float | None = None
+    """s for which ``start_when`` may lack; None: as its stack has it; ``math.inf``: for ever."""
     required: bool = True
     """Whether its failure (an exit code other than 0, or a signal) stops the stack."""
+    respawn: Respawn | None = None
     on_exit: Literal['continue', 'shutdown'] = 'continue'
     """What its end with exit code 0 means to the rest of the stack."""
     terminal: bool = False
     """Whether it reads keys: it gets the terminal itself (see terminal.py); one of a stack may."""
 
+    def __post_init__(self) -> None:
+        """Refuse a prefix that no shell could read."""
+        try:
+            shlex.split(self.prefix)
+        except ValueError as error:
+            raise BringupError(f'prefix={self.prefix!r}: {error}') from None
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """
+    Nodes, groups and stacks that have something in common.
+
+    Of the environment and of parameters what stands further inside wins, of remappings what
+    stands further outside, as in launch.
+    """
+
+    members: 'Sequence[Member]'
+    _: KW_ONLY
+    namespace: str | None = None
+    """Before the namespaces of its members; within that of its own group, unless it begins /."""
+    environment: Mapping[str, str] = field(default_factory=dict)
+    parameters: Parameters = ()
+    remappings: Sequence[tuple[str, str]] = ()
+    start_when: Condition | None = None
+    """What every member waits for, beside what it waits for itself."""
+
+
+@dataclass(frozen=True, eq=False)
 class Stack:
-    """What to start, in which order, and when it is ready."""
+    """
+    What to start, in which order, and when it is ready.
 
-    nodes: Sequence[Node]
+    A stack may stand among the nodes of another one.
+    """
+
+    nodes: 'Sequence[Member]'
     _: KW_ONLY
     ready_when: Condition | None = None
-    """None: once every node was started."""
+    """None: once every node was started, and every stack in it is ready."""
+    patience: float = PATIENCE
+    """s that each wait in it may take before the stack fails; ``math.inf``: for ever."""
     next_steps: str = ''
     """Printed after ``ready in … s: ``; what a person would type next."""
     notes: Sequence[tuple[Level, str]] = ()
@@ -61,24 +127,68 @@ class Stack:
 
     def __post_init__(self) -> None:
         """Refuse a stack that could not run as it is written."""
-        if not self.nodes:
+        nodes = list(nodes_of(self.nodes))
+        if not nodes:
             raise BringupError('a stack needs at least one node')
-        if len(set(self.nodes)) < len(self.nodes):
-            twice = next(n for n in self.nodes if list(self.nodes).count(n) > 1)
+        if len(set(nodes)) < len(nodes):
+            twice = next(n for n in nodes if nodes.count(n) > 1)
             raise BringupError(
                 f"the same Node('{twice.executable}') stands twice in the stack; "
                 'make a second Node'
             )
-        with_terminal = [node.executable for node in self.nodes if node.terminal]
+        with_terminal = [node.executable for node in nodes if node.terminal]
         if len(with_terminal) > 1:
             raise BringupError(
                 f'{" and ".join(with_terminal)} want the terminal, which one node can have'
             )
-        conditions = [node.start_when for node in self.nodes] + [self.ready_when]
-        for condition in filter(None, conditions):
-            for node in condition.nodes:
-                if node not in self.nodes:
+        for condition in [*_conditions(self.nodes), self.ready_when]:
+            for node in condition.nodes if condition else ():
+                if node not in nodes:
                     raise BringupError(
                         f"a condition waits for Node('{node.executable}'), "
                         'which is not in the list of the stack'
                     )
+        if math.isnan(self.patience) or self.patience <= 0:
+            raise BringupError(f'patience={self.patience}: it takes more than 0 s')
+
+    @property
+    def readiness(self) -> Condition:
+        """When it is ready; the names in it are relative to where the stack stands."""
+        if self.ready_when is not None:
+            return self.ready_when
+        own = (settled(node) for node in nodes_of(self.nodes, into_stacks=False))
+        return all_of(*own, *(ready(stack) for stack in stacks_of(self.nodes)))
+
+
+def nodes_of(members: 'Sequence[Member]', *, into_stacks: bool = True) -> Iterator[Node]:
+    """Yield the nodes of a tree, in its order; optionally not those of the stacks in it."""
+    for member in members:
+        match member:
+            case Node():
+                yield member
+            case Group():
+                yield from nodes_of(member.members, into_stacks=into_stacks)
+            case Stack():
+                yield from nodes_of(member.nodes) if into_stacks else ()
+            case _:
+                raise BringupError(
+                    f'{member!r} stands in a stack; there can be Node, Group, Stack'
+                )
+
+
+def stacks_of(members: 'Sequence[Member]') -> Iterator[Stack]:
+    """Yield the stacks in a tree, not those within them."""
+    for member in members:
+        if isinstance(member, Stack):
+            yield member
+        elif isinstance(member, Group):
+            yield from stacks_of(member.members)
+
+
+def _conditions(members: 'Sequence[Member]') -> Iterator[Condition | None]:
+    """Yield the conditions in a tree; a stack in it has judged its own."""
+    for member in members:
+        if not isinstance(member, Stack):
+            yield member.start_when
+        if isinstance(member, Group):
+            yield from _conditions(member.members)

@@ -10,13 +10,14 @@ import shlex
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.packages import executable_of, path_of
 from amr_description.bringup.parameter_file import node_key, yaml_text
+from amr_description.bringup.placement import Placed, Placement
 
 
 @dataclass(frozen=True)
 class Job:
     """What the orchestrator starts for one node."""
 
-    node: Node
+    placed: Placed
     name: str
     """``<executable>-<number in the stack, from 1>``, as on the screen."""
     executable: Path
@@ -24,17 +25,28 @@ class Job:
     """(path, text to write there before the start; None: the file is the user's)."""
 
     @property
+    def node(self) -> Node:
+        """What it is made of."""
+        return self.placed.node
+
+    @property
+    def environment(self) -> Mapping[str, str]:
+        """The variables that the stack gives the node."""
+        return self.placed.environment
+
+    @property
     def command(self) -> list[str]:
         """The command line, as launch builds it."""
         node = self.node
-        words = [str(self.executable), *map(str, node.arguments), '--ros-args']
+        words = [*shlex.split(node.prefix), str(self.executable), *map(str, node.arguments)]
+        words.append('--ros-args')
         if node.name:
             words += ['-r', f'__node:={node.name}']
-        if node.namespace:
-            words += ['-r', f'__ns:=/{node.namespace.strip("/")}']
+        if self.placed.namespace:
+            words += ['-r', f'__ns:={self.placed.namespace}']
         for path, _ in self.parameter_files:
             words += ['--params-file', str(path)]
-        for source, target in node.remappings:
+        for source, target in self.placed.remappings:
             words += ['-r', f'{source}:={target}']
         return words
 
@@ -58,16 +70,18 @@ def jobs_of(stack: Stack, folder: Path) -> list[Job]:
         the printed command line can be typed again, and no temporary file is ever left over.
     :raises BringupError: A package, an executable or a parameter file is missing.
     """
-    return [_job(node, number, folder) for number, node in enumerate(stack.nodes, start=1)]
+    placed = Placement(stack).nodes
+    return [_job(each, number, folder) for number, each in enumerate(placed, start=1)]
 
 
-def _job(node: Node, number: int, folder: Path) -> Job:
+def _job(placed: Placed, number: int, folder: Path) -> Job:
+    node = placed.node
     name = f'{node.executable}-{number}'
     files: list[tuple[Path, str | None]] = []
-    for index, entry in enumerate(node.parameters, start=1):
+    for index, entry in enumerate(placed.parameters, start=1):
         if isinstance(entry, Mapping):
             path = folder / f'{name}-parameters-{index}.yaml'
-            files.append((path, yaml_text(node_key(node), entry)))
+            files.append((path, yaml_text(node_key(node.name, placed.namespace), entry)))
         else:
             files.append((path_of(str(entry)), None))
-    return Job(node, name, executable_of(node.package, node.executable), files)
+    return Job(placed, name, executable_of(node.package, node.executable), files)

@@ -13,17 +13,17 @@ import math
 from pathlib import Path
 import re
 
-from amr_description.bringup.description import Node, ParameterValue
+from amr_description.bringup.description import ParameterValue
 from amr_description.errors import BringupError
 
 # JSON leaves these as they are, YAML forbids them or reads them as line ends.
 _UNPRINTABLE = re.compile('[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff]')
 
 
-def node_key(node: Node) -> str:
+def node_key(name: str | None, namespace: str | None) -> str:
     """Return the name that a node's parameters stand under: its full name if known, else all."""
-    if node.name and node.namespace:
-        return f'/{node.namespace.strip("/")}/{node.name}'.replace('//', '/')
+    if name and namespace:
+        return f'/{namespace.strip("/")}/{name}'.replace('//', '/')
     return '/**'
 
 

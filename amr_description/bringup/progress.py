@@ -3,13 +3,17 @@
 """
 How far a stack has come: what may start now, what failed, when it is ready or over.
 
-Pure: the orchestrator tells it of starts and ends, and asks.
+Pure: the orchestrator tells it of starts, ends, lines, the world outside and the time, and asks.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
-from amr_description.bringup.conditions import NodeState, Verdict
+from amr_description.bringup.conditions import After, Condition, leaves, Logged, Verdict
 from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.placement import Placement
+from amr_description.bringup.situation import Graph, NodeState, PathLook, Situation
+from amr_description.bringup.waits import Expired, Waits
 
 
 @dataclass(frozen=True)
@@ -18,28 +22,50 @@ class Failure:
 
     node: Node
     returncode: int
-    """As in :class:`NodeState`: never 0."""
+    """As in :class:`NodeState`; 0 only if it was to be started again, too often."""
+    restarts: int = 0
+    """How often it was started again before."""
 
     @property
     def exit_code(self) -> int:
         """The exit code of the whole, 1..255: the node's own, or 128 + signal as in shells."""
-        return self.returncode if self.returncode > 0 else 128 - self.returncode
+        return (self.returncode or 1) if self.returncode >= 0 else 128 - self.returncode
 
 
 class Progress:
     """The states of all nodes of a stack; owned by the orchestrator's event loop."""
 
-    def __init__(self, stack: Stack) -> None:
-        """Begin with nothing started."""
-        self._stack = stack
-        self._states = {node: NodeState() for node in stack.nodes}
-        self.failure: Failure | None = None
+    def __init__(self, stack: Stack, begin: float = 0.0) -> None:
+        """Begin with nothing started; ``begin``: the time, s, of a clock that never goes back."""
+        placement = Placement(stack)
+        self._conditions = {placed.node: placed.start_when for placed in placement.nodes}
+        self._ready_when = placement.ready_when
+        all_conditions = [*self._conditions.values(), self._ready_when]
+        self._parts = dict.fromkeys(part for each in all_conditions for part in leaves(each))
+        self._logged = [part for part in self._parts if isinstance(part, Logged)]
+        self._states = {node: NodeState() for node in self._conditions}
+        self._last_start: dict[Node, float] = {}
+        self._situation = Situation(self._states, time=begin, began=begin)
+        self._waits = Waits(
+            {placed.node: placed.patience for placed in placement.nodes}, stack.patience
+        )
+        self._ready = False
+        self.failure: Failure | Expired | None = None
+        self.gave_up: list[Expired] = []
+        """Waits of optional nodes whose patience is over: they are not started any more."""
         self.over = False
         """Whether nothing more is to be started and what runs is to be stopped."""
 
+    @property
+    def situation(self) -> Situation:
+        """What the conditions judge now."""
+        return self._situation
+
     def start(self, node: Node) -> None:
         """Note that the process of the node was started."""
-        self._states[node] = NodeState(started=True)
+        self._last_start[node] = self._situation.time
+        self._states[node] = NodeState(started=True, restarts=self._states[node].restarts)
+        self._changed()
 
     def end(self, node: Node, returncode: int) -> None:
         """
@@ -47,45 +73,149 @@ class Progress:
 
         What ends after the stack is over ended because of that, and is no failure.
         """
-        self._states[node] = NodeState(started=True, returncode=returncode)
+        if not self.over and self._is_started_again(node):
+            return
+        restarts = self._states[node].restarts
+        self._states[node] = NodeState(started=True, returncode=returncode, restarts=restarts)
+        self._changed()
         if self.over:
             return
+        failed = returncode != 0 or node.respawn is not None
         blocks_a_required_node = any(waiting.required for waiting in self.unreachable())
-        if returncode != 0 and (node.required or blocks_a_required_node):
-            self.failure = Failure(node, returncode)
+        if failed and (node.required or blocks_a_required_node):
+            self.failure = Failure(node, returncode, restarts)
         ended_for_all = returncode == 0 and node.on_exit == 'shutdown'
-        idle = not self.startable() and not any(s.running for s in self._states.values())
-        self.over = self.failure is not None or ended_for_all or idle
+        self.over = self.failure is not None or ended_for_all or self._is_idle()
+
+    def hear(self, node: Node, line: str) -> bool:
+        """Note a line that the process of the node wrote; return whether a condition asks."""
+        said = self._situation.said
+        heard = {c for c in self._asked_of(node) if c not in said and c.matches(line)}
+        if heard:
+            self._changed(said=said | heard)
+        return bool(heard)
+
+    def see(
+        self, *, graph: Graph | None = None, paths: Mapping[str, PathLook] | None = None
+    ) -> None:
+        """Note what is seen of the world outside."""
+        if graph is not None:
+            self._changed(graph=graph)
+        if paths is not None:
+            self._changed(paths=paths)
+
+    def at(self, time: float) -> None:
+        """Note the time, s; what has waited too long ends the stack, or is given up."""
+        self._changed(time=time)
+        expired = None if self.over else self._waits.expired(self._pending(), self._situation)
+        if expired is None:
+            return
+        if expired.node is None or expired.node.required:
+            self.failure, self.over = expired, True
+            return
+        self.gave_up.append(expired)
+        self._changed()
+        self.over = self._is_idle()
+
+    def next_time(self) -> float | None:
+        """Return the time at which :meth:`at` has something to say; None: only events matter."""
+        times = [state.restart_at for state in self._states.values()]
+        for _, condition in self._pending():
+            times += [p.due(self._situation) for p in leaves(condition) if isinstance(p, After)]
+        times += self._waits.deadlines(self._pending(), self._situation)
+        return min((t for t in times if t is not None and t > self._situation.time), default=None)
 
     def startable(self) -> list[Node]:
         """Return the nodes that are to be started now, in the order of the stack."""
-        return [n for n in self.waiting() if self._judge_start(n) is Verdict.HOLDS]
+        return [node for node, state in self._states.items() if self._is_due(node, state)]
 
     def unreachable(self) -> list[Node]:
         """Return the nodes that wait, also through others, for what can no longer happen."""
-        stuck: set[Node] = set()
-        while more := [n for n in self.waiting() if n not in stuck and self._is_stuck(n, stuck)]:
-            stuck.update(more)
-        return [node for node in self.waiting() if node in stuck]
+        return [node for node in self.waiting() if self._states[node].never]
 
     def waiting(self) -> list[Node]:
         """Return the nodes that were not started yet."""
         return [node for node, state in self._states.items() if not state.started]
 
+    def waits_for(self, node: Node) -> Condition | None:
+        """Return the condition of a node, its groups' with it; None: it starts at once."""
+        return self._conditions[node]
+
+    def lookouts(self) -> Iterator[Condition]:
+        """Yield the parts of all conditions that somebody still waits for."""
+        for _, condition in self._pending():
+            yield from leaves(condition)
+
     @property
     def ready(self) -> bool:
-        """Whether the stack is up: ``ready_when`` holds, or every node was started."""
-        if self._stack.ready_when is None:
-            return not self.waiting()
-        return self._stack.ready_when.judge(self._states) is Verdict.HOLDS
+        """Whether the stack came up: ``ready_when`` held, or every node was started."""
+        self._ready = self._ready or self._ready_when.judge(self._situation) is Verdict.HOLDS
+        return self._ready
 
-    def _judge_start(self, node: Node) -> Verdict:
-        if node.start_when is None:
-            return Verdict.HOLDS
-        return node.start_when.judge(self._states)
+    def _asked_of(self, node: Node) -> list[Logged]:
+        return [part for part in self._logged if part.node is node]
 
-    def _is_stuck(self, node: Node, stuck: set[Node]) -> bool:
-        condition = node.start_when
-        if condition is None:
+    def _pending(self) -> Iterator[tuple[Node | None, Condition]]:
+        """Yield who waits and what for; None: the stack itself, to be ready."""
+        for node in self.waiting():
+            condition = self._conditions[node]
+            if condition is not None and not self._states[node].never:
+                yield node, condition
+        if not self.ready and self._ready_when.judge(self._situation) is Verdict.NOT_YET:
+            yield None, self._ready_when
+
+    def _is_due(self, node: Node, state: NodeState) -> bool:
+        if state.restart_at is not None:
+            return state.restart_at <= self._situation.time
+        return not state.started and not state.never and self._judge(node) is Verdict.HOLDS
+
+    def _judge(self, node: Node) -> Verdict:
+        condition = self._conditions[node]
+        return Verdict.HOLDS if condition is None else condition.judge(self._situation)
+
+    def _is_started_again(self, node: Node) -> bool:
+        rule, now = node.respawn, self._situation.time
+        if rule is None:
             return False
-        return self._judge_start(node) is Verdict.NEVER or not stuck.isdisjoint(condition.nodes)
+        was_steady = now - self._last_start[node] >= rule.steady
+        restarts = 0 if was_steady else self._states[node].restarts
+        if rule.limit is not None and restarts >= rule.limit:
+            return False
+        at = now + rule.delay * rule.backoff**restarts
+        self._states[node] = NodeState(started=True, restarts=restarts + 1, restart_at=at)
+        self._changed()
+        return True
+
+    def _is_idle(self) -> bool:
+        """Nothing runs, and nothing that waits will ever start."""
+        alive = any(s.running or s.restart_at is not None for s in self._states.values())
+        outlook = any(
+            condition.looks_outside for node, condition in self._pending() if node is not None
+        )
+        return not (alive or outlook or self.startable())
+
+    def _changed(self, **news: object) -> None:
+        """Make the new situation: what was given up, what it leads to, what holds since when."""
+        for expired in self.gave_up:
+            self._mark_never(expired.node)
+        self._situation = replace(self._situation, states=dict(self._states), **news)
+        while stuck := [n for n in self.waiting() if self._is_newly_stuck(n)]:
+            for node in stuck:
+                self._mark_never(node)
+            self._situation = replace(self._situation, states=dict(self._states))
+        for part in self._parts:
+            self._note_since(part)
+
+    def _is_newly_stuck(self, node: Node) -> bool:
+        return not self._states[node].never and self._judge(node) is Verdict.NEVER
+
+    def _mark_never(self, node: Node) -> None:
+        self._states[node] = replace(self._states[node], never=True)
+
+    def _note_since(self, part: Condition) -> None:
+        """Note since when the condition holds that an ``after`` counts from; inner ones first."""
+        since, now = self._situation.held_since, self._situation
+        if not isinstance(part, After) or part.condition is None or part.condition in since:
+            return
+        if part.condition.judge(now) is Verdict.HOLDS:
+            self._situation = replace(now, held_since={**since, part.condition: now.time})

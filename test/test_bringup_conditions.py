@@ -1,0 +1,212 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the conditions hold for, how they combine, and what they say is lacking."""
+
+import itertools
+
+import pytest
+
+from amr_description.bringup import (
+    after,
+    all_of,
+    any_of,
+    exited_cleanly,
+    failed,
+    logged,
+    Node,
+    path_exists,
+    ros_node,
+    service,
+    Stack,
+    started,
+    topic,
+)
+from amr_description.bringup.conditions import Verdict
+from amr_description.bringup.progress import Progress
+from amr_description.bringup.situation import Graph, NodeState, PathLook, Situation
+from amr_description.errors import BringupError
+
+HOLDS, NOT_YET, NEVER = Verdict.HOLDS, Verdict.NOT_YET, Verdict.NEVER
+NODE = Node('n')
+
+
+def judge(condition, state=None, **situation):
+    return condition.judge(Situation({NODE: state or NodeState()}, **situation))
+
+
+def lack(condition, state=None, **situation):
+    return condition.lack(Situation({NODE: state or NodeState()}, **situation), name)
+
+
+def name(node):
+    return f'{node.executable}-1'
+
+
+WAITING, RUNNING, STUCK = NodeState(), NodeState(started=True), NodeState(never=True)
+WELL, BADLY = (NodeState(started=True, returncode=code) for code in (0, 3))
+RESTARTS = NodeState(started=True, restart_at=9.0)
+
+
+@pytest.mark.parametrize(
+    ('condition', 'verdicts'),
+    [
+        (exited_cleanly(NODE), (NOT_YET, NOT_YET, NEVER, HOLDS, NEVER, NOT_YET)),
+        (failed(NODE), (NOT_YET, NOT_YET, NEVER, NEVER, HOLDS, NOT_YET)),
+        (started(NODE), (NOT_YET, HOLDS, NEVER, HOLDS, HOLDS, HOLDS)),
+        (logged(NODE, 'x'), (NOT_YET, NOT_YET, NEVER, NEVER, NEVER, NOT_YET)),
+    ],
+)
+def test_what_became_of_a_node(condition, verdicts):
+    states = (WAITING, RUNNING, STUCK, WELL, BADLY, RESTARTS)
+    assert tuple(judge(condition, state) for state in states) == verdicts
+
+
+@pytest.mark.parametrize('verdicts', list(itertools.product(Verdict, repeat=2)))
+def test_all_and_any_are_each_others_mirror(verdicts):
+    states = {HOLDS: WELL, NOT_YET: RUNNING, NEVER: BADLY}
+    nodes = [Node('a'), Node('b')]
+    of_state = dict(zip(nodes, (states[v] for v in verdicts), strict=True))
+    conditions = [exited_cleanly(node) for node in nodes]
+    weakest_first = [NEVER, NOT_YET, HOLDS]
+    situation = Situation(of_state)
+    assert all_of(*conditions).judge(situation) == min(verdicts, key=weakest_first.index)
+    assert any_of(*conditions).judge(situation) == max(verdicts, key=weakest_first.index)
+
+
+def test_a_line_counts_though_the_node_ended_since():
+    node = Node('n')
+    progress = Progress(Stack([node, Node('next', start_when=logged(node, r'port \d+'))]))
+    progress.start(node)
+    assert not progress.hear(node, 'port closed')
+    assert [n.executable for n in progress.startable()] == []
+    assert progress.hear(node, 'listens on port 8000.')
+    assert not progress.hear(node, 'listens on port 8001.')
+    progress.end(node, 0)
+    assert [n.executable for n in progress.startable()] == ['next']
+
+
+def test_the_same_line_of_another_node_does_not_count():
+    one, other = Node('one'), Node('other')
+    progress = Progress(Stack([one, other, Node('next', start_when=logged(one, 'up'))]))
+    for node in (one, other):
+        progress.start(node)
+    assert not progress.hear(other, 'up')
+    assert progress.startable() == []
+
+
+GRAPH = Graph(
+    topics={'/odom': {'nav_msgs/msg/Odometry'}, '/tf': {'tf2_msgs/msg/TFMessage'}},
+    services={'/robot/list', '/robot/get_parameters'},
+    nodes={'/robot/sim'},
+)
+
+
+@pytest.mark.parametrize(
+    ('condition', 'holds'),
+    [
+        (topic('/odom'), True),
+        (topic('/odom', 'nav_msgs/msg/Odometry'), True),
+        (topic('/odom', 'std_msgs/msg/String'), False),
+        (topic('/od'), False),
+        (service('/robot/list'), True),
+        (service('/list'), False),
+        (ros_node('/robot/sim'), True),
+        (ros_node('/sim'), False),
+    ],
+)
+def test_the_graph(condition, holds):
+    assert judge(condition, graph=GRAPH) == (HOLDS if holds else NOT_YET)
+    assert judge(condition) == NOT_YET
+    assert condition.looks_outside
+
+
+@pytest.mark.parametrize('bad', ['', '/', 'a b', '~/odom', '//odom', 'odom/', '1st', 'ö'])
+def test_what_can_be_no_name_is_refused(bad):
+    for condition in (topic, service, ros_node):
+        with pytest.raises(BringupError, match='is not the name of a topic, a service or a node'):
+            condition(bad)
+
+
+def test_what_is_no_pattern_or_no_time_is_refused():
+    with pytest.raises(BringupError, match=r"logged\(…, '\('\): missing \)"):
+        logged(NODE, '(')
+    for seconds in (-1, float('nan'), float('inf')):
+        with pytest.raises(BringupError, match='it takes 0 s or more'):
+            after(seconds)
+
+
+def test_a_path():
+    condition = path_exists('/dev/ttyUSB0')
+    assert judge(condition) == NOT_YET
+    assert judge(condition, paths={'/dev/ttyUSB0': PathLook(False)}) == NOT_YET
+    assert judge(condition, paths={'/dev/ttyUSB0': PathLook(True)}) == HOLDS
+
+
+def test_time_after_the_begin_and_after_a_condition():
+    node = Node('n')
+    late, later = Node('late', start_when=after(5)), Node('later')
+    later = Node('later', start_when=after(2, after(1, exited_cleanly(node))))
+    progress = Progress(Stack([node, late, later]), begin=100.0)
+    progress.start(node)
+    assert progress.next_time() == 105.0
+    progress.at(101.0)
+    progress.end(node, 0)
+    assert progress.next_time() == 102.0
+    progress.at(102.5)  # a little late, which the two seconds count from
+    assert progress.startable() == []
+    assert progress.next_time() == 104.5
+    progress.at(104.5)
+    assert progress.startable() == [later]
+    progress.at(105.0)
+    assert progress.startable() == [late, later]
+
+
+def test_time_after_what_never_happens_never_passes():
+    assert judge(after(1, exited_cleanly(NODE)), BADLY) == NEVER
+
+
+@pytest.mark.parametrize(
+    ('condition', 'state', 'text'),
+    [
+        (exited_cleanly(NODE), RUNNING, 'n-1 still runs'),
+        (exited_cleanly(NODE), BADLY, 'n-1 ended with 3'),
+        (started(NODE), WAITING, 'n-1 was not started'),
+        (exited_cleanly(NODE), RESTARTS, 'n-1 waits for its next start'),
+        (logged(NODE, 'port'), RUNNING, "n-1 has not said 'port'"),
+        (topic('/odmo'), None, 'nobody publishes /odmo; published are /odom, /tf'),
+        (
+            topic('/tf', 'a/msg/B'),
+            None,
+            '/tf is published as tf2_msgs/msg/TFMessage, not as a/msg/B',
+        ),
+        (service('/list'), None, 'the service /list is not there; there are /robot/list'),
+        (ros_node('/sim'), None, 'the node /sim is not there; there are /robot/sim'),
+        (path_exists('/dev/ttyUSB0'), None, 'there is no /dev/ttyUSB0; /dev has ttyUSB1'),
+        (path_exists('/x/y'), None, 'there is no /x/y; /x has nothing like it'),
+        (after(3), None, '3.0 s are left'),
+        (
+            all_of(started(NODE), exited_cleanly(NODE), ros_node('/sim')),
+            RUNNING,
+            'n-1 still runs; the node /sim is not there; there are /robot/sim',
+        ),
+    ],
+)
+def test_what_is_lacking_and_what_is_there_instead(condition, state, text):
+    paths = {'/dev/ttyUSB0': PathLook(False, frozenset({'ttyUSB1', 'null'}))}
+    assert lack(condition, state, graph=GRAPH, paths=paths) == text
+
+
+def test_many_names_are_cut_to_the_nearest():
+    graph = Graph(services={f'/s{n}/list' for n in range(20)} | {'/listen'})
+    text = lack(service('/list'), graph=graph)
+    assert text.startswith('the service /list is not there; there are /listen, ')
+    assert text.endswith(' and 13 more')
+
+
+def test_words():
+    node = exited_cleanly(NODE)
+    words = any_of(after(2, node), all_of(topic('/odom', 'a/msg/B'), path_exists('/dev/x')))
+    assert words.describe(name) == (
+        '(2 s have passed since n-1 exited with code 0 or '
+        'somebody publishes /odom (a/msg/B) and /dev/x is there)'
+    )
