@@ -173,6 +173,14 @@ MASS = {
         f'<link name="a">\n{SOLID.replace("0.1", "0")}</link>',
         'f:3: link "a": the inertia is not positive definite: found principal moments 0, 0, 0 kg',
     ),
+    'tiny': (
+        f'<link name="a">\n{SOLID.replace('value="1"', 'value="1e-15"')}</link>',
+        'f:3: link "a": mass: found 1e-15 kg, expected more than 1e-14 and',
+    ),
+    'tiny inertia': (
+        f'<link name="a">\n{SOLID.replace("0.1", "1e-15")}</link>',
+        'f:3: link "a": the inertia is too small for any solver: found principal moments 1e-15,',
+    ),
     'triangle': (
         f'<link name="a">\n{SOLID.replace('izz="0.1"', 'izz="0.3"')}</link>',
         'f:3: link "a": no body has this inertia: found principal moments 0.1, 0.1, 0.3 kg',
@@ -206,6 +214,11 @@ WITHOUT_MASS_AND_RIGHT = {
         + joint_text('a', 'b')
     ),
 }
+
+
+def test_a_grain_of_dust_is_a_robot():
+    dust = SOLID.replace('value="1"', 'value="1e-11"').replace('0.1', '1e-13')
+    assert errors(robot_text(f'<link name="a">{dust}</link>')) == []
 
 
 @pytest.mark.parametrize('body', WITHOUT_MASS_AND_RIGHT.values(), ids=WITHOUT_MASS_AND_RIGHT)

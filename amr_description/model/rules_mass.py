@@ -18,6 +18,8 @@ from amr_description.model.subject import Subject
 _ROUNDING = 0.01
 # kg and kg·m²; beyond it no solver finds its way.
 _HEAVIEST, _LARGEST_MOMENT = 1e9, 1e12
+# kg and kg·m²; ten times what MuJoCo takes at least, and nothing that anybody weighs.
+_LIGHTEST, _SMALLEST_MOMENT = 1e-14, 1e-14
 _FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
 
 
@@ -65,14 +67,15 @@ def base_has_mass(subject: Subject) -> Iterator[Finding]:
 def mass_is_positive(subject: Subject) -> Iterator[Finding]:
     """Mass is above 0, and that of a thing on earth."""
     for link in subject.robot.links:
-        if link.inertial is None or 0.0 < link.inertial.mass < _HEAVIEST:
+        if link.inertial is None or _LIGHTEST < link.inertial.mass < _HEAVIEST:
             continue
         if not math.isnan(link.inertial.mass):
+            least = _LIGHTEST if 0.0 < link.inertial.mass < _HEAVIEST else 0.0
             yield subject.error(
                 link.inertial.line,
                 f'link {quote(link.name)}: mass',
                 found=f'{link.inertial.mass:g} kg',
-                expected=f'more than 0 and less than {_HEAVIEST:g}',
+                expected=f'more than {least:g} and less than {_HEAVIEST:g}',
             )
 
 
@@ -94,6 +97,13 @@ def inertia_is_possible(subject: Subject) -> Iterator[Finding]:
                 f'link {quote(link.name)}: the inertia is not positive definite',
                 found=found,
                 expected='each above 0',
+            )
+        elif low < _SMALLEST_MOMENT:
+            yield subject.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: the inertia is too small for any solver',
+                found=found,
+                expected=f'each above {_SMALLEST_MOMENT:g}',
             )
         elif high > (low + middle) * (1.0 + _ROUNDING) or high > _LARGEST_MOMENT:
             yield subject.error(

@@ -6,6 +6,8 @@ import mujoco
 import numpy as np
 
 from amr_description.errors import SimulationError
+from amr_description.sim.compiling import compiler_warnings
+from amr_description.sim.spawning import say_nothing
 from amr_description.sim.stepping import LONGEST_STEP
 
 NANOSECONDS = 1_000_000_000
@@ -71,7 +73,8 @@ class Engine:
 
     def recompile(self) -> None:
         """Follow the edits of ``spec``, keeping state and time. Raises ValueError, unchanged."""
-        self.model, self.data = self.spec.recompile(self.model, self.data)
+        with compiler_warnings(say_nothing, ''):  # told of the world and of each robot by itself
+            self.model, self.data = self.spec.recompile(self.model, self.data)
         self.generation += 1
 
     def reset(self) -> None:

@@ -17,6 +17,7 @@ import mujoco
 import numpy as np
 
 from amr_description.control.contracts import Log, Severity
+from amr_description.sim.compiling import one_line
 from amr_description.sim.engine import Engine, NANOSECONDS
 from amr_description.sim.fault_causes import (
     dof_of_position,
@@ -51,11 +52,6 @@ _QUANTITY = {'QPOS': 'position', 'QVEL': 'velocity', 'QACC': 'acceleration', 'CT
 def listen_to_mujoco() -> None:
     """Have MuJoCo's warnings collected, of all worlds in this process."""
     mujoco.set_mju_user_warning(_warnings.append)
-
-
-def one_line(text: str) -> str:
-    """MuJoCo's message without its line breaks and its leading ``Error:``."""
-    return ' '.join(text.split()).removeprefix('Error: ')
 
 
 class FaultMonitor:

@@ -19,12 +19,12 @@ from amr_description.control.contracts import Log
 from amr_description.control.interfaces import EFFORT, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.findings import raise_error
-from amr_description.model.robot import Robot, WORLD_LINK
+from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_wheels, Wheel
 from amr_description.model.xml_source import parse_xml
 from amr_description.sim.actuators import add_actuators
-from amr_description.sim.faults import one_line
+from amr_description.sim.compiling import compiler_warnings, one_line
 from amr_description.sim.initial_state import initial_states, JointState
 from amr_description.sim.link_friction import (
     link_frictions,
@@ -37,6 +37,9 @@ from amr_description.sim.spawning import SpawnCode
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """A mimic joint follows as if by gears."""
+
+LEAST_RANGE = 2e-6
+"""rad or m; the range of a joint whose lower limit is its upper one."""
 
 _DRIVING = {VELOCITY, EFFORT}
 """The command interfaces by which a wheel is driven."""
@@ -87,6 +90,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         commands[joint.name] = commands.get(joint.name, ()) + names
     try:
         spec = mujoco.MjSpec.from_string(_prepared_xml(robot, log))
+        _loosen_floating_links(spec, robot)
         if robot.root.name != WORLD_LINK:
             spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
         for joint, interfaces in commands.items():
@@ -101,7 +105,8 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         make_slippery(spec, link_frictions(robot, log))
         _exclude_self_collision(spec, robot)
         # Tried alone first, so that a robot that MuJoCo refuses never touches the world.
-        spec.copy().compile()
+        with compiler_warnings(log, robot.source):
+            spec.copy().compile()
     except ValueError as cause:
         raise SpawnError(
             f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
@@ -127,8 +132,38 @@ def _prepared_xml(robot: Robot, log: Log) -> str:
     for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
         # MuJoCo would name its geoms so, and refuse a name that a visual and a collision share.
         shape.attrib.pop('name', None)
+    for joint in robot.joints:
+        if joint.limit is not None and joint.limit.lower == joint.limit.upper:
+            _keep_limit(root, joint)
     resolve_meshes(root, robot.source, log)
     return etree.tostring(root, encoding='unicode')
+
+
+def _keep_limit(root: etree._Element, joint: Joint) -> None:
+    """A range of nothing is one that MuJoCo leaves out, so that the joint would move freely."""
+    assert joint.limit is not None
+    for element in root.iterfind('joint'):
+        if element.get('name') == joint.name:
+            limit = element.find('limit')
+            limit.set('lower', repr(joint.limit.lower - LEAST_RANGE / 2.0))
+            limit.set('upper', repr(joint.limit.upper + LEAST_RANGE / 2.0))
+
+
+def _loosen_floating_links(spec: mujoco.MjSpec, robot: Robot) -> None:
+    """
+    Let a floating joint below another link be three slides and a ball.
+
+    MuJoCo has free joints below the world alone. The motion is the same.
+    """
+    for joint in robot.joints:
+        if joint.type is not JointType.FLOATING or joint.parent == WORLD_LINK:
+            continue
+        spec.delete(spec.joint(joint.name))
+        link = spec.body(joint.child)
+        for name, axis in zip('xyz', ((1, 0, 0), (0, 1, 0), (0, 0, 1)), strict=True):
+            slide = mujoco.mjtJoint.mjJNT_SLIDE
+            link.add_joint(name=f'{joint.name}/{name}', type=slide, axis=axis)
+        link.add_joint(name=f'{joint.name}/ball', type=mujoco.mjtJoint.mjJNT_BALL)
 
 
 def _couple_mimics(spec: mujoco.MjSpec, independent: Collection[str]) -> None:

@@ -19,9 +19,11 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
+from amr_description.sim.compiling import compiler_warnings
 from amr_description.sim.contact import add_wheel_contact, ContactSettings
 from amr_description.sim.faults import listen_to_mujoco
 from amr_description.sim.robot_spec import RobotSpec, tread_name
+from amr_description.sim.spawning import say_nothing
 from amr_description.sim.world_settings import apply_settings, WorldSettings
 
 type Contacts = Mapping[str, ContactSettings]
@@ -67,7 +69,8 @@ def _rest_heights(
     round_ones = [*(tread_name(wheel.link) for wheel in model.wheels), *model.balls]
     for geom in round_ones:
         add_wheel_contact(spec, f'robot/{geom}', ground, settings)
-    compiled = spec.compile()
+    with compiler_warnings(say_nothing, ''):  # told when the robot was built
+        compiled = spec.compile()
     data = mujoco.MjData(compiled)
     _set_down(compiled, data, model)
     # What goes wrong here goes wrong in the world too, and is told then.

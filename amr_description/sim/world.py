@@ -20,9 +20,10 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
+from amr_description.sim.compiling import compiler_warnings, one_line
 from amr_description.sim.contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
 from amr_description.sim.engine import Engine
-from amr_description.sim.faults import FaultMonitor, listen_to_mujoco, one_line
+from amr_description.sim.faults import FaultMonitor, listen_to_mujoco
 from amr_description.sim.overlap import refuse_overlap
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
@@ -65,7 +66,8 @@ class MujocoWorld:
         settings and file allow, unless given. Raises SimulationError.
         """
         listen_to_mujoco()
-        spec = load_world(world, settings)
+        with compiler_warnings(log, f"world '{world}'"):
+            spec = load_world(world, settings)
         self.longest_step = longest_step(spec, settings)
         """The longest physics step that settings and file allow, ns."""
         if self.longest_step > LONGEST_STEP:
@@ -78,8 +80,9 @@ class MujocoWorld:
         self._contact = contact
         self._contacts: dict[str, Contacts] = {}
         try:
-            self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
-            """Model and data, for this package and its tests."""
+            with compiler_warnings(log, f"world '{world}'"):
+                self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
+                """Model and data, for this package and its tests."""
         except ValueError as cause:
             raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
         self._log = log

@@ -8,8 +8,8 @@ import math
 import mujoco
 
 from amr_description.errors import SimulationError
+from amr_description.sim.compiling import one_line
 from amr_description.sim.engine import NANOSECONDS
-from amr_description.sim.faults import one_line
 from amr_description.sim.resources import world_path
 from amr_description.sim.silent_friction import fill_in_friction
 from amr_description.sim.world_settings import apply_settings, WorldSettings
