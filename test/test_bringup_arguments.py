@@ -6,7 +6,14 @@ from typing import Annotated, Literal
 
 import pytest
 
-from amr_description.bringup.arguments import Argument, declared, parse, resolve, show
+from amr_description.bringup.arguments import (
+    Argument,
+    declared,
+    parse,
+    resolve,
+    show,
+    with_arguments_of,
+)
 from amr_description.errors import BringupError, UsageError
 
 
@@ -104,3 +111,20 @@ def test_show_args_reads_as_launch_prints_it():
         "        (default: 'empty')\n"
     )
     assert show([]) == "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
+
+
+def test_a_stack_may_take_the_arguments_of_another_one():
+    @with_arguments_of(stack)
+    def around(rtf: float = 0.5, rounds: Annotated[int, 'how often'] = 2, **others):
+        return rtf, rounds, others
+
+    own = {argument.name: argument for argument in declared(around)}
+    inner = {argument.name: argument for argument in declared(stack)}
+    assert own == {
+        **inner,
+        'rtf': Argument('rtf', float, '0.5'),
+        'rounds': Argument('rounds', int, '2', (), 'how often'),
+    }
+    values = resolve(declared(around), parse(['needed:=a', 'rounds:=5']))
+    others = {'needed': 'a', 'count': 3, 'gui': True, 'world': 'empty', 'plain': 'x'}
+    assert around(**values) == (0.5, 5, others)

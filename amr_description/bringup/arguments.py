@@ -58,6 +58,32 @@ def declared(function: Callable[..., object]) -> list[Argument]:
     ]
 
 
+def with_arguments_of[F: Callable[..., object]](other: Callable[..., object]) -> Callable[[F], F]:
+    """
+    Have a stack's function take, for its ``**others``, the arguments of another stack.
+
+    ::
+
+        @with_arguments_of(simulation)
+        def patrol(rounds: int = 3, **others: Any) -> Stack:
+            robot = simulation(**others)
+    """
+
+    def decorate(function: F) -> F:
+        own = inspect.signature(function)
+        given = inspect.signature(other).parameters | own.parameters
+        parameters = [
+            parameter.replace(kind=parameter.KEYWORD_ONLY)
+            for parameter in given.values()
+            if parameter.kind is not parameter.VAR_KEYWORD
+        ]
+        function.__signature__ = own.replace(parameters=parameters)
+        function.__annotations__ = {**other.__annotations__, **function.__annotations__}
+        return function
+
+    return decorate
+
+
 def _argument(parameter: inspect.Parameter, hint: Any) -> Argument:
     help_text = ''
     if get_origin(hint) is Annotated:

@@ -7,5 +7,6 @@ STACKS = {
     'mock': 'amr_description.bringup.stacks.hardware:mock',
     'serial': 'amr_description.bringup.stacks.hardware:serial',
     'simulation': 'amr_description.bringup.stacks.simulation:simulation',
+    'teleop': 'amr_description.bringup.stacks.teleop:teleop',
 }
 """Name -> ``module:function``; the function's parameters are the arguments of the stack."""
