@@ -1,0 +1,84 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** A robot in the scene: its view, its trails, and which frames of TF are its links. */
+import { Matrix4, Vector3 } from 'three';
+import type { Model } from '../protocol';
+import type { RobotState } from '../state';
+import type { Body, Placement } from './placement';
+import { RobotView, type RobotEvents } from './robot';
+import { Trails } from './trails';
+import { readPose, type FrameTree } from './tree';
+
+export class RobotEntry {
+  readonly view: RobotView;
+  readonly trails: Trails;
+  /** Its largest extent, m. */
+  size = 0;
+  body: Body | null = null;
+  private state: RobotState | null = null;
+
+  /** `before`: what this one replaces; the trails go on. */
+  constructor(readonly id: string, model: Model, events: RobotEvents, before?: RobotEntry) {
+    this.view = new RobotView(model, events);
+    this.trails = before?.trails ?? new Trails();
+    this.measure();
+  }
+
+  /** Take over what a state says of it; `joints` as the layout has them. */
+  read(tree: FrameTree, joints: readonly string[], state: RobotState | null): void {
+    this.state = state;
+    const prefix = this.prefixIn(tree);
+    if (state !== null) {
+      this.view.setJoints(joints, state.positions);
+    }
+    this.readUnknownJoints(tree, prefix, new Map(joints.map((name, at) => [name, at])));
+    const links = new Map<string, Matrix4>();
+    this.view.linkPoses().forEach((pose, link) => links.set(prefix + link, pose));
+    const truth = state && readPose(state.truth, 0, new Matrix4());
+    this.body = { base: prefix + this.view.base, truth, links };
+  }
+
+  /** Put it where it is; `world`: where that is. */
+  place(placement: Placement, world: Matrix4 | null, withTrails: boolean): void {
+    const pose = this.body && placement.poseOfBody(this.body);
+    this.view.place(pose);
+    const odometry = this.state && readPose(this.state.odometry, 0, new Matrix4());
+    const frame = this.trails.isAnchored
+      ? world
+      : pose && odometry && pose.clone().multiply(odometry.invert());
+    this.trails.place(frame, withTrails);
+  }
+
+  /** Find its size anew. */
+  measure(): void {
+    const { x, y, z } = this.view.bounds().getSize(new Vector3());
+    this.size = Number.isFinite(x) ? Math.max(x, y, z) : 0;
+  }
+
+  dispose(): void {
+    this.view.dispose();
+    this.trails.dispose();
+  }
+
+  /** Links are frames of the same name, in a namespace often behind "<namespace>/". */
+  private prefixIn(tree: FrameTree): string {
+    const namespace = this.id.replace(/^\//, '');
+    const own = namespace && `${namespace}/`;
+    const isPlain = !tree.has(own + this.view.base) && tree.has(this.view.base);
+    return isPlain ? '' : own;
+  }
+
+  /** Joints that nobody tells the positions of are where TF has their links. */
+  private readUnknownJoints(
+    tree: FrameTree, prefix: string, places: ReadonlyMap<string, number>,
+  ): void {
+    for (const { link, parent, joint } of this.view.movingLinks) {
+      const position = this.state?.positions[places.get(joint) ?? -1];
+      const local = tree.localOf(prefix + link);
+      const isTold = position !== undefined && Number.isFinite(position);
+      if (!isTold && local !== null && tree.parentOf(prefix + link) === prefix + parent) {
+        this.view.setLinkPose(link, local);
+      }
+    }
+  }
+}

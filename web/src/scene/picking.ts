@@ -1,0 +1,69 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Clicks, as distinct from drags: which link of which robot is under them. */
+import { Raycaster, Vector2 } from 'three';
+import type { Camera } from 'three';
+import type { RobotView } from './robot';
+
+const STILL = 5; // CSS pixels; a pointer that moves further drags
+const SHORT = 500; // ms
+
+export interface Picked {
+  robot: string;
+  link: string | null;
+}
+
+export class Picking {
+  private readonly caster = new Raycaster();
+  private readonly abort = new AbortController();
+  private down: { x: number; y: number; time: number; id: number } | null = null;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly camera: Camera,
+    private readonly views: () => Iterable<[string, RobotView]>,
+    private readonly picked: (what: Picked | null) => void,
+  ) {
+    const { signal } = this.abort;
+    canvas.addEventListener('pointerdown', (event) => this.onDown(event), { signal });
+    canvas.addEventListener('pointerup', (event) => this.onUp(event), { signal });
+  }
+
+  dispose(): void {
+    this.abort.abort();
+  }
+
+  private onDown(event: PointerEvent): void {
+    const { clientX: x, clientY: y, timeStamp: time, pointerId: id } = event;
+    this.down = event.button === 0 && event.isPrimary ? { x, y, time, id } : null;
+  }
+
+  private onUp({ clientX, clientY, timeStamp, pointerId }: PointerEvent): void {
+    const { down } = this;
+    this.down = null;
+    if (down?.id !== pointerId || timeStamp - down.time > SHORT) {
+      return;
+    }
+    if (Math.hypot(clientX - down.x, clientY - down.y) <= STILL) {
+      this.picked(this.at(clientX, clientY));
+    }
+  }
+
+  /** The nearest link under a point of the page. */
+  private at(clientX: number, clientY: number): Picked | null {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const x = ((clientX - left) / width) * 2 - 1;
+    const y = 1 - ((clientY - top) / height) * 2;
+    this.caster.setFromCamera(new Vector2(x, y), this.camera);
+    let nearest = Infinity;
+    let found: Picked | null = null;
+    for (const [robot, view] of this.views()) {
+      const [hit] = view.object.visible ? this.caster.intersectObjects(view.visuals(), false) : [];
+      if (hit !== undefined && hit.distance < nearest) {
+        nearest = hit.distance;
+        found = { robot, link: view.linkOf(hit.object) };
+      }
+    }
+    return found;
+  }
+}

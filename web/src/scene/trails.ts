@@ -1,0 +1,151 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The trails of a robot: where it truly went, and where its odometry says it went. */
+import {
+  Color,
+  DynamicDrawUsage,
+  Group,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
+  Matrix4,
+} from 'three';
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+import type { RobotState } from '../state';
+import { ODOMETRY_COLOUR, TRUTH_COLOUR } from './theme';
+import { Trail } from './trail';
+import { readPose } from './tree';
+
+const WIDTH = 3; // CSS pixels
+const LIFT = 0.004; // m, so that a trail on the ground is seen
+const JUMP = 0.5; // m at once, beyond what speed explains: it was put there
+const FASTEST = 10; // m/s
+
+/** A trail, drawn. */
+class TrailLine {
+  readonly trail = new Trail();
+  readonly object: LineSegments2;
+  private readonly buffer: InstancedInterleavedBuffer;
+  private readonly geometry = new LineSegmentsGeometry();
+
+  constructor(colour: string, private readonly lift: number) {
+    // Each point is the end of one segment and the start of the next: the two overlap.
+    const { points } = this.trail;
+    this.buffer = new InstancedInterleavedBuffer(points, 3, 1).setUsage(DynamicDrawUsage);
+    this.geometry.setAttribute('instanceStart', new InterleavedBufferAttribute(this.buffer, 3, 0));
+    this.geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(this.buffer, 3, 3));
+    this.buffer.onUpload(() => this.trail.markDrawn());
+    const material = new LineMaterial({ color: new Color(colour).getHex(), linewidth: WIDTH });
+    material.polygonOffset = true;
+    material.polygonOffsetFactor = material.polygonOffsetUnits = -2;
+    this.object = new LineSegments2(this.geometry, material);
+    this.object.frustumCulled = false;
+    this.object.raycast = () => {};
+    this.draw();
+  }
+
+  add(x: number, y: number, z: number): void {
+    if (this.trail.add(x, y, z + this.lift)) {
+      this.draw();
+    }
+  }
+
+  clear(): void {
+    this.trail.clear();
+    this.draw();
+  }
+
+  dispose(): void {
+    this.geometry.dispose();
+    this.object.material.dispose();
+  }
+
+  private draw(): void {
+    const { count, firstChanged } = this.trail;
+    this.geometry.instanceCount = Math.max(0, count - 1);
+    this.object.visible = count > 1;
+    this.buffer.clearUpdateRanges();
+    this.buffer.addUpdateRange(3 * firstChanged, 3 * (count - firstChanged));
+    this.buffer.needsUpdate = true;
+  }
+}
+
+/**
+ * Both trails of one robot.
+ *
+ * Odometry begins anywhere; its trail is anchored where the two agreed first, so that what lies
+ * between them is the drift: T_world_odom = T_world_base · T_odom_base⁻¹.
+ */
+export class Trails {
+  /** In `world`, or without truth in the frame of the odometry. */
+  readonly object = new Group();
+  private readonly truth = new TrailLine(TRUTH_COLOUR, LIFT);
+  private readonly odometry = new TrailLine(ODOMETRY_COLOUR, 2 * LIFT);
+  private anchor: Matrix4 | null = null;
+  private last: { x: number; y: number; z: number; time: number } | null = null;
+
+  constructor() {
+    this.object.matrixAutoUpdate = false;
+    this.odometry.object.matrixAutoUpdate = false;
+    this.object.add(this.truth.object, this.odometry.object);
+  }
+
+  /** Whether there is a truth, and the trails are in `world`. */
+  get isAnchored(): boolean {
+    return this.anchor !== null;
+  }
+
+  /** Go on; `time` in s. */
+  add(state: RobotState, time: number): void {
+    const truth = readPose(state.truth, 0, new Matrix4());
+    const odometry = readPose(state.odometry, 0, new Matrix4());
+    if (truth !== null && this.hasJumped(state.truth, time)) {
+      this.clear();
+    }
+    if (truth !== null && odometry !== null && this.anchor === null) {
+      this.odometry.clear(); // what came before the truth did is in another frame
+      this.anchor = truth.clone().multiply(odometry.clone().invert());
+      this.odometry.object.matrix.copy(this.anchor);
+    }
+    if (truth !== null) {
+      const [x, y, z] = state.truth;
+      this.truth.add(x, y, z);
+      this.last = { x, y, z, time };
+    }
+    if (odometry !== null) {
+      const [x, y, z] = state.odometry;
+      this.odometry.add(x, y, z);
+    }
+  }
+
+  /** Put `world`, or the odometry's frame, somewhere; null: hide them. */
+  place(pose: Matrix4 | null, shown: boolean): void {
+    this.object.visible = shown && pose !== null;
+    if (pose !== null) {
+      this.object.matrix.copy(pose);
+      this.object.matrixWorldNeedsUpdate = true;
+    }
+  }
+
+  clear(): void {
+    this.truth.clear();
+    this.odometry.clear();
+    this.odometry.object.matrix.identity();
+    this.anchor = this.last = null;
+  }
+
+  dispose(): void {
+    this.object.removeFromParent();
+    this.truth.dispose();
+    this.odometry.dispose();
+  }
+
+  private hasJumped([x, y, z]: Float32Array, time: number): boolean {
+    if (this.last === null) {
+      return false;
+    }
+    const distance = Math.hypot(x - this.last.x, y - this.last.y, z - this.last.z);
+    return distance > JUMP + FASTEST * Math.abs(time - this.last.time);
+  }
+}
