@@ -28,7 +28,9 @@ await esbuild.build({
   legalComments: 'linked', // the licences of three, urdf-loader and uPlot go with the page
   logLevel: 'warning',
 });
-await copyFile(path.join(here, 'src', 'index.html'), path.join(out, 'index.html'));
+for (const name of ['index.html', 'icon.svg']) {
+  await copyFile(path.join(here, 'src', name), path.join(out, name));
+}
 await writeFile(path.join(out, 'sources.sha256'), `${await digestOfSources()}\n`);
 
 /** One digest over all that the page is built from: "<digest of the file>  <path>" a line, sorted. */

@@ -39,6 +39,10 @@ export class Store {
   readonly drivers = new Map<string, string | null>();
   readonly notices: NoticeEntry[] = []; // the latest first
 
+  /** Called with each model and each world, as the scene takes them one by one. */
+  onModel: (model: Model) => void = () => {};
+  onWorld: (world: World) => void = () => {};
+
   private chosen: string | null = null;
   private readonly listeners = new Map<Topic, Set<() => void>>();
 
@@ -123,9 +127,11 @@ export class Store {
         return this.setGraph(message);
       case 'model':
         this.models.set(message.robot, message);
+        this.onModel(message);
         return this.tell('model');
       case 'world':
         this.worlds.set(message.simulator, message);
+        this.onWorld(message);
         return this.tell('world');
       case 'layout':
         this.layout = message;

@@ -164,9 +164,9 @@ test('a closed connection lets go', () => {
 test('when somebody else stops our robot, a held key does not drive on', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);
-  pilot.hearDriver(true);
+  pilot.hearDriver('me');
   outside.pass(1000);
-  pilot.hearDriver(false);
+  pilot.hearDriver('nobody');
   const count = outside.sent.length;
   outside.pass(1000);
   assert.equal(pilot.driving, false);
@@ -176,13 +176,43 @@ test('when somebody else stops our robot, a held key does not drive on', () => {
 test('the answer to our own stop does not take the wheel from the next press', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);
-  pilot.hearDriver(true);
+  pilot.hearDriver('me');
   pilot.set('keys', null);
   pilot.set('keys', LEFT);
   outside.pass(30);
-  pilot.hearDriver(false);
-  pilot.hearDriver(true);
+  pilot.hearDriver('nobody');
+  pilot.hearDriver('me');
   assert.equal(pilot.driving, true);
+});
+
+test('what another page drives is not driven from here, and it is said once', () => {
+  const { outside, pilot } = piloting();
+  let refusals = 0;
+  pilot.onRefused = () => {
+    refusals += 1;
+  };
+  pilot.hearDriver('other');
+  pilot.set('stick', AHEAD);
+  pilot.set('stick', LEFT);
+  outside.pass(1000);
+  assert.deepEqual(outside.sent, []);
+  assert.equal(refusals, 1);
+  pilot.hearDriver('nobody');
+  pilot.set('stick', AHEAD);
+  assert.deepEqual(outside.sent, [], 'held from before');
+  pilot.set('stick', null);
+  pilot.set('stick', AHEAD);
+  assert.equal(outside.last?.type, 'drive');
+});
+
+test('when another page takes the wheel, ours lets go without a stop', () => {
+  const { outside, pilot } = piloting();
+  pilot.set('keys', AHEAD);
+  pilot.hearDriver('me');
+  pilot.hearDriver('other');
+  outside.pass(1000);
+  assert.equal(outside.sent.length, 1);
+  assert.equal(pilot.driving, false);
 });
 
 test('driving another robot stops the one before', () => {

@@ -14,6 +14,9 @@ const LEAST_GAP = 1000 / 60; // ms between two `drive`
 const REPEAT = 1000 / 30; // ms
 const OWN_STOP = 500; // ms in which "nobody drives" is the answer to a stop of our own
 
+/** Who has the wheel of a robot. */
+export type Wheel = 'me' | 'other' | 'nobody';
+
 /** What a pilot needs of the world outside. */
 export interface PilotPort {
   send(message: Drive | Stop): boolean; // false: the connection is not open
@@ -25,13 +28,15 @@ export class Pilot {
   limits: Limits = { linear: 0.5, angular: 1.0 };
   /** Called when what is asked of the robot changes. */
   onChange: (velocity: Velocity | null) => void = () => {};
+  /** Called when a hand wants to drive what another page drives. */
+  onRefused: () => void = () => {};
 
   private robot: string | null = null;
   private readonly hands = new Map<string, Demand>();
   private readonly blocked = new Set<string>(); // hands that must let go before they count again
   private sentAt = -Infinity;
   private stoppedAt = -Infinity;
-  private mine = false; // the node has said that this page drives
+  private driver: Wheel = 'nobody'; // as the node has said
   private cancel: (() => void) | null = null;
 
   constructor(private readonly port: PilotPort) {}
@@ -68,7 +73,12 @@ export class Pilot {
       if (this.hands.delete(hand)) {
         this.changed();
       }
-    } else if (!this.blocked.has(hand) && !same(this.hands.get(hand), demand)) {
+    } else if (this.blocked.has(hand)) {
+      return;
+    } else if (this.driver === 'other') {
+      this.blocked.add(hand);
+      this.onRefused();
+    } else if (!same(this.hands.get(hand), demand)) {
       this.hands.set(hand, demand);
       this.changed();
     }
@@ -101,13 +111,13 @@ export class Pilot {
   }
 
   /**
-   * The node says who drives our robot. If that was us and we did not give the wheel back,
+   * The node says who drives our robot. If that was us, and we did not give the wheel back,
    * somebody stopped the robot, and a hand that still holds must not drive on.
    */
-  hearDriver(me: boolean): void {
-    const lost = this.mine && !me && this.port.now() - this.stoppedAt > OWN_STOP;
-    this.mine = me;
-    if (lost) {
+  hearDriver(driver: Wheel): void {
+    const stopped = this.driver === 'me' && this.port.now() - this.stoppedAt > OWN_STOP;
+    this.driver = driver;
+    if (driver === 'other' || (driver === 'nobody' && stopped)) {
       this.halt();
     }
   }

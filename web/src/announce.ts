@@ -1,0 +1,49 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Says what happened: to the eye for some seconds, to a screen reader in a live region. */
+import type { Store } from './store';
+import { button, h, setText } from './dom';
+
+const SHOWN = { info: 5000, warning: 9000, error: 12000 } as const; // ms
+const MOST = 3;
+
+export function announce(store: Store): HTMLElement {
+  const live = h('div', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
+  const toasts = h('div', { class: 'toasts' });
+  let heard = store.notices[0];
+  let count = heard?.count ?? 0;
+
+  store.watch(['notice'], () => {
+    const [latest] = store.notices;
+    if (latest !== undefined && (latest !== heard || latest.count !== count)) {
+      const repeated = latest === heard;
+      heard = latest;
+      count = latest.count;
+      if (repeated) {
+        toasts.firstElementChild?.remove();
+      }
+      toasts.prepend(toast(latest.level, latest.text));
+      setText(live, latest.text);
+      while (toasts.childElementCount > MOST) {
+        toasts.lastElementChild?.remove();
+      }
+    }
+  });
+  store.watch(['link'], () => {
+    const words = { connecting: '', open: 'Connected.', waiting: 'The connection was lost.' };
+    setText(live, words[store.link.state]);
+  });
+  store.watch(['driver', 'robot'], () => {
+    const { driver } = store;
+    setText(live, driver === null ? '' : driver.me ? 'You drive.' : `${driver.name} drives.`);
+  });
+  return h('div', { class: 'announce' }, live, toasts);
+}
+
+function toast(level: 'info' | 'warning' | 'error', text: string): HTMLElement {
+  const element = h('div', { class: 'toast', 'data-tone': level }, h('p', {}, text));
+  const remove = (): void => element.remove();
+  element.append(button('', remove, { icon: 'close', kind: 'quiet', title: 'Dismiss' }));
+  setTimeout(remove, SHOWN[level]);
+  return element;
+}

@@ -1,0 +1,59 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The keyboard as a hand: hold to drive, let go to stop; Space and Escape stop everything. */
+import { takesKey } from '../dom';
+import { fromKeys, isDriveKey } from './mixing';
+import type { Pilot } from './pilot';
+
+const MODIFIERS = new Set(['MetaLeft', 'MetaRight', 'ControlLeft', 'ControlRight', 'AltLeft']);
+
+export function listenToKeys(pilot: Pilot): void {
+  const down = new Set<string>();
+  const tell = (): void => pilot.set('keys', down.size === 0 ? null : fromKeys(down));
+
+  window.addEventListener('keydown', (event) => {
+    if (event.code === 'Escape' || (event.code === 'Space' && isStop(event, pilot))) {
+      event.preventDefault();
+      pilot.stop();
+    } else if (MODIFIERS.has(event.code)) {
+      // While ⌘ is down, macOS never says that another key went up.
+      down.clear();
+      tell();
+    } else if (isDriveKey(event.code) && isForDriving(event)) {
+      event.preventDefault(); // arrows would scroll a panel
+      if (!event.repeat) {
+        down.add(event.code);
+        tell();
+      }
+    }
+  });
+  window.addEventListener('keyup', (event) => {
+    if (down.delete(event.code)) {
+      tell();
+    }
+  });
+  const forget = (): void => {
+    pilot.release();
+    down.clear();
+    tell();
+  };
+  window.addEventListener('blur', forget);
+  window.addEventListener('pagehide', forget);
+  document.addEventListener('visibilitychange', () => {
+    if (document.hidden) {
+      forget();
+    }
+  });
+}
+
+function isForDriving(event: KeyboardEvent): boolean {
+  const modified = event.ctrlKey || event.metaKey || event.altKey;
+  return !modified && !takesKey(event.target, event.code);
+}
+
+/** Space is for a button that has the focus, but never while the robot drives. */
+function isStop(event: KeyboardEvent, pilot: Pilot): boolean {
+  const target = event.target;
+  const busy = target instanceof HTMLElement && target.closest('button, a, summary, label') !== null;
+  return pilot.driving || !(busy || takesKey(target, event.code));
+}

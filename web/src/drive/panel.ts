@@ -1,0 +1,164 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Where one drives: the stick, the limits, who drives, how fast it goes, and the big stop. */
+import type { App, Panel } from '../app';
+import { h, setText } from '../dom';
+import { fixed } from '../format';
+import { robotOf, SOURCES, velocityOf, type Source } from '../readings';
+import { recallNumber, remember } from '../remember';
+import type { State } from '../state';
+import { Joystick } from './joystick';
+import type { Limits, Velocity } from './mixing';
+import type { Pilot } from './pilot';
+
+const WORDS: Record<Source, string> = { command: 'Command', odometry: 'Odometry', truth: 'Truth' };
+const LIMITS = {
+  linear: { label: 'Speed', unit: 'm/s', least: 0.05, most: 2, step: 0.05, usual: 0.5 },
+  angular: { label: 'Turn', unit: 'rad/s', least: 0.1, most: 4, step: 0.1, usual: 1 },
+} as const;
+
+export class DrivePanel implements Panel {
+  readonly id = 'drive';
+  readonly title = 'Drive';
+  readonly element: HTMLElement;
+  readonly joystick: Joystick;
+  private readonly who = h('span', { class: 'chip' });
+  private readonly topic = h('p', { class: 'fine' });
+  private readonly pad = h('span', { class: 'fine' });
+  private readonly cells = new Map<Source, { linear: HTMLElement; angular: HTMLElement }>();
+
+  constructor(private readonly app: App) {
+    this.joystick = new Joystick(app.pilot);
+    app.pilot.limits = {
+      linear: remembered('linear'),
+      angular: remembered('angular'),
+    };
+    this.element = h(
+      'section',
+      { class: 'drive', 'aria-label': 'Drive' },
+      h('header', { class: 'drive-head' }, h('h2', {}, 'Drive'), this.who),
+      this.joystick.element,
+      this.readout(),
+      h('div', { class: 'drive-limits' }, this.limit('linear'), this.limit('angular')),
+      stopButton(app.pilot),
+      h('div', { class: 'drive-notes' }, keysHint(), this.pad, this.topic),
+    );
+    app.store.watch(['graph', 'robot', 'driver', 'link', 'hello'], () => this.showWho());
+    app.pilot.onChange = (velocity) => this.showAsked(velocity);
+  }
+
+  pulse(state: State): void {
+    const robot = robotOf(state, this.app.store.robot?.id);
+    for (const source of SOURCES) {
+      const cells = this.cells.get(source);
+      const velocity = robot === null ? null : velocityOf(robot, source);
+      if (cells !== undefined) {
+        setText(cells.linear, fixed(velocity?.linear, 2));
+        setText(cells.angular, fixed(velocity?.angular, 2));
+      }
+    }
+  }
+
+  /** Name the gamepad that can drive. */
+  showPad(name: string | null): void {
+    setText(this.pad, name === null ? '' : `Gamepad: ${name}`);
+  }
+
+  private showAsked(velocity: Velocity | null): void {
+    const { linear, angular } = this.app.pilot.limits;
+    this.joystick.show({
+      forward: (velocity?.linear ?? 0) / linear,
+      turn: (velocity?.angular ?? 0) / angular,
+    });
+    this.element.classList.toggle('driving', velocity !== null);
+    document.documentElement.classList.toggle('driven', velocity !== null || this.drove());
+  }
+
+  private drove(): boolean {
+    return document.documentElement.classList.contains('driven');
+  }
+
+  private showWho(): void {
+    const { store } = this.app;
+    const command = store.robot?.command ?? null;
+    const driver = store.driver;
+    const word =
+      driver === null ? 'Nobody drives' : driver.me ? 'You drive' : `${driver.name} drives`;
+    setText(this.who, word);
+    this.who.dataset.tone = driver === null ? 'calm' : driver.me ? 'good' : 'warning';
+    const type = command?.message.split('/').at(-1) ?? '';
+    setText(
+      this.topic,
+      command === null ? 'No command topic: this robot cannot be driven.' : command.topic,
+    );
+    this.topic.title = command === null ? '' : `${type} on ${command.topic}`;
+    this.element.classList.toggle('cannot', command === null || store.link.state !== 'open');
+    this.app.pilot.setRobot(command === null ? null : (store.robot?.id ?? null));
+  }
+
+  private readout(): HTMLElement {
+    const rows = SOURCES.map((source) => {
+      const cells = { linear: h('td', {}, '–'), angular: h('td', {}, '–') };
+      this.cells.set(source, cells);
+      const name = h('th', { scope: 'row' }, h('i', { class: `swatch ${source}` }), WORDS[source]);
+      return h('tr', {}, name, cells.linear, cells.angular);
+    });
+    return h(
+      'table',
+      { class: 'readout' },
+      h('caption', { class: 'unseen' }, 'Velocity of the robot'),
+      h('thead', {}, h('tr', {}, h('td'), unit('m/s'), unit('rad/s'))),
+      h('tbody', {}, ...rows),
+    );
+  }
+
+  private limit(which: keyof Limits): HTMLElement {
+    const { label, unit: name, least, most, step } = LIMITS[which];
+    const value = h('output', {});
+    const range = h('input', {
+      type: 'range',
+      min: least,
+      max: most,
+      step,
+      value: this.app.pilot.limits[which],
+    });
+    const show = (): void => {
+      setText(value, `${fixed(range.valueAsNumber, 2)} ${name}`);
+      range.setAttribute('aria-valuetext', `${fixed(range.valueAsNumber, 2)} ${name}`);
+    };
+    range.addEventListener('input', () => {
+      remember(`limit.${which}`, range.value);
+      this.app.pilot.setLimits({ ...this.app.pilot.limits, [which]: range.valueAsNumber });
+      show();
+    });
+    show();
+    return h('label', { class: 'slider' }, h('span', {}, label), range, value);
+  }
+}
+
+function remembered(which: keyof Limits): number {
+  const { least, most, usual } = LIMITS[which];
+  return recallNumber(`limit.${which}`, least, most, usual);
+}
+
+function unit(name: string): HTMLElement {
+  return h('th', { scope: 'col' }, name);
+}
+
+function stopButton(pilot: Pilot): HTMLElement {
+  const element = h(
+    'button',
+    { type: 'button', class: 'stop', 'aria-label': 'Stop all robots', 'aria-keyshortcuts': 'Escape' },
+    h('strong', {}, 'STOP'),
+    h('span', { class: 'keys', 'aria-hidden': 'true' }, h('kbd', {}, 'Space'), h('kbd', {}, 'Esc')),
+  );
+  // On the press, not on the release of a click: it is for when one is in a hurry.
+  element.addEventListener('pointerdown', () => pilot.stop());
+  element.addEventListener('click', () => pilot.stop());
+  return element;
+}
+
+function keysHint(): HTMLElement {
+  const keys = ['W', 'A', 'S', 'D'].map((key) => h('kbd', {}, key));
+  return h('p', { class: 'fine keys-hint' }, 'Hold ', ...keys, ' or the arrow keys');
+}

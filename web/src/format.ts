@@ -1,0 +1,41 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Numbers as people read them: of constant width, with a true minus, a dash for what is unknown. */
+
+export const UNKNOWN = '–';
+
+/** A number with so many decimals. */
+export function fixed(value: number | null | undefined, decimals: number): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) {
+    return UNKNOWN;
+  }
+  const text = Math.abs(value).toFixed(decimals);
+  return value < 0 && Number(text) !== 0 ? `−${text}` : text;
+}
+
+/** An angle (rad) in degrees. */
+export function degrees(angle: number): string {
+  return Number.isFinite(angle) ? `${fixed((angle * 180) / Math.PI, 1)}°` : UNKNOWN;
+}
+
+/** How fast simulated time goes: "0.98×". */
+export function factor(value: number | null): string {
+  return value === null ? UNKNOWN : `${fixed(value, 2)}×`;
+}
+
+/** A time (s) of a simulator as "1:02:03.4", a clock's as its time of day. */
+export function clock(time: number): string {
+  if (!Number.isFinite(time)) {
+    return UNKNOWN;
+  }
+  if (time > 1e8) {
+    return new Date(time * 1000).toLocaleTimeString('en-GB');
+  }
+  const tenths = Math.floor(time * 10 + 1e-6);
+  const seconds = Math.floor(tenths / 10);
+  const hours = Math.floor(seconds / 3600);
+  const minutes = Math.floor(seconds / 60) % 60;
+  const rest = `${String(seconds % 60).padStart(2, '0')}.${tenths % 10}`;
+  const head = hours === 0 ? `${minutes}` : `${hours}:${String(minutes).padStart(2, '0')}`;
+  return `${head}:${rest}`;
+}

@@ -1,0 +1,118 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The line on top: which robot, how the connection stands, the simulator's clock and its keys. */
+import { ask, type App } from './app';
+import { button, h, icon, setText } from './dom';
+import { clock, factor, UNKNOWN } from './format';
+import type { State } from './state';
+
+const LINKS = { connecting: 'Connecting …', open: 'Connected', waiting: 'Reconnecting …' } as const;
+const TONES = { connecting: 'warning', open: 'good', waiting: 'error' } as const;
+
+export class Header {
+  readonly element: HTMLElement;
+  private readonly link = h('span', { class: 'chip link' });
+  private readonly robots = h('select', { 'aria-label': 'Robot' });
+  private readonly name = h('span', { class: 'robot-name' });
+  private readonly transport: HTMLElement;
+  private readonly play: HTMLButtonElement;
+  private readonly time = h('span', { class: 'time', title: 'Time' }, UNKNOWN);
+  private readonly real = h('span', { class: 'factor', title: 'Real-time factor' }, UNKNOWN);
+  private readonly domain = h('span', { class: 'fine domain' });
+
+  constructor(
+    private readonly app: App,
+    actions: { flipTheme: () => void; openPanels: () => void },
+  ) {
+    this.play = button('', () => this.playOrPause(), { title: 'Pause' });
+    this.play.classList.add('play');
+    const step = button('', () => this.simulate('step'), { icon: 'step', title: 'One step' });
+    const reset = button('', () => this.simulate('reset_simulation'), {
+      icon: 'reset',
+      title: 'Reset: robots to their starts, time to 0',
+    });
+    this.transport = h(
+      'div',
+      { class: 'transport', role: 'group', 'aria-label': 'Simulation' },
+      this.play,
+      step,
+      reset,
+    );
+    this.robots.addEventListener('change', () => app.store.choose(this.robots.value));
+    const theme = button('', actions.flipTheme, { icon: 'theme', title: 'Light or dark' });
+    const panels = button('Panels', actions.openPanels, { icon: 'panels' });
+    panels.classList.add('open-panels');
+    this.element = h(
+      'header',
+      { class: 'top' },
+      h('h1', {}, this.name, this.robots),
+      this.link,
+      this.domain,
+      h('span', { class: 'grow' }),
+      this.transport,
+      h('div', { class: 'clock' }, this.time, this.real),
+      h('span', { class: 'grow' }),
+      theme,
+      panels,
+    );
+    const { store } = app;
+    store.watch(['graph', 'robot'], () => this.showRobots());
+    store.watch(['link', 'hello'], () => this.showLink());
+    store.watch(['simulation', 'graph'], () => this.showSimulation());
+  }
+
+  pulse(state: State): void {
+    setText(this.time, clock(state.time));
+  }
+
+  private showRobots(): void {
+    const { graph, robot } = this.app.store;
+    const robots = graph?.robots ?? [];
+    this.robots.hidden = robots.length < 2;
+    this.name.hidden = robots.length >= 2;
+    setText(this.name, robot?.name ?? 'No robot');
+    this.robots.replaceChildren(
+      ...robots.map(({ id, name }) =>
+        h('option', { value: id }, id === '/' ? name : `${name} (${id.slice(1)})`),
+      ),
+    );
+    this.robots.value = robot?.id ?? '';
+    document.title = robot === null ? 'amr viewer' : `${robot.name} · amr viewer`;
+  }
+
+  private showLink(): void {
+    const { link, hello } = this.app.store;
+    setText(this.link, LINKS[link.state]);
+    this.link.dataset.tone = TONES[link.state];
+    setText(this.domain, hello === null ? '' : `${hello.client} · domain ${hello.domain}`);
+    this.domain.title = hello === null ? '' : `amr_description ${hello.version}`;
+  }
+
+  private showSimulation(): void {
+    const { simulator, simulation } = this.app.store;
+    this.transport.hidden = simulator === null;
+    this.real.hidden = simulator === null;
+    const paused = simulation !== null && simulation.state !== 'playing';
+    const word = paused ? 'Play' : 'Pause';
+    if (this.play.title !== word || this.play.childElementCount === 0) {
+      this.play.replaceChildren(icon(paused ? 'play' : 'pause'));
+      this.play.title = word;
+      this.play.setAttribute('aria-label', word);
+    }
+    this.play.classList.toggle('primary', paused);
+    setText(this.real, paused ? simulation.state : factor(simulation?.real_factor ?? null));
+  }
+
+  private playOrPause(): void {
+    const playing = this.app.store.simulation?.state === 'playing';
+    this.simulate(playing ? 'pause' : 'play');
+  }
+
+  private simulate(type: 'play' | 'pause' | 'step' | 'reset_simulation'): void {
+    const simulator = this.app.store.simulator?.id;
+    if (simulator === undefined) {
+      return;
+    }
+    void ask(this.app, type === 'step' ? { type, simulator, steps: 1 } : { type, simulator });
+  }
+}

@@ -1,0 +1,58 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** `window.amr`: the page in numbers, for tests in a real browser and for the curious. */
+import type { App } from './app';
+import type { Recorder } from './plots/recorder';
+import type { StateStream } from './stream';
+import type { View } from './view';
+
+interface Parts {
+  app: App;
+  stream: StateStream;
+  recorder: Recorder;
+  view: View;
+}
+
+export interface Inspection {
+  link: string; // connecting, open, waiting
+  client: string | null;
+  robot: string | null;
+  driver: string | null;
+  driving: boolean; // a hand on this page drives
+  states: number; // that came
+  skipped: number; // left out by the node
+  stale: number; // of another layout
+  bad: number;
+  time: number | null; // s, of the latest state
+  age: number | null; // ms since it came
+  samples: number; // kept for the plots
+  notices: number;
+  scene: ReturnType<NonNullable<View['scene']>['stats']> | null; // null without WebGL
+}
+
+declare global {
+  interface Window {
+    amr: { readonly now: Inspection };
+  }
+}
+
+export function inspect({ app, stream, recorder, view }: Parts): void {
+  const { store, pilot } = app;
+  window.amr = {
+    get now(): Inspection {
+      return {
+        link: store.link.state,
+        client: store.hello?.client ?? null,
+        robot: store.robot?.id ?? null,
+        driver: store.driver?.name ?? null,
+        driving: pilot.driving,
+        ...stream.counts,
+        time: stream.latest?.time ?? null,
+        age: stream.latest === null ? null : performance.now() - stream.arrivedAt,
+        samples: recorder.length,
+        notices: store.notices.length,
+        scene: view.scene?.stats() ?? null,
+      };
+    },
+  };
+}

@@ -1,0 +1,116 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The page: makes its parts and gives each what comes from the node. */
+import { announce } from './announce';
+import type { App } from './app';
+import { Connection, socketUrl } from './connection';
+import { h } from './dom';
+import { listenToGamepads } from './drive/gamepad';
+import { listenToKeys } from './drive/keys';
+import { DrivePanel } from './drive/panel';
+import { Pilot } from './drive/pilot';
+import { Header } from './header';
+import { inspect } from './inspect';
+import { ControlPanel } from './panels/control';
+import { FramesPanel } from './panels/frames';
+import { HealthPanel } from './panels/health';
+import { JointsPanel } from './panels/joints';
+import { ModelPanel } from './panels/model';
+import { SimulationPanel } from './panels/simulation';
+import { PlotsPanel } from './plots/panel';
+import { Recorder } from './plots/recorder';
+import { arrange } from './shell';
+import { StateStream } from './stream';
+import { Store } from './store';
+import { Tabs } from './tabs';
+import { watchTheme } from './theme';
+import { View } from './view';
+
+const PULSE = 100; // ms between two updates of the numbers
+
+const store = new Store();
+const connection = new Connection(socketUrl(window.location));
+const pilot = new Pilot({
+  send: (message) => connection.send(message),
+  now: () => performance.now(),
+  after: (milliseconds, call) => {
+    const timer = setTimeout(call, milliseconds);
+    return () => clearTimeout(timer);
+  },
+});
+const app: App = { store, connection, pilot };
+const recorder = new Recorder();
+const stream = new StateStream(store);
+
+const view = new View(app);
+const drive = new DrivePanel(app);
+const plots = new PlotsPanel(app, recorder);
+const model = new ModelPanel(app);
+const health = new HealthPanel(app);
+const tabs = new Tabs('tab');
+for (const panel of [
+  model,
+  new JointsPanel(app),
+  new FramesPanel(app),
+  new SimulationPanel(app),
+  new ControlPanel(app),
+  health,
+]) {
+  tabs.add(panel);
+}
+const shell = arrange({ view, drive, plots, tabs });
+const theme = watchTheme((now) => {
+  view.setTheme(now);
+  plots.repaint();
+});
+const header = new Header(app, { flipTheme: theme.flip, openPanels: shell.openPanels });
+document.body.prepend(h('a', { class: 'skip', href: '#drive' }, 'Skip to driving'), header.element);
+document.body.append(announce(store));
+
+store.watch(['graph', 'robot', 'model', 'diagnostics'], () => {
+  tabs.setBadge('model', model.toLookAt, 'warning');
+  tabs.setBadge('health', health.toLookAt, 'warning');
+});
+store.watch(['graph'], () => recorder.keep((store.graph?.robots ?? []).map(({ id }) => id)));
+store.watch(['reset'], () => recorder.clear());
+store.watch(['driver', 'robot', 'graph'], () => {
+  const { driver } = store;
+  pilot.hearDriver(driver === null ? 'nobody' : driver.me ? 'me' : 'other');
+});
+pilot.onRefused = () => {
+  store.note('warning', `${store.driver?.name} drives; STOP stops it for everybody.`);
+};
+
+listenToKeys(pilot);
+listenToGamepads(pilot, (name) => drive.showPad(name));
+
+connection.onLink = (link) => {
+  if (link.state !== 'open') {
+    pilot.halt();
+  }
+  store.setLink(link);
+};
+connection.onMessage = (message) => {
+  if (message.type === 'reply' && !message.ok) {
+    pilot.halt(); // only a refused `drive` is answered without having been asked
+  }
+  store.take(message);
+};
+connection.onState = (buffer) => {
+  const state = stream.take(buffer);
+  if (state !== null) {
+    view.apply(state);
+    recorder.record(state, store.simulation?.real_factor ?? null);
+  }
+};
+setInterval(() => {
+  const state = stream.fresh();
+  if (state !== null) {
+    for (const part of [header, drive, tabs, shell]) {
+      part.pulse(state);
+    }
+  }
+}, PULSE);
+
+inspect({ app, stream, recorder, view });
+connection.open();

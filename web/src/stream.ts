@@ -1,0 +1,59 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The states as they come: decoded, counted, and gaps between them seen. */
+import { BadState, decodeState, type State } from './state';
+import type { Store } from './store';
+
+export class StateStream {
+  /** How many states came, how many the node left out, how many were of no use here. */
+  readonly counts = { states: 0, skipped: 0, stale: 0, bad: 0 };
+  latest: State | null = null;
+  arrivedAt = Number.NaN; // ms, as performance.now()
+  private isFresh = false;
+
+  constructor(private readonly store: Store) {
+    store.watch(['layout'], () => {
+      this.latest = null;
+      this.isFresh = false;
+    });
+  }
+
+  /** Read a binary frame; null where it is not for what we know now. */
+  take(buffer: ArrayBuffer): State | null {
+    const state = this.decode(buffer);
+    if (state === null) {
+      return null;
+    }
+    if (this.latest !== null) {
+      this.counts.skipped += Math.max(0, state.sequence - this.latest.sequence - 1);
+    }
+    this.counts.states += 1;
+    this.arrivedAt = performance.now();
+    this.latest = state;
+    this.isFresh = true;
+    return state;
+  }
+
+  /** The latest state, once. */
+  fresh(): State | null {
+    const state = this.isFresh ? this.latest : null;
+    this.isFresh = false;
+    return state;
+  }
+
+  private decode(buffer: ArrayBuffer): State | null {
+    const { layout } = this.store;
+    try {
+      const state = layout === null ? null : decodeState(buffer, layout);
+      this.counts.stale += state === null ? 1 : 0;
+      return state;
+    } catch (error) {
+      if (!(error instanceof BadState)) {
+        throw error;
+      }
+      this.counts.bad += 1;
+      this.store.note('error', `The node sent ${error.message}.`);
+      return null;
+    }
+  }
+}

@@ -1,0 +1,117 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Panels one at a time, chosen by tabs as the ARIA practices have them: arrows move, Tab leaves. */
+import type { Panel } from './app';
+import { h, setText } from './dom';
+import { recall, remember } from './remember';
+import type { State } from './state';
+
+interface Tab {
+  panel: Panel;
+  button: HTMLButtonElement;
+  badge: HTMLElement;
+  body: HTMLElement;
+}
+
+export class Tabs {
+  readonly element = h('div', { class: 'panels' });
+  private readonly list = h('div', { class: 'tabs', role: 'tablist', 'aria-label': 'Panels' });
+  private readonly tabs: Tab[] = [];
+  private active: Tab | null = null;
+
+  constructor(private readonly name: string) {
+    this.element.append(this.list);
+    this.list.addEventListener('keydown', (event) => this.move(event));
+  }
+
+  add(panel: Panel): void {
+    const badge = h('span', { class: 'badge', hidden: true });
+    const button = h(
+      'button',
+      {
+        type: 'button',
+        role: 'tab',
+        id: `tab-${panel.id}`,
+        'aria-controls': `panel-${panel.id}`,
+        onclick: () => this.show(panel.id),
+      },
+      h('span', {}, panel.title),
+      badge,
+    );
+    const body = h(
+      'div',
+      {
+        class: 'panel',
+        role: 'tabpanel',
+        id: `panel-${panel.id}`,
+        'aria-labelledby': `tab-${panel.id}`,
+        tabindex: 0,
+        hidden: true,
+      },
+      panel.element,
+    );
+    this.tabs.push({ panel, button, badge, body });
+    this.list.append(button);
+    this.element.append(body);
+    this.show(recall(this.name) ?? this.tabs[0].panel.id);
+  }
+
+  /** A tab that is not wanted now, such as one whose content stands elsewhere. */
+  setHidden(id: string, hidden: boolean): void {
+    const tab = this.tabs.find(({ panel }) => panel.id === id);
+    if (tab !== undefined) {
+      tab.button.hidden = hidden;
+      if (hidden && tab === this.active) {
+        this.show(this.tabs[0].panel.id);
+      }
+    }
+  }
+
+  /** A number on a tab: what waits to be seen there. */
+  setBadge(id: string, count: number, tone: 'warning' | 'error'): void {
+    const tab = this.tabs.find(({ panel }) => panel.id === id);
+    if (tab !== undefined) {
+      tab.badge.hidden = count === 0;
+      tab.badge.dataset.tone = tone;
+      setText(tab.badge, String(count));
+      tab.badge.setAttribute('aria-label', `${count} to look at`);
+    }
+  }
+
+  show(id: string): void {
+    const wanted = this.tabs.find(({ panel, button }) => panel.id === id && !button.hidden);
+    this.active = wanted ?? this.tabs[0];
+    for (const tab of this.tabs) {
+      const active = tab === this.active;
+      tab.body.hidden = !active;
+      tab.button.tabIndex = active ? 0 : -1;
+      tab.button.setAttribute('aria-selected', String(active));
+    }
+    if (wanted !== undefined) {
+      remember(this.name, id);
+    }
+  }
+
+  pulse(state: State): void {
+    if (this.element.closest('[inert]') === null) {
+      this.active?.panel.pulse?.(state);
+    }
+  }
+
+  private move(event: KeyboardEvent): void {
+    const shown = this.tabs.filter(({ button }) => !button.hidden);
+    const at = shown.findIndex((tab) => tab === this.active);
+    const to: Record<string, number> = {
+      ArrowRight: (at + 1) % shown.length,
+      ArrowLeft: (at - 1 + shown.length) % shown.length,
+      Home: 0,
+      End: shown.length - 1,
+    };
+    const next = shown[to[event.key]];
+    if (next !== undefined) {
+      event.preventDefault();
+      this.show(next.panel.id);
+      next.button.focus();
+    }
+  }
+}

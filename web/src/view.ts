@@ -1,0 +1,172 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The view of the scene: its canvas, what is shown in it, and words where nothing can be shown. */
+import type { App } from './app';
+import { button, h, setText, toggle } from './dom';
+import type { State } from './state';
+import { recall, remember } from './remember';
+import { NoWebGL, Scene } from './scene/scene';
+import type { Theme } from './theme';
+
+const LAYERS = [
+  { name: 'frames', label: 'Frames', on: false, title: 'Axes of the TF frames' },
+  { name: 'frameNames', label: 'Names', on: false, title: 'Names of the frames' },
+  { name: 'trails', label: 'Trails', on: true, title: 'Where the robot went: truth and odometry' },
+  { name: 'contacts', label: 'Contacts', on: false, title: 'Load and slip of the wheels' },
+  { name: 'collisions', label: 'Collisions', on: false, title: 'Shapes that touch' },
+  { name: 'grid', label: 'Grid', on: true, title: 'Squares of 1 m' },
+] as const;
+
+export class View {
+  readonly element: HTMLElement;
+  readonly scene: Scene | null;
+  private readonly canvas = h('canvas', { class: 'scene', 'aria-label': 'The robot in its world' });
+  private readonly words = h('div', { class: 'view-words' });
+  private readonly hint = h('div', { class: 'view-hint', hidden: true });
+  private following = recall('follow') !== 'no';
+
+  constructor(private readonly app: App) {
+    this.element = h('main', { class: 'view', id: 'view' }, this.canvas, this.words, this.hint);
+    this.scene = this.makeScene();
+    if (this.scene === null) {
+      this.canvas.remove();
+    } else {
+      this.element.append(this.tools(this.scene), legend());
+      this.connect(this.scene);
+    }
+    app.store.watch(['graph', 'link', 'robot'], () => this.showWords());
+  }
+
+  /** Show a state. */
+  apply(state: State): void {
+    this.scene?.applyState(state);
+  }
+
+  setTheme(theme: Theme): void {
+    this.scene?.setTheme(theme);
+  }
+
+  private makeScene(): Scene | null {
+    try {
+      return new Scene(this.canvas);
+    } catch (error) {
+      if (error instanceof NoWebGL) {
+        this.element.classList.add('blind');
+        return null;
+      }
+      throw error;
+    }
+  }
+
+  private connect(scene: Scene): void {
+    const { store } = this.app;
+    const shown = new Set<string>();
+    store.watch(['model', 'graph'], () => {
+      for (const id of [...shown].filter((robot) => !store.models.has(robot))) {
+        scene.removeRobot(id);
+        shown.delete(id);
+      }
+    });
+    store.watch(['layout'], () => {
+      if (store.layout !== null) {
+        scene.setLayout(store.layout);
+      }
+    });
+    store.watch(['frame'], () => scene.setFixedFrame(store.fixedFrame));
+    store.watch(['reset'], () => scene.clearTrails());
+    store.watch(['robot', 'graph'], () => this.follow(scene));
+    store.onModel = (model) => {
+      scene.setModel(model);
+      shown.add(model.robot);
+    };
+    store.onWorld = (world) => scene.setWorld(world);
+    store.watch(['graph'], () => {
+      if (store.worlds.size === 0) {
+        scene.setWorld({ type: 'world', simulator: '', shapes: [] });
+      }
+    });
+    scene.onSelect = (robot: string, link: string | null) => {
+      store.choose(robot);
+      store.select({ robot, frame: link });
+    };
+    new ResizeObserver(() => scene.resize()).observe(this.canvas);
+  }
+
+  private follow(scene: Scene): void {
+    scene.follow(this.following ? (this.app.store.robot?.id ?? null) : null);
+  }
+
+  private tools(scene: Scene): HTMLElement {
+    const follow = toggle('Follow', this.following, (on) => {
+      this.following = on;
+      remember('follow', on ? 'yes' : 'no');
+      this.follow(scene);
+    }, 'The camera goes with the robot');
+    const layers = LAYERS.map(({ name, label, on, title }) => {
+      const kept = recall(`show.${name}`);
+      const now = kept === null ? on : kept === 'yes';
+      scene.show({ [name]: now });
+      const flip = (shown: boolean): void => {
+        remember(`show.${name}`, shown ? 'yes' : 'no');
+        scene.show({ [name]: shown });
+      };
+      return toggle(label, now, flip, title);
+    });
+    return h(
+      'div',
+      { class: 'view-tools', role: 'toolbar', 'aria-label': 'View' },
+      button('Reset view', () => scene.resetView(), { kind: 'quiet' }),
+      follow,
+      h('span', { class: 'rule', 'aria-hidden': 'true' }),
+      ...layers,
+      button('Clear trails', () => scene.clearTrails(), { kind: 'quiet' }),
+    );
+  }
+
+  private showWords(): void {
+    const { link, graph, robot } = this.app.store;
+    const lost = link.state !== 'open';
+    const empty = !lost && graph !== null && graph.robots.length === 0;
+    this.hint.hidden = lost || robot === null || robot.command === null;
+    this.hint.replaceChildren('Hold ', ...keys(), ' or the arrow keys to drive');
+    this.words.replaceChildren();
+    if (lost) {
+      const title = link.state === 'connecting' ? 'Connecting …' : 'No connection to the node';
+      const more = link.state === 'waiting' ? ' Trying again by itself.' : '';
+      this.say(title, link.state === 'waiting' ? `${link.reason || 'It went away.'}${more}` : '');
+    } else if (empty) {
+      this.say('Nothing to see yet', graph.hint ?? 'Nobody publishes a robot description.');
+    } else if (this.scene === null) {
+      const text = 'This browser draws no WebGL 2. Driving, panels and plots work all the same.';
+      this.say('No 3-D view', text);
+    }
+  }
+
+  private say(title: string, text: string): void {
+    const words = h('h2', {});
+    setText(words, title);
+    this.words.append(h('div', { class: 'card' }, words, h('p', {}, ...commands(text))));
+  }
+}
+
+function keys(): HTMLElement[] {
+  return ['W', 'A', 'S', 'D'].map((key) => h('kbd', {}, key));
+}
+
+/** What stands between back-quotes in a text is a command. */
+function commands(text: string): Node[] {
+  return text.split('`').map((part, index) =>
+    index % 2 === 1 ? h('code', {}, part) : document.createTextNode(part),
+  );
+}
+
+function legend(): HTMLElement {
+  const entry = (kind: string, word: string): HTMLElement =>
+    h('span', {}, h('i', { class: `swatch ${kind}` }), word);
+  return h(
+    'div',
+    { class: 'view-legend', 'aria-hidden': 'true' },
+    entry('truth', 'Truth'),
+    entry('odometry', 'Odometry'),
+  );
+}
