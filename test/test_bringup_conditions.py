@@ -173,7 +173,7 @@ def test_time_after_what_never_happens_never_passes():
         (started(NODE), WAITING, 'n-1 was not started'),
         (exited_cleanly(NODE), RESTARTS, 'n-1 waits for its next start'),
         (logged(NODE, 'port'), RUNNING, "n-1 has not said 'port'"),
-        (topic('/odmo'), None, 'nobody publishes /odmo; published are /odom, /tf'),
+        (topic('/odmo'), None, 'nobody publishes /odmo; there are /odom, /tf'),
         (
             topic('/tf', 'a/msg/B'),
             None,

@@ -35,6 +35,7 @@ environment.py         pure: the environment of a child, and of the user's next 
 line_splitter.py       pure: bytes from a pipe -> lines
 child.py               one running process: its session, its output, its end
 orchestrator.py        the engine: start, watch, stop
+outlook.py             the ROS graph and files, looked at while a condition asks
 lifeline.py            what a child sees of the orchestrator's life; the guardian is started here
 guardian.py            a program of its own: ends what is left, whatever became of the orchestrator
 log_folder.py          the folder of log files of one run

@@ -14,7 +14,7 @@ import sys
 from amr_description.bringup import discovery
 from amr_description.bringup.arguments import declared, parse, resolve, show, suggestion
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
-from amr_description.bringup.description import Stack
+from amr_description.bringup.description import nodes_of, Stack
 from amr_description.bringup.job import Job, jobs_of
 from amr_description.bringup.log_folder import log_base, LogFolder, run_name, with_tilde
 from amr_description.bringup.orchestrator import Orchestrator
@@ -106,7 +106,7 @@ def describe(stack: Stack, jobs: list[Job]) -> str:
 
 def start(stack: Stack) -> int:
     """Run a stack until it ends or is stopped; return the exit code."""
-    for node in stack.nodes:
+    for node in nodes_of(stack.nodes):
         if node.terminal:
             require_terminal(node.executable, node.package)
     run = run_name(datetime.now())

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the orchestrator says of a stack, in the words of launch where launch has them."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 import signal
 import time
 
@@ -10,8 +10,11 @@ from amr_description.bringup.child import RunningProcess
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.job import Job
-from amr_description.bringup.post_mortem import post_mortem
+from amr_description.bringup.outlook import GRAPH_WATCH
+from amr_description.bringup.post_mortem import expiry, post_mortem
 from amr_description.bringup.progress import Progress
+from amr_description.bringup.situation import Situation
+from amr_description.bringup.waits import Expired
 
 _POLITE = (signal.SIGINT, signal.SIGTERM)  # what a program may leave to its default
 
@@ -55,10 +58,16 @@ class Narrator:
 
     def progress(self, progress: Progress) -> None:
         """Say that the stack is ready, and what of it can never start."""
+        for expired in progress.gave_up:
+            if expired.node not in self._told:
+                self._told.add(expired.node)
+                text = f'never starts: {expired.text(self._name_of)}'
+                self._console.say('WARNING', self._name_of(expired.node), text)
         for node in progress.unreachable():
-            if node not in self._told and not progress.over and node.start_when:
+            condition = progress.waits_for(node)
+            if node not in self._told and not progress.over and condition:
                 self._told.add(node)
-                needs = node.start_when.describe(self._name_of)
+                needs = condition.describe(self._name_of)
                 text = f'never starts: needs that {needs}'
                 self._console.say('WARNING', self._name_of(node), text)
         if progress.ready and 'ready' not in self._told:
@@ -77,6 +86,20 @@ class Narrator:
     def terminal_lent(self, is_lent: bool) -> None:
         """Note whether a process has the terminal."""
         self._console.lend(is_lent)
+
+    def respawn(self, node: Node, situation: Situation) -> None:
+        """Say that its process will be started again, if so."""
+        state, rule = situation.states[node], node.respawn
+        if state.restart_at is None or rule is None:
+            return
+        of = f' of {rule.limit}' if rule.limit is not None else ''
+        delay = state.restart_at - situation.time
+        text = f'process is started again in {delay:.1f} s ({state.restarts}{of})'
+        self._console.say('WARNING', self._name_of(node), text)
+
+    def graph_watch_said(self, line: str) -> None:
+        """Show what the process that sees the ROS graph has to tell a person."""
+        self._console.output(GRAPH_WATCH, line)
 
     def guardian_replaced(self) -> None:
         """Say that somebody ended the guardian."""
@@ -108,13 +131,18 @@ class Narrator:
         )
         self._console.say('ERROR', name, text)
 
-    def failure(self, progress: Progress, last_lines: Collection[str]) -> None:
+    def failure(self, progress: Progress, last_lines: Mapping[Node, Collection[str]]) -> None:
         """Say, last of all, which failure stopped the stack, and why."""
-        if progress.failure is None:
+        failure = progress.failure
+        if failure is None:
             return
-        name = self._name_of(progress.failure.node)
         waiting = [self._name_of(node) for node in progress.waiting()]
-        for text in post_mortem(name, progress.failure, last_lines, waiting):
+        if isinstance(failure, Expired):
+            texts = expiry(failure, self._name_of, last_lines)
+        else:
+            name = self._name_of(failure.node)
+            texts = post_mortem(name, failure, last_lines[failure.node], waiting)
+        for text in texts:
             self._console.say('ERROR', LAUNCH, text)
 
     def _name_of(self, node: Node) -> str:

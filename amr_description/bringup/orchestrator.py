@@ -3,15 +3,18 @@
 """
 The engine: start the processes of a stack in order, watch them, end them all.
 
-One thread, one event loop. Three kinds of events wake it: a child ended (SIGCHLD), somebody wants
-the stack to stop (SIGINT, SIGTERM, SIGHUP or a screen that nobody reads), a patience is over.
+One thread, one event loop. It is woken when a child ended (SIGCHLD) or wrote a line that a
+condition asks for, when the ROS graph changed, when somebody wants the stack to stop (SIGINT,
+SIGTERM, SIGHUP or a screen that nobody reads), and when it is time: for a start, for a look at a
+file, or because a patience is over.
 
-The exit code is that of the required node that failed first (128 + signal if it died of one). It
-is 0 if the stack ended by itself, and if it was stopped by a signal: Ctrl-C is its ordinary end.
+The exit code is that of the required node that failed first (128 + signal if it died of one), and
+124 if a wait took too long. It is 0 if the stack ended by itself, and if it was stopped by a
+signal: Ctrl-C is its ordinary end.
 """
 
 import asyncio
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 import contextlib
 import signal
 import time
@@ -23,6 +26,7 @@ from amr_description.bringup.environment import child_environment
 from amr_description.bringup.job import Job
 from amr_description.bringup.lifeline import Lifeline
 from amr_description.bringup.narrator import Narrator
+from amr_description.bringup.outlook import COMMAND, GraphWatch, Outlook
 from amr_description.bringup.progress import Progress
 from amr_description.bringup.terminal import TerminalChild
 
@@ -55,10 +59,12 @@ class Orchestrator:
         self._run_name = run_name
         self._environment = environment
         self._narrator = Narrator(stack, jobs, console)
-        self._progress = Progress(stack)
+        self._progress = Progress(stack, time.monotonic())
         self._children: dict[Node, RunningProcess] = {}  # in the order of their start
         self._last_lines: dict[Node, Collection[str]] = {}
         self._wake = asyncio.Event()
+        watch = GraphWatch(self._spawn_watch, self._wake.set, self._narrator.graph_watch_said)
+        self._outlook = Outlook(watch)
         self._stop_requests = 0
         self._exit_code = 0
         console.on_screen_lost = self._on_screen_lost
@@ -75,7 +81,7 @@ class Orchestrator:
         failure = self._progress.failure
         if failure is None:
             return self._exit_code
-        self._narrator.failure(self._progress, self._last_lines[failure.node])
+        self._narrator.failure(self._progress, self._last_lines)
         return failure.exit_code
 
     @contextlib.contextmanager
@@ -110,11 +116,26 @@ class Orchestrator:
 
     async def _until_over(self) -> None:
         while not self._progress.over:
+            self._look()
             while not self._progress.over and (nodes := self._progress.startable()):
                 self._start(nodes[0])
             self._narrator.progress(self._progress)
-            await self._event(None)
+            if not self._progress.over:
+                await self._event(self._time_left())
             self._collect()
+
+    def _look(self) -> None:
+        """See what the time and the world outside have come to."""
+        now = time.monotonic()
+        self._outlook.look(self._progress.lookouts(), now)
+        self._progress.see(graph=self._outlook.graph, paths=self._outlook.paths)
+        self._progress.at(now)
+
+    def _time_left(self) -> float | None:
+        """Return the s until there is something to do although nothing happens."""
+        times = [self._progress.next_time(), self._outlook.next_time]
+        earliest = min((each for each in times if each is not None), default=None)
+        return None if earliest is None else max(0.0, earliest - time.monotonic())
 
     async def _event(self, patience: float | None) -> bool:
         """Wait for the next event, at most ``patience`` s; return whether there was one."""
@@ -129,7 +150,8 @@ class Orchestrator:
         job = self._jobs[node]
         self._progress.start(node)
         try:
-            environment = child_environment(job.executable, self._environment)
+            environment = {**self._environment, **job.environment}
+            environment = child_environment(job.executable, environment)
             job.write_parameter_files()
             child = self._child(job, environment | self._lifeline.variables)
         except OSError as error:
@@ -139,6 +161,8 @@ class Orchestrator:
             self._progress.end(node, CANNOT_START)
             self._wake.set()
             return
+        if node in self._children:  # it is started again
+            self._children.pop(node).close()
         self._children[node] = child
         self._last_lines[node] = child.last_lines
         self._narrator.started(node, child.pid)
@@ -153,18 +177,27 @@ class Orchestrator:
             except OSError:
                 narrator.terminal_lent(False)
                 raise
-        return Child(
-            job.command, environment, reader, lambda line: narrator.output(job.node, line)
-        )
+        return Child(job.command, environment, reader, lambda line: self._hear(job.node, line))
+
+    def _hear(self, node: Node, line: str) -> None:
+        self._narrator.output(node, line)
+        if self._progress.hear(node, line):
+            self._wake.set()
+
+    def _spawn_watch(self, on_line: Callable[[str], None]) -> Child:
+        environment = {**self._environment, 'PYTHONUNBUFFERED': '1', **self._lifeline.variables}
+        return Child(COMMAND, environment, self._lifeline.reader, on_line)
 
     def _collect(self) -> None:
         """Take note of all processes that have ended."""
+        self._progress.tick(time.monotonic())
         for node, child in self._running().items():
             if child.poll():
                 self._narrator.ended(node, child)
                 if node.terminal and child.died_of_ctrl_c:  # which it alone has heard
                     self._on_stop_signal(signal.SIGINT)
                 self._progress.end(node, child.returncode)
+                self._narrator.respawn(node, self._progress.situation)
         if self._lifeline.revive():
             self._narrator.guardian_replaced()
         self._lifeline.reap_adopted(self._running_pids())
@@ -173,7 +206,9 @@ class Orchestrator:
         return {n: child for n, child in self._children.items() if child.returncode is None}
 
     def _running_pids(self) -> set[int]:
-        return {child.pid for child in self._running().values()}
+        watch = self._outlook.watch.process
+        running = [*self._running().values(), *([watch] if watch else [])]
+        return {child.pid for child in running}
 
     async def _stop_all(self) -> None:
         """Signal all at once in the reverse order of their start, and again where that fails."""
@@ -184,6 +219,7 @@ class Orchestrator:
             for node, child in reversed(running.items()):
                 self._narrator.signalled(node, number, before, time.monotonic() - begin)
                 child.send(number)
+            self._outlook.watch.send(number)
             await self._until_ended(patience)
             before = number
 
@@ -191,7 +227,7 @@ class Orchestrator:
         """Wait for the end of all, at most ``patience`` s, or for somebody who is in a hurry."""
         deadline = None if patience is None else time.monotonic() + patience
         requests = self._stop_requests
-        while self._running() and self._stop_requests == requests:
+        while self._stop_requests == requests and (self._running() or self._outlook.watch.poll()):
             left = None if deadline is None else max(0.0, deadline - time.monotonic())
             if not await self._event(left):
                 return

@@ -66,7 +66,7 @@ class _Topic(OnGraph):
         if self.name in topics:
             types = ', '.join(sorted(topics[self.name]))
             return f'{self.name} is published as {types}, not as {self.type}'
-        return f'nobody publishes {self.name}; published are {_listed(self.name, topics)}'
+        return f'nobody publishes {self.name}; {_others(self.name, topics)}'
 
 
 @dataclass(frozen=True)
@@ -79,8 +79,8 @@ class _Service(OnGraph):
         return f'the service {self.name} is there'
 
     def lack(self, situation: Situation, name_of: NameOf) -> str:
-        others = _listed(self.name, situation.graph.services)
-        return f'the service {self.name} is not there; there are {others}'
+        others = _others(self.name, situation.graph.services)
+        return f'the service {self.name} is not there; {others}'
 
 
 @dataclass(frozen=True)
@@ -92,8 +92,8 @@ class _RosNode(OnGraph):
         return f'the node {self.name} is there'
 
     def lack(self, situation: Situation, name_of: NameOf) -> str:
-        others = _listed(self.name, situation.graph.nodes)
-        return f'the node {self.name} is not there; there are {others}'
+        others = _others(self.name, situation.graph.nodes)
+        return f'the node {self.name} is not there; {others}'
 
 
 @dataclass(frozen=True)
@@ -122,11 +122,11 @@ class PathExists(Condition):
         return f'there is no {path}; {path.parent} has {others}'
 
 
-def _listed(name: str, names: Collection[str]) -> str:
+def _others(name: str, names: Collection[str]) -> str:
     telling = [each for each in names if not _OF_EVERY_NODE.fullmatch(each)]
     shown = _nearest(name, telling)[:_MOST_NAMES]
     more = f' and {len(telling) - len(shown)} more' if len(telling) > len(shown) else ''
-    return f'{", ".join(shown) or "none"}{more}'
+    return f'there are {", ".join(shown)}{more}' if shown else 'there is no other'
 
 
 def _nearest(name: str, names: Collection[str]) -> list[str]:

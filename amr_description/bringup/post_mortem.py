@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is said about the failure that stopped a stack, last of all, where it is read."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 import re
 import signal
 
+from amr_description.bringup.conditions import NameOf
+from amr_description.bringup.description import Node
 from amr_description.bringup.progress import Failure
+from amr_description.bringup.waits import Expired
 
 _LONGEST_REASON = 500  # characters
 _ROS_LOG_PREFIX = re.compile(r'\[[A-Z]+\] \[[\d.]+\] \[\S+\]: ')
@@ -30,11 +33,26 @@ def post_mortem(
     return [*texts, f'stopped because {name} {manner(failure)}{missing}{reason}']
 
 
+def expiry(
+    expired: Expired, name_of: NameOf, last_lines: Mapping[Node, Collection[str]]
+) -> list[str]:
+    """Return the texts to print: the last lines of who was waited for, then one line."""
+    awaited = [node for node in expired.condition.nodes if expired.situation.states[node].running]
+    told = {name_of(node): last_lines.get(node) for node in awaited}
+    texts = [
+        '\n    '.join([f'the last lines of {name}:', *lines])
+        for name, lines in told.items()
+        if lines
+    ]
+    return [*texts, f'stopped because {expired.text(name_of)}']
+
+
 def manner(failure: Failure) -> str:
     """Return in words how the process ended."""
-    if failure.returncode > 0:
-        return f'ended with exit code {failure.returncode}'
+    again = f', as did {failure.restarts} new starts' if failure.restarts else ''
+    if failure.returncode >= 0:
+        return f'ended with exit code {failure.returncode}{again}'
     try:
-        return f'died of {signal.Signals(-failure.returncode).name}'
+        return f'died of {signal.Signals(-failure.returncode).name}{again}'
     except ValueError:  # a real-time signal
-        return f'died of signal {-failure.returncode}'
+        return f'died of signal {-failure.returncode}{again}'

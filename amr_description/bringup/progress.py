@@ -104,9 +104,17 @@ class Progress:
         if paths is not None:
             self._changed(paths=paths)
 
-    def at(self, time: float) -> None:
-        """Note the time, s; what has waited too long ends the stack, or is given up."""
+    def tick(self, time: float) -> None:
+        """Note the time, s."""
         self._changed(time=time)
+
+    def at(self, time: float) -> None:
+        """
+        Note the time, s; what has waited too long ends the stack, or is given up.
+
+        Called once all that has happened until then was told.
+        """
+        self.tick(time)
         expired = None if self.over else self._waits.expired(self._pending(), self._situation)
         if expired is None:
             return
