@@ -57,6 +57,7 @@ setup(
             'tf2_echo = amr_description.nodes.tf2_echo:main',
             'tf2_monitor = amr_description.nodes.tf2_monitor:main',
             'unspawner = amr_description.nodes.unspawner:main',
+            'viewer = amr_description.nodes.viewer:main',
             'view_frames = amr_description.nodes.view_frames:main',
             'xacro = xacro:main',
         ],

@@ -23,6 +23,8 @@ Every error that this package raises on purpose.
     │   ├── ExtrapolationException  nothing is known about that time
     │   └── InvalidArgumentException  a name or a transform cannot be used
     ├── CalibrationError     the parameters of a drive cannot be told from how it was driven
+    ├── ViewerError          the browser page's server cannot do what was asked
+    │   └── ProtocolError    what a page said cannot be understood
     ├── BringupError         a stack is malformed, or one of its steps failed
     └── UsageError           a command line cannot be understood (exit code 2, as argparse)
 
@@ -112,6 +114,14 @@ class InvalidArgumentException(TransformException):
 
 class CalibrationError(AmrError):
     """The parameters of a drive cannot be told from how it was driven."""
+
+
+class ViewerError(AmrError):
+    """The browser page's server cannot do what was asked."""
+
+
+class ProtocolError(ViewerError):
+    """What a page said cannot be understood."""
 
 
 class BringupError(AmrError):

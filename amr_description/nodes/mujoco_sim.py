@@ -12,7 +12,8 @@ of ``simulation_interfaces``, below ``/mujoco_sim/``::
                                           nodes/simulation_services.py
     ~/get_available_worlds …              nodes/world_services.py
 
-On ``~/received`` it says which commands have arrived; see nodes/receipts.py.
+On ``~/world`` it tells its static surroundings, as markers (nodes/surroundings_topic.py), and on
+``~/received`` which commands have arrived (nodes/receipts.py).
 """
 
 from collections.abc import Sequence
@@ -34,6 +35,7 @@ from amr_description.nodes.runtime import argument_errors, program, ros, spin
 from amr_description.nodes.simulation import Simulation, SimulationParameters
 from amr_description.nodes.simulation_services import SimulationServices
 from amr_description.nodes.spawn_services import SpawnServices
+from amr_description.nodes.surroundings_topic import publish_world
 from amr_description.nodes.world_services import WorldServices
 
 FEATURES = (
@@ -60,6 +62,7 @@ class MujocoSim:
         SpawnServices(self.node, self.simulation)
         EntityServices(self.node, self.simulation)
         WorldServices(self.node, self.simulation)
+        publish_world(self.node, self.simulation.world)
         self._services = SimulationServices(
             self.node, self.simulation, FEATURES, spawn_services.FORMATS
         )

@@ -29,6 +29,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``resources``        ``package://`` and ``file://``, world names
 ``faults``           MuJoCo's warnings, non-finite states and falls, told once, in one line
 ``drop``             the physical test of a description, in numbers
+``surroundings``    the static world as shapes to draw
 ``bare_loop``        the physics alone, to measure against
 ===================  =========================================================================
 

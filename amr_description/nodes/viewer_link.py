@@ -1,0 +1,163 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What connects the viewer with one robot or simulator of the graph, made on the ROS thread."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from controller_manager_msgs.msg import ControllerManagerActivity
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
+
+from amr_description.errors import ViewerError
+from amr_description.nodes.converters import fill_stamp
+from amr_description.nodes.viewer_models import describe_robot, DescribedRobot
+from amr_description.nodes.viewer_robot import COMMAND_TYPES, RobotTopics
+from amr_description.viewer.discovery import FoundRobot
+from amr_description.viewer.protocol import RobotInfo
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_FRAME = 'base_link'
+
+
+class RobotLink:
+    """
+    One robot: its description, its moving parts, and the way to command it.
+
+    ``on_change`` is called with the link when its description comes, ``on_activity`` when a state
+    of a controller has changed; both on the ROS thread.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        found: FoundRobot,
+        on_change: Callable[['RobotLink'], None],
+        on_activity: Callable[['RobotLink'], None],
+    ) -> None:
+        self.found = found
+        self.described: DescribedRobot | None = None
+        self.topics: RobotTopics | None = None
+        self._node = node
+        self._on_change = on_change
+        self._on_activity = on_activity
+        self._description = node.create_subscription(
+            String, found.description, self._take_description, LATCHED
+        )
+        self._activity: Any = None
+        self._commands: Publisher | None = None
+        self._joints: Publisher | None = None
+        self._connect()
+
+    @property
+    def info(self) -> RobotInfo:
+        """What pages are told of it."""
+        found = self.found
+        return RobotInfo(
+            id=found.id,
+            name=self.described.name if self.described else '',
+            command=found.command,
+            odometry=found.odometry,
+            truth=found.truth,
+            wheels=found.wheels,
+            joint_states=found.joint_states,
+            joint_publisher=found.joint_publisher,
+            manager=found.manager,
+        )
+
+    def follow(self, found: FoundRobot) -> None:
+        """Its topics have changed."""
+        self._disconnect()
+        self.found = found
+        self._connect()
+
+    def destroy(self) -> None:
+        """It is gone."""
+        self._disconnect()
+        self._node.destroy_subscription(self._description)
+
+    def drive(self, linear: float, angular: float, time: int) -> None:
+        """Publish a command, m/s and rad/s, stamped ``time`` (ns); on any thread."""
+        command, publisher = self.found.command, self._commands
+        if command is None or publisher is None:
+            raise ViewerError(
+                f'nothing hears velocity commands of {self.found.id}; is its drive controller '
+                'active?'
+            )
+        message = COMMAND_TYPES[command.message]()
+        twist = message
+        if isinstance(message, TwistStamped):
+            fill_stamp(time, message.header.stamp)
+            message.header.frame_id = _FRAME
+            twist = message.twist
+        assert isinstance(twist, Twist), 'the only other type'
+        twist.linear.x, twist.angular.z = linear, angular
+        publisher.publish(message)
+
+    def set_joints(self, positions: Mapping[str, float], time: int) -> None:
+        """Have joint_state_publisher publish these, rad or m; on any thread."""
+        publisher = self._joints
+        if publisher is None:
+            raise ViewerError(
+                f'no joint_state_publisher takes positions of {self.found.id}; the joints are '
+                'moved by controllers'
+            )
+        message = JointState(name=list(positions), position=list(positions.values()))
+        fill_stamp(time, message.header.stamp)
+        publisher.publish(message)
+
+    def _connect(self) -> None:
+        node, found = self._node, self.found
+        if found.command is not None:
+            message_type = COMMAND_TYPES[found.command.message]
+            self._commands = node.create_publisher(message_type, found.command.topic, 10)
+        if found.joint_publisher is not None:
+            topic = f'{found.joint_publisher}/set_joint_positions'
+            self._joints = node.create_publisher(JointState, topic, 10)
+        if found.activity is not None:
+            self._activity = node.create_subscription(
+                ControllerManagerActivity,
+                found.activity,
+                lambda _: self._on_activity(self),
+                LATCHED,
+            )
+        joints = self.described.joints if self.described else ()
+        self.topics = RobotTopics(node, found, joints)
+
+    def _disconnect(self) -> None:
+        publishers = [each for each in (self._commands, self._joints) if each is not None]
+        self._commands = self._joints = None
+        for publisher in publishers:
+            self._node.destroy_publisher(publisher)
+        if self._activity is not None:
+            self._node.destroy_subscription(self._activity)
+            self._activity = None
+        if self.topics is not None:
+            self.topics.destroy()
+
+    def _take_description(self, message: String) -> None:
+        if self.described is not None and self.described.message.urdf == message.data:
+            return
+        self.described = describe_robot(self.found.id, message.data)
+        assert self.topics is not None, 'it is connected from the start'
+        self.topics.destroy()
+        self.topics = RobotTopics(self._node, self.found, self.described.joints)
+        self._on_change(self)
+
+
+class WorldLink:
+    """The surroundings that a simulator publishes."""
+
+    def __init__(self, node: Node, topic: str, on_world: Callable[[MarkerArray], None]) -> None:
+        self.topic = topic
+        self._node = node
+        self._subscription = node.create_subscription(MarkerArray, topic, on_world, LATCHED)
+
+    def destroy(self) -> None:
+        """It is gone."""
+        self._node.destroy_subscription(self._subscription)

@@ -1,0 +1,115 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A robot's description as a page wants it: joints, meshes, and what check_urdf says of it."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+import math
+from pathlib import Path
+
+from amr_description.errors import SimulationError
+from amr_description.model import findings
+from amr_description.model.checks import examine
+from amr_description.model.robot import Joint, JointType, Mesh, Robot
+from amr_description.sim.resources import resolve_uri
+from amr_description.viewer.files import digest, TYPES
+from amr_description.viewer.protocol import Finding, JointInfo, Model
+
+SOURCE = 'robot_description'
+_LARGEST_MESH = 256 * 1024 * 1024
+_SUFFIXES = {'.stl', '.obj', '.dae', '.gltf', '.glb', '.png', '.jpg', '.jpeg'} & {*TYPES}
+"""Of what is served at all, whatever a description names."""
+
+
+@dataclass(frozen=True, slots=True)
+class DescribedRobot:
+    """A description: the message for the pages, and the files that it names, by their URLs."""
+
+    name: str
+    message: Model
+    files: Mapping[str, Path]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Those that move."""
+        return tuple(joint.name for joint in self.message.joints)
+
+
+def describe_robot(robot: str, text: str) -> DescribedRobot:
+    """Read the description of the robot with this namespace, however broken."""
+    examination = examine(text, SOURCE)
+    model, told = examination.robot, [_finding(each) for each in examination.findings]
+    meshes: dict[str, str] = {}
+    files: dict[str, Path] = {}
+    for uri in dict.fromkeys(_files_of(model)) if model else ():
+        try:
+            name, file = _served(uri)
+        except SimulationError as error:
+            told.append(Finding('warning', None, f'{uri} cannot be drawn: {error}', ''))
+            continue
+        meshes[uri], files[name] = f'/mesh/{name}', file
+    message = Model(
+        robot=robot,
+        urdf=text,
+        root=model.roots[0].name if model and model.roots else '',
+        meshes=meshes,
+        joints=tuple(_joint(each) for each in model.joints if each.has_position) if model else (),
+        findings=tuple(told),
+    )
+    return DescribedRobot(model.name if model else '', message, files)
+
+
+def _files_of(robot: Robot) -> Iterator[str]:
+    for link in robot.links:
+        for part in (*link.visuals, *link.collisions):
+            if isinstance(part.geometry, Mesh):
+                yield part.geometry.filename
+    yield from _textures(robot)
+
+
+def _textures(robot: Robot) -> Iterable[str]:
+    looks = [*robot.materials, *(v.material for link in robot.links for v in link.visuals)]
+    return [look.texture for look in looks if look and look.texture]
+
+
+def _served(uri: str) -> tuple[str, Path]:
+    """Return the name in the URL and the file. Raises SimulationError."""
+    file = resolve_uri(uri)
+    suffix = file.suffix.lower()
+    if suffix not in _SUFFIXES:
+        raise SimulationError(f'the page draws {", ".join(sorted(_SUFFIXES))}, not {suffix!a}')
+    try:
+        size = file.stat().st_size
+        if size > _LARGEST_MESH:
+            raise SimulationError(f'it has {size} bytes, more than {_LARGEST_MESH}')
+        return f'{digest(file.read_bytes())}{suffix}', file
+    except (OSError, ValueError) as error:
+        raise SimulationError(f'{file}: {getattr(error, "strerror", None) or error}') from error
+
+
+def _joint(joint: Joint) -> JointInfo:
+    lower, upper = -math.pi, math.pi
+    if joint.type is not JointType.CONTINUOUS and joint.limit is not None:
+        lower, upper = joint.limit.lower, joint.limit.upper
+    if not (math.isfinite(lower) and math.isfinite(upper)):
+        lower, upper = -math.pi, math.pi
+    return JointInfo(
+        name=joint.name,
+        kind=joint.type.value,  # type: ignore[arg-type]
+        lower=lower,
+        upper=upper,
+        zero=0.0 if lower <= 0.0 <= upper else (lower + upper) / 2,
+        follows=joint.mimic.joint if joint.mimic else None,
+    )
+
+
+def _finding(finding: findings.Finding) -> Finding:
+    parts = [f'found {finding.found}'] if finding.found else []
+    parts += [f'expected {finding.expected}'] if finding.expected else []
+    text = f'{finding.what}: {", ".join(parts)}' if parts else finding.what
+    return Finding(
+        level='error' if finding.severity is findings.Severity.ERROR else 'warning',
+        line=finding.line or None,
+        text=findings.one_line(text),
+        remedy=findings.one_line(finding.fix),
+    )

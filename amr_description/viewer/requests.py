@@ -1,0 +1,215 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a page tells the node, read with distrust: a text frame becomes a frozen dataclass, or a
+ProtocolError says what is wrong with it. ``web/src/protocol.ts`` says what each means.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+import json
+import math
+from typing import Any, ClassVar
+
+from amr_description.errors import ProtocolError
+from amr_description.model.findings import quote
+from amr_description.model.frames import Vector
+
+_LARGEST_ID = 2**53  # of JavaScript's whole numbers
+_SHOWN = 80  # characters of what was found
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """Move a robot: m/s ahead, rad/s to the left."""
+
+    types: ClassVar[tuple[str, ...]] = ('drive',)
+    robot: str
+    linear: float
+    angular: float
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Stop a robot, or all."""
+
+    types: ClassVar[tuple[str, ...]] = ('stop',)
+    robot: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class SetJoints:
+    """Move joints that joint_state_publisher publishes, rad or m."""
+
+    types: ClassVar[tuple[str, ...]] = ('set_joints',)
+    robot: str
+    positions: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Play:
+    """Let time go on, or (``pause``) stand still."""
+
+    types: ClassVar[tuple[str, ...]] = ('play', 'pause')
+    type: str
+    id: int
+    simulator: str
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Make physics steps while time stands still."""
+
+    types: ClassVar[tuple[str, ...]] = ('step',)
+    id: int
+    simulator: str
+    steps: int
+
+
+@dataclass(frozen=True, slots=True)
+class ResetSimulation:
+    """All robots back to their starts, time to 0."""
+
+    types: ClassVar[tuple[str, ...]] = ('reset_simulation',)
+    id: int
+    simulator: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetFactor:
+    """Set the real-time factor; 0: as fast as possible."""
+
+    types: ClassVar[tuple[str, ...]] = ('set_factor',)
+    id: int
+    simulator: str
+    factor: float
+
+
+@dataclass(frozen=True, slots=True)
+class Spawn:
+    """Put another robot into the world: the description of robot ``like``, yaw in rad."""
+
+    types: ClassVar[tuple[str, ...]] = ('spawn',)
+    id: int
+    simulator: str
+    name: str
+    namespace: str
+    position: Vector
+    yaw: float
+    like: str
+
+
+@dataclass(frozen=True, slots=True)
+class Delete:
+    """Take a robot out of the world."""
+
+    types: ClassVar[tuple[str, ...]] = ('delete',)
+    id: int
+    simulator: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """Activate and deactivate controllers."""
+
+    types: ClassVar[tuple[str, ...]] = ('switch',)
+    id: int
+    robot: str
+    activate: tuple[str, ...]
+    deactivate: tuple[str, ...]
+
+
+type Request = Play | Step | ResetSimulation | SetFactor | Spawn | Delete | Switch
+"""These have an ``id`` and get a reply."""
+type ClientMessage = Drive | Stop | SetJoints | Request
+
+REQUESTS = (Play, Step, ResetSimulation, SetFactor, Spawn, Delete, Switch)
+MESSAGES = (Drive, Stop, SetJoints, *REQUESTS)
+_BY_TYPE = {name: message for message in MESSAGES for name in message.types}
+
+
+def decode(frame: str) -> ClientMessage:
+    """Return the message of a text frame. Raises ProtocolError."""
+    try:
+        found = json.loads(frame)
+    except (ValueError, RecursionError) as error:
+        raise ProtocolError(f'a frame is no JSON: {error}') from None
+    kind = found.get('type') if isinstance(found, dict) else None
+    message = _BY_TYPE.get(kind) if isinstance(kind, str) else None
+    if message is None:
+        known = ', '.join(_BY_TYPE)
+        raise ProtocolError(f'a frame of type {_show(kind)} is not known; there are: {known}')
+    values = {
+        field.name: _value(found, field.name, _READERS[field.type], kind)
+        for field in fields(message)
+    }
+    return message(**values)
+
+
+def _value(found: dict[str, Any], name: str, read: Callable[[Any], Any], kind: str) -> Any:
+    if name not in found:
+        raise ProtocolError(f"'{kind}' lacks '{name}'")
+    try:
+        return read(found[name])
+    except (ValueError, TypeError, OverflowError):
+        raise ProtocolError(f"'{name}' of '{kind}' cannot be {_show(found[name])}") from None
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str) or not value.isprintable():
+        raise ValueError
+    return value
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise ValueError
+    return float(value)
+
+
+def _whole(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _LARGEST_ID:
+        raise ValueError
+    return value
+
+
+def _vector(value: Any) -> Vector:
+    x, y, z = _items(value)
+    return (_number(x), _number(y), _number(z))
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(_text(each) for each in _items(value))
+
+
+def _items(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise ValueError
+    return value
+
+
+def _numbers(value: Any) -> dict[str, float]:
+    if not isinstance(value, dict):
+        raise ValueError
+    return {_text(key): _number(each) for key, each in value.items()}
+
+
+def _text_or_none(value: Any) -> str | None:
+    return None if value is None else _text(value)
+
+
+def _show(value: Any) -> str:
+    return quote(value) if isinstance(value, str) else repr(value)[:_SHOWN]
+
+
+_READERS: Mapping[Any, Callable[[Any], Any]] = {
+    str: _text,
+    int: _whole,
+    float: _number,
+    str | None: _text_or_none,
+    Vector: _vector,
+    tuple[str, ...]: _texts,
+    Mapping[str, float]: _numbers,
+}
+"""By the type of a field."""
