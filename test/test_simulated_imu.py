@@ -3,6 +3,7 @@
 """An inertial measurement unit in the ``<ros2_control>`` block of a simulated robot."""
 
 import math
+from statistics import fmean, pstdev
 
 from fixtures.sim.driving import AMR, Drive, Lines
 from fixtures.sim.fake_world import FakeWorld, info_of, PERIOD, URDF
@@ -102,3 +103,82 @@ def test_component_of_nothing_but_an_imu_in_the_simulator():
     assert 2.0 * math.atan2(values['orientation.z'], values['orientation.w']) == (
         pytest.approx(drive.yaw, abs=1e-6)
     )
+
+
+# --- noise -------------------------------------------------------------------------------------
+
+NOISE = '<noise type="gaussian"><mean>0.5</mean><stddev>0.01</stddev></noise>'
+
+
+def noisy_imus(*names):
+    """The amr with units that are noisy about z."""
+    states = ''.join(f'<state_interface name="{interface}"/>' for interface in IMU_INTERFACES)
+    plugin = '<hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>'
+    sensors = ''.join(f'<sensor name="{name}">{states}</sensor>' for name in names)
+    mounts = ''.join(
+        f'<sensor name="{name}" type="imu"><imu><angular_velocity><z>{NOISE}</z>'
+        '</angular_velocity></imu></sensor>'
+        for name in names
+    )
+    return AMR.replace(
+        '</robot>',
+        f'<ros2_control name="Imu" type="sensor">{plugin}{sensors}</ros2_control>'
+        f'<gazebo reference="base_link">{mounts}</gazebo></robot>',
+    )
+
+
+class Noisy:
+    """A robot that drives, and what its units measure."""
+
+    def __init__(self, *names, robot='amr', **options):
+        self.drive = Drive(noisy_imus(*names), name=robot, **options)
+        info = hardware_of(self.drive.robot.description)[-1]
+        self.system = MujocoSystem(info, Lines(), self.drive.robot)
+        self.system.configure()
+
+    def measure(self, ticks=50):
+        """What each unit says about z in so many ticks, beyond the truth."""
+        cells = [s for s in self.system.state_interfaces() if s.name.endswith('velocity.z')]
+        measured = []
+        self.drive.command(0.5, 1.0)
+        for _ in range(ticks):
+            self.drive.tick()
+            self.system.read(self.drive.world.time, PERIOD)
+            _, (_, _, true) = self.drive.robot.velocity('base_link')
+            measured.append([cell.value - true for cell in cells])
+        return measured
+
+
+def test_noise_is_on_what_it_is_asked_for_and_on_nothing_else():
+    noisy = Noisy('imu')
+    noise = [value for (value,) in noisy.measure(400)]
+    assert fmean(noise) == pytest.approx(0.5, abs=5 * 0.01 / 20)
+    assert pstdev(noise) == pytest.approx(0.01, rel=0.2)
+    values = {state.interface: state.value for state in noisy.system.state_interfaces()}
+    truth = noisy.drive.robot.imu('base_link', Transform())
+    assert values['linear_acceleration.z'] == truth.linear_acceleration[2]
+    assert values['angular_velocity.x'] == truth.angular_velocity[0]
+
+
+def test_noise_follows_from_the_seed_bit_by_bit():
+    expected = Noisy('imu').measure()
+    assert Noisy('imu').measure() == expected
+    assert Noisy('imu', seed=1).measure() != expected
+    assert Noisy('imu', robot='other').measure() != expected
+
+
+def test_another_unit_does_not_change_what_one_measures():
+    alone = Noisy('imu').measure()
+    both = Noisy('imu', 'second').measure()
+    assert [[first] for first, _ in both] == alone
+    assert all(first != second for first, second in both)
+
+
+def test_after_a_reset_the_noise_is_repeated():
+    noisy = Noisy('imu')
+    runs = []
+    for _ in range(2):
+        noisy.drive.world.reset()
+        noisy.system.reset(0)
+        runs.append(noisy.measure())
+    assert runs[0] == runs[1]

@@ -79,6 +79,10 @@ class World(Protocol):
     def description(self) -> 'Robot':
         """The robot, as its URDF has it."""
 
+    @property
+    def seed(self) -> Sequence[int]:
+        """Numbers from 0 on that no other robot has; the noise of its sensors follows."""
+
     def joints(self, names: Sequence[str]) -> JointGroup:
         """
         These joints, in this order. Raises SimulationError naming what is missing and what there

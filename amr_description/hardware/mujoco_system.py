@@ -17,6 +17,7 @@ from amr_description.control.contracts import HardwareComponent, Log, Severity
 from amr_description.control.interfaces import (
     CommandInterface,
     EFFORT,
+    NANOSECONDS,
     POSITION,
     StateInterface,
     VELOCITY,
@@ -105,6 +106,7 @@ class MujocoSystem(HardwareComponent):
     def configure(self) -> None:
         """Fill the state cells, so that what is available is also valid."""
         self.read(0, 0)
+        self._restart_noise()
 
     def activate(self) -> None:
         """Leave the joints idle, and forget commands of an earlier life."""
@@ -127,8 +129,9 @@ class MujocoSystem(HardwareComponent):
         self._rest(self._modes.switch(start, stop))
 
     def reset(self, time: int) -> None:
-        """The world has put the joints back: forget all targets."""
+        """The world has put the joints back: forget all targets; what is measured is repeated."""
         self._stop()
+        self._restart_noise()
 
     def read(self, time: int, period: int) -> None:
         """Take the joints' present state, and what the sensors measure."""
@@ -136,7 +139,7 @@ class MujocoSystem(HardwareComponent):
             for cell, value in zip(cells, read(), strict=True):
                 cell.value = value
         for imu in self._imus:
-            imu.read()
+            imu.read(period / NANOSECONDS)
 
     def write(self, time: int, period: int) -> None:
         """Command the joints; NaN keeps the target of before."""
@@ -154,6 +157,10 @@ class MujocoSystem(HardwareComponent):
         """Whether there is a command for the joint."""
         command = self._modes.obeyed(joint)
         return command is not None and not math.isnan(command.value)
+
+    def _restart_noise(self) -> None:
+        for imu in self._imus:
+            imu.restart()
 
     def _stop(self) -> None:
         self._rest(self._modes.joints)

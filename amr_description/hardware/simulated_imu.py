@@ -10,11 +10,18 @@ The link that it is mounted on is that of the Gazebo sensor of the same name::
 without one that of ``<param name="link">``, ``frame`` or ``frame_id`` in the ``<ros2_control>``
 sensor, and else the link of its own name. Its orientation is that in the world, not that against
 the start.
+
+It measures without noise, but for what the Gazebo sensor asks for::
+
+    <imu><angular_velocity><z><noise type="gaussian"><stddev>0.001</stddev> …
+
+see :mod:`amr_description.model.gazebo_noise`.
 """
 
 from amr_description.control.interfaces import IMU_INTERFACES, StateInterface
 from amr_description.control.world import World
 from amr_description.errors import HardwareError
+from amr_description.hardware.sensor_noise import SensorNoise
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_sensors import gazebo_sensors_of, GazeboSensor
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo
@@ -42,12 +49,28 @@ class SimulatedImu:
         self._place = Transform() if mounted is None else mounted.place
         self.states = [StateInterface(info.name, each.name) for each in info.state_interfaces]
         self._indices = [IMU_INTERFACES.index(state.interface) for state in self.states]
+        noises = () if mounted is None else mounted.noise
+        self._noisy = [IMU_INTERFACES.index(interface) for interface, _ in noises]
+        self._noise: SensorNoise | None = None
+        if noises:
+            # 0 is in no name: no robot and sensor have the numbers of two others.
+            seed = (*world.seed, 0, *info.name.encode())
+            self._noise = SensorNoise([noise for _, noise in noises], seed)
 
-    def read(self) -> None:
-        """Bring the states up to date."""
+    def restart(self) -> None:
+        """Begin the noise anew."""
+        if self._noise is not None:
+            self._noise.restart()
+
+    def read(self, period: float) -> None:
+        """Bring the states up to date, ``period`` s after the last time."""
         reading = self._world.imu(self._link, self._place)
         # In the order of IMU_INTERFACES.
-        values = *reading.orientation, *reading.angular_velocity, *reading.linear_acceleration
+        values = [*reading.orientation, *reading.angular_velocity, *reading.linear_acceleration]
+        if self._noise is not None:
+            measured = self._noise.apply([values[index] for index in self._noisy], period)
+            for index, value in zip(self._noisy, measured, strict=True):
+                values[index] = value
         for state, index in zip(self.states, self._indices, strict=True):
             state.value = values[index]
 

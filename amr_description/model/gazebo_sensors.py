@@ -10,6 +10,7 @@ from lxml import etree
 from amr_description.model.element_reader import ElementReader, line_of, parse_number
 from amr_description.model.findings import quote, raise_error
 from amr_description.model.frames import Transform
+from amr_description.model.gazebo_noise import Noise, read_imu_noise
 from amr_description.model.robot import Robot
 from amr_description.model.xml_source import parse_xml
 
@@ -23,6 +24,8 @@ class GazeboSensor:
     link: str
     place: Transform
     line: int
+    noise: tuple[tuple[str, Noise], ...] = ()
+    """Of an IMU: state interface, such as ``angular_velocity.x``, and its noise."""
 
 
 def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
@@ -47,9 +50,9 @@ def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> G
             'its <gazebo> has no attribute "reference"',
             expected='the link that the sensor is mounted on',
         )
-    return GazeboSensor(
-        name, element.get('type', ''), link, _read_pose(element, reader), line_of(element)
-    )
+    place = _read_pose(element, reader)
+    noise = tuple(read_imu_noise(element, reader))
+    return GazeboSensor(name, element.get('type', ''), link, place, line_of(element), noise)
 
 
 def _read_pose(element: etree._Element, reader: ElementReader) -> Transform:

@@ -68,6 +68,9 @@ class SimulationParameters:
         'What the simulation does when the physics goes wrong, beside saying so',
         choices=('continue', 'pause'),
     )
+    seed: int = parameter(
+        0, 'From which the noise of every sensor follows', minimum=0, read_only=True
+    )
     ground_truth_rate: float = parameter(
         50.0,
         'Rate of ground_truth/odom and ground_truth/wheels of every robot; 0: none',
@@ -130,7 +133,12 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             outgoing = SimulatedOutgoing(node)
             outgoing.adopt(node)
-            self.world = MujocoWorld(parameters.world, settings=parameters.physics, log=self.log)
+            self.world = MujocoWorld(
+                parameters.world,
+                settings=parameters.physics,
+                seed=parameters.seed,
+                log=self.log,
+            )
             ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
             mailbox = Mailbox(CLOCK_REMINDER)
             self._pacer = WallPacer(parameters.real_time_factor, mailbox)

@@ -42,9 +42,15 @@ class RobotView:
         model: RobotSpec,
         place: Transform,
         log: Log,
+        seed: int = 0,
     ) -> None:
-        """``place``: the pose at which the robot, of the spec ``model``, was spawned."""
+        """
+        ``place``: the pose at which the robot, of the spec ``model``, was spawned. ``seed``: that
+        of the world.
+        """
         self.name = name
+        self.seed = (seed, *name.encode())
+        """From it follows the noise of the robot's sensors."""
         self.description = description
         self.wheels = model.wheels
         """The links that touch the ground as wheels."""

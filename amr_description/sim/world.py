@@ -57,13 +57,15 @@ class MujocoWorld:
         settings: WorldSettings = _FILE_SETTINGS,
         timestep: int | None = None,
         contact: ContactSettings = WHEEL_CONTACT,
+        seed: int = 0,
         log: Log = say_nothing,
     ) -> None:
         """
         Load a shipped world by name or an MJCF file by path.
 
         ``settings`` go over what the file says. ``timestep``: physics step, ns; the longest that
-        settings and file allow, unless given. Raises SimulationError.
+        settings and file allow, unless given. ``seed``: from 0 on; the noise of all sensors
+        follows from it. Raises SimulationError.
         """
         listen_to_mujoco()
         with compiler_warnings(log, f"world '{world}'"):
@@ -78,6 +80,7 @@ class MujocoWorld:
             )
         self._surfaces = static_surfaces(spec)
         self._contact = contact
+        self._seed = seed
         self._contacts: dict[str, Contacts] = {}
         try:
             with compiler_warnings(log, f"world '{world}'"):
@@ -138,7 +141,7 @@ class MujocoWorld:
             description = read_description(description, name, self._log)
         model = build_robot(description, self._log)
         self._attach(name, model, pose, self._contacts_of(description, model))
-        view = RobotView(self.engine, name, description, model, pose, self._log)
+        view = RobotView(self.engine, name, description, model, pose, self._log, self._seed)
         try:
             refuse_overlap(self.engine, name)
         except SpawnError:

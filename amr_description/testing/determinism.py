@@ -26,6 +26,22 @@ from amr_description.sim.resources import package_share
 from amr_description.testing.simulation import Simulation
 
 _CONTROLLER = 'recorded_drive'
+_NOISE = '<noise type="gaussian"><stddev>0.01</stddev><bias_stddev>0.1</bias_stddev></noise>'
+_IMU = f"""
+    <sensor name="imu">
+      <state_interface name="angular_velocity.z"/>
+      <state_interface name="linear_acceleration.x"/>
+    </sensor>
+  </ros2_control>
+  <gazebo reference="base_link">
+    <sensor name="imu" type="imu">
+      <imu>
+        <angular_velocity><z>{_NOISE}</z></angular_velocity>
+        <linear_acceleration><x>{_NOISE}</x></linear_acceleration>
+      </imu>
+    </sensor>
+  </gazebo>"""
+"""What by chance differs, if anything does."""
 
 
 @dataclass(frozen=True)
@@ -72,9 +88,11 @@ def load(count: int) -> Iterator[None]:
 
 
 def _files(folder: Path, log: Path, seconds: float) -> tuple[Path, Path]:
-    """The shipped parameters with the recording controller, and the shipped URDF."""
+    """The shipped parameters with the recording controller, and the shipped robot with an IMU."""
     share = package_share('amr_description')
-    urdf = share / 'urdf' / 'amr.urdf'
+    urdf = folder / 'amr.urdf'
+    text = (share / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
+    urdf.write_text(text.replace('</ros2_control>', _IMU), encoding='utf-8')
     table = yaml.safe_load((share / 'config' / 'controllers.yaml').read_text(encoding='utf-8'))
     kind = f'{__package__}.recorded_drive/RecordedDrive'
     table['/**/controller_manager']['ros__parameters'][_CONTROLLER] = {'type': kind}
