@@ -6,7 +6,7 @@ import os
 
 from running_programs import Program
 
-from amr_description.nodes.quick_discovery import PROFILE, use_quick_discovery
+from amr_description.nodes.quick_discovery import PROFILE, use_quick_discovery, use_whole_graph
 
 VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
 
@@ -25,6 +25,15 @@ def test_a_profile_of_the_users_stays(monkeypatch):
     monkeypatch.setenv(VARIABLES[1], '/their/profile.xml')
     use_quick_discovery()
     assert VARIABLES[0] not in os.environ
+
+
+def test_through_a_discovery_server_all_is_seen_unless_a_user_says_otherwise(monkeypatch):
+    monkeypatch.delenv('ROS_SUPER_CLIENT', raising=False)
+    use_whole_graph()
+    assert os.environ['ROS_SUPER_CLIENT'] == 'TRUE'
+    monkeypatch.setenv('ROS_SUPER_CLIENT', 'FALSE')
+    use_whole_graph()
+    assert os.environ['ROS_SUPER_CLIENT'] == 'FALSE'
 
 
 def test_fast_dds_has_no_complaint_about_the_profile():

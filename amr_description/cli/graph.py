@@ -4,6 +4,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+import os
 import time
 
 from rclpy.node import Node
@@ -14,6 +15,7 @@ from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 
 _QUIET = 0.4  # s without news before discovery counts as done; Fast DDS asks again after 0.28 s
+_QUIET_WITH_SERVER = 1.5  # s; a discovery server is asked step by step, each 0.45 s later
 _AT_MOST = 5.0  # s; a graph may go on changing for ever, and Fast DDS may be silent for 3 s
 _PATIENCE = 2.0  # s for something asked for by its name
 
@@ -50,6 +52,7 @@ def wait_for_discovery(
     """
     start = last_change = time.monotonic()
     known = None
+    least = _QUIET_WITH_SERVER if os.environ.get('ROS_DISCOVERY_SERVER') else _QUIET
 
     def at_rest() -> bool:
         nonlocal known, last_change
@@ -57,7 +60,7 @@ def wait_for_discovery(
         seen = _snapshot(session.node)
         if seen != known:
             known, last_change = seen, now
-        patience = max(_QUIET, (last_change - start) * 0.5)
+        patience = max(least, (last_change - start) * 0.5)
         quiet = now - start >= at_least and now - last_change >= patience
         return quiet and _all_local_found(session.node)
 

@@ -19,6 +19,7 @@ import os
 from pathlib import Path
 
 PROFILE = Path(__file__).with_suffix('.xml')
+_SUPER_CLIENT = 'ROS_SUPER_CLIENT'
 _VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
 
 
@@ -29,3 +30,14 @@ def use_quick_discovery() -> None:
     """
     if not any(os.environ.get(variable) for variable in _VARIABLES):
         os.environ[_VARIABLES[0]] = str(PROFILE)
+
+
+def use_whole_graph() -> None:
+    """
+    Have the participant of this process, and those of its children, learn of the whole graph
+    through a discovery server too, which else tells a node only of the topics that it uses itself.
+
+    A search by type (``create``'s for the simulator) would never end, and ``ros2 topic list`` find
+    nothing. Without ``ROS_DISCOVERY_SERVER`` it changes nothing; nor where a user has decided.
+    """
+    os.environ.setdefault(_SUPER_CLIENT, 'TRUE')

@@ -57,7 +57,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from amr_description.errors import AmrError, ParameterError
-from amr_description.nodes.quick_discovery import use_quick_discovery
+from amr_description.nodes.quick_discovery import use_quick_discovery, use_whole_graph
 from amr_description.nodes.stop_requests import StopRequested, StopRequests
 
 # Only a bound, s: messages, timers and Executor.wake() end the wait at once.
@@ -126,6 +126,7 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
     with StopRequests(wake=rclpy.try_shutdown) as stop:
         try:
             use_quick_discovery()
+            use_whole_graph()
             with argument_errors():
                 rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
             yield stop

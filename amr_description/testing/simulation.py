@@ -39,7 +39,7 @@ from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
-from amr_description.nodes.quick_discovery import use_quick_discovery
+from amr_description.nodes.quick_discovery import use_quick_discovery, use_whole_graph
 from amr_description.sim.resources import description_at
 from amr_description.testing.domains import own_domain
 from amr_description.testing.latest import Latest
@@ -152,6 +152,7 @@ class Simulation:
     def _ros(self, stack: ExitStack) -> Context:
         """A context of its own: the test may have rclpy initialised, or not, for itself."""
         use_quick_discovery()
+        use_whole_graph()
         context = Context()
         rclpy.init(args=[], context=context)
         stack.callback(context.try_shutdown)
