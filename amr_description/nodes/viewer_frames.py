@@ -6,11 +6,9 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
+from amr_description.nodes.cdr import read_transforms
 from amr_description.nodes.polled_topic import PolledTopic
 from amr_description.viewer.protocol import FrameInfo
-
-type Pose = tuple[float, float, float, float, float, float, float]
-"""x y z qx qy qz qw, m."""
 
 _STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -20,10 +18,10 @@ class Frames:
 
     def __init__(self, node: Node) -> None:
         self._topics = (
-            PolledTopic(node, TFMessage, '/tf_static', qos=_STATIC_QOS),
-            PolledTopic(node, TFMessage, '/tf', depth=100),
+            PolledTopic(node, TFMessage, '/tf_static', read_transforms, qos=_STATIC_QOS),
+            PolledTopic(node, TFMessage, '/tf', read_transforms, depth=100),
         )
-        self._poses: dict[str, Pose] = {}
+        self._poses: dict[str, tuple[float, ...]] = {}
         self._parents: dict[str, str] = {}
 
     def destroy(self) -> None:
@@ -36,18 +34,16 @@ class Frames:
         moved: set[str] = set()
         is_changed = False
         for topic in self._topics:
-            while (message := topic.take()) is not None:
-                for each in message.transforms:
-                    name, parent = each.child_frame_id, each.header.frame_id
-                    is_changed |= self._parents.get(name) != parent
-                    t, q = each.transform.translation, each.transform.rotation
-                    self._parents[name] = parent
-                    self._poses[name] = (t.x, t.y, t.z, q.x, q.y, q.z, q.w)
-                    moved.add(name)
+            while (transforms := topic.take()) is not None:
+                for each in transforms:
+                    is_changed |= self._parents.get(each.name) != each.parent
+                    self._parents[each.name] = each.parent
+                    self._poses[each.name] = each.pose
+                    moved.add(each.name)
         return moved, is_changed
 
-    def pose(self, name: str) -> Pose:
-        """Return the last pose of a frame in its parent."""
+    def pose(self, name: str) -> tuple[float, ...]:
+        """Return the last pose of a frame in its parent, x y z qx qy qz qw, m."""
         return self._poses[name]
 
     def tree(self) -> tuple[FrameInfo, ...]:

@@ -6,20 +6,29 @@ What moves of one robot: its topics, read into a state when the page's server as
 Made and destroyed on the ROS thread, read on the server's.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+import math
 from typing import Any
 
 from control_msgs.msg import DynamicJointState
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-import numpy as np
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
+from amr_description.nodes.cdr import (
+    InterfaceValues,
+    JointValues,
+    read_dynamic_joint_state,
+    read_joint_state,
+    read_odometry,
+    read_twist,
+    read_twist_stamped,
+)
 from amr_description.nodes.polled_topic import PolledTopic
 from amr_description.viewer.discovery import FoundRobot, TWISTS
 from amr_description.viewer.protocol import RobotLayout
-from amr_description.viewer.states import RobotFloats
+from amr_description.viewer.states import Floats, RobotFloats
 
 COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
 _WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
@@ -36,24 +45,14 @@ class RobotTopics:
         self._latest: dict[str, Any] = {}
         self._writers: dict[str, Callable[[Any, RobotFloats], None]] = {
             'joint_states': self._write_joints,
-            'odometry': lambda message, floats: _write_motion(message, floats.odometry),
-            'truth': lambda message, floats: _write_motion(message, floats.truth),
-            'wheels': self._write_wheels,
-            'command': _write_command,
-        }
-        command = found.command
-        topics = {
-            'joint_states': (JointState, found.joint_states),
-            'odometry': (Odometry, found.odometry),
-            'truth': (Odometry, found.truth),
-            'wheels': (DynamicJointState, found.wheels),
-            'command': (COMMAND_TYPES[command.message], command.topic)
-            if command
-            else (None, None),
+            'odometry': lambda motion, floats: _copy(motion, floats.odometry),
+            'truth': lambda motion, floats: _copy(motion, floats.truth),
+            'wheels': _write_wheels,
+            'command': lambda command, floats: _copy(command, floats.command),
         }
         self._topics = {
-            part: PolledTopic(node, message_type, topic)
-            for part, (message_type, topic) in topics.items()
+            part: PolledTopic(node, message_type, topic, read)
+            for part, message_type, topic, read in _sources(found)
             if topic is not None
         }
 
@@ -70,8 +69,8 @@ class RobotTopics:
             if message is not None:
                 self._latest[part] = message
                 new.append(part)
-        if 'wheels' in new and tuple(self._latest['wheels'].joint_names) != self.layout.wheels:
-            wheels = tuple(self._latest['wheels'].joint_names)
+        if 'wheels' in new and tuple(self._latest['wheels'].names) != self.layout.wheels:
+            wheels = tuple(self._latest['wheels'].names)
             self.layout = RobotLayout(self.layout.id, self.layout.joints, wheels)
         return new
 
@@ -80,28 +79,33 @@ class RobotTopics:
         for part in self._latest if parts is None else parts:
             self._writers[part](self._latest[part], floats)
 
-    def _write_joints(self, message: JointState, floats: RobotFloats) -> None:
+    def _write_joints(self, message: JointValues, floats: RobotFloats) -> None:
         for values, target in (
-            (message.position, floats.positions),
-            (message.velocity, floats.velocities),
+            (message.positions, floats.positions),
+            (message.velocities, floats.velocities),
         ):
-            for name, value in zip(message.name, values, strict=False):  # one may be left empty
+            for name, value in zip(message.names, values, strict=False):  # one may be left empty
                 index = self._joints.get(name)
                 if index is not None:
                     target[index] = value
 
-    def _write_wheels(self, message: DynamicJointState, floats: RobotFloats) -> None:
-        for index, interfaces in enumerate(message.interface_values):
-            values = dict(zip(interfaces.interface_names, interfaces.values, strict=False))
-            floats.wheels[index] = [values.get(name, np.nan) for name in _WHEEL_VALUES]
+
+def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable[[bytes], Any]]]:
+    """Yield part, message type, topic, and how a message is read."""
+    yield 'joint_states', JointState, found.joint_states, read_joint_state
+    yield 'odometry', Odometry, found.odometry, read_odometry
+    yield 'truth', Odometry, found.truth, read_odometry
+    yield 'wheels', DynamicJointState, found.wheels, read_dynamic_joint_state
+    if found.command is not None:
+        message_type = COMMAND_TYPES[found.command.message]
+        read = read_twist if message_type is Twist else read_twist_stamped
+        yield 'command', message_type, found.command.topic, read
 
 
-def _write_motion(message: Odometry, floats: np.ndarray) -> None:
-    pose, twist = message.pose.pose, message.twist.twist
-    p, q = pose.position, pose.orientation
-    floats[:] = (p.x, p.y, p.z, q.x, q.y, q.z, q.w, twist.linear.x, twist.angular.z)
+def _write_wheels(message: InterfaceValues, floats: RobotFloats) -> None:
+    for index, values in enumerate(message.values[: len(floats.wheels)]):
+        floats.wheels[index] = [values.get(name, math.nan) for name in _WHEEL_VALUES]
 
 
-def _write_command(message: Any, floats: RobotFloats) -> None:
-    twist = getattr(message, 'twist', message)
-    floats.command[:] = (twist.linear.x, twist.angular.z)
+def _copy(values: tuple[float, ...], floats: Floats) -> None:
+    floats[:] = values

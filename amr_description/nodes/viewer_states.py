@@ -18,6 +18,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from amr_description.control.interfaces import NANOSECONDS
+from amr_description.nodes.cdr import read_clock
 from amr_description.nodes.polled_topic import PolledTopic
 from amr_description.nodes.viewer_frames import Frames
 from amr_description.nodes.viewer_robot import RobotTopics
@@ -33,7 +34,7 @@ class RosClock:
 
     def __init__(self, node: Node) -> None:
         qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._topic = PolledTopic(node, Clock, '/clock', qos=qos)
+        self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=qos)
         self._heard: deque[tuple[float, int]] = deque()
         self.time: int | None = None
         """ns; None: nobody tells the time."""
@@ -44,15 +45,15 @@ class RosClock:
 
     def take(self) -> bool:
         """Look at the topic; True: time went back."""
-        message = self._topic.take()
-        if message is None:
+        heard = self._topic.take()
+        if heard is None:
             return False
-        before, self.time = self.time, message.clock.sec * NANOSECONDS + message.clock.nanosec
-        is_back = before is not None and self.time < before
+        before, self.time = self.time, heard
+        is_back = before is not None and heard < before
         if is_back:
             self._heard.clear()
         now = time.monotonic()
-        self._heard.append((now, self.time))
+        self._heard.append((now, heard))
         while now - self._heard[0][0] > _WINDOW and len(self._heard) > 2:  # noqa: PLR2004
             self._heard.popleft()
         return is_back

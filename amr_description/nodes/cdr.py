@@ -1,0 +1,174 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Serialized messages, read without making messages of them.
+
+rclpy builds a Python object for every field: 60 µs for an Odometry, of which a picture needs nine
+numbers. These readers take 3 to 10 µs. They know plain CDR (DDS-XTypes 1.3, 7.4.1): four bytes of
+which the second names the byte order (0 big, 1 little), then the fields, numbers aligned to their
+size from there on; strings and sequences begin with their length as uint32, that of a string
+counts the zero at its end. Bytes that end too early raise ValueError.
+
+This module imports no rclpy.
+"""
+
+from dataclasses import dataclass
+import struct
+
+NANOSECONDS = 1_000_000_000
+_BEGIN = 4
+_POSE_COVARIANCE = 36
+
+type Motion = tuple[float, ...]
+"""x y z qx qy qz qw of a pose, linear x, angular z: m, m/s, rad/s."""
+
+
+class Reader:
+    """Reads one field after the other."""
+
+    def __init__(self, data: bytes) -> None:
+        if len(data) < _BEGIN or data[0] != 0 or data[1] > 1:
+            raise ValueError(f'no plain CDR: {data[:_BEGIN].hex(" ")}')
+        self._data = data
+        self._order = '<' if data[1] else '>'
+        self._length = struct.Struct(f'{self._order}I')
+        self._at = _BEGIN
+
+    def count(self) -> int:
+        """Read a uint32."""
+        at = self._at + 3 & ~3
+        self._at = at + 4
+        try:
+            return self._length.unpack_from(self._data, at)[0]
+        except struct.error as cause:
+            raise ValueError(f'{len(self._data)} bytes end within a number') from cause
+
+    def stamp(self) -> int:
+        """Read a time, ns."""
+        seconds = self.count()
+        seconds -= (seconds & 2**31) << 1  # it is signed
+        return seconds * NANOSECONDS + self.count()
+
+    def text(self) -> str:
+        """Read a string."""
+        size = self.count()
+        begin, self._at = self._at, self._at + size
+        if self._at > len(self._data):
+            raise ValueError(f'{len(self._data)} bytes end within a string of {size}')
+        return self._data[begin : self._at - 1].decode()
+
+    def texts(self) -> list[str]:
+        """Read a sequence of strings."""
+        return [self.text() for _ in range(self.count())]
+
+    def doubles(self, count: int) -> tuple[float, ...]:
+        """Read so many float64."""
+        at = self._skip_to(count)
+        return struct.unpack_from(f'{self._order}{count}d', self._data, at)
+
+    def skip_doubles(self, count: int) -> None:
+        """Pass over so many float64."""
+        self._skip_to(count)
+
+    def some_doubles(self) -> tuple[float, ...]:
+        """Read a sequence of float64."""
+        count = self.count()
+        return self.doubles(count) if count else ()
+
+    def _skip_to(self, count: int) -> int:
+        at = (self._at - _BEGIN + 7 & ~7) + _BEGIN
+        self._at = at + 8 * count
+        if self._at > len(self._data):
+            raise ValueError(f'{len(self._data)} bytes end within {count} numbers')
+        return at
+
+
+@dataclass(frozen=True, slots=True)
+class JointValues:
+    """Of a JointState; ``positions`` and ``velocities`` may be empty."""
+
+    names: list[str]
+    positions: tuple[float, ...]
+    velocities: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class InterfaceValues:
+    """Of a DynamicJointState: for each joint, values by interface."""
+
+    names: list[str]
+    values: list[dict[str, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class FramePose:
+    """Of a TFMessage: where a frame is in its parent, x y z qx qy qz qw, m."""
+
+    name: str
+    parent: str
+    pose: tuple[float, ...]
+
+
+def read_clock(data: bytes) -> int:
+    """``rosgraph_msgs/msg/Clock``: ns."""
+    return Reader(data).stamp()
+
+
+def read_transforms(data: bytes) -> list[FramePose]:
+    """``tf2_msgs/msg/TFMessage``."""
+    reader = Reader(data)
+    return [_read_transform(reader) for _ in range(reader.count())]
+
+
+def read_joint_state(data: bytes) -> JointValues:
+    """``sensor_msgs/msg/JointState``."""
+    reader = _after_header(data)
+    return JointValues(reader.texts(), reader.some_doubles(), reader.some_doubles())
+
+
+def read_odometry(data: bytes) -> Motion:
+    """``nav_msgs/msg/Odometry``."""
+    reader = _after_header(data)
+    reader.text()
+    pose = reader.doubles(7)
+    reader.skip_doubles(_POSE_COVARIANCE)
+    return pose + _planar(reader)
+
+
+def read_dynamic_joint_state(data: bytes) -> InterfaceValues:
+    """``control_msgs/msg/DynamicJointState``."""
+    reader = _after_header(data)
+    names = reader.texts()
+    values = [
+        dict(zip(reader.texts(), reader.some_doubles(), strict=False))
+        for _ in range(reader.count())
+    ]
+    return InterfaceValues(names, values)
+
+
+def read_twist(data: bytes) -> tuple[float, ...]:
+    """``geometry_msgs/msg/Twist``: linear x, m/s, and angular z, rad/s."""
+    return _planar(Reader(data))
+
+
+def read_twist_stamped(data: bytes) -> tuple[float, ...]:
+    """``geometry_msgs/msg/TwistStamped``: as :func:`read_twist`."""
+    return _planar(_after_header(data))
+
+
+def _after_header(data: bytes) -> Reader:
+    reader = Reader(data)
+    reader.stamp()
+    reader.text()
+    return reader
+
+
+def _read_transform(reader: Reader) -> FramePose:
+    reader.stamp()
+    parent = reader.text()
+    return FramePose(reader.text(), parent, reader.doubles(7))
+
+
+def _planar(reader: Reader) -> tuple[float, ...]:
+    values = reader.doubles(6)
+    return (values[0], values[5])
