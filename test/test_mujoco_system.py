@@ -294,6 +294,15 @@ def test_hold_joints_must_be_a_truth_value(world):
         MujocoSystem(info_of(urdf), Lines(), world)
 
 
+def test_the_gain_of_gazebos_position_servo_is_said_to_be_left_out(world):
+    gain = '<position_proportional_gain>0.5</position_proportional_gain>'
+    urdf = URDF.replace('</robot>', gazebo('true').replace('</plugin>', f'{gain}</plugin>'))
+    system = MujocoSystem(info_of(urdf), Lines(), FakeWorld(urdf))
+    assert "'Cart': <position_proportional_gain> is left out: positions are" in system.log.text
+    silent = MujocoSystem(info_of(), Lines(), world)
+    assert silent.log.lines == []
+
+
 # --- the table of plugins ------------------------------------------------------------------------
 
 

@@ -26,7 +26,7 @@ from amr_description.control.world import JointGroup, World
 from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware.command_modes import CommandModes
 from amr_description.hardware.simulated_imu import imus_of
-from amr_description.model.gazebo_tag import gazebo_plugins_of
+from amr_description.model.gazebo_tag import GAZEBOS_GAIN, ros2_control_host_of
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
 
 STATES = (POSITION, VELOCITY, EFFORT)
@@ -88,6 +88,13 @@ class MujocoSystem(HardwareComponent):
     def _tell_what_is_left_out(self) -> None:
         simulated = [imu.info for imu in self._imus]
         others = [sensor for sensor in self.info.sensors if sensor not in simulated]
+        host = ros2_control_host_of(self._world.description)
+        if host.position_proportional_gain != GAZEBOS_GAIN:
+            self.log(
+                Severity.WARN,
+                f"hardware component '{self.info.name}': <position_proportional_gain> is left "
+                'out: positions are approached as fast as the limits of their joints allow',
+            )
         for component in (*others, *self.info.gpios):
             self.log(
                 Severity.WARN,
@@ -240,8 +247,7 @@ def _holds_joints(info: HardwareInfo, world: World) -> bool:
     """Raises HardwareError for a text that is no truth value."""
     text = info.parameters.get('hold_joints')
     if text is None:
-        plugins = gazebo_plugins_of(world.description)
-        return all(plugin.hold_joints for plugin in plugins if plugin.hosts_ros2_control)
+        return ros2_control_host_of(world.description).hold_joints
     if text.lower() not in _TRUTH_VALUES:
         raise HardwareError(f"parameter 'hold_joints' is '{text}'; true or false is needed")
     return _TRUTH_VALUES[text.lower()]

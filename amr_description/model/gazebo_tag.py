@@ -21,6 +21,8 @@ _ROS2_CONTROL_PLUGINS = (
     'ign_ros2_control::IgnitionROS2ControlPlugin',
 )
 
+GAZEBOS_GAIN = 0.1
+
 
 @dataclass(frozen=True, slots=True)
 class GazeboPlugin:
@@ -40,7 +42,7 @@ class GazeboPlugin:
     namespace: str = ''
     remappings: tuple[str, ...] = ()
     hold_joints: bool = True
-    position_proportional_gain: float = 0.1
+    position_proportional_gain: float = GAZEBOS_GAIN
 
     @property
     def hosts_ros2_control(self) -> bool:
@@ -52,6 +54,15 @@ def gazebo_plugins_of(robot: Robot) -> tuple[GazeboPlugin, ...]:
     """Return the plugins of all ``<gazebo>`` blocks; DescriptionError at the first fault."""
     xml = parse_xml(robot.text, robot.source, raise_error)
     return () if xml is None else read_gazebo_plugins(xml, robot.source, raise_error)
+
+
+def ros2_control_host_of(robot: Robot) -> GazeboPlugin:
+    """
+    Return the plugin that hosts ros2_control, the first if there are several; with all defaults
+    if there is none. DescriptionError at the first fault.
+    """
+    hosts = (plugin for plugin in gazebo_plugins_of(robot) if plugin.hosts_ros2_control)
+    return next(hosts, GazeboPlugin(filename='', name='', line=0))
 
 
 def read_gazebo_plugins(
@@ -100,7 +111,7 @@ def _read_hold_joints(element: etree._Element, reader: ElementReader) -> bool:
 
 
 def _read_gain(element: etree._Element, reader: ElementReader) -> float:
-    text = element.findtext('position_proportional_gain', '0.1').strip()
+    text = element.findtext('position_proportional_gain', str(GAZEBOS_GAIN)).strip()
     gain = parse_number(text)
     if not 0.0 < gain < float('inf'):
         reader.error(
@@ -109,5 +120,5 @@ def _read_gain(element: etree._Element, reader: ElementReader) -> float:
             found=quote(text),
             expected='a finite number above 0',
         )
-        return 0.1
+        return GAZEBOS_GAIN
     return gain

@@ -49,6 +49,7 @@ class ControllerManagerNode:
         outgoing: Outgoing,
         logs: LogThread,
         *,
+        name: str = NODE_NAME,
         namespace: str,
         arguments: Sequence[str],
     ) -> None:
@@ -61,7 +62,7 @@ class ControllerManagerNode:
         self._requests: ManagerRequests | None = None
         self._arguments = arguments
         self.node: Node = outgoing.make_node(
-            NODE_NAME, namespace, arguments, allow_undeclared_parameters=True
+            name, namespace, arguments, allow_undeclared_parameters=True
         )
         self.log: Log = logs.log_of(self.node.get_logger())
         try:

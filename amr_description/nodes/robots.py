@@ -20,7 +20,7 @@ from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import NANOSECONDS
 from amr_description.errors import RequestError, SpawnError
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_tag import gazebo_plugins_of
+from amr_description.model.gazebo_tag import gazebo_plugins_of, ros2_control_host_of
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
@@ -268,12 +268,15 @@ class Robots:
     def _manager_node(
         self, robot: Robot, hardware: Sequence[HardwareInfo], namespace: str
     ) -> ControllerManagerNode:
-        arguments = [*self._ros_args, *self._parameter_files(robot)]
+        host = ros2_control_host_of(robot)
+        rules = [word for rule in host.remappings for word in ('-r', rule)]
+        arguments = [*self._ros_args, *rules, *self._parameter_files(robot)]
         with argument_errors():
             node = ControllerManagerNode(
                 self._owner,
                 self._outgoing,
                 self._logs,
+                name=host.controller_manager_name,
                 namespace=namespace,
                 arguments=arguments,
             )

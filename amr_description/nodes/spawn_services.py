@@ -16,6 +16,7 @@ from simulation_interfaces.srv import (
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import DescriptionError, RequestError, SimulationError, SpawnError
+from amr_description.model.gazebo_tag import ros2_control_host_of
 from amr_description.nodes.answers import refuse, serve
 from amr_description.nodes.converters import transform_of
 from amr_description.nodes.ground_truth import WORLD_FRAME
@@ -124,11 +125,12 @@ class SpawnServices:
         """``request``: of either service. Raises SpawnError, or whatever a component raises."""
         robot = read_description(text, source, self._simulation.log)
         _check_frame(request.initial_pose)
+        namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
         name = await self._simulation.robots.spawn(
             request.name or robot.name,
             robot,
             transform_of(request.initial_pose.pose),
-            _checked_namespace(request.entity_namespace),
+            _checked_namespace(namespace),
             allow_renaming=request.allow_renaming,
         )
         self._simulation.log(Severity.INFO, f"Spawned '{name}'")
