@@ -8,6 +8,7 @@ import pytest
 
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.progress import Progress
+from amr_description.bringup.situation import PathLook
 from amr_description.bringup.stacks.hardware import mock, serial
 from amr_description.errors import AmrError
 from amr_description.hardware import HARDWARE
@@ -31,6 +32,10 @@ def stack(function, **given):
 
 def waves(stack):
     progress = Progress(stack)
+    port = hardware(stack).parameters.get('port')
+    if port:
+        yield [node.executable for node in progress.startable()]
+        progress.see(paths={port: PathLook(True)})
     while wave := progress.startable():
         for node in wave:
             progress.start(node)
@@ -54,7 +59,8 @@ def test_mock_hardware():
 
 def test_a_simulated_board_where_there_is_no_real_one():
     made = stack(serial)
-    assert list(waves(made)) == [['motor_board', *CONTROLLED[0]], CONTROLLED[1]]
+    before_the_port = ['motor_board', 'robot_state_publisher']
+    assert list(waves(made)) == [before_the_port, ['motor_board', *CONTROLLED[0]], CONTROLLED[1]]
     info = hardware(made)
     assert info.plugin == 'amr_description/SerialBaseSystem'
     assert made.nodes[0].arguments == ['--link', info.parameters['port']]
@@ -65,7 +71,7 @@ def test_a_simulated_board_where_there_is_no_real_one():
 
 def test_a_real_board():
     made = stack(serial, port='/dev/ttyUSB0')
-    assert list(waves(made)) == CONTROLLED
+    assert list(waves(made)) == [['robot_state_publisher'], *CONTROLLED]
     assert hardware(made).parameters['port'] == '/dev/ttyUSB0'
 
 

@@ -5,7 +5,8 @@
 from fixtures.bringup.running import install_toys, STACKS
 import pytest
 
-from amr_description.bringup.main import find_stack, main
+from amr_description.bringup.main import main
+from amr_description.bringup.stack_files import find_stack
 from amr_description.bringup.stacks import STACKS as READY_MADE
 
 CHATTY = str(STACKS / 'chatty.py')

@@ -32,6 +32,7 @@ file_notes.py          which files are used, and whether another copy of one is 
 job.py                 a node made ready to run: name, command line, environment
 discovery.py           who finds the nodes: domain, range, peers, discovery server
 environment.py         pure: the environment of a child, and of the user's next shell
+listing.py             what ``--print`` prints
 line_splitter.py       pure: bytes from a pipe -> lines
 child.py               one running process: its session, its output, its end
 orchestrator.py        the engine: start, watch, stop
@@ -43,6 +44,7 @@ narrator.py            what the orchestrator says of a stack, in launch's words
 post_mortem.py         pure: what is said of the failure that stopped a stack
 console.py             what a person reads: prefixes, colours, log files
 main.py                the command ``bringup``
+stack_files.py         finds stacks, by name or in files of users; include
 stacks/                the ready-made stacks
 ====================== ============================================================================
 
@@ -63,6 +65,7 @@ from amr_description.bringup.description import Group, Node, Respawn, Stack
 from amr_description.bringup.file_notes import notes_on
 from amr_description.bringup.outside_conditions import path_exists, ros_node, service, topic
 from amr_description.bringup.packages import path_of
+from amr_description.bringup.stack_files import include
 from amr_description.bringup.urdf_text import robot_description
 
 __all__ = [
@@ -75,6 +78,7 @@ __all__ = [
     'any_of',
     'exited_cleanly',
     'failed',
+    'include',
     'logged',
     'notes_on',
     'path_exists',

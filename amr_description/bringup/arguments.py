@@ -100,10 +100,12 @@ def _argument(parameter: inspect.Parameter, hint: Any) -> Argument:
 
 
 def _typed_default(parameter: inspect.Parameter) -> str | None:
-    if parameter.default is parameter.empty:
-        return None
-    is_bool = isinstance(parameter.default, bool)
-    return str(parameter.default).lower() if is_bool else str(parameter.default)
+    return None if parameter.default is parameter.empty else as_typed(parameter.default)
+
+
+def as_typed(value: object) -> str:
+    """Return a value as a user would type it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def parse(words: Sequence[str]) -> dict[str, str]:

@@ -152,6 +152,18 @@ class Stack:
             raise BringupError(f'patience={self.patience}: it takes more than 0 s')
 
     @property
+    def all_notes(self) -> list[tuple[Level, str]]:
+        """Its notes and those of the stacks in it, each once."""
+        inner = [note for stack in stacks_of(self.nodes) for note in stack.all_notes]
+        return list(dict.fromkeys([*self.notes, *inner]))
+
+    @property
+    def all_next_steps(self) -> str:
+        """What it says that comes next, or else what the stacks in it say."""
+        inner = (stack.all_next_steps for stack in stacks_of(self.nodes))
+        return self.next_steps or '\n'.join(filter(None, inner))
+
+    @property
     def readiness(self) -> Condition:
         """When it is ready; the names in it are relative to where the stack stands."""
         if self.ready_when is not None:

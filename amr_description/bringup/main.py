@@ -4,26 +4,23 @@
 
 import argparse
 import asyncio
-from collections.abc import Callable
 from datetime import datetime
-import importlib.util
 import os
 from pathlib import Path
 import sys
 
 from amr_description.bringup import discovery
-from amr_description.bringup.arguments import declared, parse, resolve, show, suggestion
+from amr_description.bringup.arguments import declared, parse, show
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
 from amr_description.bringup.description import nodes_of, Stack
 from amr_description.bringup.job import Job, jobs_of
+from amr_description.bringup.listing import listing
 from amr_description.bringup.log_folder import log_base, LogFolder, run_name, with_tilde
 from amr_description.bringup.orchestrator import Orchestrator
+from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
-from amr_description.errors import AmrError, BringupError, UsageError
-from amr_description.registry import resolve as import_target
-
-type StackFunction = Callable[..., Stack]
+from amr_description.errors import AmrError
 
 
 def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
@@ -59,49 +56,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(options: argparse.Namespace) -> int:
     os.environ |= discovery.variables(options, os.environ)
-    function = find_stack(options.stack)
-    arguments = declared(function)
     if options.show_args:
-        print(show(arguments))
+        print(show(declared(find_stack(options.stack))))
         return 0
-    stack = function(**resolve(arguments, parse(options.arguments)))
+    stack = make_stack(options.stack, parse(options.arguments))
     if options.print:
-        print(describe(stack, jobs_of(stack, Path('LOG_FOLDER'))))
+        print(listing(stack, jobs_of(stack, Path('LOG_FOLDER'))))
         return 0
     return start(stack)
-
-
-def find_stack(name: str) -> StackFunction:
-    """Return the function of a stack of the table, or of a file ``<function>.py``."""
-    if name in STACKS:
-        return import_target(STACKS[name])
-    path = Path(name)
-    if path.suffix != '.py':
-        raise UsageError(f"unknown stack '{name}'{suggestion(name, list(STACKS))}")
-    if not path.is_file():
-        raise UsageError(f"no stack: there is no file '{name}'")
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    if not callable(getattr(module, path.stem, None)):
-        raise BringupError(f"'{name}' has no function '{path.stem}' that returns its Stack")
-    return getattr(module, path.stem)
-
-
-def describe(stack: Stack, jobs: list[Job]) -> str:
-    """Return what ``--print`` prints: each process with its condition and its command line."""
-    names = {job.node: job.name for job in jobs}
-    lines = []
-    for job in jobs:
-        condition = job.node.start_when
-        when = f'when {condition.describe(names.__getitem__)}' if condition else 'at once'
-        lines += [f'{job.name}: {when}', f'    {job.command_text}']
-        for path, text in job.parameter_files:
-            if text is not None:
-                lines += [f'    {path}:', *(f'        {line}' for line in text.splitlines())]
-    if stack.ready_when:
-        lines.append(f'ready: when {stack.ready_when.describe(names.__getitem__)}')
-    return '\n'.join(lines)
 
 
 def start(stack: Stack) -> int:
@@ -122,7 +84,7 @@ def start(stack: Stack) -> int:
         where = with_tilde(folder.path)
         console.say('INFO', LAUNCH, f'All log files can be found below {where}')
         console.say('INFO', LAUNCH, discovery.told(os.environ))
-        for level, text in stack.notes:
+        for level, text in stack.all_notes:
             console.say(level, LAUNCH, text)
         # The log files that the nodes write themselves belong to this run, too.
         environment = {**os.environ, 'ROS_LOG_DIR': str(folder.path)}

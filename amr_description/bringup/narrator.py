@@ -73,7 +73,7 @@ class Narrator:
         if progress.ready and 'ready' not in self._told:
             self._told.add('ready')
             took = time.monotonic() - self._begin
-            steps = f': {self._stack.next_steps}' if self._stack.next_steps else ''
+            steps = f': {self._stack.all_next_steps}' if self._stack.all_next_steps else ''
             self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
 
     def lends_terminal(self, node: Node) -> None:

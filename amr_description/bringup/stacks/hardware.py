@@ -17,10 +17,12 @@ from amr_description.bringup import (
     exited_cleanly,
     Node,
     notes_on,
+    path_exists,
     path_of,
     robot_description,
     Stack,
 )
+from amr_description.bringup.conditions import Condition
 from amr_description.bringup.stacks.simulation import how_to_drive
 from amr_description.model.hardware_swap import swap_hardware
 
@@ -64,20 +66,32 @@ def serial(
         'amr_description/SerialBaseSystem',
         {'port': port, 'left_joints': left, 'right_joints': right},
     )
-    return _controlled(description, [path_of(urdf), path_of(controllers)], boards)
+    files = [path_of(urdf), path_of(controllers)]
+    return _controlled(description, files, boards, path_exists(port))
 
 
-def _controlled(description: str, files: Sequence[Path], before: Sequence[Node] = ()) -> Stack:
+def _controlled(
+    description: str,
+    files: Sequence[Path],
+    before: Sequence[Node] = (),
+    start_when: Condition | None = None,
+) -> Stack:
     """
     The manager by itself, the description, and the controllers one after the other.
 
-    ``files``: that of the description and that of the controllers' parameters.
+    :param files: That of the description and that of the controllers' parameters.
+    :param before: What is started first.
+    :param start_when: What the manager needs.
     """
-    ros2_control_node = Node('ros2_control_node', parameters=[files[1]], on_exit='shutdown')
+    ros2_control_node = Node(
+        'ros2_control_node', parameters=[files[1]], on_exit='shutdown', start_when=start_when
+    )
     robot_state_publisher = Node(
         'robot_state_publisher', parameters=[{'robot_description': description}]
     )
-    joint_state_broadcaster = Node('spawner', arguments=['joint_state_broadcaster'])
+    joint_state_broadcaster = Node(
+        'spawner', arguments=['joint_state_broadcaster'], start_when=start_when
+    )
     diff_drive_controller = Node(
         'spawner',
         arguments=['diff_drive_controller'],

@@ -50,7 +50,7 @@ def launch_files(args: Namespace, _prefix: str) -> Iterable[str]:
 def launch_arguments(args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the arguments of the stack on the line, ``name:=``."""
     from amr_description.bringup.arguments import declared
-    from amr_description.bringup.main import find_stack
+    from amr_description.bringup.stack_files import find_stack
     from amr_description.cli.launch_files import find_launch_file
 
     stack, _ = find_launch_file(args.package_name, args.launch_file_name, [])

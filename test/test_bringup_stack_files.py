@@ -1,0 +1,110 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Stacks in files of users, in other stacks, and printed."""
+
+from fixtures.bringup.running import install_toys, STACKS
+import pytest
+
+from amr_description.bringup import (
+    exited_cleanly,
+    Group,
+    include,
+    Node,
+    ready,
+    Respawn,
+    Stack,
+)
+from amr_description.bringup.job import jobs_of
+from amr_description.bringup.listing import listing
+from amr_description.bringup.placement import Placement
+from amr_description.errors import BringupError, UsageError
+
+CHATTY = STACKS / 'chatty.py'
+
+
+@pytest.fixture(autouse=True)
+def toys(tmp_path, monkeypatch):
+    install_toys(tmp_path)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+
+
+def test_arguments_of_an_included_file_are_values_or_as_typed():
+    for code, leave in ((3, True), ('3', 'true')):
+        stack = include(CHATTY, text='hello', code=code, leave_child=leave)
+        assert stack.nodes[0].arguments == [
+            '--code', 3, 'hello', '--unfinished', '', '--leave-child',
+        ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ('values', 'text'),
+    [
+        ({'text': 'x', 'cod': 3}, "unknown argument 'cod'; did you mean 'code'"),
+        ({'text': 'x', 'code': 1.5}, "code:=1.5: '1.5' is not an integer"),
+    ],
+)
+def test_wrong_arguments_are_refused_by_name(values, text):
+    with pytest.raises(UsageError, match=text):
+        include(CHATTY, **values)
+
+
+def test_what_is_no_stack_is_refused(tmp_path):
+    with pytest.raises(BringupError, match="missing required argument 'text'"):
+        include(CHATTY)
+    with pytest.raises(BringupError, match="'simulaton' asked for, there is no such file at"):
+        include('simulaton')
+    (tmp_path / 'nothing.py').write_text('def nothing(): pass')
+    with pytest.raises(BringupError, match=r"nothing.py' returned None; a stack's function"):
+        include(tmp_path / 'nothing.py')
+
+
+def test_a_stack_that_includes_itself_is_refused(tmp_path):
+    for one, other in (('egg', 'hen'), ('hen', 'egg')):
+        (tmp_path / f'{one}.py').write_text(
+            'from amr_description.bringup import include\n'
+            f'def {one}():\n    return include({str(tmp_path / f"{other}.py")!r})\n'
+        )
+    with pytest.raises(BringupError, match=r"stand in itself: '\S+egg.py' includes '\S+hen.py'"):
+        include(tmp_path / 'egg.py')
+
+
+def test_what_is_said_by_a_stack_in_a_stack_is_said():
+    inner = Stack([Node('a')], notes=[('INFO', 'using x')], next_steps='drive')
+    other = Stack([Node('b')], notes=[('INFO', 'using x'), ('INFO', 'using y')])
+    stack = Stack([Group([inner]), other])
+    assert stack.all_notes == [('INFO', 'using x'), ('INFO', 'using y')]
+    assert stack.all_next_steps == 'drive'
+    assert Stack([stack], next_steps='look').all_next_steps == 'look'
+
+
+def test_the_tree_is_printed_with_full_names_and_in_words(tmp_path):
+    chatty = include(CHATTY, text='hi')
+    worker = Node(
+        'worker',
+        package='toys',
+        start_when=ready(chatty),
+        required=False,
+        respawn=Respawn(limit=2),
+        environment={'A': '1'},
+    )
+    robot = Group([Stack([chatty]), worker], namespace='robot1')
+    stack = Stack([robot], ready_when=exited_cleanly(chatty.nodes[0]))
+    folder = f'{tmp_path}/lib/toys'
+    assert listing(stack, jobs_of(stack, tmp_path)).splitlines() == [
+        'group robot1:',
+        '    stack:',
+        '        stack:',
+        '            step-1: at once',
+        f"                {folder}/step --code 0 hi --unfinished '' --ros-args -r __ns:=/robot1",
+        '    worker-2: when step-1 was started, optional, started again up to 2 times',
+        f'        {folder}/worker --ros-args -r __ns:=/robot1',
+        '        A=1',
+        'ready: when step-1 exited with code 0',
+    ]
+
+
+def test_ready_made_stacks_can_be_included():
+    root = STACKS.parents[3]
+    files = {'urdf': root / 'urdf/amr.urdf', 'controllers': root / 'config/controllers.yaml'}
+    stack = Stack([Group([include('mock', **files)], namespace='robot1')])
+    assert {placed.namespace for placed in Placement(stack).nodes} == {'/robot1'}
