@@ -27,7 +27,6 @@ from amr_description.viewer.protocol import (
     RobotInfo,
     ServerMessage,
     SimulationStatus,
-    SimulatorInfo,
     World,
 )
 from amr_description.viewer.requests import Request, Switch
@@ -171,9 +170,7 @@ class GraphBackend(Audience):
 
     def _show_graph(self, robots: tuple[RobotInfo, ...]) -> None:
         self._infos = robots
-        simulators = tuple(
-            SimulatorInfo(name, each.worlds or ()) for name, each in self._simulators.items()
-        )
+        simulators = tuple(each.info for each in self._simulators.values())
         self.server.show_now('', Graph(robots, simulators, None if robots else self._hint()))
 
     def _hint(self) -> str:
@@ -228,9 +225,9 @@ class GraphBackend(Audience):
         self._do(ask())
 
     async def _refresh(self, simulator: Simulator) -> None:
-        worlds = simulator.worlds
+        before = simulator.info
         await simulator.refresh()
-        if simulator.worlds != worlds:
+        if simulator.info != before:
             self._show_graph(self._infos)
 
     async def _refresh_for_ever(self) -> None:

@@ -11,6 +11,7 @@ from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import (
     DeleteEntity,
     GetAvailableWorlds,
+    GetEntities,
     GetSimulationState,
     ResetSimulation,
     SetSimulationState,
@@ -22,6 +23,7 @@ from amr_description.errors import ViewerError
 from amr_description.model.frames import Transform
 from amr_description.nodes.converters import fill_pose
 from amr_description.nodes.viewer_services import Services
+from amr_description.viewer.protocol import SimulatorInfo
 from amr_description.viewer.requests import (
     Delete,
     Play,
@@ -47,6 +49,7 @@ _TYPES = {
     'spawn_entity': SpawnEntity,
     'delete_entity': DeleteEntity,
     'get_available_worlds': GetAvailableWorlds,
+    'get_entities': GetEntities,
     'get_parameters': GetParameters,
     'set_parameters': SetParameters,
 }
@@ -74,9 +77,15 @@ class Simulator:
         self.state = 'unknown'
         self.factor: float | None = None
         """Asked for; None: it has no such parameter."""
-        self.worlds: tuple[str, ...] | None = None
+        self.worlds: tuple[str, ...] = ()
+        self.entities: tuple[str, ...] = ()
         self._services = services
         self._description_of = description_of
+
+    @property
+    def info(self) -> SimulatorInfo:
+        """What pages are told of it."""
+        return SimulatorInfo(self.name, self.worlds, self.entities)
 
     async def refresh(self) -> None:
         """Ask for what is told of it. Raises ViewerError."""
@@ -85,7 +94,9 @@ class Simulator:
         values = await self._call('get_parameters', GetParameters.Request(names=[_FACTOR]))
         known = [each for each in values.values if each.type == ParameterType.PARAMETER_DOUBLE]
         self.factor = known[0].double_value if known else None
-        if self.worlds is None:
+        entities = await self._call('get_entities', GetEntities.Request())
+        self.entities = tuple(entities.entities)
+        if not self.worlds:
             worlds = await self._call('get_available_worlds', GetAvailableWorlds.Request())
             self.worlds = tuple(each.name for each in worlds.worlds)
 

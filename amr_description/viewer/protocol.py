@@ -60,10 +60,11 @@ class RobotInfo:
 
 @dataclass(frozen=True, slots=True)
 class SimulatorInfo:
-    """A simulator, by its node, and the worlds that it offers."""
+    """A simulator, by its node, the worlds that it offers, and who is in its own."""
 
     id: str
     worlds: tuple[str, ...]
+    entities: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)

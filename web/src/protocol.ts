@@ -51,6 +51,7 @@ export interface RobotInfo {
 export interface SimulatorInfo {
   id: string; // the node: "/mujoco_sim"
   worlds: string[]; // what it offers
+  entities: string[]; // what is in its world, by the names that `delete` takes
 }
 
 /** A robot's description. Sent when it first comes, and when it changes. */
