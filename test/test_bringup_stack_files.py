@@ -103,7 +103,8 @@ def test_the_tree_is_printed_with_full_names_and_in_words(tmp_path):
     ]
 
 
-def test_ready_made_stacks_can_be_included():
+def test_ready_made_stacks_can_be_included(tmp_path):
+    (tmp_path / 'share/ament_index/resource_index/packages/amr_description').touch()
     root = STACKS.parents[3]
     files = {'urdf': root / 'urdf/amr.urdf', 'controllers': root / 'config/controllers.yaml'}
     stack = Stack([Group([include('mock', **files)], namespace='robot1')])
