@@ -17,7 +17,7 @@ const out = path.join(here, '..', 'amr_description', 'viewer', 'static');
 
 await rm(out, { recursive: true, force: true });
 await mkdir(out, { recursive: true });
-await esbuild.build({
+const { metafile } = await esbuild.build({
   absWorkingDir: here,
   entryPoints: ['src/main.ts', 'src/style.css'],
   outdir: out,
@@ -25,13 +25,33 @@ await esbuild.build({
   format: 'esm',
   target: 'es2022',
   minify: true,
-  legalComments: 'linked', // the licences of three, urdf-loader and uPlot go with the page
+  legalComments: 'none', // whole licences are written below
+  metafile: true,
   logLevel: 'warning',
 });
 for (const name of ['index.html', 'icon.svg']) {
   await copyFile(path.join(here, 'src', name), path.join(out, name));
 }
+await writeFile(path.join(out, 'licenses.txt'), await licences(Object.keys(metafile.inputs)));
 await writeFile(path.join(out, 'sources.sha256'), `${await digestOfSources()}\n`);
+
+/** The licences of the packages that are in the page: name, version and text of each, sorted. */
+async function licences(inputs) {
+  const found = inputs.map((input) => /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1]);
+  const texts = [];
+  for (const name of [...new Set(found.filter(Boolean))].sort()) {
+    const folder = path.join(here, 'node_modules', name);
+    const about = JSON.parse(await readFile(path.join(folder, 'package.json'), 'utf8'));
+    const file = (await readdir(folder)).find((entry) => /^licen[cs]e/i.test(entry));
+    if (file === undefined && about.license !== 'Apache-2.0') {
+      throw new Error(`${name} is in the page, but has no licence file to go with it`);
+    }
+    // A package without the file names its licence alone; that of Apache is in this project, too.
+    const text = file === undefined ? path.join(here, '..', 'LICENSE') : path.join(folder, file);
+    texts.push(`${name} ${about.version} (${about.license})\n\n${await readFile(text, 'utf8')}`);
+  }
+  return texts.join(`\n${'-'.repeat(79)}\n\n`);
+}
 
 /** One digest over all that the page is built from: "<digest of the file>  <path>" a line, sorted. */
 async function digestOfSources() {

@@ -27,6 +27,7 @@ export class Header {
     this.play = button('', () => this.playOrPause(), { title: 'Pause' });
     this.play.classList.add('play');
     const step = button('', () => this.simulate('step'), { icon: 'step', title: 'One step' });
+    step.classList.add('step');
     const reset = button('', () => this.simulate('reset_simulation'), {
       icon: 'reset',
       title: 'Reset: robots to their starts, time to 0',
@@ -45,6 +46,7 @@ export class Header {
     this.element = h(
       'header',
       { class: 'top' },
+      h('img', { class: 'mark', src: 'icon.svg', alt: '' }),
       h('h1', {}, this.name, this.robots),
       this.link,
       this.domain,

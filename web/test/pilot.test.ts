@@ -173,6 +173,22 @@ test('when somebody else stops our robot, a held key does not drive on', () => {
   assert.equal(outside.sent.length, count, 'a stop is not answered by a stop');
 });
 
+test('a page that was late, so that the node gave it up, drives on while the key is held', () => {
+  const { outside, pilot } = piloting();
+  pilot.set('keys', AHEAD);
+  pilot.hearDriver('me');
+  outside.pass(1000);
+  outside.time += 600; // nothing on this page ran: its timers are late
+  pilot.hearDriver('nobody');
+  assert.equal(pilot.driving, true);
+  outside.pass(1);
+  pilot.hearDriver('me');
+  assert.equal(outside.last?.type, 'drive');
+  outside.pass(1000);
+  pilot.hearDriver('nobody');
+  assert.equal(pilot.driving, false, 'in time again, so it was somebody');
+});
+
 test('the answer to our own stop does not take the wheel from the next press', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);

@@ -51,9 +51,13 @@ function isForDriving(event: KeyboardEvent): boolean {
   return !modified && !takesKey(event.target, event.code);
 }
 
-/** Space is for a button that has the focus, but never while the robot drives. */
+/**
+ * Space is for a button that was reached with the keyboard, but never while the robot drives: who
+ * clicked a button and then hits Space in a hurry wants to stop.
+ */
 function isStop(event: KeyboardEvent, pilot: Pilot): boolean {
-  const target = event.target;
-  const busy = target instanceof HTMLElement && target.closest('button, a, summary, label') !== null;
+  const { target } = event;
+  const pressable = 'button:focus-visible, a:focus-visible, summary:focus-visible';
+  const busy = target instanceof HTMLElement && target.matches(pressable);
   return pilot.driving || !(busy || takesKey(target, event.code));
 }

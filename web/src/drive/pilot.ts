@@ -12,6 +12,7 @@ import { mix, toVelocity, type Demand, type Limits, type Velocity } from './mixi
 
 const LEAST_GAP = 1000 / 60; // ms between two `drive`
 const REPEAT = 1000 / 30; // ms
+const LATE = 250; // ms between two `drive`, after which the node may have given us up: 400 by default
 const OWN_STOP = 500; // ms in which "nobody drives" is the answer to a stop of our own
 
 /** Who has the wheel of a robot. */
@@ -35,7 +36,9 @@ export class Pilot {
   private readonly hands = new Map<string, Demand>();
   private readonly blocked = new Set<string>(); // hands that must let go before they count again
   private sentAt = -Infinity;
+  private lateAt = -Infinity; // when this page last drove with too long a gap
   private stoppedAt = -Infinity;
+  private repeats = false; // a `drive` has gone out since the hands took hold
   private driver: Wheel = 'nobody'; // as the node has said
   private cancel: (() => void) | null = null;
 
@@ -111,13 +114,16 @@ export class Pilot {
   }
 
   /**
-   * The node says who drives our robot. If that was us, and we did not give the wheel back,
-   * somebody stopped the robot, and a hand that still holds must not drive on.
+   * The node says who drives our robot. If that was us, and we neither gave the wheel back nor
+   * were late, somebody stopped the robot, and a hand that still holds must not drive on.
    */
   hearDriver(driver: Wheel): void {
-    const stopped = this.driver === 'me' && this.port.now() - this.stoppedAt > OWN_STOP;
+    const now = this.port.now();
+    const ours = now - this.stoppedAt <= OWN_STOP;
+    const late = now - this.lateAt <= OWN_STOP || (this.driving && now - this.sentAt > LATE);
+    const lost = this.driver === 'me' && driver === 'nobody' && !ours && !late;
     this.driver = driver;
-    if (driver === 'other' || (driver === 'nobody' && stopped)) {
+    if (lost || driver === 'other') {
       this.halt();
     }
   }
@@ -127,6 +133,7 @@ export class Pilot {
       this.blocked.add(hand);
     }
     this.hands.clear();
+    this.repeats = false;
     this.cancel?.();
     this.cancel = null;
   }
@@ -155,8 +162,13 @@ export class Pilot {
     if (this.robot === null || velocity === null) {
       return;
     }
-    this.sentAt = this.port.now();
+    const now = this.port.now();
+    if (this.repeats && now - this.sentAt > LATE) {
+      this.lateAt = now;
+    }
+    this.sentAt = now;
     if (this.port.send({ type: 'drive', robot: this.robot, ...velocity })) {
+      this.repeats = true;
       this.schedule(REPEAT);
     } else {
       this.halt();

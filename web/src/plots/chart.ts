@@ -29,6 +29,7 @@ export class Chart {
     readonly title: string,
     readonly unit: string,
     private lines: readonly Line[],
+    private readonly always: readonly [number, number] | null = null, // values always in view
   ) {
     this.legend = h('div', { class: 'chart-legend' });
     this.place = h('div', {
@@ -114,7 +115,7 @@ export class Chart {
     return {
       scales: {
         x: { time: false, range: () => this.range },
-        y: { range: (_plot, least, most) => spanOf(least, most) },
+        y: { range: (_plot, least, most) => this.spanOf(least, most) },
       },
       axes: [
         { ...axis, size: 22, gap: 4, values: (_plot, times) => times.map(label) },
@@ -137,14 +138,14 @@ export class Chart {
       },
     };
   }
-}
 
-/** Somewhat more than the values take, and never less than LEAST_SPAN. */
-function spanOf(least: number | null, most: number | null): [number, number] {
-  const low = least ?? 0;
-  const high = most ?? 0;
-  const more = Math.max((high - low) * 0.08, (LEAST_SPAN - (high - low)) / 2);
-  return [low - more, high + more];
+  /** Somewhat more than the values take, and never less than LEAST_SPAN. */
+  private spanOf(least: number | null, most: number | null): [number, number] {
+    const low = Math.min(least ?? 0, this.always?.[0] ?? Infinity);
+    const high = Math.max(most ?? 0, this.always?.[1] ?? -Infinity);
+    const more = Math.max((high - low) * 0.08, (LEAST_SPAN - (high - low)) / 2);
+    return [low - more, high + more];
+  }
 }
 
 function label(time: number): string {

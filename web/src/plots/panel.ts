@@ -38,8 +38,8 @@ export class PlotsPanel implements Panel {
       new Chart('Angular velocity', 'rad/s', velocities('angular')),
       new Chart('Wheel speeds', 'rad/s', []),
       new Chart('Real-time factor', '×', [
-        { name: 'factor', colour: 'accent', column: FACTOR_COLUMN },
-      ]),
+        { name: 'real', colour: 'accent', column: FACTOR_COLUMN },
+      ], [0, 1]),
     ];
     this.element = h(
       'section',
