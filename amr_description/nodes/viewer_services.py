@@ -39,6 +39,10 @@ class Services:
         for client in gone:
             self._node.destroy_client(client)
 
+    def __contains__(self, name: str) -> bool:
+        """Tell whether there is such a service; on any thread."""
+        return name in self._clients
+
     async def call(self, name: str, request: Any, timeout: float = 10.0) -> Any:
         """Return the response; on the asyncio thread. Raises ViewerError."""
         client = self._clients.get(name)

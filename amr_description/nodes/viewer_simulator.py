@@ -91,12 +91,14 @@ class Simulator:
         """Ask for what is told of it. Raises ViewerError."""
         response = await self._call('get_simulation_state', GetSimulationState.Request())
         self.state = _STATES.get(response.state.state, 'unknown')
-        values = await self._call('get_parameters', GetParameters.Request(names=[_FACTOR]))
-        known = [each for each in values.values if each.type == ParameterType.PARAMETER_DOUBLE]
-        self.factor = known[0].double_value if known else None
-        entities = await self._call('get_entities', GetEntities.Request())
-        self.entities = tuple(entities.entities)
-        if not self.worlds:
+        if self._offers('get_parameters'):
+            values = await self._call('get_parameters', GetParameters.Request(names=[_FACTOR]))
+            known = [v for v in values.values if v.type == ParameterType.PARAMETER_DOUBLE]
+            self.factor = known[0].double_value if known else None
+        if self._offers('get_entities'):
+            entities = await self._call('get_entities', GetEntities.Request())
+            self.entities = tuple(entities.entities)
+        if not self.worlds and self._offers('get_available_worlds'):
             worlds = await self._call('get_available_worlds', GetAvailableWorlds.Request())
             self.worlds = tuple(each.name for each in worlds.worlds)
 
@@ -154,6 +156,9 @@ class Simulator:
         fill_pose(pose, asked.initial_pose.pose)
         response = await self._do('spawn_entity', asked)
         return f"'{response.entity_name}' is in the world"
+
+    def _offers(self, service: str) -> bool:
+        return f'{self.name}/{service}' in self._services
 
     async def _do(self, service: str, request: Any) -> Any:
         response = await self._call(service, request, _STEP_TIMEOUT)

@@ -1,0 +1,59 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The binary frames of a state: as web/src/protocol.ts lays them out."""
+
+import struct
+
+import numpy as np
+
+from amr_description.viewer.protocol import FrameInfo, Layout, RobotLayout
+from amr_description.viewer.states import StateFrame
+
+LAYOUT = Layout(
+    7,
+    (FrameInfo('base', 'odom'), FrameInfo('wheel', 'base')),
+    (RobotLayout('/', ('a', 'b'), ('w',)), RobotLayout('/r', (), ())),
+)
+
+
+def floats(data):
+    return np.frombuffer(data, '<f4', offset=16)
+
+
+def test_the_head_says_kind_layout_number_and_time():
+    data = StateFrame(LAYOUT).encode(2**32 + 5, 12.5)
+    assert struct.unpack_from('<BBHId', data) == (1, 0, 7, 5, 12.5)
+
+
+def test_what_is_not_known_is_not_a_number():
+    data = StateFrame(LAYOUT).encode(0, 0.0)
+    assert len(data) == 16 + 4 * (2 * 7 + (2 * 2 + 9 + 9 + 2 + 4) + (9 + 9 + 2))
+    assert np.isnan(floats(data)).all()
+
+
+def test_every_part_has_its_place():
+    frame = StateFrame(LAYOUT)
+    frame.poses[:] = np.arange(14).reshape(2, 7)
+    first, second = frame.robots
+    first.positions[:] = (14, 15)
+    first.velocities[:] = (16, 17)
+    first.odometry[:] = range(18, 27)
+    first.truth[:] = range(27, 36)
+    first.command[:] = (36, 37)
+    first.wheels[0] = (38, 39, 40, 41)
+    second.odometry[:] = range(42, 51)
+    second.truth[:] = range(51, 60)
+    second.command[:] = (60, 61)
+    assert floats(frame.encode(1, 0.0)).tolist() == list(range(62))
+
+
+def test_a_frame_that_was_encoded_does_not_change_any_more():
+    frame = StateFrame(LAYOUT)
+    frame.poses[:] = 1.0
+    data = frame.encode(1, 0.0)
+    frame.poses[:] = 2.0
+    assert floats(data)[0] == 1.0
+
+
+def test_nothing_at_all_is_a_head_alone():
+    assert len(StateFrame(Layout(0, (), ())).encode(0, 0.0)) == 16
