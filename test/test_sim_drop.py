@@ -41,6 +41,16 @@ def test_the_same_robot_gives_the_same_numbers():
     assert dropped(AMR) == dropped(AMR)
 
 
+def test_wheels_driven_by_effort_are_driven_too():
+    velocity = '<command_interface name="velocity"/>'
+    assert velocity in AMR
+    report = dropped(AMR.replace(velocity, velocity.replace('velocity', 'effort')))
+    assert report.failures == ()
+    assert 0.8 < report.ahead / (ROLL_SPEED * ROLL_TIME) < 1.0
+    assert abs(report.veer) < 1e-3
+    assert report.turn > 0.2
+
+
 def test_axles_that_point_to_the_right_drive_backwards():
     report = dropped(AMR.replace('<axis xyz="0 0 -1"/>', '<axis xyz="0 0 1"/>'))
     (failure,) = report.failures

@@ -6,7 +6,7 @@ from fixtures.sim.driving import AMR, LEFT, RIGHT
 import pytest
 
 from amr_description.model.urdf import parse
-from amr_description.model.wheels import find_wheels, Wheel
+from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
 
 ONE_WHEEL = """
 <robot name="cart">
@@ -68,3 +68,18 @@ def test_sphere_is_a_wheel_about_any_axis():
 )
 def test_what_is_no_wheel(options):
     assert wheels_of(**options) == ()
+
+
+def passive(commanded=(), **options):
+    form = {'xyz': '0 0 0', 'rpy': '0 0 0', 'shape': CYLINDER, 'type': 'continuous'} | options
+    return find_passive_wheels(parse(ONE_WHEEL.format(**form)), commanded)
+
+
+def test_the_wheel_of_a_caster_is_a_passive_wheel():
+    level = {'axis': '0 1 0', 'rpy': '-1.5708 0 0'}
+    assert passive(**level) == (Wheel('tyre', 'axle', 0, 0.1, 0.02),)
+    assert passive(['axle'], **level) == ()
+
+
+def test_what_turns_about_a_vertical_axis_is_no_passive_wheel():
+    assert passive(axis='0 0 1') == ()

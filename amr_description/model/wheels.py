@@ -4,19 +4,22 @@
 Which links are wheels, told from the model and not from their names.
 
 A wheel hangs on a continuous joint that takes a velocity command, and collides as a cylinder or a
-sphere that is round about the joint's axis.
+sphere that is round about the joint's axis. The wheel of a caster takes none, and rolls about a
+level axle: a lidar that turns about a vertical one is no wheel.
 """
 
 from collections.abc import Collection
 from dataclasses import dataclass
 import math
 
-from amr_description.model.frames import rotate, Vector
+from amr_description.model.frames import link_poses, rotate, Vector
 from amr_description.model.robot import Collision, Cylinder, Joint, JointType, Robot, Sphere
 
 # A shape counts as round about the axis when it is off by less than this: 1 mm, and 2.5 degrees.
 _LARGEST_OFFSET = 0.001
 _SMALLEST_COSINE = 0.999
+# The part of an axle along the root's z axis.
+_LEVEL = 0.1
 
 _Z: Vector = (0.0, 0.0, 1.0)
 
@@ -38,6 +41,20 @@ def find_wheels(robot: Robot, velocity_joints: Collection[str]) -> tuple[Wheel, 
     """The wheels of a robot; ``velocity_joints`` are the joints with a velocity command."""
     driven = (j for j in robot.joints if j.name in velocity_joints)
     found = (_wheel_of(robot, joint) for joint in driven if joint.type is JointType.CONTINUOUS)
+    return tuple(wheel for wheel in found if wheel is not None)
+
+
+def find_passive_wheels(robot: Robot, commanded: Collection[str]) -> tuple[Wheel, ...]:
+    """The wheels that nothing drives; ``commanded`` are the joints with any command."""
+    poses = link_poses(robot, {})
+    found = (
+        _wheel_of(robot, joint)
+        for joint in robot.joints
+        if joint.type is JointType.CONTINUOUS
+        and joint.name not in commanded
+        and joint.mimic is None
+        and abs(rotate(poses[joint.child].rotation, joint.axis)[2]) < _LEVEL
+    )
     return tuple(wheel for wheel in found if wheel is not None)
 
 

@@ -15,11 +15,12 @@ import mujoco
 import numpy as np
 
 from amr_description.control.contracts import Severity
+from amr_description.control.interfaces import EFFORT, VELOCITY
 from amr_description.errors import SimulationError
 from amr_description.model.frames import rotate, Transform, Vector, yaw_of
 from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.wheels import find_wheels, Wheel
+from amr_description.model.wheels import Wheel
 from amr_description.sim.engine import NANOSECONDS
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.world import MujocoWorld
@@ -32,6 +33,8 @@ ROLL_SPEED, ROLL_TIME, TURN_TIME = 0.3, 0.5, 1.0
 """m/s of the wheels' rims, forward and against each other; s."""
 
 _TICK = 0.01
+_RESPONSE = 0.05
+"""s; the time constant of a wheel that is driven by effort."""
 _LONGEST_SETTLING = 5.0
 _REST_TIME = 0.2
 _STILL, _STILL_TURNING = 0.002, 0.02
@@ -103,13 +106,9 @@ class _DropTest:
         self._world = MujocoWorld('empty', log=self._hear)
         self._view = self._world.spawn('robot', robot, Transform((0.0, 0.0, clearance)))
         self._root = robot.root.name
-        commanded = [
-            joint.name
-            for hardware in hardware_of(robot)
-            for joint in hardware.joints
-            if any(interface.name == 'velocity' for interface in joint.command_interfaces)
-        ]
-        self._wheels = find_wheels(robot, commanded)
+        by_speed, by_effort = _commanded(robot, VELOCITY), _commanded(robot, EFFORT)
+        self._wheels = [w for w in self._view.wheels if w.joint in by_speed | by_effort]
+        self._by_effort = by_effort - by_speed
 
     def run(self) -> DropReport:
         """Go through it as far as it makes sense."""
@@ -214,12 +213,34 @@ class _DropTest:
     def _drive(self, seconds: float, sign: Callable[[Wheel], float]) -> tuple[float, float, float]:
         """Turn the wheels at ROLL_SPEED; return how far it went along x and y, and the yaw."""
         start = self._pose()
-        wheels = self._view.joints([wheel.joint for wheel in self._wheels])
-        wheels.command('velocity', [sign(w) * ROLL_SPEED / w.radius for w in self._wheels])
-        self._run(seconds)
+        speeds = [(w, sign(w) * ROLL_SPEED / w.radius) for w in self._wheels]
+        self._view.joints([w.joint for w, _ in speeds if w.joint not in self._by_effort]).command(
+            VELOCITY, [speed for w, speed in speeds if w.joint not in self._by_effort]
+        )
+
+        pushed = [(w, speed) for w, speed in speeds if w.joint in self._by_effort]
+        places = self._view.joints([w.joint for w, _ in pushed]).positions()
+        begin = self._world.time
+
+        def push() -> None:
+            passed = (self._world.time - begin) / NANOSECONDS
+            for (wheel, speed), place in zip(pushed, places, strict=True):
+                self._push_wheel(wheel, speed, place + speed * passed)
+
+        self._run(seconds, push)
         moved = start.inverse() @ self._pose()
-        wheels.hold()
+        self._view.joints([wheel.joint for wheel in self._wheels]).hold()
         return moved.translation[0], moved.translation[1], yaw_of(moved.rotation)
+
+    def _push_wheel(self, wheel: Wheel, speed: float, place: float) -> None:
+        """Drive a wheel that takes effort only to where it has to be (rad), at this speed."""
+        joint = self._view.joints([wheel.joint])
+        model = self._world.engine.model
+        mass = float(model.body_subtreemass[model.body(f'robot/{self._root}').id])
+        inertia = mass * wheel.radius**2 / len(self._wheels)
+        (here,), (present,) = joint.positions(), joint.velocities()
+        acceleration = (speed - present) / _RESPONSE + (place - here) / _RESPONSE**2
+        joint.command(EFFORT, [inertia * acceleration])
 
     def _settle(self) -> bool:
         """Run until it has been still for a while; tell whether it came to that."""
@@ -261,6 +282,12 @@ class _DropTest:
     def _is_still(self) -> bool:
         linear, angular = self._view.velocity(self._root)
         return math.hypot(*linear) < _STILL and math.hypot(*angular) < _STILL_TURNING
+
+
+def _commanded(robot: Robot, interface: str) -> set[str]:
+    """The joints that have this command interface."""
+    joints = (joint for hardware in hardware_of(robot) for joint in hardware.joints)
+    return {j.name for j in joints if any(i.name == interface for i in j.command_interfaces)}
 
 
 def _lowest_point(robot: Robot) -> float:

@@ -21,7 +21,7 @@ from amr_description.errors import SpawnError
 from amr_description.model.findings import raise_error
 from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.wheels import find_wheels, Wheel
+from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
 from amr_description.model.xml_source import parse_xml
 from amr_description.sim.actuators import add_actuators
 from amr_description.sim.compiling import compiler_warnings, one_line
@@ -53,7 +53,10 @@ class RobotSpec:
 
     spec: mujoco.MjSpec
     wheels: tuple[Wheel, ...]
-    """The links that touch the ground as wheels, each with a geom of :func:`tread_name`."""
+    """
+    The links that touch the ground as wheels, each with a geom of :func:`tread_name`; those that
+    are driven come first.
+    """
     balls: tuple[str, ...]
     """The geoms of a wheeled robot that are spheres and no wheels: casters, if they bear."""
     commands: Mapping[str, Collection[str]]
@@ -99,6 +102,8 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
                 add_actuators(spec, robot.joint(joint), interfaces)
         _couple_mimics(spec, [joint.name for joint in controlled if joint.mimic is None])
         wheels = find_wheels(robot, [j for j, i in commands.items() if _DRIVING & {*i}])
+        if wheels:
+            wheels += find_passive_wheels(robot, commands)
         for wheel in wheels:
             _make_tread(spec, wheel)
         balls = _name_balls(spec) if wheels else ()
