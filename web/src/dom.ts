@@ -58,7 +58,7 @@ export function icon(name: IconName): SVGSVGElement {
 export interface ButtonOptions {
   icon?: IconName;
   title?: string; // also what a screen reader says when there is no text
-  kind?: 'primary' | 'danger' | 'quiet';
+  kind?: 'primary' | 'quiet';
 }
 
 export function button(
@@ -78,6 +78,30 @@ export function button(
     name === undefined ? null : icon(name),
     text === '' ? null : h('span', {}, text),
   );
+}
+
+const DOUBT = 3000; // ms in which the second press counts
+
+/** A button for what cannot be taken back: it asks, and does it on the second press. */
+export function confirmed(text: string, question: string, onSure: () => void): HTMLButtonElement {
+  let asked: ReturnType<typeof setTimeout> | null = null;
+  const settle = (): void => {
+    asked = null;
+    element.classList.remove('danger');
+    element.replaceChildren(h('span', {}, text));
+  };
+  const element = button(text, () => {
+    if (asked !== null) {
+      clearTimeout(asked);
+      settle();
+      onSure();
+      return;
+    }
+    element.classList.add('danger');
+    element.replaceChildren(h('span', {}, question));
+    asked = setTimeout(settle, DOUBT);
+  }, { kind: 'quiet' });
+  return element;
 }
 
 /** A button that stays in. */

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { entityName, freeName } from '../src/panels/simulation';
+import { freeName } from '../src/panels/simulation';
 import { FACTOR_COLUMN, FIRST_WHEEL_COLUMN, Recorder, velocityColumn } from '../src/plots/recorder';
 import { HEADER_BYTES, type Layout } from '../src/protocol';
 import { wheelsOf } from '../src/readings';
@@ -66,9 +66,7 @@ test('a robot that went, and time that began anew, leave nothing', () => {
   assert.equal(recorder.length, 0);
 });
 
-test('a robot in the simulator is called by its namespace, or by its name', () => {
-  assert.equal(entityName({ id: '/', name: 'amr' }), 'amr');
-  assert.equal(entityName({ id: '/robot2', name: 'amr' }), 'robot2');
-  const robots = ['/', '/robot1', '/robot3'].map((id) => ({ id, name: 'amr' }));
-  assert.equal(freeName(robots), 'robot2');
+test('a new robot gets a name that is free', () => {
+  assert.equal(freeName([]), 'robot1');
+  assert.equal(freeName(['amr', 'robot1', 'robot3']), 'robot2');
 });

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The simulator's clock, and the robots in its world: more of them, or fewer. */
 import { ask, type App, type Panel } from '../app';
-import { button, h, section, setText } from '../dom';
+import { button, confirmed, h, section, setText } from '../dom';
 import { clock, factor, UNKNOWN } from '../format';
-import type { RobotInfo } from '../protocol';
 import type { State } from '../state';
 
 const FACTORS = [0.1, 0.25, 0.5, 1, 2, 5, 0]; // 0: as fast as possible
@@ -21,7 +20,8 @@ export class SimulationPanel implements Panel {
   private readonly real = h('dd', {}, UNKNOWN);
   private readonly steps = h('input', { type: 'number', min: 1, max: 10000, value: 10, id: 'steps' });
   private readonly wanted = h('select', { id: 'factor' });
-  private readonly robots = h('ul', { class: 'rows' });
+  private readonly entities = h('ul', { class: 'rows' });
+  private signature: string | null = null;
 
   constructor(private readonly app: App) {
     this.wanted.append(
@@ -32,11 +32,11 @@ export class SimulationPanel implements Panel {
     this.wanted.addEventListener('change', () => {
       this.ask({ type: 'set_factor', factor: Number(this.wanted.value) });
     });
-    this.body.append(section('Clock', this.clock(), this.tools()), section('Robots', this.robots));
+    this.body.append(section('Clock', this.clock(), this.tools()), section('In the world', this.entities));
     this.body.append(section('Another robot like this one', this.spawnForm()));
     this.element.append(this.none, this.body);
     app.store.watch(['graph', 'simulation'], () => this.show());
-    app.store.watch(['graph'], () => this.showRobots());
+    app.store.watch(['graph'], () => this.showEntities());
   }
 
   pulse(state: State): void {
@@ -109,22 +109,19 @@ export class SimulationPanel implements Panel {
     );
   }
 
-  private showRobots(): void {
-    const robots = this.app.store.graph?.robots ?? [];
-    this.robots.replaceChildren(
-      ...robots.map((robot) =>
-        h(
-          'li',
-          {},
-          h('span', { class: 'grow' }, entityName(robot)),
-          h('span', { class: 'fine' }, robot.id),
-          button('Delete', () => this.ask({ type: 'delete', name: entityName(robot) }), {
-            kind: 'quiet',
-            title: `Delete ${entityName(robot)} from the simulation`,
-          }),
-        ),
-      ),
-    );
+  private showEntities(): void {
+    const entities = this.app.store.simulator?.entities ?? [];
+    const signature = entities.join();
+    if (signature !== this.signature) {
+      this.signature = signature; // the same again must not take the focus from a button
+      this.entities.replaceChildren(...entities.map((name) => this.entity(name)));
+    }
+  }
+
+  private entity(name: string): HTMLElement {
+    const remove = confirmed('Delete', 'Really delete?', () => this.ask({ type: 'delete', name }));
+    remove.title = `Take ${name} out of the world`;
+    return h('li', {}, h('span', { class: 'grow' }, name), remove);
   }
 
   private spawnForm(): HTMLElement {
@@ -151,7 +148,7 @@ export class SimulationPanel implements Panel {
     });
     this.app.store.watch(['graph'], () => {
       if (document.activeElement !== name) {
-        name.value = freeName(this.app.store.graph?.robots ?? []);
+        name.value = freeName(this.app.store.simulator?.entities ?? []);
       }
     });
     return form;
@@ -176,16 +173,10 @@ export class SimulationPanel implements Panel {
   }
 }
 
-/** What the simulator calls a robot: its namespace, or its own name where it has none. */
-export function entityName(robot: Pick<RobotInfo, 'id' | 'name'>): string {
-  return robot.id === '/' ? robot.name : robot.id.slice(1);
-}
-
 /** The first of robot1, robot2 … that is not there yet. */
-export function freeName(robots: readonly Pick<RobotInfo, 'id' | 'name'>[]): string {
-  const taken = new Set(robots.map(entityName));
+export function freeName(taken: readonly string[]): string {
   let number = 1;
-  while (taken.has(`robot${number}`)) {
+  while (taken.includes(`robot${number}`)) {
     number += 1;
   }
   return `robot${number}`;
