@@ -1,0 +1,131 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bytes of messages, read without rclpy: as rclpy itself wrote them."""
+
+from builtin_interfaces.msg import Time
+from control_msgs.msg import DynamicJointState, InterfaceValue
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
+from hypothesis import given, strategies as st
+from nav_msgs.msg import Odometry
+import pytest
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+
+from amr_description.nodes import cdr
+
+TEXTS = st.text(st.characters(blacklist_characters='\0', blacklist_categories=('Cs',)), max_size=9)
+NUMBERS = st.floats(allow_nan=False)
+SEVEN = st.tuples(*[NUMBERS] * 7)
+READERS = (
+    cdr.read_clock, cdr.read_transforms, cdr.read_joint_state, cdr.read_odometry,
+    cdr.read_dynamic_joint_state, cdr.read_twist, cdr.read_twist_stamped,
+)  # fmt: skip
+
+
+def fill(pose, values):
+    position = getattr(pose, 'position', None) or pose.translation
+    turned = getattr(pose, 'orientation', None) or pose.rotation
+    position.x, position.y, position.z = values[:3]
+    turned.x, turned.y, turned.z, turned.w = values[3:]
+
+
+@given(st.integers(-(2**31), 2**31 - 1), st.integers(0, 2**32 - 1))
+def test_a_time(sec, nanosec):
+    data = serialize_message(Clock(clock=Time(sec=sec, nanosec=nanosec)))
+    assert cdr.read_clock(data) == sec * 1_000_000_000 + nanosec
+
+
+@given(st.lists(st.tuples(TEXTS, TEXTS, SEVEN), max_size=3))
+def test_transforms(frames):
+    message = TFMessage()
+    for parent, name, pose in frames:
+        each = TransformStamped(child_frame_id=name)
+        each.header.frame_id = parent
+        fill(each.transform, pose)
+        message.transforms.append(each)
+    read = cdr.read_transforms(serialize_message(message))
+    assert [(each.parent, each.name, each.pose) for each in read] == frames
+
+
+@given(TEXTS, st.lists(TEXTS, max_size=4), st.lists(NUMBERS, max_size=4), st.lists(NUMBERS))
+def test_joint_states(frame, names, positions, velocities):
+    message = JointState(name=names, position=positions, velocity=velocities)
+    message.header.frame_id = frame
+    read = cdr.read_joint_state(serialize_message(message))
+    assert (read.names, list(read.positions), list(read.velocities)) == (
+        names, positions, velocities
+    )  # fmt: skip
+
+
+@given(TEXTS, TEXTS, SEVEN, NUMBERS, NUMBERS)
+def test_odometry(frame, child, pose, linear, angular):
+    message = Odometry(child_frame_id=child)
+    message.header.frame_id = frame
+    fill(message.pose.pose, pose)
+    message.pose.covariance[35] = 1.0
+    message.twist.twist.linear.x, message.twist.twist.angular.z = linear, angular
+    assert cdr.read_odometry(serialize_message(message)) == (*pose, linear, angular)
+
+
+@given(TEXTS, st.lists(st.tuples(TEXTS, st.dictionaries(TEXTS, NUMBERS, max_size=3)), max_size=3))
+def test_dynamic_joint_states(frame, joints):
+    message = DynamicJointState(joint_names=[name for name, _ in joints])
+    message.header.frame_id = frame
+    message.interface_values = [
+        InterfaceValue(interface_names=list(values), values=list(values.values()))
+        for _, values in joints
+    ]
+    read = cdr.read_dynamic_joint_state(serialize_message(message))
+    assert list(zip(read.names, read.values, strict=True)) == joints
+
+
+@given(TEXTS, NUMBERS, NUMBERS)
+def test_commands(frame, linear, angular):
+    plain, stamped = Twist(), TwistStamped()
+    stamped.header.frame_id = frame
+    for twist in (plain, stamped.twist):
+        twist.linear.x, twist.angular.z = linear, angular
+        twist.linear.y = 9.0
+    assert cdr.read_twist(serialize_message(plain)) == (linear, angular)
+    assert cdr.read_twist_stamped(serialize_message(stamped)) == (linear, angular)
+
+
+def test_the_other_byte_order():
+    data = bytes([0, 0, 0, 0]) + (5).to_bytes(4, 'big') + (7).to_bytes(4, 'big')
+    assert cdr.read_clock(data) == 5_000_000_007
+
+
+@given(st.sampled_from(READERS), st.binary(max_size=80))
+def test_bytes_of_nothing_are_refused(read, data):
+    try:
+        read(data)
+    except ValueError:
+        return
+
+
+@pytest.mark.parametrize('read', READERS)
+def test_every_message_that_is_cut_off_is_refused(read):
+    whole = {
+        cdr.read_clock: Clock(),
+        cdr.read_transforms: TFMessage(transforms=[TransformStamped()]),
+        cdr.read_joint_state: JointState(name=['a'], position=[1.0], velocity=[1.0]),
+        cdr.read_odometry: Odometry(),
+        cdr.read_dynamic_joint_state: DynamicJointState(
+            joint_names=['a'], interface_values=[InterfaceValue(interface_names=['b'])]
+        ),
+        cdr.read_twist: Twist(),
+        cdr.read_twist_stamped: TwistStamped(),
+    }
+    data = serialize_message(whole[read])
+    read(data)
+    with pytest.raises(ValueError, match='no plain CDR'):
+        read(data[:3])
+    with pytest.raises(ValueError, match='end within'):
+        read(data[: len(data) // 2])
+
+
+def test_another_encoding_is_refused():
+    with pytest.raises(ValueError, match='no plain CDR: 00 0a'):
+        cdr.read_clock(b'\x00\x0a\x00\x00' + bytes(8))
