@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 FILES = {
     'urdf': str(ROOT / 'urdf/amr.urdf'),
     'controllers': str(ROOT / 'config/controllers.yaml'),
+    'viewer': 'false',
 }
 CONTROLLED = [
     ['ros2_control_node', 'robot_state_publisher', 'spawner'],

@@ -22,7 +22,7 @@ def toys(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ('words', 'exit_code', 'text'),
     [
-        (['simulaton'], 2, "unknown stack 'simulaton'; did you mean 'simulation'? known: fleet"),
+        (['simulaton'], 2, "unknown stack 'simulaton'; did you mean 'simulation'? known: display"),
         (['no_such.py'], 2, "no stack: there is no file 'no_such.py'"),
         ([CHATTY, 'txt:=x'], 2, "unknown argument 'txt'; did you mean 'text'? known: text, unf"),
         ([CHATTY, 'text'], 2, "malformed launch argument 'text', expected format"),

@@ -46,6 +46,7 @@ def test_the_order_of_the_tutorial():
         [['mujoco_sim'], ['robot_state_publisher'], ['create', '-topic']],
         [['spawner', 'joint_state_broadcaster']],
         [['spawner', 'diff_drive_controller']],
+        [['viewer']],
     ]
     assert progress.ready
 
@@ -68,6 +69,7 @@ def test_parameters(installed):
             'world': 'empty',
             'real_time_factor': 0.0,
             'controllers': str(installed / 'config/controllers.yaml'),
+            'paused': False,
         }
     ]
     assert publisher.parameters == [

@@ -42,7 +42,7 @@ def stack(tmp_path_factory):
     bringup = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
     log = tmp_path_factory.mktemp('log')
     process = subprocess.Popen(
-        [bringup, 'simulation'],
+        [bringup, 'simulation', 'viewer:=false'],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

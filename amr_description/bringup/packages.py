@@ -14,10 +14,15 @@ def prefixes() -> list[Path]:
     return [Path(p) for p in os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep) if p]
 
 
+def is_installed(package: str) -> bool:
+    """Tell whether a package is in the ament index."""
+    return any(_has(prefix, package) for prefix in prefixes())
+
+
 def package_prefix(package: str) -> Path:
     """Return the folder that a package is installed in."""
     for prefix in prefixes():
-        if (prefix / 'share/ament_index/resource_index/packages' / package).is_file():
+        if _has(prefix, package):
             return prefix
     if not prefixes():
         raise BringupError(
@@ -26,6 +31,10 @@ def package_prefix(package: str) -> Path:
         )
     searched = ', '.join(map(str, prefixes()))
     raise BringupError(f"Package '{package}' not found, searching: {searched}")
+
+
+def _has(prefix: Path, package: str) -> bool:
+    return (prefix / 'share/ament_index/resource_index/packages' / package).is_file()
 
 
 def executable_of(package: str, name: str) -> Path:

@@ -3,6 +3,7 @@
 """The ready-made stacks; ``bringup`` without arguments lists them."""
 
 STACKS = {
+    'display': 'amr_description.bringup.stacks.display:display',
     'fleet': 'amr_description.bringup.stacks.fleet:fleet',
     'mock': 'amr_description.bringup.stacks.hardware:mock',
     'serial': 'amr_description.bringup.stacks.hardware:serial',

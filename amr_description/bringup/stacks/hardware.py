@@ -23,17 +23,16 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.stacks.simulation import how_to_drive
+from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
+from amr_description.bringup.stacks.simulation import CONTROLLERS, how_to_drive, URDF
 from amr_description.model.hardware_swap import swap_hardware
-
-_URDF = 'package://amr_description/urdf/amr.urdf'
-_CONTROLLERS = 'package://amr_description/config/controllers.yaml'
 
 
 def mock(
-    urdf: Annotated[str, 'robot description, URDF or xacro'] = _URDF,
+    urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
-    controllers: Annotated[str, 'parameters of the controllers'] = _CONTROLLERS,
+    controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
+    viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot's controllers over mock hardware: no physics, wheels do as they are told."""
     description = swap_hardware(
@@ -41,13 +40,13 @@ def mock(
         'mock_components/GenericSystem',
         {'calculate_dynamics': 'true'},
     )
-    return _controlled(description, [path_of(urdf), path_of(controllers)])
+    return _controlled(description, [path_of(urdf), path_of(controllers)], viewer)
 
 
 def serial(
-    urdf: Annotated[str, 'robot description, URDF or xacro'] = _URDF,
+    urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
-    controllers: Annotated[str, 'parameters of the controllers'] = _CONTROLLERS,
+    controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
     port: Annotated[str, 'port of the motor board; empty: a simulated board is started'] = '',
     left: Annotated[str, 'joints that the left motor turns'] = (
         'joint_wheel_front_left joint_wheel_back_left'
@@ -55,6 +54,7 @@ def serial(
     right: Annotated[str, 'joints that the right motor turns'] = (
         'joint_wheel_front_right joint_wheel_back_right'
     ),
+    viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot behind a serial port: a real motor board, or a simulated one."""
     boards = []
@@ -67,12 +67,13 @@ def serial(
         {'port': port, 'left_joints': left, 'right_joints': right},
     )
     files = [path_of(urdf), path_of(controllers)]
-    return _controlled(description, files, boards, path_exists(port))
+    return _controlled(description, files, viewer, boards, path_exists(port))
 
 
 def _controlled(
     description: str,
     files: Sequence[Path],
+    viewer: bool,
     before: Sequence[Node] = (),
     start_when: Condition | None = None,
 ) -> Stack:
@@ -80,6 +81,7 @@ def _controlled(
     The manager by itself, the description, and the controllers one after the other.
 
     :param files: That of the description and that of the controllers' parameters.
+    :param viewer: Whether to serve the page.
     :param before: What is started first.
     :param start_when: What the manager needs.
     """
@@ -104,6 +106,7 @@ def _controlled(
             robot_state_publisher,
             joint_state_broadcaster,
             diff_drive_controller,
+            *page(viewer, exited_cleanly(diff_drive_controller)),
         ],
         ready_when=exited_cleanly(diff_drive_controller),
         next_steps=how_to_drive(),

@@ -14,19 +14,21 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.environment import other_shell
+from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
+
+URDF = 'package://amr_description/urdf/amr.urdf'
+CONTROLLERS = 'package://amr_description/config/controllers.yaml'
 
 
 def simulation(
-    urdf: Annotated[
-        str, 'robot description, URDF or xacro'
-    ] = 'package://amr_description/urdf/amr.urdf',
+    urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
-    controllers: Annotated[
-        str, 'parameters of the controllers'
-    ] = 'package://amr_description/config/controllers.yaml',
+    controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
     world: Annotated[str, 'world to simulate'] = 'empty',
     rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
+    paused: Annotated[bool, 'whether time stands still at first'] = False,
+    viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot in MuJoCo with both controllers, ready to drive."""
     if not rtf >= 0:
@@ -36,7 +38,12 @@ def simulation(
     mujoco_sim = Node(
         'mujoco_sim',
         parameters=[
-            {'world': world, 'real_time_factor': rtf, 'controllers': str(path_of(controllers))}
+            {
+                'world': world,
+                'real_time_factor': rtf,
+                'controllers': str(path_of(controllers)),
+                'paused': paused,
+            }
         ],
         on_exit='shutdown',
     )
@@ -69,6 +76,7 @@ def simulation(
             create,
             joint_state_broadcaster,
             diff_drive_controller,
+            *page(viewer, exited_cleanly(diff_drive_controller)),
         ],
         ready_when=exited_cleanly(diff_drive_controller),
         next_steps=how_to_drive(),

@@ -1,0 +1,31 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a person looks at beside a stack: the page in the browser; RViz where it is installed."""
+
+from amr_description.bringup import Node, path_of
+from amr_description.bringup.conditions import Condition
+from amr_description.bringup.packages import is_installed
+
+ABOUT_VIEWER = 'whether to serve the page in the browser: the robot, its values, driving'
+"""The help text of every stack's ``viewer:=``."""
+
+
+def page(wanted: bool, start_when: Condition | None = None) -> list[Node]:
+    """
+    Return the node that serves the page, if it is wanted; its failure stops nothing.
+
+    :param start_when: When: best once the stack is ready, since it has nothing to show before.
+    """
+    return [Node('viewer', required=False, start_when=start_when)] if wanted else []
+
+
+def rviz(config: str) -> list[Node]:
+    """
+    Return RViz with a configuration of ``config/rviz``, if it is installed.
+
+    Its end stops nothing: a window may be closed.
+    """
+    if not is_installed('rviz2'):
+        return []
+    file = path_of(f'package://amr_description/config/rviz/{config}.rviz')
+    return [Node('rviz2', package='rviz2', arguments=['-d', file], required=False)]
