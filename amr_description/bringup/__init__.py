@@ -18,8 +18,10 @@ What stands where:
 
 ====================== ============================================================================
 description.py         pure: Node, Group, Stack and Respawn, the words of a stack
-conditions.py          pure: when a node starts, by what the other nodes did, and by time
+conditions.py          pure: when a node starts: what a condition is, how they combine
+node_conditions.py     pure: by what became of the other nodes, and what they wrote
 outside_conditions.py  pure: by what is on the ROS graph, and by files
+handlers.py            pure: what is done when a node ends, or when the stack stops
 situation.py           pure: what conditions judge
 placement.py           pure: the tree of groups and stacks, flattened
 arguments.py           pure: name:=value, from the signature of the stack's function
@@ -51,28 +53,30 @@ stacks/                the ready-made stacks
 Only the standard library is imported here, so that no crash of rclpy can take the supervisor down.
 """
 
-from amr_description.bringup.conditions import (
-    after,
-    all_of,
-    any_of,
+from amr_description.bringup.conditions import after, all_of, any_of, ready
+from amr_description.bringup.description import Group, Node, Respawn, Stack
+from amr_description.bringup.file_notes import notes_on
+from amr_description.bringup.handlers import Exited, Shutdown, Stopping
+from amr_description.bringup.node_conditions import (
     exited_cleanly,
     failed,
     logged,
-    ready,
+    on_request,
     started,
 )
-from amr_description.bringup.description import Group, Node, Respawn, Stack
-from amr_description.bringup.file_notes import notes_on
 from amr_description.bringup.outside_conditions import path_exists, ros_node, service, topic
 from amr_description.bringup.packages import path_of
 from amr_description.bringup.stack_files import include
 from amr_description.bringup.urdf_text import robot_description
 
 __all__ = [
+    'Exited',
     'Group',
     'Node',
     'Respawn',
+    'Shutdown',
     'Stack',
+    'Stopping',
     'after',
     'all_of',
     'any_of',
@@ -81,6 +85,7 @@ __all__ = [
     'include',
     'logged',
     'notes_on',
+    'on_request',
     'path_exists',
     'path_of',
     'ready',

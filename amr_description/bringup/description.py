@@ -9,8 +9,10 @@ from pathlib import Path
 import shlex
 from typing import Literal
 
-from amr_description.bringup.conditions import all_of, Condition, ready, settled
+from amr_description.bringup.conditions import all_of, Condition, ready
 from amr_description.bringup.console import Level
+from amr_description.bringup.handlers import ExitHandler, StopHandler
+from amr_description.bringup.node_conditions import settled, waits_for_request
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
@@ -73,8 +75,8 @@ class Node:
     required: bool = True
     """Whether its failure (an exit code other than 0, or a signal) stops the stack."""
     respawn: Respawn | None = None
-    on_exit: Literal['continue', 'shutdown'] = 'continue'
-    """What its end with exit code 0 means to the rest of the stack."""
+    on_exit: Literal['continue', 'shutdown'] | ExitHandler = 'continue'
+    """What its end with exit code 0 means to the rest; or who is to be told of its end."""
     terminal: bool = False
     """Whether it reads keys: it gets the terminal itself (see terminal.py); one of a stack may."""
 
@@ -120,6 +122,8 @@ class Stack:
     """None: once every node was started, and every stack in it is ready."""
     patience: float = PATIENCE
     """s that each wait in it may take before the stack fails; ``math.inf``: for ever."""
+    on_shutdown: StopHandler | None = None
+    """Called once, before the first process is told to stop."""
     next_steps: str = ''
     """Printed after ``ready in … s: ``; what a person would type next."""
     notes: Sequence[tuple[Level, str]] = ()
@@ -158,6 +162,12 @@ class Stack:
         return list(dict.fromkeys([*self.notes, *inner]))
 
     @property
+    def stop_handlers(self) -> list[StopHandler]:
+        """Its own handler and those of the stacks in it."""
+        inner = [each for stack in stacks_of(self.nodes) for each in stack.stop_handlers]
+        return [*([self.on_shutdown] if self.on_shutdown else []), *inner]
+
+    @property
     def all_next_steps(self) -> str:
         """What it says that comes next, or else what the stacks in it say."""
         inner = (stack.all_next_steps for stack in stacks_of(self.nodes))
@@ -168,7 +178,8 @@ class Stack:
         """When it is ready; the names in it are relative to where the stack stands."""
         if self.ready_when is not None:
             return self.ready_when
-        own = (settled(node) for node in nodes_of(self.nodes, into_stacks=False))
+        nodes = nodes_of(self.nodes, into_stacks=False)
+        own = (settled(node) for node in nodes if not waits_for_request(node.start_when))
         return all_of(*own, *(ready(stack) for stack in stacks_of(self.nodes)))
 
 

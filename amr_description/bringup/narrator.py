@@ -9,6 +9,7 @@ import time
 from amr_description.bringup.child import RunningProcess
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.handlers import Shutdown
 from amr_description.bringup.job import Job
 from amr_description.bringup.outlook import GRAPH_WATCH
 from amr_description.bringup.post_mortem import expiry, post_mortem
@@ -96,6 +97,15 @@ class Narrator:
         delay = state.restart_at - situation.time
         text = f'process is started again in {delay:.1f} s ({state.restarts}{of})'
         self._console.say('WARNING', self._name_of(node), text)
+
+    def shutdown(self, shutdown: Shutdown) -> None:
+        """Say why a handler wants all to be stopped."""
+        level = 'ERROR' if shutdown.exit_code else 'INFO'
+        self._console.say(level, LAUNCH, f'stopping: {shutdown.reason}')
+
+    def handler_failed(self, complaint: str) -> None:
+        """Say what became of a handler."""
+        self._console.say('ERROR', LAUNCH, complaint)
 
     def graph_watch_said(self, line: str) -> None:
         """Show what the process that sees the ROS graph has to tell a person."""

@@ -23,6 +23,7 @@ from amr_description.bringup.child import Child, RunningProcess
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
+from amr_description.bringup.handlers import complaint, Stopping
 from amr_description.bringup.job import Job
 from amr_description.bringup.lifeline import Lifeline
 from amr_description.bringup.narrator import Narrator
@@ -65,6 +66,7 @@ class Orchestrator:
         self._wake = asyncio.Event()
         watch = GraphWatch(self._spawn_watch, self._wake.set, self._narrator.graph_watch_said)
         self._outlook = Outlook(watch)
+        self._stop_handlers = stack.stop_handlers
         self._stop_requests = 0
         self._exit_code = 0
         console.on_screen_lost = self._on_screen_lost
@@ -78,11 +80,15 @@ class Orchestrator:
             finally:
                 await self._stop_all()
                 await self._end_the_rest()
-        failure = self._progress.failure
-        if failure is None:
-            return self._exit_code
-        self._narrator.failure(self._progress, self._last_lines)
-        return failure.exit_code
+        if self._progress.failure is not None:
+            self._narrator.failure(self._progress, self._last_lines)
+        return self._result
+
+    @property
+    def _result(self) -> int:
+        """The exit code, as far as it is known."""
+        reason = self._progress.failure or self._progress.shutdown
+        return self._exit_code if reason is None else reason.exit_code
 
     @contextlib.contextmanager
     def _signal_handlers(self) -> Iterator[None]:
@@ -123,6 +129,13 @@ class Orchestrator:
             if not self._progress.over:
                 await self._event(self._time_left())
             self._collect()
+        if self._progress.shutdown:
+            self._narrator.shutdown(self._progress.shutdown)
+        for handler in self._stop_handlers:
+            try:
+                handler(Stopping(self._result))
+            except Exception as error:  # a stranger's code must not keep processes alive
+                self._narrator.handler_failed(complaint('on_shutdown', error))
 
     def _look(self) -> None:
         """See what the time and the world outside have come to."""
@@ -196,7 +209,7 @@ class Orchestrator:
                 self._narrator.ended(node, child)
                 if node.terminal and child.died_of_ctrl_c:  # which it alone has heard
                     self._on_stop_signal(signal.SIGINT)
-                self._progress.end(node, child.returncode)
+                self._progress.end(node, child.returncode, list(child.last_lines))
                 self._narrator.respawn(node, self._progress.situation)
         if self._lifeline.revive():
             self._narrator.guardian_replaced()

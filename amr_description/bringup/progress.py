@@ -6,14 +6,16 @@ How far a stack has come: what may start now, what failed, when it is ready or o
 Pure: the orchestrator tells it of starts, ends, lines, the world outside and the time, and asks.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from amr_description.bringup.conditions import After, Condition, leaves, Logged, Verdict
-from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.conditions import After, Condition, leaves, Verdict
+from amr_description.bringup.description import Node, nodes_of, Stack
+from amr_description.bringup.handlers import call_exit_handler, Exited, Shutdown, Wishes
+from amr_description.bringup.node_conditions import Logged, OnRequest, waits_for_request
 from amr_description.bringup.placement import Placement
 from amr_description.bringup.situation import Graph, NodeState, PathLook, Situation
-from amr_description.bringup.waits import Expired, Waits
+from amr_description.bringup.waits import Expired, Wait, Waits
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,8 @@ class Progress:
         self.failure: Failure | Expired | None = None
         self.gave_up: list[Expired] = []
         """Waits of optional nodes whose patience is over: they are not started any more."""
+        self.shutdown: Shutdown | None = None
+        """Which handler wants all to be stopped, and why."""
         self.over = False
         """Whether nothing more is to be started and what runs is to be stopped."""
 
@@ -67,11 +71,13 @@ class Progress:
         self._states[node] = NodeState(started=True, restarts=self._states[node].restarts)
         self._changed()
 
-    def end(self, node: Node, returncode: int) -> None:
+    def end(self, node: Node, returncode: int, last_lines: Sequence[str] = ()) -> None:
         """
         Note that the process of the node ended; see :class:`NodeState` for the code.
 
         What ends after the stack is over ended because of that, and is no failure.
+
+        :param last_lines: What it wrote last, for the handler of its end.
         """
         if not self.over and self._is_started_again(node):
             return
@@ -80,12 +86,15 @@ class Progress:
         self._changed()
         if self.over:
             return
+        if callable(node.on_exit):
+            self._obey(call_exit_handler(node.on_exit, Exited(node, returncode, last_lines)))
         failed = returncode != 0 or node.respawn is not None
         blocks_a_required_node = any(waiting.required for waiting in self.unreachable())
         if failed and (node.required or blocks_a_required_node):
             self.failure = Failure(node, returncode, restarts)
         ended_for_all = returncode == 0 and node.on_exit == 'shutdown'
-        self.over = self.failure is not None or ended_for_all or self._is_idle()
+        wished = self.shutdown is not None
+        self.over = self.failure is not None or wished or ended_for_all or self._is_idle()
 
     def hear(self, node: Node, line: str) -> bool:
         """Note a line that the process of the node wrote; return whether a condition asks."""
@@ -149,6 +158,10 @@ class Progress:
         """Return the condition of a node, its groups' with it; None: it starts at once."""
         return self._conditions[node]
 
+    def waits(self) -> list[Wait]:
+        """Return who waits, and what for, in the order of the stack."""
+        return list(self._pending())
+
     def lookouts(self) -> Iterator[Condition]:
         """Yield the parts of all conditions that somebody still waits for."""
         for _, condition in self._pending():
@@ -160,10 +173,26 @@ class Progress:
         self._ready = self._ready or self._ready_when.judge(self._situation) is Verdict.HOLDS
         return self._ready
 
+    def _obey(self, wishes: Wishes) -> None:
+        """Note what a handler wants."""
+        self.shutdown = wishes.shutdown
+        nodes = list(nodes_of(wishes.members))
+        for node in nodes:
+            if not waits_for_request(self._conditions.get(node)):
+                self.shutdown = Shutdown(
+                    f"on_exit asks for Node('{node.executable}'), which is not in the stack with "
+                    'start_when=on_request()',
+                    exit_code=1,
+                )
+                return
+        parts = (part for node in nodes for part in leaves(self._conditions[node]))
+        requests = {part for part in parts if isinstance(part, OnRequest)}
+        self._changed(said=self._situation.said | requests)
+
     def _asked_of(self, node: Node) -> list[Logged]:
         return [part for part in self._logged if part.node is node]
 
-    def _pending(self) -> Iterator[tuple[Node | None, Condition]]:
+    def _pending(self) -> Iterator[Wait]:
         """Yield who waits and what for; None: the stack itself, to be ready."""
         for node in self.waiting():
             condition = self._conditions[node]

@@ -60,7 +60,7 @@ class Situation:
     began: float = 0.0
     """The time at which the stack began."""
     said: 'AbstractSet[Condition]' = frozenset()
-    """The ``logged`` conditions of which a line was seen."""
+    """The ``logged`` conditions of which a line was seen, and what handlers asked for."""
     held_since: 'Mapping[Condition, float]' = field(default_factory=dict)
     """Since when the conditions hold that an ``after`` counts from."""
     graph: Graph = field(default_factory=Graph)

@@ -1,0 +1,90 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a stack does when a node ends, or when it stops: functions of the user.
+
+::
+
+    diagnose = Node('diagnose', package='my_robot', start_when=on_request())
+
+    def when_the_driver_ends(event: Exited) -> Node | Shutdown | None:
+        if event.returncode == 3:
+            return Shutdown('the battery is empty')
+        return diagnose if event.returncode else None
+
+    driver = Node('driver', package='my_robot', required=False, on_exit=when_the_driver_ends)
+
+A node that a handler may start stands in the stack like every other, so that what is missing is
+found before anything starts. Handlers are called by the supervisor: they must be quick.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+import traceback
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from amr_description.bringup.description import Group, Node
+
+
+@dataclass(frozen=True)
+class Exited:
+    """A node has ended, and is not to be started again."""
+
+    node: 'Node'
+    returncode: int
+    """Its exit code, or minus the number of the signal it died of."""
+    last_lines: Sequence[str] = ()
+    """What it wrote last."""
+
+
+@dataclass(frozen=True)
+class Stopping:
+    """The stack stops; its processes are about to be told."""
+
+    exit_code: int
+    """That of the whole, as it is known now."""
+
+
+@dataclass(frozen=True)
+class Shutdown:
+    """The wish of a handler that all be stopped."""
+
+    reason: str
+    exit_code: int = 0
+    """That of the whole."""
+
+
+type Reaction = 'None | Shutdown | Node | Group | Sequence[Node | Group]'
+type ExitHandler = Callable[[Exited], Reaction]
+type StopHandler = Callable[[Stopping], None]
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What a handler wants."""
+
+    members: 'Sequence[Node | Group]' = ()
+    """To be started; each waits for :func:`conditions.on_request`."""
+    shutdown: Shutdown | None = None
+
+
+def call_exit_handler(handler: ExitHandler, event: Exited) -> Wishes:
+    """Return what a handler wants; one that fails wants the stack to stop."""
+    try:
+        reaction = handler(event)
+    except Exception as error:  # whatever a stranger's code raises must not end the supervisor
+        return Wishes(shutdown=Shutdown(complaint('on_exit', error), exit_code=1))
+    if reaction is None:
+        return Wishes()
+    if isinstance(reaction, Shutdown):
+        return Wishes(shutdown=reaction)
+    return Wishes(tuple(reaction) if isinstance(reaction, Sequence) else (reaction,))
+
+
+def complaint(name: str, error: Exception) -> str:
+    """Return one line on what a handler raised, and where."""
+    *_, last = traceback.extract_tb(error.__traceback__)
+    where = f'{Path(last.filename).name}, line {last.lineno}'
+    return f'{name} failed: {type(error).__name__}: {error} ({where})'

@@ -1,0 +1,145 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is done when a node ends, and when the stack stops; and new starts of real processes."""
+
+import re
+import signal
+
+from fixtures.bringup.running import Bringup, STACKS
+import pytest
+
+from amr_description.bringup import (
+    Exited,
+    exited_cleanly,
+    Group,
+    Node,
+    on_request,
+    Shutdown,
+    Stack,
+)
+from amr_description.bringup.progress import Progress
+
+
+def ended(on_exit, *others, code=0, required=False):
+    """Progress after the end of a node with this handler, and what the handler was told."""
+    events = []
+
+    def handler(event):
+        events.append(event)
+        return on_exit(event)
+
+    node = Node('node', on_exit=handler, required=required)
+    progress = Progress(Stack([node, *others]))
+    progress.start(node)
+    progress.end(node, code, ['last words'])
+    assert events == [Exited(node, code, ['last words'])]
+    return progress
+
+
+@pytest.mark.parametrize('code', [0, 3, -9])
+def test_it_may_start_what_waits_for_that(code):
+    helper, after_it = Node('helper', start_when=on_request()), Node('after')
+    after_it = Node('after', start_when=exited_cleanly(helper))
+    progress = ended(lambda _: helper, helper, after_it, code=code)
+    assert progress.startable() == [helper]
+    assert not progress.over
+    progress.start(helper)
+    assert progress.startable() == []
+
+
+def test_it_may_start_several_and_whole_groups():
+    first, second = (Node('n', start_when=on_request()) for _ in range(2))
+    third = Node('third')
+    group = Group([third], start_when=on_request())
+    progress = ended(lambda _: [first, group], first, second, group)
+    assert progress.startable() == [first, third]
+
+
+def test_it_may_want_nothing():
+    helper = Node('helper', start_when=on_request())
+    progress = ended(lambda _: None, helper)
+    assert progress.startable() == []
+    assert progress.over  # nobody is left who could ask
+    assert progress.failure is None
+
+
+def test_it_may_stop_all():
+    progress = ended(lambda event: Shutdown(f'code {event.returncode}', 5), Node('n'), code=2)
+    assert progress.over
+    assert progress.shutdown == Shutdown('code 2', 5)
+
+
+def test_a_required_node_that_failed_stops_all_whatever_it_wants():
+    helper = Node('helper', start_when=on_request())
+    progress = ended(lambda _: helper, helper, code=4, required=True)
+    assert progress.over
+    assert progress.failure.exit_code == 4
+
+
+def test_one_that_raises_stops_all_and_the_place_is_told():
+    progress = ended(lambda _: 1 / 0, Node('n'))
+    text = r'on_exit failed: ZeroDivisionError: division by zero \(test_bringup_handlers.py, line'
+    assert re.match(text, progress.shutdown.reason)
+    assert progress.shutdown.exit_code == 1
+
+
+def test_it_may_start_only_what_waits_for_it():
+    plain = Node('plain')
+    for other in (plain, Node('stranger', start_when=on_request())):
+        progress = ended(lambda _, other=other: other, plain)
+        assert f"on_exit asks for Node('{other.executable}'), which" in progress.shutdown.reason
+
+
+def test_who_waits_to_be_asked_has_time_and_is_not_missed():
+    progress = Progress(Stack([Node('n'), Node('helper', start_when=on_request())]))
+    progress.start(progress.startable()[0])
+    assert progress.ready
+    progress.at(1e9)
+    assert not progress.over
+
+
+def handled(folder, wish):
+    note = folder / 'note'
+    return Bringup(
+        folder, str(STACKS / 'handled.py'), 'code:=3', f'note:={note}', f'wish:={wish}'
+    ), note
+
+
+def test_a_stack_that_helps_itself(tmp_path):
+    bringup, note = handled(tmp_path, 'start')
+    with bringup:
+        bringup.expect(r'\[step-3\]: process has finished cleanly')
+        assert bringup.end(signal.SIGTERM) == 0
+        assert note.read_text() == 'the end with 0'
+
+
+@pytest.mark.parametrize(
+    ('wish', 'code', 'told'),
+    [
+        ('shutdown', 7, r"\[ERROR\] \[launch\]: stopping: step said 'two'"),
+        ('raise', 1, r'stopping: on_exit failed: ValueError: one \(handled.py, line \d+\)'),
+        ('raise', 1, r'on_shutdown failed: OSError: no brake \(handled.py, line \d+\)'),
+        ('stranger', 1, r"stopping: on_exit asks for Node\('step'\), which is not in the stack"),
+    ],
+)
+def test_a_stack_that_stops_itself(tmp_path, wish, code, told):
+    bringup, note = handled(tmp_path, wish)
+    with bringup:
+        assert bringup.end() == code
+        assert re.search(told, bringup.output)
+        assert note.read_text() == f'the end with {code}'
+        assert bringup.left() == []
+
+
+def test_a_step_that_is_started_again_until_it_is_enough(tmp_path):
+    bringup, _ = handled(tmp_path, 'respawn')
+    with bringup:
+        bringup.expect(r'\[step-3\]: process has finished cleanly')
+        assert bringup.output.count('[step-2]: process started') == 3
+        assert re.findall(
+            r'\[step-2\]: process is started again in (\S+ s .*)', bringup.output
+        ) == [
+            '0.1 s (1 of 2)',
+            '0.2 s (2 of 2)',
+        ]
+        assert bringup.end(signal.SIGINT) == 0
