@@ -1,0 +1,143 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A robot's description as a page gets it: joints, findings, and only those files it names."""
+
+import math
+
+from fixtures.sim.driving import AMR
+import pytest
+
+from amr_description.nodes.viewer_models import describe_robot
+from amr_description.viewer.files import digest, StaticFiles
+
+JOINT = '<joint name="{0}" type="{1}"><parent link="a"/><child link="{0}_link"/>{2}</joint>'
+LINK = '<link name="{0}_link"/>'
+
+
+def urdf(*parts):
+    return f'<robot name="r"><link name="a"/>{"".join(parts)}</robot>'
+
+
+def joints(*specs):
+    text = urdf(*(LINK.format(name) + JOINT.format(name, *rest) for name, *rest in specs))
+    return describe_robot('/', text).message.joints
+
+
+def drawn(uri):
+    return (
+        '<link name="b"><visual><geometry>'
+        f'<mesh filename="{uri}"/></geometry></visual></link>'
+        '<joint name="ab" type="fixed"><parent link="a"/><child link="b"/></joint>'
+    )
+
+
+def test_the_shipped_robot_is_described():
+    described = describe_robot('/r1', AMR)
+    message = described.message
+    assert (described.name, message.robot, message.urdf) == ('amr', '/r1', AMR)
+    assert message.root == 'base_footprint'
+    assert [joint.kind for joint in message.joints] == ['continuous'] * 4
+    assert described.joints == tuple(joint.name for joint in message.joints)
+    assert (message.meshes, described.files, message.findings) == ({}, {}, ())
+
+
+def test_joints_have_limits_and_a_place_to_be_centred_at():
+    lift, arm, wheel, ball = joints(
+        ('lift', 'prismatic', '<limit lower="1" upper="3" effort="1" velocity="1"/>'),
+        ('arm', 'revolute', '<limit lower="-1" upper="2" effort="1" velocity="1"/>'),
+        ('wheel', 'continuous', ''),
+        (
+            'tip',
+            'revolute',
+            '<limit lower="-1" upper="2" effort="1" velocity="1"/><mimic joint="arm"/>',
+        ),
+    )
+    assert (lift.lower, lift.upper, lift.zero, lift.follows) == (1, 3, 2, None)
+    assert (arm.lower, arm.upper, arm.zero) == (-1, 2, 0)
+    assert (wheel.lower, wheel.upper, wheel.zero) == (-math.pi, math.pi, 0)
+    assert ball.follows == 'arm'
+
+
+def test_what_has_no_one_position_has_no_slider():
+    assert joints(('a1', 'fixed', ''), ('a2', 'floating', ''), ('a3', 'planar', '')) == ()
+
+
+def test_findings_say_where_what_and_what_would_do():
+    text = urdf('\n<material name="m"/>', '\n<material name="m"/>')
+    (finding,) = [f for f in describe_robot('/', text).message.findings if f.level == 'error']
+    assert finding.line == 3
+    assert finding.text == 'material "m" is not unique'
+    assert finding.remedy == 'give every material a name of its own'
+
+
+@pytest.mark.parametrize('text', ['', 'no xml', '<robot/>', '<a/>', '<robot name="r">'])
+def test_what_is_no_description_is_told_by_its_findings(text):
+    message = describe_robot('/', text).message
+    assert 'error' in {each.level for each in message.findings}
+    assert message.joints == ()
+
+
+@pytest.mark.parametrize('scheme', ['file://', ''])
+def test_a_mesh_is_served_under_its_content(tmp_path, scheme):
+    mesh = tmp_path / 'b part.STL'
+    mesh.write_bytes(b'solid')
+    uri = f'{scheme}{mesh}'
+    described = describe_robot('/', urdf(drawn(uri)))
+    name = f'{digest(b"solid")}.stl'
+    assert described.message.meshes == {uri: f'/mesh/{name}'}
+    assert described.files == {name: mesh}
+
+
+def test_no_file_is_served_that_is_no_mesh_whatever_a_description_names(tmp_path):
+    secret = tmp_path / 'passwords'
+    secret.write_text('x')
+    for uri in (f'file://{secret}', 'file:///etc/passwd', f'file://{tmp_path}', 'http://h/a.stl'):
+        described = describe_robot('/', urdf(drawn(uri)))
+        assert (described.message.meshes, described.files) == ({}, {})
+        assert any('cannot be drawn' in each.text for each in described.message.findings)
+
+
+def test_textures_are_served_too(tmp_path):
+    (tmp_path / 'wood.png').write_bytes(b'png')
+    uri = f'file://{tmp_path}/wood.png'
+    text = urdf(f'<material name="wood"><texture filename="{uri}"/></material>')
+    assert describe_robot('/', text).message.meshes == {uri: f'/mesh/{digest(b"png")}.png'}
+
+
+@pytest.fixture
+def static(tmp_path):
+    folder = tmp_path / 'static'
+    (folder / 'deep').mkdir(parents=True)
+    (folder / 'index.html').write_text('<html>')
+    (folder / 'deep' / 'a.js').write_text('1')
+    (folder / 'notes.md').write_text('no')
+    (folder / 'link.js').symlink_to(tmp_path / 'gone.js')
+    (tmp_path / 'outside.js').write_text('secret')
+    return folder
+
+
+def test_files_are_served_with_their_type(static):
+    files = StaticFiles(static)
+    assert files.get('/index.html').data == b'<html>'
+    assert files.get('/deep/a.js').kind == 'text/javascript; charset=utf-8'
+
+
+@pytest.mark.parametrize(
+    'path',
+    ['/', '', '/x.js', '/../outside.js', '/deep/../index.html', '//index.html', 'index.html',
+     '/notes.md', '/deep', '/link.js', '/index.html/', '/./index.html', '/\0'],
+)  # fmt: skip
+def test_nothing_else_is(static, path):
+    assert StaticFiles(static).get(path) is None
+
+
+def test_a_file_that_changes_has_another_tag(static):
+    files = StaticFiles(static)
+    before = files.get('/index.html')
+    assert files.get('/index.html') is before
+    (static / 'index.html').write_text('<html lang="en">')
+    assert files.get('/index.html').tag != before.tag
+
+
+def test_a_page_that_is_not_built_has_no_files(tmp_path):
+    assert StaticFiles(tmp_path / 'nowhere').get('/index.html') is None
