@@ -33,17 +33,14 @@ def simulation(
     """The robot in MuJoCo with both controllers, ready to drive."""
     if not rtf >= 0:
         raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
+    description = robot_description(urdf, xacro_args)
+    file = str(path_of(controllers))
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(
         'mujoco_sim',
         parameters=[
-            {
-                'world': world,
-                'real_time_factor': rtf,
-                'controllers': str(path_of(controllers)),
-                'paused': paused,
-            }
+            {'world': world, 'real_time_factor': rtf, 'paused': paused, 'controllers': file}
         ],
         on_exit='shutdown',
     )
@@ -51,9 +48,7 @@ def simulation(
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
         'robot_state_publisher',
-        parameters=[
-            {'robot_description': robot_description(urdf, xacro_args), 'use_sim_time': True}
-        ],
+        parameters=[{'robot_description': description, 'use_sim_time': True}],
     )
 
     # 3. The robot put into the world; its <ros2_control> block brings up /controller_manager.
