@@ -1,7 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whom the guardian ends."""
+"""Whom the guardian ends, and what it takes away."""
 
+import fcntl
 import os
 import signal
 import subprocess
@@ -9,7 +10,14 @@ import sys
 
 import pytest
 
-from amr_description.bringup.guardian import end, family, Process, processes, RUN_VARIABLE
+from amr_description.bringup.guardian import (
+    end,
+    family,
+    Process,
+    processes,
+    remove_unused_segments,
+    RUN_VARIABLE,
+)
 
 ROOT, GUARDIAN = 10, 11
 
@@ -77,3 +85,21 @@ def test_one_empty_look_is_not_enough(monkeypatch):
     looks = iter([[], [5], [], []])
     assert end(lambda: next(looks)) == ({5}, [])
     assert next(looks, 'all taken') == 'all taken'
+
+
+def test_shared_memory_that_nobody_owns_is_taken_away(tmp_path):
+    orphan, owned, port = (
+        'fastrtps_0123456789abcdef',
+        'fastrtps_fedcba9876543210',
+        'fastrtps_port7',
+    )
+    for name in (orphan, owned, port, 'fastrtps_0123', 'other'):
+        (tmp_path / name).touch()
+        (tmp_path / f'{name}_el').touch()
+    with (tmp_path / f'{owned}_el').open() as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert remove_unused_segments(str(tmp_path), settled=1000.0) == []
+        assert remove_unused_segments(str(tmp_path), settled=0.0) == [orphan]
+    left = {path.name.removesuffix('_el') for path in tmp_path.iterdir()}
+    assert left == {owned, port, 'fastrtps_0123', 'other'}
+    assert remove_unused_segments(str(tmp_path), settled=0.0) == [owned]

@@ -6,7 +6,8 @@ The guardian: a program that ends what is left of a bring-up, whatever became of
 ``python -I -S guardian.py LIFELINE_FD RUN ORCHESTRATOR_PID``, started by ``lifeline.py``. It waits
 until the lifeline breaks: at every end of the orchestrator, by SIGKILL too. Then it ends every
 process that carries the mark of the run in its environment, and their descendants: a process that
-ignores SIGINT, one that left its session, one whose parent is gone.
+ignores SIGINT, one that left its session, one whose parent is gone. Last it takes away the shared
+memory that killed ROS nodes have left, of this run or of one before.
 
 It is not the parent of any of them, so it looks into ``/proc`` again and again; pidfds would save
 the looking, but need Linux 5.3 (the ROS wheels run from RHEL 8's 4.18 on). It imports neither this
@@ -15,6 +16,7 @@ package nor ``site``: it is up in 20 ms and needs no PYTHONPATH.
 
 from collections.abc import Callable, Iterable, Iterator
 import contextlib
+import fcntl
 import os
 import signal
 import sys
@@ -25,6 +27,8 @@ RUN_VARIABLE = 'AMR_BRINGUP_RUN'
 _PATIENCE = 2.0  # s from SIGINT to SIGKILL
 _GIVE_UP = 4.0  # s after which a process that even SIGKILL does not end is reported
 _INTERVAL = 0.02  # s between two looks
+_SHARED_MEMORY = '/dev/shm'
+_SETTLED = 5.0  # s of age from which a lock that nobody holds is not just about to be taken
 
 
 class Process(NamedTuple):
@@ -105,12 +109,42 @@ def _send(pid: int, number: signal.Signals) -> None:
         os.kill(pid, number)
 
 
+def remove_unused_segments(folder: str = _SHARED_MEMORY, settled: float = _SETTLED) -> list[str]:
+    """
+    Remove the segments of Fast DDS's shared memory that nobody owns; return their names.
+
+    A participant that is killed leaves its own, half a megabyte, for ever: no later one takes it
+    away. Its owner holds a lock (flock) on ``<segment>_el``; as with ``fastdds shm clean``, a
+    segment is unused if that lock can be had. Ports, which later participants take over, stay.
+    """
+    removed = []
+    for name in os.listdir(folder) if os.path.isdir(folder) else []:
+        segment = name.removesuffix('_el')
+        if segment == name or not _is_segment(segment):
+            continue
+        path = f'{folder}/{name}'
+        with contextlib.suppress(OSError), open(path, 'rb') as file:  # gone, used, another user's
+            if time.time() - os.fstat(file.fileno()).st_ctime >= settled:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                os.unlink(f'{folder}/{segment}')
+                os.unlink(path)
+                removed.append(segment)
+    return removed
+
+
+def _is_segment(name: str) -> bool:
+    """Tell names as ``fastrtps_5fcf25dfbd682471`` from those of ports and others."""
+    prefix, _, digits = name.partition('_')
+    return prefix == 'fastrtps' and len(digits) == 16 and not digits.strip('0123456789abcdef')
+
+
 def main(lifeline: int, run: str, orchestrator: int) -> int:
     """Wait for the end of the orchestrator and end the rest; exit code 1 if something stays."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     os.read(lifeline, 1)  # nobody ever writes: this returns when the last writer is gone
     ended, immortal = end(lambda: family(processes(run), orchestrator, os.getpid()))
+    remove_unused_segments()
     if ended:
         _say(f'[WARNING] [guardian]: ended what was left: pid {_list(ended)}')
     if immortal:
