@@ -17,6 +17,7 @@ class Latest:
     """
 
     def __init__(self, node: Node, message_type: Any, topic: str) -> None:
+        self._node = node
         self._subscription = node.create_subscription(
             message_type, topic, self._never_called, QoSProfile(depth=1)
         )
@@ -39,6 +40,10 @@ class Latest:
         """Drop what has come."""
         self.take()
         self._message = None
+
+    def close(self) -> None:
+        """Remove the subscription."""
+        self._node.destroy_subscription(self._subscription)
 
     @staticmethod
     def _never_called(_: Any) -> None:

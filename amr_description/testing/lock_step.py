@@ -9,7 +9,7 @@ simulator has confirmed it (:mod:`amr_description.nodes.receipts`). As time stan
 the next step acts on it, at the same instant with the same bits in every run.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 import re
 from typing import Any
 
@@ -113,15 +113,48 @@ class LockStep:
 
     # --- topics -------------------------------------------------------------------------------
 
-    def send(self, topic: str, message: Any) -> None:
+    def send_all(self, messages: Mapping[str, Any]) -> None:
         """
-        Publish a message to a controller and wait until it has taken it.
+        Publish messages to controllers, by topic, and wait until all have been taken.
 
         A header without a stamp gets that of the present simulated time. What is lost, as best
         effort allows, is published again. Nobody else may publish there: receipts do not tell
         whose message it was. Raises SimulationError: no controller takes it.
         """
-        topic = self.node.resolve_topic_name(topic)
+        waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
+        for topic, message in waiting.items():
+            self._prepare(topic, message)
+
+        def has_arrived() -> bool | None:
+            # The last one, so that none is on its way still when time goes on, or back.
+            for topic in list(waiting):
+                if self._received.get(topic, 0) >= self._counts[topic]:
+                    del waiting[topic]
+            return not waiting or None
+
+        again = _AGAIN
+        while again < PATIENCE:
+            for topic, message in waiting.items():
+                self._counts[topic] += 1
+                self._publishers[topic].publish(message)
+            if wait_until(self.node, has_arrived, timeout=again):
+                return
+            self._program.check()
+            again *= 2
+        topics = ', '.join(f"'{topic}'" for topic in waiting)
+        raise SimulationError(
+            f'no controller takes what is sent on {topics}; is the one that hears it active?'
+        )
+
+    def forget(self, namespace: str) -> None:
+        """Remove the publishers on topics in a namespace: whoever heard them is gone."""
+        inside = f'/{namespace.strip("/")}/'
+        for topic in [each for each in self._publishers if each.startswith(inside)]:
+            self.node.destroy_publisher(self._publishers.pop(topic))
+            self._received.pop(topic, None)
+
+    def _prepare(self, topic: str, message: Any) -> None:
+        """Stamp a message, and wait until somebody hears its topic."""
         publisher = self._publishers.get(topic)
         if publisher is None:
             publisher = self.node.create_publisher(type(message), topic, QoSProfile(depth=10))
@@ -133,22 +166,6 @@ class LockStep:
         self.wait(
             publisher.get_subscription_count,
             f"a subscriber of '{topic}' ({type(message).__name__})",
-        )
-
-        def has_arrived() -> bool | None:
-            # The last one, so that none is on its way still when time goes on, or back.
-            return self._received.get(topic, 0) >= self._counts[topic] or None
-
-        again = _AGAIN
-        while again < PATIENCE:
-            self._counts[topic] += 1
-            publisher.publish(message)
-            if wait_until(self.node, has_arrived, timeout=again):
-                return
-            self._program.check()
-            again *= 2
-        raise SimulationError(
-            f"no controller takes what is sent on '{topic}'; is the one that hears it active?"
         )
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:

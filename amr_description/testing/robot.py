@@ -4,22 +4,35 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+import math
+from typing import Any
 
 from controller_manager_msgs.srv import ListControllers
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import SpawnEntity
 
+from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.nodes.converters import fill_pose
 from amr_description.nodes.manager_client import ManagerClient
 from amr_description.nodes.spawner import Spawner
 from amr_description.nodes.spawner_arguments import parse
+from amr_description.testing.latest import Latest
 from amr_description.testing.lock_step import LockStep, PATIENCE
+from amr_description.testing.message_readings import (
+    joints_of,
+    motion_of_entity,
+    motion_of_odometry,
+)
+from amr_description.testing.readings import Joint, Motion
 
 DRIVE = 'DiffDriveController'
 """How the types of drives end whose topics are looked for."""
-
-
 _BROADCASTER = 'JointStateBroadcaster'
+_STILL = 1e-3
+"""m/s and rad/s: slower is taken for standing."""
 
 type Found = Sequence[tuple[str, Sequence[str]]]
 """Names of topics, and their types."""
@@ -37,23 +50,113 @@ class Topics:
     """sensor_msgs/msg/JointState."""
 
 
-def spawn(lock_step: LockStep, description: str, pose: Transform) -> str:
-    """Put the robot into the world; return its name. Raises SimulationError."""
-    request = SpawnEntity.Request(resource_string=description)
+class Robot:
+    """
+    One robot of a simulation: what it says, and where it really is.
+
+    Every method raises SimulationError, in one line, when the simulator refuses or has ended.
+    """
+
+    def __init__(
+        self, lock_step: LockStep, readings: Node, name: str, namespace: str, topics: Topics
+    ) -> None:
+        """``readings``: a node that is in no executor."""
+        self.name = name
+        """As the simulator knows it."""
+        self.namespace = namespace
+        self.command_topic = topics.command
+        """Of the drive; empty: there is none."""
+        self._lock_step = lock_step
+        self._odometry = _latest(readings, Odometry, topics.odometry)
+        self._joints = _latest(readings, JointState, topics.joints)
+
+    @property
+    def truth(self) -> Motion:
+        """How the robot's root link really moves in the world, at this instant."""
+        return motion_of_entity(self._lock_step.state(self.name))
+
+    @property
+    def odometry(self) -> Motion:
+        """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
+        return motion_of_odometry(self._newest(self._odometry, DRIVE))
+
+    @property
+    def joints(self) -> dict[str, Joint]:
+        """What the JointStateBroadcaster said last, by the names of the joints."""
+        return joints_of(self._newest(self._joints, _BROADCASTER))
+
+    @property
+    def moves(self) -> bool:
+        """Whether it does more than stand."""
+        truth = self.truth
+        return math.hypot(*truth.linear) > _STILL or math.hypot(*truth.angular) > _STILL
+
+    def unheard(self) -> list[str]:
+        """Return the topics from which nothing has come since :meth:`forget`."""
+        return [topic.topic for topic in self._topics if topic.take() is None]
+
+    def forget(self) -> None:
+        """Drop what has come: time went back."""
+        for topic in self._topics:
+            topic.forget()
+
+    def close(self) -> None:
+        """Listen no more."""
+        for topic in self._topics:
+            topic.close()
+
+    @property
+    def _topics(self) -> list[Latest]:
+        return [topic for topic in (self._joints, self._odometry) if topic is not None]
+
+    def _newest(self, topic: Latest | None, controller: str) -> Any:
+        if topic is None:
+            raise SimulationError(f"'{self.name}' began without an active {controller}")
+        if not self._lock_step.time:
+            raise SimulationError(
+                f'nothing is on {topic.topic} at time 0; let time pass: step(), run() or drive()'
+            )
+        found = topic.take()
+        return found or self._lock_step.wait(topic.take, f"a message on '{topic.topic}'", 5.0)
+
+
+def spawn(
+    lock_step: LockStep, description: str, pose: Transform, name: str = '', namespace: str = ''
+) -> str:
+    """
+    Put a robot into the world; return its name, that of the URDF by default. SimulationError.
+    """
+    request = SpawnEntity.Request()
     fill_pose(pose, request.initial_pose.pose)
     response = lock_step.ask(
-        SpawnEntity, resource_string=description, initial_pose=request.initial_pose
+        SpawnEntity,
+        name=name,
+        entity_namespace=namespace,
+        resource_string=description,
+        initial_pose=request.initial_pose,
     )
     return response.entity_name
 
 
-def spawn_controllers(lock_step: LockStep, names: Sequence[str] | None) -> Topics:
+def _latest(readings: Node, message_type: Any, topic: str) -> Latest | None:
+    return Latest(readings, message_type, topic) if topic else None
+
+
+def spawn_controllers(
+    lock_step: LockStep, names: Sequence[str] | None, namespace: str = ''
+) -> Topics:
     """
     Load, configure and activate controllers, in order; None: all that the manager has a type for.
 
     Return the topics of those that are active then. Raises ControllerError, ParameterError.
     """
-    manager = ManagerClient(lock_step.node, 'controller_manager', timeout=PATIENCE, silent=5.0)
+    inside = f'/{namespace.strip("/")}'
+    manager = ManagerClient(
+        lock_step.node,
+        f'{inside.rstrip("/")}/controller_manager',
+        timeout=PATIENCE,
+        silent=5.0,
+    )
     wanted = manager.typed_controllers() if names is None else [*names]
     if wanted:
         Spawner(lock_step.node, manager, parse(wanted)).spawn()
@@ -69,9 +172,9 @@ def spawn_controllers(lock_step: LockStep, names: Sequence[str] | None) -> Topic
             return ''
 
         def found() -> list[str]:
-            if (owner, '/') not in node.get_node_names_and_namespaces():
+            if (owner, inside) not in node.get_node_names_and_namespaces():
                 return []
-            return [name for name, types in find(owner, '/') if message_type in types]
+            return [name for name, types in find(owner, inside) if message_type in types]
 
         return lock_step.wait(found, f"the {message_type} of '{owner}'")[0]
 

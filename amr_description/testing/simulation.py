@@ -14,6 +14,13 @@ The simulator is the real one, in a process of its own and a ROS domain of its o
 DDS. Time stands still but in :meth:`Simulation.drive`, :meth:`Simulation.run` and
 :meth:`Simulation.step`: the same calls give the same bits, on a busy machine too. When the block
 is left, in whatever way, everything has ended.
+
+Several robots, each in the namespace of its name::
+
+    poses = {'robot1': Transform(), 'robot2': Transform((0.0, 2.0, 0.0))}
+    with Simulation('my_robot.urdf', 'controllers.yaml', robots=poses) as sim:
+        sim.drive_all({'robot1': (0.5, 0.2), 'robot2': (0.3, -0.3)}, seconds=2)
+        assert sim.robots['robot2'].odometry.x == pytest.approx(0.5, abs=0.02)
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,17 +28,16 @@ from contextlib import ExitStack
 import math
 from pathlib import Path
 import time as wall
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any, Self
 import warnings
 
 from geometry_msgs.msg import TwistStamped
-from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from sensor_msgs.msg import JointState
+from simulation_interfaces.srv import DeleteEntity
 
 from amr_description.bringup.packages import path_of
 from amr_description.control.interfaces import NANOSECONDS
@@ -42,16 +48,10 @@ from amr_description.model.urdf import parse as parse_urdf
 from amr_description.nodes.quick_discovery import use_quick_discovery, use_whole_graph
 from amr_description.sim.resources import description_at
 from amr_description.testing.domains import own_domain
-from amr_description.testing.latest import Latest
 from amr_description.testing.lock_step import Condition, LockStep
-from amr_description.testing.message_readings import (
-    joints_of,
-    motion_of_entity,
-    motion_of_odometry,
-)
 from amr_description.testing.program import simulator
 from amr_description.testing.readings import Joint, Motion
-from amr_description.testing.robot import DRIVE, spawn, spawn_controllers, Topics
+from amr_description.testing.robot import DRIVE, Robot, spawn, spawn_controllers, Topics
 
 _AT_ORIGIN = Transform()
 _COMMAND_PERIOD = 0.1
@@ -62,13 +62,11 @@ _LISTENING = 20
 """Physics steps between two looks for the first messages, at the beginning."""
 _BRAKING = 10.0
 """s: the longest time in which a drive is waited to stand."""
-_STILL = 1e-3
-"""m/s and rad/s: slower is taken for standing."""
 
 
 class Simulation:
     """
-    One robot in a world, ready to drive while inside the ``with`` block, at time 0.
+    A robot in a world, or several, ready to drive while inside the ``with`` block, at time 0.
 
     Every method raises SimulationError, in one line, when the simulator refuses or has ended.
     """
@@ -82,6 +80,7 @@ class Simulation:
         rtf: float = 0.0,
         activate: Sequence[str] | None = None,
         pose: Transform = _AT_ORIGIN,
+        robots: Mapping[str, Transform] | None = None,
         parameters: Mapping[str, Any] | None = None,
     ) -> None:
         """
@@ -91,14 +90,15 @@ class Simulation:
         that of this package. ``world``: a shipped name or an MJCF file. ``rtf``: simulated
         seconds per second of the wall clock, to watch it; 0: as fast as possible; the results are
         the same. ``activate``: the controllers to spawn, in order; None: all of the parameter
-        file. ``pose``: from the robot's root link to the world. ``parameters``: further ones of
-        ``mujoco_sim``.
+        file. ``pose``: from the robot's root link to the world. ``robots``: instead of one, name →
+        pose of several, each in the namespace of its name, for which the parameter file has to
+        speak (``/**/controller_manager: …``). ``parameters``: further ones of ``mujoco_sim``.
         """
         if not (math.isfinite(rtf) and rtf >= 0.0):
             raise SimulationError(f'rtf is {rtf}; a real-time factor is 0 or above')
         self._urdf = str(urdf)
         self._activate = activate
-        self._pose = pose
+        self._poses: Mapping[str, Transform] = {'': pose} if robots is None else robots
         self._rtf = rtf
         self._parameters: dict[str, Any] = {
             'world': _absolute(world),
@@ -109,15 +109,13 @@ class Simulation:
         }
         self._stack = ExitStack()
         self._lock_step: LockStep | None = None
-        self._odometry: Latest | None = None
-        self._joints: Latest | None = None
+        self._robots: dict[str, Robot] = {}
 
     # --- beginning and end --------------------------------------------------------------------
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
-            description = self._description()
-            is_controlled = bool(hardware_of(parse_urdf(description)))
+            self._description = self._read_description()
             stack.enter_context(own_domain())
             self._program = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack)
@@ -127,7 +125,8 @@ class Simulation:
                 'simulation_readings', context=context, use_global_arguments=False
             )
             stack.callback(self._readings.destroy_node)
-            self._spawn(description, is_controlled)
+            for name, pose in self._poses.items():
+                self._spawn(name, pose)
             self._begin()
             self._stack = stack.pop_all()
         return self
@@ -164,34 +163,86 @@ class Simulation:
         executor.add_node(self.node)
         return context
 
-    def _description(self) -> str:
+    def _read_description(self) -> str:
         if self._urdf.lstrip().startswith('<'):
             return self._urdf
         return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=5))
 
-    def _spawn(self, description: str, is_controlled: bool) -> None:
-        self.name = spawn(self._running, description, self._pose)
-        """The robot's, as the simulator knows it."""
-        topics = spawn_controllers(self._running, self._activate) if is_controlled else Topics()
-        self._cmd_vel = topics.command
-        self._odometry = self._listen(Odometry, topics.odometry)
-        self._joints = self._listen(JointState, topics.joints)
-
-    def _listen(self, message_type: Any, topic: str) -> Latest | None:
-        return Latest(self._readings, message_type, topic) if topic else None
+    def _spawn(self, name: str, pose: Transform) -> Robot:
+        """``name``: its namespace too; empty: that of the URDF, without a namespace."""
+        lock_step, namespace = self._running, name
+        name = spawn(lock_step, self._description, pose, name, namespace)
+        topics = Topics()
+        if hardware_of(parse_urdf(self._description)):
+            topics = spawn_controllers(lock_step, self._activate, namespace)
+        self._robots[name] = Robot(lock_step, self._readings, name, namespace, topics)
+        return self._robots[name]
 
     def _begin(self) -> None:
         """Let time pass until every topic is heard, as that may take DDS a while; then reset."""
         lock_step = self._running
-        lock_step.measure(self.name)
-        topics = [topic for topic in (self._odometry, self._joints) if topic is not None]
+        lock_step.measure(next(iter(self._robots)))
+
+        def unheard() -> list[str]:
+            return [topic for robot in self._robots.values() for topic in robot.unheard()]
 
         def is_heard() -> bool:
             lock_step.step(_LISTENING)
-            return all(topic.take() is not None for topic in topics)
+            return not unheard()
 
-        lock_step.wait(is_heard, ' and '.join(topic.topic for topic in topics))
+        lock_step.wait(is_heard, ' and '.join(unheard()))
         self.reset()
+
+    # --- robots -------------------------------------------------------------------------------
+
+    @property
+    def robots(self) -> Mapping[str, Robot]:
+        """All of them, by name."""
+        _ = self._running  # raises outside of the block
+        return MappingProxyType(self._robots)
+
+    @property
+    def robot(self) -> Robot:
+        """The robot, of a simulation that has one."""
+        if len(self.robots) == 1:
+            return next(iter(self._robots.values()))
+        names = ', '.join(self._robots) or 'none'
+        raise SimulationError(f'there is not one robot but: {names}; see robots')
+
+    @property
+    def name(self) -> str:
+        """That of the robot, as the simulator knows it."""
+        return self.robot.name
+
+    def spawn(self, name: str, pose: Transform = _AT_ORIGIN) -> Robot:
+        """
+        Add a robot, in the namespace ``name``; no time passes.
+
+        DDS may take some milliseconds until it is heard, so that its very first messages may be
+        missed where the name is new.
+        """
+        if name in self.robots or not name:
+            raise SimulationError(
+                f"a robot '{name}' cannot be added; another name will do (there are: "
+                f'{", ".join(self._robots)})'
+            )
+        return self._spawn(name, pose)
+
+    def remove(self, name: str) -> None:
+        """Take a robot out of the world; its controller manager and its topics go with it."""
+        robot = self._find(name)
+        self.ask(DeleteEntity, entity=name)
+        self._running.forget(robot.namespace)
+        robot.close()
+        del self._robots[name]
+
+    def _find(self, name: str) -> Robot:
+        try:
+            return self.robots[name]
+        except KeyError:
+            raise SimulationError(
+                f"there is no robot '{name}'; there are: {', '.join(self._robots) or 'none'}"
+            ) from None
 
     # --- time ---------------------------------------------------------------------------------
 
@@ -229,28 +280,34 @@ class Simulation:
         made good in braking, so that it goes as far as the command says. Without, the last
         command stays in force until the controller's time-out.
         """
-        self._command(linear, angular, self._steps_in(seconds))
-        end = self.time + _BRAKING
-        while stop and self.time < end and self._moves():
-            self._command(0.0, 0.0, self._steps_in(_COMMAND_PERIOD))
+        self.drive_all({self.robot.name: (linear, angular)}, seconds=seconds, stop=stop)
 
-    def _command(self, linear: float, angular: float, count: int) -> None:
+    def drive_all(
+        self, commands: Mapping[str, tuple[float, float]], *, seconds: float, stop: bool = True
+    ) -> None:
+        """
+        Do as :meth:`drive` with several robots at once: name → ``linear``, ``angular``.
+        """
+        robots = {self._find(name): twist for name, twist in commands.items()}
+        self._command(robots, self._steps_in(seconds))
+        end = self.time + _BRAKING
+        while stop and self.time < end and any(robot.moves for robot in robots):
+            self._command(dict.fromkeys(robots, (0.0, 0.0)), self._steps_in(_COMMAND_PERIOD))
+
+    def _command(self, commands: Mapping[Robot, tuple[float, float]], count: int) -> None:
         """For ``count`` physics steps."""
-        if not self._cmd_vel:
-            raise SimulationError(
-                f"no {DRIVE} of '{self.name}' is active; send() commands other controllers"
-            )
+        for robot in commands:
+            if not robot.command_topic:
+                raise SimulationError(
+                    f"no {DRIVE} of '{robot.name}' is active; send() commands other controllers"
+                )
         stretch = max(1, self._steps_in(_COMMAND_PERIOD))
         while count > 0:
-            command = TwistStamped()
-            command.twist.linear.x, command.twist.angular.z = float(linear), float(angular)
-            self.send(self._cmd_vel, command)
+            self.send_all(
+                {robot.command_topic: _twist(*twist) for robot, twist in commands.items()}
+            )
             self.step(min(stretch, count))
             count -= stretch
-
-    def _moves(self) -> bool:
-        truth = self.truth
-        return math.hypot(*truth.linear) > _STILL or math.hypot(*truth.angular) > _STILL
 
     def send(self, topic: str, message: Any) -> None:
         """
@@ -258,7 +315,11 @@ class Simulation:
 
         A header without a stamp gets that of the simulated time.
         """
-        self._running.send(topic, message)
+        self.send_all({topic: message})
+
+    def send_all(self, messages: Mapping[str, Any]) -> None:
+        """Send as :meth:`send` on several topics, to all at the same instant."""
+        self._running.send_all(messages)
 
     def ask(self, service_type: Any, **fields: Any) -> Any:
         """
@@ -272,9 +333,8 @@ class Simulation:
     def reset(self) -> None:
         """Begin anew: time 0, the robot where it was spawned, odometry at zero; a few ms."""
         self._running.reset()
-        for topic in (self._joints, self._odometry):
-            if topic is not None:
-                topic.forget()
+        for robot in self._robots.values():
+            robot.forget()
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
@@ -294,17 +354,17 @@ class Simulation:
     @property
     def truth(self) -> Motion:
         """How the robot's root link really moves in the world, at this instant."""
-        return motion_of_entity(self._running.state(self.name))
+        return self.robot.truth
 
     @property
     def odometry(self) -> Motion:
         """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
-        return motion_of_odometry(self._newest(self._odometry, DRIVE))
+        return self.robot.odometry
 
     @property
     def joints(self) -> dict[str, Joint]:
         """What the JointStateBroadcaster said last, by the names of the joints."""
-        return joints_of(self._newest(self._joints, 'JointStateBroadcaster'))
+        return self.robot.joints
 
     @property
     def log(self) -> str:
@@ -316,16 +376,6 @@ class Simulation:
         """Whether the simulator runs."""
         return self._program.process.poll() is None
 
-    def _newest(self, topic: Latest | None, controller: str) -> Any:
-        lock_step = self._running
-        if topic is None:
-            raise SimulationError(f"'{self.name}' began without an active {controller}")
-        if not lock_step.time:
-            raise SimulationError(
-                f'nothing is on {topic.topic} at time 0; let time pass: step(), run() or drive()'
-            )
-        return topic.take() or self.wait(topic.take, f"a message on '{topic.topic}'", 5.0)
-
     def _steps_in(self, seconds: float) -> int:
         if not (math.isfinite(seconds) and seconds >= 0.0):
             raise SimulationError(f'{seconds} s are asked; a finite time, not below 0, will do')
@@ -335,6 +385,12 @@ class Simulation:
         """Keep to the wall clock (``time.monotonic``, s)."""
         while (delay := instant - wall.monotonic()) > 0.0:
             self.node.executor.spin_once(timeout_sec=delay)
+
+
+def _twist(linear: float, angular: float) -> TwistStamped:
+    message = TwistStamped()
+    message.twist.linear.x, message.twist.angular.z = float(linear), float(angular)
+    return message
 
 
 def _absolute(world: str | Path) -> str:
