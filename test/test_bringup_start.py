@@ -34,7 +34,7 @@ def test_steps_start_one_after_the_other(tmp_path):
 def test_everything_a_process_wrote_stands_before_its_end(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         bringup.expect('ready in')
-        lines = [line for line in bringup.output.splitlines() if 'step-5' in line]
+        lines = [line for line in bringup.output.splitlines() if '[step-5]' in line]
         pid = bringup.pids()['step-5']
         assert lines == [
             f'[INFO] [step-5]: process started with pid [{pid}]',

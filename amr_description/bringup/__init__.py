@@ -45,6 +45,13 @@ log_folder.py          the folder of log files of one run
 narrator.py            what the orchestrator says of a stack, in launch's words
 post_mortem.py         pure: what is said of the failure that stopped a stack
 console.py             what a person reads: prefixes, colours, log files
+start_status.py        what a start waits for, told while it takes
+event_log.py           what happens in a run, for programs: events.jsonl
+terminal.py            one process with the terminal, as a shell gives it
+run_registry.py        the runs of this user on this host
+unique_names.py        pure: nodes that there can be only one of
+run_commands.py        ``bringup status`` and ``bringup stop``
+process_usage.py       what processes use of the machine
 main.py                the command ``bringup``
 stack_files.py         finds stacks, by name or in files of users; include
 stacks/                the ready-made stacks

@@ -98,6 +98,11 @@ class Console:
         shown = f'{self._named(name, f"[{name}]")} {line}'
         self._show(shown, f'[{name}] {line}', alarm=bool(_ALARM.search(line)))
 
+    @property
+    def log_folder(self) -> str:
+        """Where the log files are."""
+        return str(self._folder.path)
+
     def log_of(self, name: str) -> str:
         """Return the path of a log file, as a person reads it."""
         return with_tilde(self._folder.path / f'{name}.log')

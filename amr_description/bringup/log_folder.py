@@ -24,8 +24,9 @@ def run_name(now: datetime) -> str:
     return f'{now:%Y-%m-%d-%H-%M-%S-%f}-{socket.gethostname()}-{os.getpid()}'
 
 
-def with_tilde(path: Path) -> str:
+def with_tilde(path: Path | str) -> str:
     """Return a path as a person reads it, ``~`` for the home."""
+    path = Path(path)
     return f'~/{path.relative_to(Path.home())}' if path.is_relative_to(Path.home()) else str(path)
 
 
@@ -51,14 +52,17 @@ class LogFolder:
             self._substitute = tempfile.TemporaryDirectory(prefix='bringup-')
             self.path = Path(self._substitute.name)
 
-    def write(self, file: str, line: str) -> None:
-        """Append a line to ``<file>.log``."""
+    def write(self, name: str, line: str) -> None:
+        """Append a line to ``<name>.log``."""
+        self.append(f'{name}.log', line)
+
+    def append(self, file: str, line: str) -> None:
+        """Append a line to a file of the folder; it is written at once."""
         if self.failure is not None:
             return
         try:
             if file not in self._files:
-                path = self.path / f'{file}.log'
-                self._files[file] = path.open('w', encoding='utf-8', buffering=1)
+                self._files[file] = (self.path / file).open('w', encoding='utf-8', buffering=1)
             self._files[file].write(f'{line}\n')
         except OSError as error:
             self.failure = error

@@ -13,13 +13,17 @@ from amr_description.bringup import discovery
 from amr_description.bringup.arguments import declared, parse, show
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
 from amr_description.bringup.description import nodes_of, Stack
+from amr_description.bringup.event_log import EventLog, FILE, json_line
 from amr_description.bringup.job import Job, jobs_of
 from amr_description.bringup.listing import listing
 from amr_description.bringup.log_folder import log_base, LogFolder, run_name, with_tilde
 from amr_description.bringup.orchestrator import Orchestrator
+from amr_description.bringup.run_commands import COMMANDS
+from amr_description.bringup.run_registry import registry_folder, RunRecord
 from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
+from amr_description.bringup.unique_names import unique_names
 from amr_description.errors import AmrError
 
 
@@ -29,8 +33,11 @@ def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
 
     ``prog``: what messages call it.
     """
+    words = sys.argv[1:] if args is None else args
     try:
-        return _run(_parser().parse_intermixed_args(args))
+        if words and words[0] in COMMANDS:
+            return COMMANDS[words[0]](words[1:])
+        return _run(_parser().parse_intermixed_args(words))
     except AmrError as error:
         print(f'{prog}: {error}', file=sys.stderr)
         return error.exit_code
@@ -42,13 +49,20 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='bringup',
         description='Start a stack of nodes in order, and stop them all on Ctrl-C.',
-        epilog=f'Stacks: {", ".join(STACKS)}. Try: bringup simulation --show-args',
+        epilog=f'Stacks: {", ".join(STACKS)}. Try: bringup simulation --show-args. What runs is '
+        'shown by bringup status, and ended by bringup stop.',
     )
     parser.add_argument('stack', help='name of a stack, or a Python file with one')
     parser.add_argument('arguments', nargs='*', metavar='name:=value', help='its arguments')
     parser.add_argument('-s', '--show-args', action='store_true', help='show what it takes')
     parser.add_argument(
         '-p', '--print', action='store_true', help='print what would be started, and when'
+    )
+    parser.add_argument(
+        '-f',
+        '--force',
+        action='store_true',
+        help='start although a running stack has nodes of the same names',
     )
     discovery.add_options(parser)
     return parser
@@ -63,40 +77,57 @@ def _run(options: argparse.Namespace) -> int:
     if options.print:
         print(listing(stack, jobs_of(stack, Path('LOG_FOLDER'))))
         return 0
-    return start(stack)
+    return start(stack, name=Path(options.stack).stem, force=options.force)
 
 
-def start(stack: Stack) -> int:
-    """Run a stack until it ends or is stopped; return the exit code."""
+def start(stack: Stack, *, name: str, force: bool = False) -> int:
+    """
+    Run a stack until it ends or is stopped; return the exit code.
+
+    :param name: What it is called.
+    :param force: Whether it may have nodes of the same names as a stack that runs.
+    """
     for node in nodes_of(stack.nodes):
         if node.terminal:
             require_terminal(node.executable, node.package)
     run = run_name(datetime.now())
+    about = {'stack': name, 'domain': int(os.environ.get(discovery.DOMAIN) or 0)}
+    record = RunRecord(registry_folder(os.environ), run)
+    record.enter(about, names=unique_names(jobs_of(stack, Path())), anyway=force)
     folder = LogFolder(log_base(os.environ), run)
     try:
         jobs = jobs_of(stack, folder.path)
-        console = Console(
-            sys.stdout,
-            folder,
-            colour=wants_colour(sys.stdout, os.environ),
-            erases=can_erase(sys.stdout, os.environ),
-        )
-        where = with_tilde(folder.path)
-        console.say('INFO', LAUNCH, f'All log files can be found below {where}')
-        console.say('INFO', LAUNCH, discovery.told(os.environ))
-        for level, text in stack.all_notes:
-            console.say(level, LAUNCH, text)
-        # The log files that the nodes write themselves belong to this run, too.
-        environment = {**os.environ, 'ROS_LOG_DIR': str(folder.path)}
-        return asyncio.run(_orchestrate(stack, jobs, console, run, environment))
+        events = EventLog(lambda event: folder.append(FILE, json_line(event)), record.take)
+        events.note('begun', run=run, pid=os.getpid(), log_folder=str(folder.path), **about)
+        code = asyncio.run(_orchestrate(stack, jobs, _console(stack, folder), run, events))
+        events.note('stopped', exit_code=code)
+        return code
     finally:
+        record.leave()
         folder.close()
 
 
+def _console(stack: Stack, folder: LogFolder) -> Console:
+    """Return the console, on which has been said what a person knows before the start."""
+    colour, erases = wants_colour(sys.stdout, os.environ), can_erase(sys.stdout, os.environ)
+    console = Console(sys.stdout, folder, colour=colour, erases=erases)
+    where = with_tilde(folder.path)
+    console.say('INFO', LAUNCH, f'All log files can be found below {where}')
+    console.say('INFO', LAUNCH, discovery.told(os.environ))
+    for level, text in stack.all_notes:
+        console.say(level, LAUNCH, text)
+    return console
+
+
 async def _orchestrate(
-    stack: Stack, jobs: list[Job], console: Console, run: str, environment: dict[str, str]
+    stack: Stack, jobs: list[Job], console: Console, run: str, events: EventLog
 ) -> int:
-    return await Orchestrator(stack, jobs, console, run, environment).run()
+    # The log files that the nodes write themselves belong to this run, too.
+    environment = {**os.environ, 'ROS_LOG_DIR': console.log_folder}
+    try:
+        return await Orchestrator(stack, jobs, console, run, environment, events).run()
+    finally:
+        console.status('')
 
 
 if __name__ == '__main__':

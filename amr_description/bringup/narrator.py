@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the orchestrator says of a stack, in the words of launch where launch has them."""
+"""What the orchestrator says of a stack: to a person, as launch does, and to programs."""
 
 from collections.abc import Collection, Mapping, Sequence
 import signal
@@ -9,25 +9,35 @@ import time
 from amr_description.bringup.child import RunningProcess
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.event_log import EventLog
 from amr_description.bringup.handlers import Shutdown
 from amr_description.bringup.job import Job
 from amr_description.bringup.outlook import GRAPH_WATCH
-from amr_description.bringup.post_mortem import expiry, post_mortem
+from amr_description.bringup.post_mortem import expiry, post_mortem, signal_name
 from amr_description.bringup.progress import Progress
 from amr_description.bringup.situation import Situation
+from amr_description.bringup.start_status import StartStatus
 from amr_description.bringup.waits import Expired
 
 _POLITE = (signal.SIGINT, signal.SIGTERM)  # what a program may leave to its default
 
 
 class Narrator:
-    """Tells a person each event of a stack, once."""
+    """Tells each event of a stack once, on the console and to the log of events."""
 
-    def __init__(self, stack: Stack, jobs: Sequence[Job], console: Console) -> None:
+    def __init__(
+        self, stack: Stack, jobs: Sequence[Job], console: Console, events: EventLog
+    ) -> None:
         """``jobs``: the nodes of the stack."""
         self._stack = stack
         self._jobs = {job.node: job for job in jobs}
         self._console = console
+        self._events = events
+        self._status = StartStatus(console, self._name_of)
+        self._started_at: dict[Node, float] = {}
+        self._steps: list[str] = []  # that came to their end, and how long they took
+        for node in self._jobs:
+            self._note('waiting', node, condition=self._condition_of(node))
         self._begin = time.monotonic()
         self._told: set[object] = set()
 
@@ -37,15 +47,23 @@ class Narrator:
 
     def started(self, node: Node, pid: int) -> None:
         """Say that its process runs."""
+        self._started_at[node] = time.monotonic()
+        if condition := self._condition_of(node):
+            self._note('condition_held', node, condition=condition)
+        self._note('started', node, pid=pid)
         self._console.say('INFO', self._name_of(node), f'process started with pid [{pid}]')
 
     def not_started(self, node: Node, reason: str) -> None:
         """Say that its process could not be started."""
+        self._note('not_started', node, reason=reason)
         self._console.say('ERROR', self._name_of(node), f'process {reason}')
 
     def ended(self, node: Node, child: RunningProcess) -> None:
         """Say how its process ended; launch calls it an error, too, if it did as it was told."""
+        self._note('exited', node, pid=child.pid, **_end(child.returncode))
         if child.returncode == 0:
+            took = time.monotonic() - self._started_at[node]
+            self._steps.append(f'{self._name_of(node)} {took:.1f} s')
             text = f'process has finished cleanly [pid {child.pid}]'
             self._console.say('INFO', self._name_of(node), text)
         elif child.sent in _POLITE and child.returncode in (-child.sent, 128 + child.sent):
@@ -58,22 +76,29 @@ class Narrator:
             self._console.say('ERROR', self._name_of(node), text)
 
     def progress(self, progress: Progress) -> None:
-        """Say that the stack is ready, and what of it can never start."""
+        """Say that the stack is ready, what it waits for, and what of it can never start."""
+        self._status.follow(progress)
         for expired in progress.gave_up:
             if expired.node not in self._told:
                 self._told.add(expired.node)
+                self._note('never', expired.node, condition=self._condition_of(expired.node))
                 text = f'never starts: {expired.text(self._name_of)}'
                 self._console.say('WARNING', self._name_of(expired.node), text)
         for node in progress.unreachable():
             condition = progress.waits_for(node)
             if node not in self._told and not progress.over and condition:
                 self._told.add(node)
+                self._note('never', node, condition=self._condition_of(node))
                 needs = condition.describe(self._name_of)
                 text = f'never starts: needs that {needs}'
                 self._console.say('WARNING', self._name_of(node), text)
         if progress.ready and 'ready' not in self._told:
             self._told.add('ready')
+            self._status.end()
             took = time.monotonic() - self._begin
+            self._note('ready', seconds=round(took, 3))
+            if self._steps:
+                self._console.say('INFO', LAUNCH, f'steps: {", ".join(self._steps)}')
             steps = f': {self._stack.all_next_steps}' if self._stack.all_next_steps else ''
             self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
 
@@ -117,20 +142,30 @@ class Narrator:
 
     def stop_requested(self, number: signal.Signals, again: bool) -> None:
         """Say that a signal asks for the end of all; ``again``: not for the first time."""
+        self._note('stop_requested', signal=number.name)
+        self._status.end()
         how = 'user interrupted with ctrl-c (SIGINT)' if number == signal.SIGINT else number.name
         suffix = ' again: not waiting any longer' if again else ''
         self._console.say('WARNING', LAUNCH, how + suffix)
 
     def signalled(
-        self, node: Node, number: signal.Signals, before: signal.Signals | None, elapsed: float
+        self,
+        node: Node,
+        pid: int,
+        number: signal.Signals,
+        before: signal.Signals | None,
+        elapsed: float,
     ) -> None:
         """
         Say that its process is sent a signal.
 
+        :param pid: Its process id.
         :param before: The signal that did not help, or None.
         :param elapsed: s since the first signal.
         """
         name = self._name_of(node)
+        self._status.end()
+        self._note('signal_sent', node, pid=pid, signal=number.name)
         if before is None:
             self._console.say('INFO', name, f"sending signal '{number.name}' to process[{name}]")
             return
@@ -152,8 +187,23 @@ class Narrator:
         else:
             name = self._name_of(failure.node)
             texts = post_mortem(name, failure, last_lines[failure.node], waiting)
+        self._note('failure', failure.node, reason=texts[-1])
         for text in texts:
             self._console.say('ERROR', LAUNCH, text)
 
+    def _note(self, event: str, node: Node | None = None, **more: object) -> None:
+        self._events.note(event, self._name_of(node) if node else None, **more)
+
+    def _condition_of(self, node: Node) -> str | None:
+        condition = self._jobs[node].placed.start_when
+        return condition and condition.describe(self._name_of)
+
     def _name_of(self, node: Node) -> str:
         return self._jobs[node].name
+
+
+def _end(returncode: int) -> dict[str, object]:
+    """Return how a process ended, for the log of events."""
+    if returncode >= 0:
+        return {'exit_code': returncode}
+    return {'signal': signal_name(-returncode)}

@@ -23,6 +23,7 @@ from amr_description.bringup.child import Child, RunningProcess
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
+from amr_description.bringup.event_log import EventLog
 from amr_description.bringup.handlers import complaint, Stopping
 from amr_description.bringup.job import Job
 from amr_description.bringup.lifeline import Lifeline
@@ -48,6 +49,7 @@ class Orchestrator:
         console: Console,
         run_name: str,
         environment: Mapping[str, str],
+        events: EventLog,
     ) -> None:
         """
         Take over what is to be run.
@@ -55,11 +57,12 @@ class Orchestrator:
         :param jobs: The nodes of the stack, made ready by :func:`job.jobs_of`.
         :param run_name: A name that no other run on this machine has.
         :param environment: The environment variables of the children.
+        :param events: Is told all that happens.
         """
         self._jobs: dict[Node, Job] = {job.node: job for job in jobs}
         self._run_name = run_name
         self._environment = environment
-        self._narrator = Narrator(stack, jobs, console)
+        self._narrator = Narrator(stack, jobs, console, events)
         self._progress = Progress(stack, time.monotonic())
         self._children: dict[Node, RunningProcess] = {}  # in the order of their start
         self._last_lines: dict[Node, Collection[str]] = {}
@@ -230,7 +233,8 @@ class Orchestrator:
         for number, patience in _ESCALATION:
             running = self._running()
             for node, child in reversed(running.items()):
-                self._narrator.signalled(node, number, before, time.monotonic() - begin)
+                elapsed = time.monotonic() - begin
+                self._narrator.signalled(node, child.pid, number, before, elapsed)
                 child.send(number)
             self._outlook.watch.send(number)
             await self._until_ended(patience)

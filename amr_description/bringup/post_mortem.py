@@ -52,7 +52,12 @@ def manner(failure: Failure) -> str:
     again = f', as did {failure.restarts} new starts' if failure.restarts else ''
     if failure.returncode >= 0:
         return f'ended with exit code {failure.returncode}{again}'
+    return f'died of {signal_name(-failure.returncode)}{again}'
+
+
+def signal_name(number: int) -> str:
+    """Return the name of a signal, ``SIGKILL``."""
     try:
-        return f'died of {signal.Signals(-failure.returncode).name}{again}'
+        return signal.Signals(number).name
     except ValueError:  # a real-time signal
-        return f'died of signal {-failure.returncode}{again}'
+        return f'signal {number}'

@@ -54,6 +54,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         action='store_true',
         help='Accepted for scripts: the output of every process is shown anyway',
     )
+    parser.add_argument(
+        '-f',
+        '--force',
+        action='store_true',
+        help='Start although a running stack has nodes of the same names',
+    )
     discovery.add_options(parser)
     parser.add_argument(
         'package_name',
@@ -81,6 +87,7 @@ def main(args: Namespace) -> int:
     options = [
         *(['--show-args'] if args.show_args else []),
         *(['--print'] if args.print else []),
+        *(['--force'] if args.force else []),
         *discovery.words(args),
     ]
     sys.stdout.flush()
