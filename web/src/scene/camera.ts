@@ -8,7 +8,8 @@ const FIELD_OF_VIEW = 40; // degrees, of the smaller side of the picture
 const FROM = new Vector3(-0.78, -0.55, 0.5).normalize(); // behind, to the right and above
 const BEHIND = new Vector3(-1, 0, 0.48).normalize(); // in the robot's own directions
 const UP = new Vector3(0, 0, 1);
-const MARGIN = 2.1; // how much wider the view is than what it is of
+const MARGIN = 1.75; // how much wider the view is than what it is of
+const FOLLOWING_MARGIN = 2.4;
 const SMALLEST = 0.35; // m, the radius of the least that is framed
 const POSITION_LAG = 0.1; // s, of the camera behind the robot it follows
 const HEADING_LAG = 0.45;
@@ -62,10 +63,10 @@ export class CameraRig {
   }
 
   /** Bring a box into view, from behind and above; an empty one: the origin. */
-  frame(box: Box3): void {
+  frame(box: Box3, margin = MARGIN): void {
     const ball = box.isEmpty() ? new Sphere(new Vector3(), 1) : box.getBoundingSphere(new Sphere());
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-    const distance = (MARGIN * Math.max(ball.radius, SMALLEST)) / half;
+    const distance = (margin * Math.max(ball.radius, SMALLEST)) / half;
     this.target.copy(ball.center);
     this.camera.position.copy(ball.center).addScaledVector(FROM, distance);
     this.controls.update();
@@ -74,7 +75,7 @@ export class CameraRig {
 
   /** Get behind a robot whose extent is `box`, and stay there. */
   startFollowing(pose: Matrix4, box: Box3): void {
-    this.frame(box);
+    this.frame(box, FOLLOWING_MARGIN);
     const distance = this.distance;
     const base = new Vector3().setFromMatrixPosition(pose);
     this.lift = this.target.z - base.z;

@@ -10,6 +10,7 @@ import { Trails } from './trails';
 import { readPose, type FrameTree } from './tree';
 
 export class RobotEntry {
+  readonly id: string;
   readonly view: RobotView;
   readonly trails: Trails;
   /** Its largest extent, m. */
@@ -17,9 +18,10 @@ export class RobotEntry {
   body: Body | null = null;
   private state: RobotState | null = null;
 
-  /** `before`: what this one replaces; the trails go on. */
-  constructor(readonly id: string, model: Model, events: RobotEvents, before?: RobotEntry) {
-    this.view = new RobotView(model, events);
+  /** `isShaded`: shadows fall on it; `before`: what this one replaces, whose trails go on. */
+  constructor(model: Model, isShaded: boolean, events: RobotEvents, before?: RobotEntry) {
+    this.id = model.robot;
+    this.view = new RobotView(model, isShaded, events);
     this.trails = before?.trails ?? new Trails();
     this.measure();
   }

@@ -7,6 +7,7 @@ const FINEST = 2; // pixels to a CSS pixel
 const SLOW = 45; // ms of waiting for a frame, on average, from which on pixels get fewer
 const COARSEST = 0.6;
 const MEMORY = 0.9; // of the average
+const LOOK_AGAIN = 8; // ms until it is looked again whether the frame before is done
 
 export class Painter {
   readonly renderer: WebGLRenderer;
@@ -15,6 +16,8 @@ export class Painter {
   triangles = 0;
   private ratio: number;
   private request = 0;
+  private timer: ReturnType<typeof setTimeout> | null = null;
+  private fence: WebGLSync | null = null; // behind the commands of the last frame
   private isDirty = false;
   private last = 0; // ms, of the last frame
   private asked = 0; // ms, when the next frame was asked for
@@ -42,7 +45,7 @@ export class Painter {
   /** Ask for a frame. */
   readonly dirty = (): void => {
     this.isDirty = true;
-    if (this.request === 0) {
+    if (this.request === 0 && this.timer === null) {
       this.asked = performance.now();
       this.request = requestAnimationFrame(this.onFrame);
     }
@@ -68,16 +71,26 @@ export class Painter {
     renderer.render(overlay, camera);
     this.triangles = renderer.info.render.triangles;
     this.frames++;
+    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.gl.flush();
   }
 
   dispose(): void {
     cancelAnimationFrame(this.request);
+    clearTimeout(this.timer ?? undefined);
     this.canvas.removeEventListener('webglcontextrestored', this.dirty);
     this.renderer.dispose();
   }
 
   private readonly onFrame = (now: number): void => {
     this.request = 0;
+    if (this.isBusy()) {
+      this.timer = setTimeout(() => {
+        this.timer = null;
+        this.request = requestAnimationFrame(this.onFrame);
+      }, LOOK_AGAIN);
+      return;
+    }
     const gap = this.last === 0 ? 0 : now - this.last;
     const wait = performance.now() - this.asked;
     this.last = now;
@@ -90,6 +103,27 @@ export class Painter {
     }
     this.adapt(wait);
   };
+
+  private get gl(): WebGL2RenderingContext {
+    return this.renderer.getContext() as WebGL2RenderingContext;
+  }
+
+  /**
+   * Whether the frame before is still being drawn. Frames that queue up block the whole page: it
+   * would hear of a released key, and tell the node that somebody drives, up to a second late.
+   */
+  private isBusy(): boolean {
+    const { gl, fence } = this;
+    if (fence === null || gl.isContextLost()) {
+      return false;
+    }
+    if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+      return true;
+    }
+    gl.deleteSync(fence);
+    this.fence = null;
+    return false;
+  }
 
   /**
    * Draw fewer pixels where the browser cannot follow, and stay with that. States may come as

@@ -47,7 +47,11 @@ export class RobotView {
   private chosen: string | null = null;
 
   /** Throws {@link BadModel} where the URDF cannot be drawn at all. */
-  constructor(readonly model: Model, private readonly events: RobotEvents) {
+  constructor(
+    readonly model: Model,
+    private readonly isShaded: boolean,
+    private readonly events: RobotEvents,
+  ) {
     this.object = this.load();
     this.object.matrixAutoUpdate = false;
     this.object.visible = false;
@@ -241,7 +245,8 @@ export class RobotView {
       collider.traverse((each) => each instanceof Mesh && (each.material = this.collider));
     }
     for (const mesh of this.visuals().filter((each) => !each.castShadow)) {
-      mesh.castShadow = mesh.receiveShadow = true;
+      mesh.castShadow = true;
+      mesh.receiveShadow = this.isShaded;
       if (isPrimitive(mesh)) {
         [mesh.material].flat().forEach(correct);
         addEdges(mesh, this.edges);

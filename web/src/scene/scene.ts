@@ -39,7 +39,6 @@ export interface SceneOptions {
 
 const AXIS_SHARE = 0.28; // of the robot's size
 const NEAR = 12; // m; robots further away are not brought into view with the first
-const SHADOW_PIXELS = { hardware: 2048, software: 1024 };
 const EMPTY = { type: 'layout', id: -1, frames: [], robots: [] } satisfies Layout;
 
 export class Scene {
@@ -53,10 +52,11 @@ export class Scene {
   private readonly placement = new Placement();
   private readonly axes = new Axes();
   private readonly contacts = new Contacts();
-  private readonly world = new WorldView();
+  private readonly world: WorldView;
   private readonly surroundings: Surroundings;
   private readonly labels: Labels;
   private readonly painter: Painter;
+  private readonly isShaded: boolean; // shadows fall on all, not on the ground alone
   private readonly rig: CameraRig;
   private readonly picking: Picking;
   private options: SceneOptions = {
@@ -78,11 +78,12 @@ export class Scene {
   /** Throws {@link NoWebGL} where there is no WebGL 2. */
   constructor(canvas: HTMLCanvasElement) {
     const isSoftware = isSoftwareDrawn();
-    const pixels = isSoftware ? SHADOW_PIXELS.software : SHADOW_PIXELS.hardware;
+    this.isShaded = !isSoftware;
+    this.world = new WorldView(this.isShaded);
     this.labels = new Labels(canvas);
     this.painter = new Painter(canvas, isSoftware, this.step, this.onResize);
     this.rig = new CameraRig(canvas, this.painter.dirty, () => this.resetView());
-    this.surroundings = new Surroundings(this.scene, pixels);
+    this.surroundings = new Surroundings(this.scene, isSoftware);
     this.picking = new Picking(canvas, this.rig.camera, () => this.views(), this.onPick);
     this.scene.add(this.world.object);
     this.overlay.add(this.axes.object, this.contacts.object);
@@ -98,7 +99,7 @@ export class Scene {
       problem: (text: string) => this.onProblem(text),
     };
     try {
-      const entry = new RobotEntry(model.robot, model, events, before);
+      const entry = new RobotEntry(model, this.isShaded, events, before);
       before?.view.dispose();
       this.robots.set(model.robot, entry);
       entry.view.setPalette(this.palette);

@@ -1,7 +1,12 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** Lines of some pixels' width that change all the time, in one draw call. */
-import { DynamicDrawUsage, InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
+import {
+  DynamicDrawUsage,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
+  Sphere,
+} from 'three';
 import type { Color, Vector3 } from 'three';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
@@ -23,6 +28,7 @@ export class Segments {
     material.opacity = opacity;
     this.object = new LineSegments2(this.geometry, material);
     this.object.frustumCulled = false; // its extent is not followed
+    this.geometry.boundingSphere = new Sphere(); // nor asked for
     this.object.raycast = () => {};
     this.grow(64);
   }

@@ -1,129 +1,120 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The ground without end and its grid, the sky, the sun: what is there before any world. */
+/** Ground, sky, sun and shadows: what is there before any world. */
 import {
   BackSide,
-  BufferGeometry,
   Color,
   DirectionalLight,
   Float32BufferAttribute,
   Fog,
   Group,
   HemisphereLight,
-  LineBasicMaterial,
-  LineSegments,
   Matrix4,
   Mesh,
   MeshBasicMaterial,
-  MeshLambertMaterial,
   PlaneGeometry,
   Scene as ThreeScene,
   ShadowMaterial,
   SphereGeometry,
   Vector3,
 } from 'three';
+import { Ground } from './ground';
 import type { Palette } from './theme';
 
-const CELLS = 60; // of the grid, from its middle to its edge
-const MAJOR = 10; // cells
 const FAR = 400; // m, the radius of the sky
 const IDENTITY = new Matrix4();
+const SUN = new Vector3(-0.95, -0.1, 1.5); // towards it
+const SHADOW_PIXELS = { hardware: 2048, software: 512 };
+const WIDEST = 24; // m, half of the side of what shadows fall on
+const SOFTWARE_WIDEST = 1;
 
 export class Surroundings {
-  /** Ground and grid, at z = 0 of whatever it is put into. */
-  readonly ground = new Group();
-  private readonly plane = new Mesh(new PlaneGeometry(2 * FAR, 2 * FAR));
-  private readonly opaque = new MeshLambertMaterial();
-  private readonly shadowsOnly = new ShadowMaterial({ opacity: 0.22 });
-  private readonly minor = new LineSegments(gridLines(false), new LineBasicMaterial());
-  private readonly major = new LineSegments(gridLines(true), new LineBasicMaterial());
+  private readonly floor = new Group(); // at z = 0 of `world`, or of the fixed frame
+  private readonly fog = new Fog(0, 10, 100);
+  private readonly ground = new Ground(FAR, this.fog);
+  private readonly shadows = new Mesh(new PlaneGeometry(2, 2), new ShadowMaterial());
   private readonly sky: Mesh<SphereGeometry, MeshBasicMaterial>;
   private readonly sun = new DirectionalLight();
   private readonly dome = new HemisphereLight();
-  private readonly fog = new Fog(0, 10, 100);
+  private readonly horizon = new Color();
 
-  constructor(scene: ThreeScene, shadowPixels: number) {
+  /**
+   * Where the processor draws, pixels are dear: the sky is of one colour, and shadows fall only
+   * on the ground about the robot.
+   */
+  constructor(scene: ThreeScene, private readonly isSoftware: boolean) {
     this.sky = new Mesh(
       new SphereGeometry(FAR, 16, 12).rotateX(Math.PI / 2),
       new MeshBasicMaterial({ vertexColors: true, side: BackSide, fog: false, depthWrite: false }),
     );
-    this.sky.renderOrder = -1;
-    for (const material of [this.opaque, this.shadowsOnly]) {
-      material.polygonOffset = true; // behind the grid, the trails, and slabs that lie on it
-      material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
-    }
-    this.plane.receiveShadow = true;
-    this.ground.add(this.plane, this.minor, this.major);
-    this.castShadows(shadowPixels);
+    this.sky.renderOrder = 2; // after what hides it
+    this.sky.visible = !isSoftware;
+    this.shadows.receiveShadow = true;
+    this.shadows.raycast = () => {};
+    this.floor.matrixAutoUpdate = false;
+    this.floor.add(this.ground, this.shadows);
+    this.castShadows(isSoftware ? SHADOW_PIXELS.software : SHADOW_PIXELS.hardware);
     scene.fog = this.fog;
-    scene.add(this.sky, this.ground, this.sun, this.sun.target, this.dome);
-    this.ground.matrixAutoUpdate = false;
-    this.setGround(null);
+    scene.background = this.horizon;
+    scene.add(this.sky, this.floor, this.sun, this.sun.target, this.dome);
   }
 
-  /** Where the world's ground is; null: it has none, and the fixed frame's floor gets shadows. */
+  /** Where the world's ground is; null: it has none, and there is only the grid. */
   setGround(pose: Matrix4 | null): void {
-    this.plane.material = pose === null ? this.shadowsOnly : this.opaque;
-    this.ground.matrix.copy(pose ?? IDENTITY);
-    this.ground.matrixWorldNeedsUpdate = true;
+    this.ground.setSolid(pose !== null);
+    this.floor.matrix.copy(pose ?? IDENTITY);
+    this.floor.matrixWorldNeedsUpdate = true;
   }
 
   showGrid(shown: boolean): void {
-    this.minor.visible = this.major.visible = shown;
+    this.ground.showGrid(shown);
   }
 
   /** Follow the camera: its place, what it looks at, and how far that is; m. */
   follow(eye: Vector3, target: Vector3, distance: number): void {
-    const { x, y } = target.clone().applyMatrix4(this.ground.matrix.clone().invert());
-    const cell = distance > 40 ? 10 : 1;
-    const step = cell * MAJOR;
-    for (const grid of [this.minor, this.major]) {
-      grid.position.set(step * Math.round(x / step), step * Math.round(y / step), 0);
-      grid.scale.setScalar(cell);
-    }
-    this.plane.position.set(x, y, 0);
-    this.sky.position.copy(eye);
+    const { x, y } = target.clone().applyMatrix4(this.floor.matrix.clone().invert());
     this.fog.near = 8 + distance;
     this.fog.far = Math.min(38 + 4 * distance, 0.9 * FAR);
-    this.aimSun(target, distance);
+    this.ground.follow(x, y);
+    this.sky.position.copy(eye);
+    const widest = this.isSoftware ? SOFTWARE_WIDEST : WIDEST;
+    const wanted = Math.min(Math.max(1.2 * distance, 1), widest);
+    const extent = 2 ** Math.ceil(Math.log2(wanted));
+    this.shadows.position.set(x, y, 0);
+    this.shadows.scale.setScalar(extent);
+    this.aimSun(target, extent);
   }
 
   setPalette(palette: Palette): void {
+    this.horizon.set(palette.horizon);
     this.fog.color.set(palette.horizon);
-    this.opaque.color.set(palette.ground);
-    this.minor.material.color.set(palette.gridMinor);
-    this.major.material.color.set(palette.gridMajor);
+    this.ground.setPalette(palette);
+    this.shadows.material.opacity = palette.shadow;
     this.sun.intensity = palette.sun;
     this.dome.intensity = palette.sky;
-    this.dome.color.set('#ffffff');
     this.dome.groundColor.set(palette.ground).lerp(new Color('#808080'), 0.5);
     const colours: number[] = [];
     const points = this.sky.geometry.getAttribute('position');
-    const low = new Color(palette.horizon);
-    const high = new Color(palette.zenith);
+    const zenith = new Color(palette.zenith);
     const between = new Color();
     for (let i = 0; i < points.count; i++) {
       const height = Math.max(0, points.getZ(i) / FAR);
-      between.copy(low).lerp(high, Math.sqrt(height)).toArray(colours, 3 * i);
+      between.copy(this.horizon).lerp(zenith, Math.sqrt(height)).toArray(colours, 3 * i);
     }
     this.sky.geometry.setAttribute('color', new Float32BufferAttribute(colours, 3));
   }
 
   dispose(): void {
-    for (const each of [this.sky, this.plane, this.minor, this.major]) {
-      each.geometry.dispose();
+    for (const { geometry, material } of [this.sky, this.shadows]) {
+      geometry.dispose();
+      material.dispose();
     }
-    for (const each of [this.sky, this.minor, this.major]) {
-      each.material.dispose();
-    }
-    this.opaque.dispose();
-    this.shadowsOnly.dispose();
+    this.ground.dispose();
     this.sun.dispose();
   }
 
   private castShadows(pixels: number): void {
-    this.sun.up.set(0, 0, 1);
-    this.sun.castShadow = pixels > 0;
+    this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(pixels, pixels);
     this.sun.shadow.bias = -0.0004;
     this.sun.shadow.normalBias = 0.01;
@@ -131,30 +122,20 @@ export class Surroundings {
   }
 
   /** Light what the camera looks at; shadows are the finer the nearer it is. */
-  private aimSun(target: Vector3, distance: number): void {
-    const extent = 2 ** Math.ceil(Math.log2(Math.min(Math.max(1.2 * distance, 1.5), 24)));
-    const pixel = (2 * extent) / Math.max(1, this.sun.shadow.mapSize.x);
-    const snap = (value: number): number => 8 * pixel * Math.round(value / (8 * pixel));
+  private aimSun(target: Vector3, extent: number): void {
+    // In whole pixels of the shadow map, so that edges do not swim as the camera goes.
+    const pixel = (16 * extent) / this.sun.shadow.mapSize.x;
+    const snap = (value: number): number => pixel * Math.round(value / pixel);
     this.sun.target.position.set(snap(target.x), snap(target.y), snap(target.z));
-    this.sun.position.set(-0.45, 0.65, 1.25).multiplyScalar(2 * extent);
-    this.sun.position.add(this.sun.target.position);
+    this.sun.position.copy(SUN).multiplyScalar(2 * extent).add(this.sun.target.position);
     const { camera } = this.sun.shadow;
-    if (camera.right !== extent) {
-      camera.left = camera.bottom = -extent;
-      camera.right = camera.top = extent;
+    const half = 1.5 * extent; // the square lies askew in the sun's view
+    if (camera.right !== half) {
+      camera.left = camera.bottom = -half;
+      camera.right = camera.top = half;
       camera.near = 0.1;
       camera.far = 6 * extent;
       camera.updateProjectionMatrix();
     }
   }
-}
-
-function gridLines(major: boolean): BufferGeometry {
-  const points: number[] = [];
-  for (let i = -CELLS; i <= CELLS; i++) {
-    if ((i % MAJOR === 0) === major) {
-      points.push(i, -CELLS, 0, i, CELLS, 0, -CELLS, i, 0, CELLS, i, 0);
-    }
-  }
-  return new BufferGeometry().setAttribute('position', new Float32BufferAttribute(points, 3));
 }

@@ -29,6 +29,7 @@ export interface Palette {
   collision: string;
   sun: number; // candela-free units of three.js: pi lights a white surface to white
   sky: number;
+  shadow: number; // how dark the ground is where the sun does not shine, 0..1
 }
 
 export const PALETTES: Readonly<Record<Theme, Palette>> = {
@@ -36,8 +37,8 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     horizon: '#e9edf1',
     zenith: '#c9d6e3',
     ground: '#dfe4e9',
-    gridMinor: '#cdd4dc',
-    gridMajor: '#a9b4c0',
+    gridMinor: '#bcc6d1',
+    gridMajor: '#8896a6',
     edge: '#26323f',
     edgeOpacity: 0.28,
     partEdge: '#ffffff',
@@ -52,14 +53,15 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     highlight: '#ff9d00',
     collision: '#d97706',
     sun: 2.3,
-    sky: 1.5,
+    sky: 1.7,
+    shadow: 0.26,
   },
   dark: {
     horizon: '#161b21',
     zenith: '#0d1116',
     ground: '#20262e',
-    gridMinor: '#2c343e',
-    gridMajor: '#475361',
+    gridMinor: '#3a4450',
+    gridMajor: '#5a6878',
     edge: '#dbe6f2',
     edgeOpacity: 0.22,
     partEdge: '#ffffff',
@@ -73,7 +75,8 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     slip: '#ff5fa2',
     highlight: '#ffb02e',
     collision: '#f59e0b',
-    sun: 1.9,
-    sky: 1.15,
+    sun: 2.0,
+    sky: 1.5,
+    shadow: 0.5,
   },
 };

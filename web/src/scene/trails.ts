@@ -8,6 +8,7 @@ import {
   InstancedInterleavedBuffer,
   InterleavedBufferAttribute,
   Matrix4,
+  Sphere,
 } from 'three';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
@@ -19,6 +20,7 @@ import { readPose } from './tree';
 
 const WIDTH = 3; // CSS pixels
 const LIFT = 0.004; // m, so that a trail on the ground is seen
+const BIAS = -800; // of depth, so that the ground does not take half of a flat line's width
 const JUMP = 0.5; // m at once, beyond what speed explains: it was put there
 const FASTEST = 10; // m/s
 
@@ -38,9 +40,10 @@ class TrailLine {
     this.buffer.onUpload(() => this.trail.markDrawn());
     const material = new LineMaterial({ color: new Color(colour).getHex(), linewidth: WIDTH });
     material.polygonOffset = true;
-    material.polygonOffsetFactor = material.polygonOffsetUnits = -2;
+    material.polygonOffsetUnits = BIAS;
     this.object = new LineSegments2(this.geometry, material);
-    this.object.frustumCulled = false;
+    this.object.frustumCulled = false; // its extent is not followed
+    this.geometry.boundingSphere = new Sphere(); // nor asked for
     this.object.raycast = () => {};
     this.draw();
   }

@@ -33,7 +33,8 @@ export class WorldView {
   hasGround = false;
   private readonly edges = new LineBasicMaterial({ transparent: true });
 
-  constructor() {
+  /** `isShaded`: it casts and takes shadows. */
+  constructor(private readonly isShaded: boolean) {
     this.object.matrixAutoUpdate = false;
     this.object.visible = false;
   }
@@ -83,8 +84,8 @@ export class WorldView {
     mesh.name = shape.name;
     mesh.position.fromArray(shape.position);
     mesh.quaternion.fromArray(shape.orientation);
-    mesh.castShadow = a > 0.5 && shape.kind !== 'plane';
-    mesh.receiveShadow = true;
+    mesh.castShadow = this.isShaded && a > 0.5 && shape.kind !== 'plane';
+    mesh.receiveShadow = this.isShaded;
     if (EDGED.has(shape.kind)) {
       mesh.add(new LineSegments(new EdgesGeometry(mesh.geometry, SHARPEST), this.edges));
     }

@@ -1,0 +1,117 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The ground without end, and its grid: lines every metre, stronger every 10 m; finer ones come as
+ * the camera nears.
+ *
+ * Each pixel finds its distance to the next line, in pixels, so that lines stay one pixel wide and
+ * smooth, and fade out where they would lie too close together. It is level, so all of it is lit
+ * alike: one colour does, and no lamp need be asked for each pixel.
+ */
+import { Color, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from 'three';
+import type { Fog } from 'three';
+import type { Palette } from './theme';
+
+const VERTEX = /* glsl */ `
+  uniform vec2 middle;
+  varying vec2 place;
+  varying float depth;
+  void main() {
+    place = position.xy + middle;
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    depth = -seen.z;
+    gl_Position = projectionMatrix * seen;
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  uniform vec3 base;
+  uniform vec3 minor;
+  uniform vec3 major;
+  uniform vec3 horizon;
+  uniform vec2 fog;
+  uniform float solid;
+  uniform float ruled;
+  varying vec2 place;
+  varying float depth;
+
+  /* How much of this pixel a grid covers; nothing where its cells, m, are under 1/dense pixels. */
+  float lines(float cell, float dense, vec2 pixel) {
+    vec2 away = abs(fract(place / cell - 0.5) - 0.5) * cell / pixel;
+    vec2 fade = 1.0 - smoothstep(0.25 * dense, dense, pixel / cell);
+    vec2 cover = clamp(1.0 - away, 0.0, 1.0) * fade;
+    return max(cover.x, cover.y);
+  }
+
+  void main() {
+    vec2 pixel = max(fwidth(place), vec2(1e-6));
+    float strong = lines(10.0, 0.3, pixel);
+    float plain = max(lines(1.0, 0.3, pixel), 0.4 * lines(0.1, 0.06, pixel));
+    float near = 1.0 - smoothstep(fog.x, fog.y, depth);
+    float cover = ruled * max(strong, 0.8 * plain);
+    vec3 line = mix(minor, major, strong);
+    vec3 ground = mix(horizon, mix(base, line, cover), near);
+    gl_FragColor = solid > 0.5 ? vec4(ground, 1.0) : vec4(line, cover * near);
+    #include <colorspace_fragment>
+  }
+`;
+
+export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
+  /** `extent` in m, from the middle to the edge. */
+  constructor(extent: number, private readonly mist: Fog) {
+    const colours = ['base', 'minor', 'major', 'horizon'].map((name) => [
+      name,
+      { value: new Color() },
+    ]);
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      polygonOffset: true, // behind the trails, and slabs that lie on it
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+      uniforms: {
+        ...Object.fromEntries(colours),
+        middle: { value: new Vector2() },
+        fog: { value: new Vector2() },
+        solid: { value: 0 },
+        ruled: { value: 1 },
+      },
+    });
+    super(new PlaneGeometry(2 * extent, 2 * extent), material);
+    this.raycast = () => {};
+    this.renderOrder = 1; // after what hides it
+    this.setSolid(false);
+  }
+
+  /** Be a ground, or a grid only, that one can look through. */
+  setSolid(solid: boolean): void {
+    this.material.uniforms.solid.value = Number(solid);
+    this.material.transparent = !solid;
+    this.material.depthWrite = solid;
+  }
+
+  showGrid(shown: boolean): void {
+    this.material.uniforms.ruled.value = Number(shown);
+  }
+
+  /** Have its middle below a point of the ground, m. */
+  follow(x: number, y: number): void {
+    const { middle, fog } = this.material.uniforms;
+    this.position.set(x, y, 0);
+    (middle.value as Vector2).set(x, y);
+    (fog.value as Vector2).set(this.mist.near, this.mist.far);
+  }
+
+  setPalette(palette: Palette): void {
+    const { base, minor, major, horizon } = this.material.uniforms;
+    (base.value as Color).set(palette.ground);
+    (minor.value as Color).set(palette.gridMinor);
+    (major.value as Color).set(palette.gridMajor);
+    (horizon.value as Color).set(palette.horizon);
+  }
+
+  override dispose(): void {
+    this.geometry.dispose();
+    this.material.dispose();
+  }
+}
