@@ -21,11 +21,16 @@ export interface Panel {
   pulse?(state: State): void;
 }
 
-/** Ask the node; a no becomes a notice. Returns whether it was done. */
+const WORTH_SAYING: ReadonlySet<Asked['type']> = new Set(['spawn', 'delete']);
+
+/**
+ * Ask the node. A no becomes a notice, and so does a yes to what cannot be seen at once.
+ * Returns whether it was done.
+ */
 export async function ask(app: App, asked: Asked): Promise<boolean> {
-  const reply = await app.connection.request(asked);
-  if (!reply.ok) {
-    app.store.note('error', reply.message);
+  const { ok, message } = await app.connection.request(asked);
+  if (!ok || WORTH_SAYING.has(asked.type)) {
+    app.store.note(ok ? 'info' : 'error', message);
   }
-  return reply.ok;
+  return ok;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The view of the scene: its canvas, what is shown in it, and words where nothing can be shown. */
 import type { App } from './app';
+import type { Link } from './connection';
 import { button, h, setText, toggle } from './dom';
 import type { State } from './state';
 import { recall, remember } from './remember';
@@ -131,14 +132,22 @@ export class View {
     this.hint.replaceChildren('Hold ', ...keys(), ' or the arrow keys to drive');
     this.words.replaceChildren();
     if (lost) {
-      const title = link.state === 'connecting' ? 'Connecting …' : 'No connection to the node';
-      const more = link.state === 'waiting' ? ' Trying again by itself.' : '';
-      this.say(title, link.state === 'waiting' ? `${link.reason || 'It went away.'}${more}` : '');
+      this.sayLost(link);
     } else if (empty) {
       this.say('Nothing to see yet', graph.hint ?? 'Nobody publishes a robot description.');
     } else if (this.scene === null) {
       const text = 'This browser draws no WebGL 2. Driving, panels and plots work all the same.';
       this.say('No 3-D view', text);
+    }
+  }
+
+  private sayLost(link: Link): void {
+    if (link.state === 'waiting') {
+      const reason = link.reason === '' ? 'The viewer does not answer.' : `${link.reason}.`;
+      const text = `${reason} This page connects again by itself as soon as it does.`;
+      this.say('No connection', text);
+    } else {
+      this.say('Connecting …', '');
     }
   }
 

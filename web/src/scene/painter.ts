@@ -39,6 +39,7 @@ export class Painter {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
+    canvas.addEventListener('webglcontextlost', this.forget);
     canvas.addEventListener('webglcontextrestored', this.dirty);
   }
 
@@ -78,6 +79,7 @@ export class Painter {
   dispose(): void {
     cancelAnimationFrame(this.request);
     clearTimeout(this.timer ?? undefined);
+    this.canvas.removeEventListener('webglcontextlost', this.forget);
     this.canvas.removeEventListener('webglcontextrestored', this.dirty);
     this.renderer.dispose();
   }
@@ -104,6 +106,11 @@ export class Painter {
     this.adapt(wait);
   };
 
+  /** A fence of a lost context is never passed. */
+  private readonly forget = (): void => {
+    this.fence = null;
+  };
+
   private get gl(): WebGL2RenderingContext {
     return this.renderer.getContext() as WebGL2RenderingContext;
   }
@@ -114,7 +121,7 @@ export class Painter {
    */
   private isBusy(): boolean {
     const { gl, fence } = this;
-    if (fence === null || gl.isContextLost()) {
+    if (fence === null) {
       return false;
     }
     if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
