@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 from fixtures.bringup.running import Bringup, ends, install_toys, STACKS
+import machines
 import pytest
 from running_programs import ENVIRONMENT, PATIENCE
 
@@ -148,6 +149,35 @@ def test_a_flood_drowns_nobody(tmp_path):
     assert b'[INFO] [worker-1]: process has finished cleanly' in rest
     run = re.search(rb'found below \S*?([^/\s]+)\n', head)[1].decode()
     assert not any(p.marked for p in processes(run))
+
+
+CHATTY = str(STACKS / 'chatty.py')
+
+
+def test_a_limit_that_logs_reach_costs_the_logs_only(tmp_path):
+    small = ['bash', '-c', 'ulimit -f 64; exec "$@"', 'small']  # KiB a file
+    text = 'x' * 100_000
+    with Bringup(tmp_path, CHATTY, f'text:={text}', 'unfinished:=end', launcher=small) as bringup:
+        assert bringup.end() == 0
+        assert re.search(r'no log files from here on: .*File too large', bringup.output)
+        assert bringup.output.count('x') >= len(text)
+        assert '[step-1] end\n' in bringup.output
+
+
+def test_a_full_disk_costs_the_logs_only(tmp_path):
+    if refused := machines.refusal():
+        pytest.skip(refused)
+    fill = f'mount -t tmpfs -o size=4k tmpfs {tmp_path}/logs && echo full >{tmp_path}/logs/full'
+    full_disk = ['unshare', '--map-root-user', '--mount', 'sh', '-ec', f'{fill}; exec "$@"', 'sh']
+    (tmp_path / 'logs').mkdir()
+    (tmp_path / 'tmp').mkdir()
+    stack = str(STACKS / 'in_order.py')  # which has parameters to write
+    with Bringup(tmp_path, stack, launcher=full_disk, TMPDIR=f'{tmp_path}/tmp') as bringup:
+        bringup.expect('no log files from here on: .*No space left on device')
+        bringup.expect('ready in')
+        bringup.expect(r'\[worker-3\] working')
+        assert bringup.end(signal.SIGINT) == 0
+        assert list((tmp_path / 'tmp').iterdir()) == []
 
 
 SEVERAL = """

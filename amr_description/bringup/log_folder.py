@@ -30,6 +30,9 @@ def with_tilde(path: Path | str) -> str:
     return f'~/{path.relative_to(Path.home())}' if path.is_relative_to(Path.home()) else str(path)
 
 
+_ROOM = 65_536  # bytes; a disk without so much cannot take the parameters and the first lines
+
+
 class LogFolder:
     """
     Log files of one run, each opened at its first line.
@@ -46,6 +49,7 @@ class LogFolder:
         try:
             self.path = base / run
             self.path.mkdir(parents=True)
+            _require_room(self.path)
             _point_to(base / 'latest', self.path)
         except OSError as error:
             self.failure = error
@@ -75,6 +79,12 @@ class LogFolder:
         self._files.clear()
         if self._substitute is not None:
             self._substitute.cleanup()
+
+
+def _require_room(folder: Path) -> None:
+    """Raise OSError if the disk is full: a folder can be made there all the same."""
+    with tempfile.TemporaryFile(dir=folder) as file:
+        os.posix_fallocate(file.fileno(), 0, _ROOM)
 
 
 def _point_to(link: Path, folder: Path) -> None:
