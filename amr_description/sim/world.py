@@ -14,6 +14,7 @@ The simulated world: a ground, robots that come and go, and time.
     robot.pose('base_footprint')
 """
 
+import mujoco
 import numpy as np
 
 from amr_description.control.contracts import Log, Severity
@@ -82,6 +83,10 @@ class MujocoWorld:
         self._contact = contact
         self._seed = seed
         self._contacts: dict[str, Contacts] = {}
+        # MuJoCo keeps every spec that was ever attached, 0.1 MB each: so one for each description,
+        # copied into the world whenever a robot of it comes.
+        self._specs: dict[str, mujoco.MjSpec] = {}
+        spec.copy_during_attach = True
         try:
             with compiler_warnings(log, f"world '{world}'"):
                 self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
@@ -140,7 +145,9 @@ class MujocoWorld:
         if isinstance(description, str):
             description = read_description(description, name, self._log)
         model = build_robot(description, self._log)
-        self._attach(name, model, pose, self._contacts_of(description, model))
+        contacts = self._contacts_of(description, model)
+        spec = self._specs.setdefault(description.text, model.spec)
+        self._attach(name, spec, pose, contacts)
         view = RobotView(self.engine, name, description, model, pose, self._log, self._seed)
         try:
             refuse_overlap(self.engine, name)
@@ -181,28 +188,37 @@ class MujocoWorld:
             self._contacts[robot.text] = trimmed_contacts(model, self._contact, gravity)
         return self._contacts[robot.text]
 
-    def _attach(self, name: str, model: RobotSpec, pose: Transform, contacts: Contacts) -> None:
+    def _attach(
+        self, name: str, robot: mujoco.MjSpec, pose: Transform, contacts: Contacts
+    ) -> None:
         spec = self.engine.spec
         place = spec.worldbody.add_frame(
             name=name, pos=pose.translation, quat=wxyz_from_xyzw(pose.rotation)
         )
         try:
-            spec.attach(model.spec, frame=place, prefix=f'{name}/')
+            spec.attach(robot, frame=place, prefix=f'{name}/')
             for geom, contact in contacts.items():
                 for surface in self._surfaces:
                     add_wheel_contact(spec, f'{name}/{geom}', surface, contact)
             self.engine.recompile()
         except ValueError as cause:
-            spec.delete(place)
+            self._delete(name)
             raise SpawnError(
                 f"'{name}' cannot be put into the world: {one_line(str(cause))}",
                 SpawnCode.OPERATION_FAILED,
             ) from cause
 
     def _take_out(self, name: str) -> None:
+        self._delete(name)
+        self.engine.recompile()
+
+    def _delete(self, name: str) -> None:
+        """Take what was attached out of the spec, with the defaults that came along."""
         spec = self.engine.spec
         spec.delete(spec.frame(name))
-        self.engine.recompile()
+        defaults = spec.find_default(f'{name}/main')
+        if defaults is not None:
+            spec.delete(defaults)
 
     def _find_roots(self) -> None:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
