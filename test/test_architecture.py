@@ -25,6 +25,7 @@ LEAVES = {'sim', 'viewer', 'controllers', 'hardware'}
 ARROWS = {
     '__init__': set(),
     'errors': set(),
+    'entry': set(),  # it imports by name what setup.py names
     'registry': {'errors'},
     'parameters': {'errors', 'registry'},
     'model': BASE,
@@ -35,7 +36,7 @@ ARROWS = {
     'viewer': BASE | {'model', 'control'},
     'nodes': BASE | {'model', 'control'} | LEAVES,
     'bringup': BASE | {'model', 'control'} | LEAVES | {'nodes'},
-    'cli': BASE | {'model', 'control'} | LEAVES | {'nodes', 'bringup'},
+    'cli': BASE | {'model', 'control'} | LEAVES | {'nodes', 'bringup', 'entry'},
     'testing': BASE | {'model', 'control'} | LEAVES | {'nodes', 'bringup'},
 }
 # Heavy libraries have one home each.

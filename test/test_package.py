@@ -4,6 +4,7 @@
 
 import ast
 from importlib import import_module
+from operator import attrgetter
 import os
 from pathlib import Path
 import re
@@ -14,6 +15,8 @@ import xml.etree.ElementTree as ElementTree
 from ament_index_python.packages import get_package_prefix
 from ament_index_python.resources import get_resource
 import pytest
+
+from amr_description import entry
 
 ROOT = Path(__file__).parents[1]
 NAME = 'amr_description'
@@ -121,8 +124,11 @@ def test_scripts_go_where_ros2_run_looks():
 
 @pytest.mark.parametrize('name', EXECUTABLES)
 def test_executable_can_be_imported(name):
-    module, _, function = EXECUTABLES[name].partition(':')
-    assert callable(getattr(import_module(module), function))
+    way_in, _, target = EXECUTABLES[name].partition(':')
+    assert way_in == f'{NAME}.entry'
+    program = attrgetter(target)(entry)
+    assert program.path == (target if name == 'xacro' else f'{NAME}.{target}')
+    assert callable(program.find())
 
 
 def test_executables_are_installed():

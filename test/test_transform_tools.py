@@ -331,4 +331,4 @@ def test_the_programs_stand_in_for_those_of_tf2():
     } | {'view_frames': STAND_INS['tf2_tools', 'view_frames']}
     setup = (Path(__file__).parents[1] / 'setup.py').read_text()
     for name, stand_in in ours.items():
-        assert f"'{stand_in} = amr_description.nodes.{name}:main'" in setup
+        assert f"'{stand_in} = amr_description.entry:nodes.{name}.main'" in setup

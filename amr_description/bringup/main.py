@@ -9,12 +9,12 @@ import os
 from pathlib import Path
 import sys
 
-from amr_description.bringup import discovery
+from amr_description.bringup import discovery, unique_names
 from amr_description.bringup.arguments import declared, parse, show
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
 from amr_description.bringup.description import nodes_of, Stack
 from amr_description.bringup.event_log import EventLog, FILE, json_line
-from amr_description.bringup.job import Job, jobs_of
+from amr_description.bringup.job import Job, jobs_of, LaunchPrefix
 from amr_description.bringup.listing import listing
 from amr_description.bringup.log_folder import log_base, LogFolder, run_name, with_tilde
 from amr_description.bringup.orchestrator import Orchestrator
@@ -23,7 +23,6 @@ from amr_description.bringup.run_registry import registry_folder, RunRecord
 from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
-from amr_description.bringup.unique_names import unique_names
 from amr_description.errors import AmrError
 
 
@@ -58,11 +57,15 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         '-p', '--print', action='store_true', help='print what would be started, and when'
     )
+    unique_names.add_option(parser)
     parser.add_argument(
-        '-f',
-        '--force',
-        action='store_true',
-        help='start although a running stack has nodes of the same names',
+        '--launch-prefix', default='', help='what command lines begin with: gdb -ex run --args'
+    )
+    parser.add_argument(
+        '--launch-prefix-filter',
+        metavar='REGEX',
+        default='',
+        help='which executables that is for; all, if not given',
     )
     discovery.add_options(parser)
     return parser
@@ -74,18 +77,22 @@ def _run(options: argparse.Namespace) -> int:
         print(show(declared(find_stack(options.stack))))
         return 0
     stack = make_stack(options.stack, parse(options.arguments))
+    prefix = LaunchPrefix(options.launch_prefix, options.launch_prefix_filter)
     if options.print:
-        print(listing(stack, jobs_of(stack, Path('LOG_FOLDER'))))
+        print(listing(stack, jobs_of(stack, Path('LOG_FOLDER'), prefix)))
         return 0
-    return start(stack, name=Path(options.stack).stem, force=options.force)
+    return start(stack, name=Path(options.stack).stem, force=options.force, prefix=prefix)
 
 
-def start(stack: Stack, *, name: str, force: bool = False) -> int:
+def start(
+    stack: Stack, *, name: str, force: bool = False, prefix: LaunchPrefix | None = None
+) -> int:
     """
     Run a stack until it ends or is stopped; return the exit code.
 
     :param name: What it is called.
     :param force: Whether it may have nodes of the same names as a stack that runs.
+    :param prefix: That of all command lines.
     """
     for node in nodes_of(stack.nodes):
         if node.terminal:
@@ -93,10 +100,10 @@ def start(stack: Stack, *, name: str, force: bool = False) -> int:
     run = run_name(datetime.now())
     about = {'stack': name, 'domain': int(os.environ.get(discovery.DOMAIN) or 0)}
     record = RunRecord(registry_folder(os.environ), run)
-    record.enter(about, names=unique_names(jobs_of(stack, Path())), anyway=force)
+    record.enter(about, names=unique_names.of(jobs_of(stack, Path(), prefix)), anyway=force)
     folder = LogFolder(log_base(os.environ), run)
     try:
-        jobs = jobs_of(stack, folder.path)
+        jobs = jobs_of(stack, folder.path, prefix)
         events = EventLog(lambda event: folder.append(FILE, json_line(event)), record.take)
         events.note('begun', run=run, pid=os.getpid(), log_folder=str(folder.path), **about)
         code = asyncio.run(_orchestrate(stack, jobs, _console(stack, folder), run, events))

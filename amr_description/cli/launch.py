@@ -17,7 +17,7 @@ examples:
 from argparse import ArgumentParser, Namespace
 import sys
 
-from amr_description.bringup import discovery
+from amr_description.bringup import discovery, unique_names
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -54,13 +54,19 @@ def add_arguments(parser: ArgumentParser) -> None:
         action='store_true',
         help='Accepted for scripts: the output of every process is shown anyway',
     )
-    parser.add_argument(
-        '-f',
-        '--force',
-        action='store_true',
-        help='Start although a running stack has nodes of the same names',
-    )
+    unique_names.add_option(parser)
     discovery.add_options(parser)
+    parser.add_argument(
+        '--launch-prefix',
+        default='',
+        help='Prefix command that should go before all executables: gdb -ex run --args',
+    )
+    parser.add_argument(
+        '--launch-prefix-filter',
+        metavar='REGEX',
+        default='',
+        help='Regular expression; only executables whose names match it get the prefix',
+    )
     parser.add_argument(
         'package_name',
         help='Name of the ROS package which contains the launch file, or path of a file',
@@ -87,6 +93,8 @@ def main(args: Namespace) -> int:
     options = [
         *(['--show-args'] if args.show_args else []),
         *(['--print'] if args.print else []),
+        f'--launch-prefix={args.launch_prefix}',
+        f'--launch-prefix-filter={args.launch_prefix_filter}',
         *(['--force'] if args.force else []),
         *discovery.words(args),
     ]
