@@ -6,8 +6,8 @@ from fixtures.bringup.running import install_toys
 import pytest
 
 from amr_description.bringup import Node, path_of, Stack
-from amr_description.bringup.job import jobs_of
-from amr_description.errors import BringupError
+from amr_description.bringup.job import jobs_of, LaunchPrefix
+from amr_description.errors import BringupError, UsageError
 
 
 @pytest.fixture
@@ -60,6 +60,32 @@ def test_what_is_missing_is_told_before_anything_starts(prefix, monkeypatch):
     refuses("executable 'step' not found")
     monkeypatch.setenv('AMENT_PREFIX_PATH', '')
     refuses("Package 'toys' not found: AMENT_PREFIX_PATH is empty; source scripts/activate")
+
+
+@pytest.mark.parametrize(
+    ('pattern', 'own', 'expected'),
+    [
+        ('', '', [['env', '-i'], ['env', '-i']]),
+        ('work', '', [['env', '-i'], []]),
+        ('ork', '', [[], []]),
+        ('', 'nice', [['nice'], ['env', '-i']]),
+    ],
+)
+def test_a_prefix_for_all_or_some_of_the_command_lines(prefix, pattern, own, expected):
+    stack = Stack([Node('worker', package='toys', prefix=own), Node('step', package='toys')])
+    jobs = jobs_of(stack, None, LaunchPrefix('env -i', pattern))
+    folder = f'{prefix}/lib/toys'
+    paths = [f'{folder}/worker', f'{folder}/step']
+    assert [job.command for job in jobs] == [
+        [*words, path, '--ros-args'] for words, path in zip(expected, paths, strict=True)
+    ]
+
+
+def test_a_prefix_that_cannot_be_is_told_before_anything_starts(prefix):
+    refuses("prefix 'no-such-gdb -x': there is no command 'no-such-gdb'", prefix='no-such-gdb -x')
+    refuses('No closing quotation', prefix="nice '")
+    with pytest.raises(UsageError, match=r"--launch-prefix-filter '\(': missing \)"):
+        LaunchPrefix('nice', '(')
 
 
 def test_files_of_packages_and_others(prefix, tmp_path, monkeypatch):

@@ -121,6 +121,14 @@ def test_what_would_be_started_is_printed(share, flag):
     assert result.stdout.endswith('/lib/toys/plain 3 --ros-args\n')
 
 
+@pytest.mark.parametrize(('pattern', 'words'), [('pl', ['nice', '-n', '5']), ('x', [])])
+def test_a_launch_prefix_stands_before_the_executables_that_match(share, pattern, words):
+    options = ['--launch-prefix', 'nice -n 5', '--launch-prefix-filter', pattern]
+    result = ros2('launch', '--print', *options, PLAIN)
+    assert (result.returncode, result.stderr) == (0, '')
+    assert result.stdout.splitlines()[1].split()[:-3] == words
+
+
 @pytest.mark.parametrize(
     ('word', 'said'),
     [

@@ -14,6 +14,8 @@ A stack is a function that returns a :class:`Stack`; its parameters are what a u
         talk = Node('talker', start_when=exited_cleanly(look))
         return Stack([look, talk])
 
+All that a stack can say, by example: docs/write_your_own_stack.md.
+
 What stands where:
 
 ====================== ============================================================================

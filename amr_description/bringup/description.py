@@ -4,9 +4,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, KW_ONLY
-import math
 from pathlib import Path
-import shlex
 from typing import Literal
 
 from amr_description.bringup.conditions import all_of, Condition, ready
@@ -81,11 +79,9 @@ class Node:
     """Whether it reads keys: it gets the terminal itself (see terminal.py); one of a stack may."""
 
     def __post_init__(self) -> None:
-        """Refuse a prefix that no shell could read."""
-        try:
-            shlex.split(self.prefix)
-        except ValueError as error:
-            raise BringupError(f'prefix={self.prefix!r}: {error}') from None
+        """Refuse a patience that nobody can have."""
+        if self.patience is not None:
+            _check_patience(self.patience)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,8 +148,7 @@ class Stack:
                         f"a condition waits for Node('{node.executable}'), "
                         'which is not in the list of the stack'
                     )
-        if math.isnan(self.patience) or self.patience <= 0:
-            raise BringupError(f'patience={self.patience}: it takes more than 0 s')
+        _check_patience(self.patience)
 
     @property
     def all_notes(self) -> list[tuple[Level, str]]:
@@ -206,6 +201,11 @@ def stacks_of(members: 'Sequence[Member]') -> Iterator[Stack]:
             yield member
         elif isinstance(member, Group):
             yield from stacks_of(member.members)
+
+
+def _check_patience(seconds: float) -> None:
+    if not seconds > 0:
+        raise BringupError(f'patience={seconds}: it takes more than 0 s')
 
 
 def _conditions(members: 'Sequence[Member]') -> Iterator[Condition | None]:

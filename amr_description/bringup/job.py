@@ -5,12 +5,15 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+import re
 import shlex
+import shutil
 
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.packages import executable_of, path_of
 from amr_description.bringup.parameter_file import node_key, yaml_text
 from amr_description.bringup.placement import Placed, Placement
+from amr_description.errors import BringupError, UsageError
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,8 @@ class Job:
     executable: Path
     parameter_files: Sequence[tuple[Path, str | None]]
     """(path, text to write there before the start; None: the file is the user's)."""
+    launch_prefix: str = ''
+    """What the command line begins with, unless its node says so itself."""
 
     @property
     def node(self) -> Node:
@@ -38,7 +43,8 @@ class Job:
     def command(self) -> list[str]:
         """The command line, as launch builds it."""
         node = self.node
-        words = [*shlex.split(node.prefix), str(self.executable), *map(str, node.arguments)]
+        prefix = shlex.split(node.prefix or self.launch_prefix)
+        words = [*prefix, str(self.executable), *map(str, node.arguments)]
         words.append('--ros-args')
         if node.name:
             words += ['-r', f'__node:={node.name}']
@@ -62,20 +68,54 @@ class Job:
                 path.write_text(text, encoding='utf-8')
 
 
-def jobs_of(stack: Stack, folder: Path) -> list[Job]:
+@dataclass(frozen=True)
+class LaunchPrefix:
+    """What command lines are to begin with: ``gdb -ex run --args``, ``valgrind``."""
+
+    words: str = ''
+    filter: str = ''
+    """A regular expression; only executables of which the name begins so get it."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is no command or no pattern."""
+        check_prefix(self.words)
+        try:
+            re.compile(self.filter)
+        except re.error as error:
+            raise UsageError(f"--launch-prefix-filter '{self.filter}': {error}") from None
+
+    def of(self, executable: str) -> str:
+        """Return what the command line of an executable begins with."""
+        return self.words if re.match(self.filter, executable) else ''
+
+
+def check_prefix(prefix: str) -> None:
+    """Raise BringupError if the command line could not begin so."""
+    try:
+        words = shlex.split(prefix)
+    except ValueError as error:
+        raise BringupError(f'prefix {prefix!r}: {error}') from None
+    if words and shutil.which(words[0]) is None:
+        raise BringupError(f"prefix {prefix!r}: there is no command '{words[0]}' on the PATH")
+
+
+def jobs_of(stack: Stack, folder: Path, prefix: LaunchPrefix | None = None) -> list[Job]:
     """
     Make the nodes of a stack ready to run; starts and writes nothing.
 
     :param folder: Where parameters are written: the log folder, so that they stay readable and
         the printed command line can be typed again, and no temporary file is ever left over.
-    :raises BringupError: A package, an executable or a parameter file is missing.
+    :param prefix: That of all command lines.
+    :raises BringupError: A package, an executable, a parameter file or a prefix is missing.
     """
     placed = Placement(stack).nodes
-    return [_job(each, number, folder) for number, each in enumerate(placed, start=1)]
+    prefix = prefix or LaunchPrefix()
+    return [_job(each, number, folder, prefix) for number, each in enumerate(placed, start=1)]
 
 
-def _job(placed: Placed, number: int, folder: Path) -> Job:
+def _job(placed: Placed, number: int, folder: Path, prefix: LaunchPrefix) -> Job:
     node = placed.node
+    check_prefix(node.prefix)
     name = f'{node.executable}-{number}'
     files: list[tuple[Path, str | None]] = []
     for index, entry in enumerate(placed.parameters, start=1):
@@ -84,4 +124,5 @@ def _job(placed: Placed, number: int, folder: Path) -> Job:
             files.append((path, yaml_text(node_key(node.name, placed.namespace), entry)))
         else:
             files.append((path_of(str(entry)), None))
-    return Job(placed, name, executable_of(node.package, node.executable), files)
+    executable = executable_of(node.package, node.executable)
+    return Job(placed, name, executable, files, prefix.of(node.executable))
