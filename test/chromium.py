@@ -7,6 +7,7 @@ https://chromedevtools.github.io/devtools-protocol/ says what the methods mean.
 """
 
 import base64
+from contextlib import ExitStack
 import itertools
 import json
 import os
@@ -44,13 +45,18 @@ class BrowserError(AssertionError):
 
 
 class Chromium:
-    """One browser process with a profile of its own; a context manager."""
+    """
+    One browser process with a profile of its own; a context manager.
 
-    def __init__(self):
+    :param flags: More of its options.
+    """
+
+    def __init__(self, *flags):
         self._profile = tempfile.TemporaryDirectory(
             prefix='amr-browser-', ignore_cleanup_errors=True
         )  # its helper processes may still write
-        command = [executable(), *_FLAGS, f'--user-data-dir={self._profile.name}', 'about:blank']
+        profile = f'--user-data-dir={self._profile.name}'
+        command = [executable(), *_FLAGS, *flags, profile, 'about:blank']
         self._process = subprocess.Popen(
             command,
             stdout=subprocess.DEVNULL,
@@ -58,8 +64,11 @@ class Chromium:
             text=True,
             env=_environment(),
         )
+        self._stack = ExitStack()
         try:
-            self._connection = connect(self._address(), max_size=None, open_timeout=PATIENCE)
+            self._connection = self._stack.enter_context(
+                connect(self._address(), max_size=None, open_timeout=PATIENCE)
+            )
         except BaseException:
             self._process.kill()
             self._end()
@@ -82,7 +91,7 @@ class Chromium:
 
     def __exit__(self, *_):
         self.call('Browser.close')  # it ends its helper processes, too
-        self._connection.close()
+        self._stack.close()
         self._end()
 
     def _end(self):

@@ -52,9 +52,34 @@ def test_who_leaves_gives_all_wheels_back():
 def test_everybody_may_stop():
     driving = Driving(0.4)
     driving.drive('/', 'a', 0.0)
-    driving.stop('/')
-    driving.stop('/')
+    driving.stop('/', 'b', 0.1)
+    driving.stop('/', 'b', 0.1)
+    assert driving.driver('/') is None
     assert driving.drive('/', 'b', 0.1)
+
+
+def test_who_was_stopped_by_another_must_let_go_first():
+    driving = Driving(0.4)
+    driving.drive('/', 'a', 0.0)
+    driving.stop('/', 'b', 0.1)
+    assert not driving.drive('/', 'a', 0.13)  # a key that is still held
+    assert not driving.drive('/', 'a', 0.5)  # all the time
+    assert driving.drive('/', 'a', 0.9)  # and pressed again
+
+
+def test_who_was_stopped_by_another_and_stops_has_let_go():
+    driving = Driving(0.4)
+    driving.drive('/', 'a', 0.0)
+    driving.stop('/', 'b', 0.1)
+    driving.stop('/', 'a', 0.2)
+    assert driving.drive('/', 'a', 0.2)
+
+
+def test_who_stops_may_drive_at_once():
+    driving = Driving(0.4)
+    driving.drive('/', 'a', 0.0)
+    driving.stop('/', 'a', 0.1)
+    assert driving.drive('/', 'a', 0.1)
 
 
 EVENTS = st.lists(

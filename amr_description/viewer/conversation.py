@@ -36,7 +36,7 @@ class Conversation:
             case Drive():
                 self._drive(page, message)
             case Stop():
-                self._stop(message.robot)
+                self._stop(page.name, message.robot)
             case SetJoints():
                 self._attempt(
                     page, lambda: self._backend.set_joints(message.robot, message.positions)
@@ -52,26 +52,32 @@ class Conversation:
     def stop_all(self) -> None:
         """Stop all robots that are driven from here."""
         for robot in self._driving.robots():
-            self._stop(robot)
+            self._stop('', robot)
 
     def _drive(self, page: Page, message: Drive) -> None:
         robot, now = message.robot, asyncio.get_running_loop().time()
         before = self._driving.driver(robot)
         if not self._driving.drive(robot, page.name, now):
-            self._notice(page, f'{before} drives {robot}; the stop button stops it for everybody')
+            reason = (
+                f'{before} drives {robot}; the stop button stops it for everybody'
+                if before
+                else f'{robot} was stopped by another page; let go, and drive again'
+            )
+            self._notice(page, reason)
             return
         if not self._attempt(
             page, lambda: self._backend.drive(robot, message.linear, message.angular)
         ):
-            self._driving.stop(robot)
+            self._driving.stop(robot, page.name, now)
         self._show_driver(robot, before)
         self._await_expiry(now)
 
-    def _stop(self, robot: str | None) -> None:
+    def _stop(self, client: str, robot: str | None) -> None:
         """``None``: all, whoever drives them."""
+        now = asyncio.get_running_loop().time()
         for each in self._backend.robots() if robot is None else [robot]:
             before = self._driving.driver(each)
-            self._driving.stop(each)
+            self._driving.stop(each, client, now)
             self._bring_to_rest([each])
             self._show_driver(each, before)
 

@@ -6,6 +6,9 @@ Who drives which robot: one page at a time, and never longer than it says so.
 Pure; times are s of any clock that only goes forward. Every method that ends a drive returns the
 robots that are to be stopped, each by one command of zero; after it there is silence, so that
 others (a joystick, Nav2) may command.
+
+Whoever was stopped by somebody else must let go before driving on: be silent for the time-out, or
+stop. A key that is still held when another page presses the big stop drives no further.
 """
 
 from dataclasses import dataclass
@@ -28,6 +31,8 @@ class Driving:
     def __init__(self, timeout: float = DRIVE_TIMEOUT) -> None:
         self._timeout = timeout
         self._drives: dict[str, _Drive] = {}
+        self._stopped: dict[tuple[str, str], float] = {}
+        """(robot, client) that another one stopped -> until when it may not drive."""
 
     def driver(self, robot: str) -> str | None:
         """Return who drives a robot; None: nobody."""
@@ -39,19 +44,26 @@ class Driving:
         return list(self._drives)
 
     def drive(self, robot: str, client: str, time: float) -> bool:
-        """Take the wheel, or keep it; False: somebody else has it."""
+        """Take the wheel, or keep it; False: somebody else has it, or stopped this one."""
         drive = self._drives.get(robot)
         if drive is not None and drive.client != client and time < drive.until:
+            return False
+        if time < self._stopped.pop((robot, client), time):
+            self._stopped[robot, client] = time + self._timeout  # it has not let go yet
             return False
         self._drives[robot] = _Drive(client, time + self._timeout)
         return True
 
-    def stop(self, robot: str) -> None:
-        """Take the wheel from whoever has it."""
-        self._drives.pop(robot, None)
+    def stop(self, robot: str, client: str, time: float) -> None:
+        """Take the wheel from whoever has it, as ``client`` asks."""
+        drive = self._drives.pop(robot, None)
+        self._stopped.pop((robot, client), None)
+        if drive is not None and drive.client != client:
+            self._stopped[robot, drive.client] = time + self._timeout
 
     def leave(self, client: str) -> list[str]:
         """Take the wheel from a page that is gone."""
+        self._stopped = {key: until for key, until in self._stopped.items() if key[1] != client}
         return self._end({r: d for r, d in self._drives.items() if d.client == client})
 
     def expire(self, time: float) -> list[str]:
