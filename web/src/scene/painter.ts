@@ -1,64 +1,72 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** What is drawn, when and how finely: only what changed, and no finer than the machine can. */
-import { Camera, PCFShadowMap, Scene as ThreeScene, WebGLRenderer } from 'three';
+/**
+ * When is drawn, and how finely: only on a change, never faster than the machine can follow, and
+ * with as many pixels as it can.
+ *
+ * No more than one frame is on its way to the screen: a second one would have to wait, and with it
+ * all else that the page does, keys for driving among them.
+ */
+import { PCFShadowMap, WebGLRenderer } from 'three';
+import type { Camera, Scene as ThreeScene } from 'three';
 
-const FINEST = 2; // pixels to a CSS pixel
-const SLOW = 45; // ms of waiting for a frame, on average, from which on pixels get fewer
-const COARSEST = 0.6;
-const MEMORY = 0.9; // of the average
-const LOOK_AGAIN = 8; // ms until it is looked again whether the frame before is done
+const FINEST = { hardware: 2, software: 1 }; // pixels to a CSS pixel
+const COARSEST = { hardware: 0.75, software: 0.5 };
+const SLOW = 50; // ms for a frame, on average, from which on pixels get fewer
+const FAST = 20; // … down to which they get more again
+const STEP = 0.85; // fewer pixels to a CSS pixel, at a time
+const PATIENCE = 20; // frames between two changes
+const MEMORY = 0.85; // of the average
+const LONGEST = 500; // ms, the most that one frame counts for
 
 export class Painter {
   readonly renderer: WebGLRenderer;
   /** How many frames have been drawn. */
   frames = 0;
   triangles = 0;
-  private ratio: number;
+  private ratio: number; // pixels to a CSS pixel, at most
+  private readonly range: { finest: number; coarsest: number };
   private request = 0;
-  private timer: ReturnType<typeof setTimeout> | null = null;
-  private fence: WebGLSync | null = null; // behind the commands of the last frame
   private isDirty = false;
-  private last = 0; // ms, of the last frame
-  private asked = 0; // ms, when the next frame was asked for
-  private wait = 0; // ms, how long a frame is waited for, on average
+  private last = 0; // ms, when the last frame was begun
+  private fence: WebGLSync | null = null; // passed when the last frame is done
+  private cost = 0; // ms for a frame, on average
+  private changedAt = 0; // number of the frame
 
   /**
-   * `step` is called before each frame with the s since the last one, draws with
-   * {@link paint}, and returns whether there is to be another frame at once.
+   * `step` is called for each frame with the s since the last one, draws it by {@link paint}, and
+   * returns whether there is to be another one at once.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly isSoftware: boolean,
+    isSoftware: boolean,
     private readonly step: (dt: number) => boolean,
     private readonly resized: (width: number, height: number, ratio: number) => void,
   ) {
-    this.ratio = isSoftware ? 1 : FINEST;
+    const kind = isSoftware ? 'software' : 'hardware';
+    this.range = { finest: FINEST[kind], coarsest: COARSEST[kind] };
+    this.ratio = this.range.finest;
     this.renderer = new WebGLRenderer({ canvas, antialias: !isSoftware, alpha: false });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
-    canvas.addEventListener('webglcontextlost', this.forget);
-    canvas.addEventListener('webglcontextrestored', this.dirty);
+    canvas.addEventListener('webglcontextrestored', this.onRestored);
   }
 
   /** Ask for a frame. */
   readonly dirty = (): void => {
     this.isDirty = true;
-    if (this.request === 0 && this.timer === null) {
-      this.asked = performance.now();
-      this.request = requestAnimationFrame(this.onFrame);
-    }
+    this.ask();
   };
 
   /** Take the size of the canvas on the page. */
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const ratio = Math.min(devicePixelRatio || 1, this.ratio);
-    this.renderer.setPixelRatio(ratio);
+    const screen = devicePixelRatio || 1;
+    this.renderer.setPixelRatio(Math.min(screen, this.ratio));
     this.renderer.setSize(width, height, false);
-    this.resized(width, height, Math.min(devicePixelRatio || 1, FINEST));
+    this.resized(width, height, Math.min(screen, FINEST.hardware));
     this.dirty();
   }
 
@@ -72,76 +80,79 @@ export class Painter {
     renderer.render(overlay, camera);
     this.triangles = renderer.info.render.triangles;
     this.frames++;
-    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    this.gl.flush();
   }
 
   dispose(): void {
     cancelAnimationFrame(this.request);
-    clearTimeout(this.timer ?? undefined);
-    this.canvas.removeEventListener('webglcontextlost', this.forget);
-    this.canvas.removeEventListener('webglcontextrestored', this.dirty);
+    this.canvas.removeEventListener('webglcontextrestored', this.onRestored);
     this.renderer.dispose();
   }
-
-  private readonly onFrame = (now: number): void => {
-    this.request = 0;
-    if (this.isBusy()) {
-      this.timer = setTimeout(() => {
-        this.timer = null;
-        this.request = requestAnimationFrame(this.onFrame);
-      }, LOOK_AGAIN);
-      return;
-    }
-    const gap = this.last === 0 ? 0 : now - this.last;
-    const wait = performance.now() - this.asked;
-    this.last = now;
-    this.isDirty = false;
-    if (this.renderer.getContext().isContextLost()) {
-      return;
-    }
-    if (this.step(Math.min(gap, 100) / 1000) || this.isDirty) {
-      this.dirty();
-    }
-    this.adapt(wait);
-  };
-
-  /** A fence of a lost context is never passed. */
-  private readonly forget = (): void => {
-    this.fence = null;
-  };
 
   private get gl(): WebGL2RenderingContext {
     return this.renderer.getContext() as WebGL2RenderingContext;
   }
 
-  /**
-   * Whether the frame before is still being drawn. Frames that queue up block the whole page: it
-   * would hear of a released key, and tell the node that somebody drives, up to a second late.
-   */
+  private ask(): void {
+    if (this.request === 0) {
+      this.request = requestAnimationFrame(this.onFrame);
+    }
+  }
+
+  private readonly onRestored = (): void => {
+    this.fence = null;
+    this.dirty();
+  };
+
+  private readonly onFrame = (now: number): void => {
+    this.request = 0;
+    if (this.gl.isContextLost()) {
+      return; // the next frame comes when it is back
+    }
+    if (this.isBusy()) {
+      this.ask();
+    } else if (this.isDirty) {
+      this.draw(now);
+    }
+  };
+
+  private draw(now: number): void {
+    const gap = now - this.last;
+    this.last = now;
+    this.isDirty = false;
+    this.isDirty = this.step(Math.min(gap, 100) / 1000) || this.isDirty;
+    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.gl.flush();
+    this.ask(); // to see when it is done
+  }
+
+  /** Whether the last frame is still being drawn. */
   private isBusy(): boolean {
-    const { gl, fence } = this;
+    const { fence, gl } = this;
     if (fence === null) {
       return false;
     }
-    if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+    if (gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) {
       return true;
     }
     gl.deleteSync(fence);
     this.fence = null;
+    this.adapt(performance.now() - this.last);
     return false;
   }
 
-  /**
-   * Draw fewer pixels where the browser cannot follow, and stay with that. States may come as
-   * seldom as they like: only how long a frame is waited for counts.
-   */
-  private adapt(wait: number): void {
-    this.wait = MEMORY * this.wait + (1 - MEMORY) * Math.min(wait, 4 * SLOW);
-    const least = this.isSoftware ? COARSEST : 1;
-    if (this.wait > SLOW && this.ratio > least) {
-      this.ratio = Math.max(least, Math.min(this.ratio, devicePixelRatio || 1) * 0.85);
-      this.wait = 0;
+  /** Draw fewer pixels where a frame takes long, and more again where it does not. */
+  private adapt(cost: number): void {
+    this.cost = MEMORY * this.cost + (1 - MEMORY) * Math.min(cost, LONGEST);
+    if (this.frames - this.changedAt < PATIENCE) {
+      return;
+    }
+    const { finest, coarsest } = this.range;
+    const now = Math.min(this.ratio, devicePixelRatio || 1);
+    const wanted = this.cost > SLOW ? now * STEP : this.cost < FAST ? now / STEP : now;
+    const ratio = Math.min(Math.max(wanted, coarsest), finest, devicePixelRatio || 1);
+    if (ratio !== now) {
+      this.changedAt = this.frames;
+      this.ratio = ratio;
       this.resize();
     }
   }
