@@ -71,7 +71,8 @@ def view(args: list[str] | None) -> None:
         with argument_errors():
             node = Node('viewer')
         try:
-            server = _server(node, executor)
+            with argument_errors():
+                server = _server(node, executor)
             executor.add_node(node)
             is_stopping = False
 

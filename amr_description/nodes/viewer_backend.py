@@ -60,18 +60,24 @@ class GraphBackend(Audience):
         self._watch: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._status_due = 0.0
+        self._sessions = 0
+        self._session = 0
+        """From the first page's coming to the last one's going; 0: nobody looks."""
         self._infos: tuple[RobotInfo, ...] = ()
 
     # --- what the server asks --------------------------------------------------------------------
 
     def opened(self) -> None:
         """Somebody looks: connect."""
-        self._executor.create_task(self._stage.open)
+        self._sessions += 1
+        self._session = self._sessions
+        self._executor.create_task(self._catch_up)
         self._watch = asyncio.create_task(self._refresh_for_ever())
 
     def closed(self) -> None:
         """Nobody looks any more: part with everything."""
-        self._executor.create_task(self._stage.close)
+        self._session = 0
+        self._executor.create_task(self._catch_up)
         if self._watch is not None:
             self._watch.cancel()
 
@@ -123,6 +129,10 @@ class GraphBackend(Audience):
         return None
 
     # --- on the ROS thread -----------------------------------------------------------------------
+
+    def _catch_up(self) -> None:
+        """Be open for the present session alone; rclpy runs tasks in any order."""
+        self._stage.attend(self._session)
 
     def graph_changed(self) -> None:
         """Tell the pages."""

@@ -60,15 +60,23 @@ class Stage:
         self._states = states
         self._services = services
         self._worlds: dict[str, WorldLink] = {}
+        self._session = 0
         self._timer: Timer | None = None
         self._diagnostics: Subscription | None = None
         self._clock: RosClock | None = None
         self._frames: Frames | None = None
 
-    def open(self) -> None:
-        """Connect with what is there, and go on looking."""
-        if self._timer is not None:
+    def attend(self, session: int) -> None:
+        """Be open for this session, which is told everything anew; 0: be closed."""
+        if session == self._session:
             return
+        self._session = session
+        self._close()
+        if session:
+            self._open()
+
+    def _open(self) -> None:
+        """Connect with what is there, and go on looking."""
         node = self._node
         self._clock, self._frames = RosClock(node), Frames(node)
         self._diagnostics = node.create_subscription(
@@ -80,7 +88,7 @@ class Stage:
         self._look()
         self.audience.graph_changed()
 
-    def close(self) -> None:
+    def _close(self) -> None:
         """Part with everything."""
         if self._timer is None or self._clock is None or self._frames is None:
             return
