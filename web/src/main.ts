@@ -58,7 +58,7 @@ for (const panel of [
 ]) {
   tabs.add(panel);
 }
-const shell = arrange({ view, drive, plots, tabs });
+const shell = arrange(app, { view, drive, plots, tabs });
 const theme = watchTheme((now) => {
   view.setTheme(now);
   plots.repaint();
@@ -97,6 +97,7 @@ connection.onMessage = (message) => {
   store.take(message);
 };
 connection.onState = (buffer) => {
+  pilot.keepUp();
   const state = stream.take(buffer);
   if (state !== null) {
     view.apply(state);

@@ -4,7 +4,7 @@
  * Where the parts stand: on a desk the plots below the view and the panels beside it; on a phone
  * the view, the driving below it, and the rest in a sheet that slides up.
  */
-import type { Panel } from './app';
+import type { App, Panel } from './app';
 import { button, h } from './dom';
 import { recall, remember } from './remember';
 import type { State } from './state';
@@ -24,12 +24,12 @@ export interface Shell {
   pulse(state: State): void;
 }
 
-export function arrange({ view, drive, plots, tabs }: Parts): Shell {
+export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Shell {
   const dock = h('div', { class: 'dock' });
   const close = button('', () => setSheet(false), { icon: 'close', title: 'Close the panels' });
-  const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, close, tabs.element);
+  const head = h('div', { class: 'sheet-head' }, h('h2', {}, 'Panels'), close);
+  const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, head, tabs.element);
   const slot: Panel = { id: 'plots', title: 'Plots', element: h('div', { class: 'plots-slot' }) };
-  close.classList.add('close-panels');
   drive.element.id = 'drive';
   tabs.add(slot);
   document.body.append(view.element, dock, drive.element, sheet);
@@ -60,6 +60,15 @@ export function arrange({ view, drive, plots, tabs }: Parts): Shell {
     setSheet(false);
   }
 
+  // A description to look at, as in RViz, has no velocity: the place is for its joints.
+  store.watch(['graph', 'robot'], () => {
+    const { robot } = store;
+    const moves = robot === null || robot.command !== null || robot.odometry !== null;
+    document.body.classList.toggle('still', !moves);
+    if (robot !== null && robot.joint_publisher !== null) {
+      tabs.suggest('joints');
+    }
+  });
   phone.addEventListener('change', settle);
   setFolded(recall('folded') === 'yes');
   settle();

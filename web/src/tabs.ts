@@ -53,7 +53,7 @@ export class Tabs {
     this.tabs.push({ panel, button, badge, body });
     this.list.append(button);
     this.element.append(body);
-    this.show(recall(this.name) ?? this.tabs[0].panel.id);
+    this.show(recall(this.name) ?? this.tabs[0].panel.id, false);
   }
 
   /** A tab that is not wanted now, such as one whose content stands elsewhere. */
@@ -62,7 +62,7 @@ export class Tabs {
     if (tab !== undefined) {
       tab.button.hidden = hidden;
       if (hidden && tab === this.active) {
-        this.show(this.tabs[0].panel.id);
+        this.show(this.tabs[0].panel.id, false);
       }
     }
   }
@@ -78,7 +78,7 @@ export class Tabs {
     }
   }
 
-  show(id: string): void {
+  show(id: string, isChoice = true): void {
     const wanted = this.tabs.find(({ panel, button }) => panel.id === id && !button.hidden);
     this.active = wanted ?? this.tabs[0];
     for (const tab of this.tabs) {
@@ -87,8 +87,15 @@ export class Tabs {
       tab.button.tabIndex = active ? 0 : -1;
       tab.button.setAttribute('aria-selected', String(active));
     }
-    if (wanted !== undefined) {
+    if (wanted !== undefined && isChoice) {
       remember(this.name, id);
+    }
+  }
+
+  /** Show a tab to somebody who has not chosen one. */
+  suggest(id: string): void {
+    if (recall(this.name) === null) {
+      this.show(id, false);
     }
   }
 

@@ -32,7 +32,7 @@ export class View {
     if (this.scene === null) {
       this.canvas.remove();
     } else {
-      this.element.append(this.tools(this.scene), legend());
+      this.element.append(this.tools(this.scene), legend(app));
       this.connect(this.scene);
     }
     app.store.watch(['graph', 'link', 'robot'], () => this.showWords());
@@ -154,7 +154,8 @@ export class View {
   private say(title: string, text: string): void {
     const words = h('h2', {});
     setText(words, title);
-    this.words.append(h('div', { class: 'card' }, words, h('p', {}, ...commands(text))));
+    const sentence = text.charAt(0).toUpperCase() + text.slice(1);
+    this.words.append(h('div', { class: 'card' }, words, h('p', {}, ...commands(sentence))));
   }
 }
 
@@ -169,13 +170,17 @@ function commands(text: string): Node[] {
   );
 }
 
-function legend(): HTMLElement {
+/** What the trails are of; those that there are. */
+function legend({ store }: App): HTMLElement {
   const entry = (kind: string, word: string): HTMLElement =>
     h('span', {}, h('i', { class: `swatch ${kind}` }), word);
-  return h(
-    'div',
-    { class: 'view-legend', 'aria-hidden': 'true' },
-    entry('truth', 'Truth'),
-    entry('odometry', 'Odometry'),
-  );
+  const truth = entry('truth', 'Truth');
+  const odometry = entry('odometry', 'Odometry');
+  const element = h('div', { class: 'view-legend', 'aria-hidden': 'true' }, truth, odometry);
+  store.watch(['graph', 'robot'], () => {
+    truth.hidden = (store.robot?.truth ?? null) === null;
+    odometry.hidden = (store.robot?.odometry ?? null) === null;
+    element.hidden = truth.hidden && odometry.hidden;
+  });
+  return element;
 }

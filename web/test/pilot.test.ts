@@ -189,6 +189,20 @@ test('a page that was late, so that the node gave it up, drives on while the key
   assert.equal(pilot.driving, false, 'in time again, so it was somebody');
 });
 
+test('drives go out between late timers, but no more often for it', () => {
+  const { outside, pilot } = piloting();
+  pilot.keepUp();
+  assert.deepEqual(outside.sent, [], 'nobody drives');
+  pilot.set('keys', AHEAD);
+  pilot.keepUp();
+  assert.equal(outside.sent.length, 1);
+  outside.time += 40; // and the timer has not come
+  pilot.keepUp();
+  assert.equal(outside.sent.length, 2);
+  outside.pass(30);
+  assert.equal(outside.sent.length, 2);
+});
+
 test('the answer to our own stop does not take the wheel from the next press', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);

@@ -128,6 +128,16 @@ export class Pilot {
     }
   }
 
+  /**
+   * Say that somebody drives, if it is time to. Timers come late where a page draws slowly; call
+   * this wherever the page gets to do something.
+   */
+  keepUp(): void {
+    if (this.repeats && this.port.now() - this.sentAt >= REPEAT) {
+      this.sendDrive();
+    }
+  }
+
   private letGo(): void {
     for (const hand of this.hands.keys()) {
       this.blocked.add(hand);

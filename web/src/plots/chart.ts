@@ -87,16 +87,22 @@ export class Chart {
     if (clientWidth > 0 && clientHeight >= LEAST_HEIGHT) {
       const size = { width: clientWidth, height: clientHeight };
       this.plot = new uPlot({ ...this.options(), ...size }, this.table, this.place);
+      this.fit(); // its legend takes place, too
     }
   }
 
   private fit(): void {
     const { clientWidth, clientHeight } = this.place;
-    if (this.plot === null || clientHeight < LEAST_HEIGHT) {
+    if (this.plot === null) {
       this.rebuild();
-    } else {
+    } else if (clientHeight > 0 && !this.fits()) {
       this.plot.setSize({ width: clientWidth, height: clientHeight });
     }
+  }
+
+  private fits(): boolean {
+    const { clientWidth, clientHeight } = this.place;
+    return clientWidth === this.plot?.width && clientHeight === this.plot.height;
   }
 
   private moveCursor(event: KeyboardEvent): void {
