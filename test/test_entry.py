@@ -34,7 +34,7 @@ def test_an_ignored_ctrl_c_stays_ignored():
     ignoring = f'import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); {SLOW}'
     with Program.of(ignoring, 'end') as program:
         assert program.end() == 7
-        assert program.lines == ['handler Handlers.SIG_IGN']
+        assert program.lines == ['handler SIG_IGN']
 
 
 def test_the_program_has_the_handler_of_python_and_its_exit_code_counts():
