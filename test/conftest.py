@@ -25,10 +25,12 @@ KEPT = {}  # what has to last as long as the run
 # Where files run side by side, these start first, longest first: none is left alone at the end.
 # It is about time only; a file that is not named here starts later.
 LONGEST = (
-    'test_cli_golden', 'test_cli_param', 'test_mujoco_sim', 'test_cli_control_state',
-    'test_cli_lifecycle', 'test_cli_completion', 'test_tutorial', 'test_cli_action', 'test_stack',
+    'test_cli_golden', 'test_docs_machines', 'test_cli_param', 'test_mujoco_sim',
+    'test_cli_control_state', 'test_cli_lifecycle', 'test_cli_completion', 'test_tutorial',
+    'test_cli_action', 'test_stack',
     'test_spawner', 'test_cli_service', 'test_cli_topic_rate', 'test_cli_topic', 'test_teleop',
-    'test_bringup_stop', 'test_hardware_spawner', 'test_bringup_start', 'test_cli_run',
+    'test_bringup_stop', 'test_bringup_faults', 'test_hardware_spawner', 'test_bringup_start',
+    'test_cli_run',
 )  # fmt: skip
 
 settings.load_profile('ci')  # everywhere the same numbers, and no deadline on a busy machine

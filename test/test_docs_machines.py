@@ -45,6 +45,7 @@ def robot(machine, chapter, line):
     """The line that brings the robot up, until it is; everything has ended afterwards."""
     with person(machine, chapter) as shell:
         shell.start(line)
+        shell.see(r'\[create-3\]: process has finished cleanly')
         shell.see(r'ready in \d+\.\d s: drive with')
         shell.see(re.escape('Ctrl-C stops all.'))
         yield shell
