@@ -1,0 +1,119 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a start waits for: on a terminal a line that leaves nothing, elsewhere lines at times."""
+
+import io
+import re
+
+from fixtures.bringup.running import Bringup, STACKS
+import pytest
+
+from amr_description.bringup import exited_cleanly, Node, Stack
+from amr_description.bringup.console import Console
+from amr_description.bringup.log_folder import LogFolder
+from amr_description.bringup.progress import Progress
+from amr_description.bringup.start_status import StartStatus
+
+ERASED = '\r\x1b[K'
+LATE = str(STACKS / 'late.py')
+
+
+class Watched:
+    """A stack of three steps, one after the other, and what is told of it."""
+
+    def __init__(self, folder):
+        self.one = Node('one')
+        self.two = Node('two', start_when=exited_cleanly(self.one))
+        self.three = Node('three', start_when=exited_cleanly(self.two))
+        nodes = [self.one, self.two, self.three]
+        self.progress = Progress(Stack(nodes, ready_when=exited_cleanly(self.three)))
+        self.now = 100.0
+        console = Console(io.StringIO(), LogFolder(folder, 'run'), colour=False)
+        self.status = StartStatus(console, lambda node: node.executable, lambda: self.now)
+
+    def at(self, seconds):
+        self.now = 100.0 + seconds
+        return self.status.text(self.progress)
+
+
+def test_it_names_what_can_happen_next_and_since_when_it_is_waited_for(tmp_path):
+    watched = Watched(tmp_path)
+    watched.progress.start(watched.one)
+    assert watched.at(0.0) == '0.0 s: two waits until one exited with code 0 (0.0 s)'
+    assert watched.at(1.5) == '1.5 s: two waits until one exited with code 0 (1.5 s)'
+    watched.progress.end(watched.one, 0)
+    watched.progress.start(watched.two)
+    watched.at(2.0)
+    assert watched.at(2.5) == '2.5 s: three waits until two exited with code 0 (0.5 s)'
+    watched.progress.end(watched.two, 0)
+    watched.progress.start(watched.three)
+    watched.at(3.0)
+    assert watched.at(4.0) == '4.0 s: the stack waits until three exited with code 0 (1.0 s)'
+    watched.progress.end(watched.three, 0)
+    assert watched.at(5.0) == ''
+
+
+def console(folder, **options):
+    screen = io.StringIO()
+    return screen, Console(screen, LogFolder(folder, 'run'), colour=False, **options)
+
+
+def test_lines_go_before_the_status_which_stays_the_last(tmp_path, monkeypatch):
+    monkeypatch.setenv('COLUMNS', '20')
+    screen, shown = console(tmp_path, erases=True)
+    shown.status('waiting')
+    shown.status('waiting')
+    shown.output('one-1', 'hello')
+    shown.status('')
+    shown.output('one-1', 'again')
+    assert screen.getvalue() == (
+        f'{ERASED}waiting{ERASED}[one-1] hello\nwaiting{ERASED}[one-1] again\n'
+    )
+
+
+def test_the_status_is_as_long_as_the_screen_is_wide(tmp_path, monkeypatch):
+    monkeypatch.setenv('COLUMNS', '20')
+    screen, shown = console(tmp_path, erases=True)
+    shown.status('0123456789' * 4)
+    assert screen.getvalue() == f'{ERASED}0123456789012345678'
+
+
+def test_a_screen_that_cannot_erase_has_no_status(tmp_path):
+    screen, shown = console(tmp_path)
+    shown.status('waiting')
+    assert screen.getvalue() == ''
+
+
+@pytest.mark.parametrize('term', ['xterm', 'dumb'])
+def test_on_a_terminal_it_is_seen_and_gone_when_the_stack_is_up(tmp_path, term):
+    env = {'NO_COLOR': '1', 'TERM': term, 'COLUMNS': '100'}
+    with Bringup(tmp_path, LATE, terminal=True, **env) as bringup:
+        waits = r'\d\.\d s: step-2 waits until gate-1 exited with code 0 \(\d\.\d s\)'
+        if term == 'xterm':
+            bringup.expect(f'\r\x1b\\[K{waits}')
+        open_gate(bringup, tmp_path)
+        bringup.expect('ready in')
+        assert bringup.end(2) == 0
+        assert re.search(r'launch\]: steps: gate-1 \d+\.\d s, step-2 \d+\.\d s\r', bringup.output)
+        left = [rest_of(line) for line in bringup.output.split('\n')]
+        assert [line for line in left if ' waits until ' in line] == []
+
+
+def open_gate(bringup, folder):
+    bringup.expect('gate is shut')
+    (folder / 'prefix/gate').write_text('')
+
+
+def rest_of(line):
+    """What stays of a line on the screen."""
+    return line.split(ERASED)[-1]
+
+
+def test_elsewhere_a_line_is_said_at_times(tmp_path):
+    with Bringup(tmp_path, LATE) as bringup:
+        bringup.expect(
+            r'\[INFO\] \[launch\]: \d+\.\d s: step-2 waits until gate-1 exited with code 0 \(\d'
+        )
+        open_gate(bringup, tmp_path)
+        bringup.expect('ready in')
+        assert bringup.end(2) == 0
