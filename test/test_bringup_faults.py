@@ -119,7 +119,7 @@ def test_bad_manners_leave_nothing(tmp_path, manners, pattern):
         assert bringup.left() == []
 
 
-@pytest.mark.parametrize('manners', ['hold_the_pipe', 'fork_twice'])
+@pytest.mark.parametrize('manners', [manners for manners, pattern in MANNERS.items() if pattern])
 def test_bad_manners_do_not_outlive_a_killed_orchestrator(tmp_path, manners):
     with Bringup(tmp_path, UNRULY, f'manners:={manners}') as bringup:
         pid = int(bringup.expect(MANNERS[manners])[1])

@@ -17,6 +17,7 @@ from amr_description.bringup.guardian import (
     processes,
     remove_unused_segments,
     RUN_VARIABLE,
+    Search,
 )
 
 ROOT, GUARDIAN = 10, 11
@@ -35,7 +36,8 @@ ROOT, GUARDIAN = 10, 11
     ids=['marked', 'descendants', 'adopted', 'not the parents', 'not the guardian', 'nobody'],
 )
 def test_family(listed, expected):
-    assert family((Process(*entry) for entry in listed), ROOT, GUARDIAN) == expected
+    found = family((Process(*entry) for entry in listed), ROOT, GUARDIAN)
+    assert [process.pid for process in found] == expected
 
 
 def test_the_mark_is_read_from_the_environment():
@@ -46,11 +48,25 @@ def test_the_mark_is_read_from_the_environment():
         words, env=variables, stdin=subprocess.PIPE, stdout=subprocess.PIPE
     ) as process:
         process.stdout.readline()
-        assert [p for p in processes(run) if p.marked] == [Process(process.pid, os.getpid(), True)]
+        (found,) = [p for p in processes(run) if p.marked]
+        assert found[:3] == (process.pid, os.getpid(), True)
         assert not any(p.marked for p in processes(run[:-1]))
         process.kill()
         os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
         assert process.pid not in [p.pid for p in processes(run)], 'a zombie counts as ended'
+
+
+def test_who_was_met_once_is_found_again_but_not_another_of_that_pid(monkeypatch):
+    looks = iter(
+        [
+            [Process(20, 1, True, start=5), Process(21, 20, False, start=6)],
+            [Process(21, 1, False, start=6)],  # its parent is gone, and it has no mark
+            [Process(21, 1, False, start=9)],
+        ]
+    )
+    monkeypatch.setattr('amr_description.bringup.guardian.processes', lambda run: next(looks))
+    search = Search('run', ROOT, GUARDIAN)
+    assert [search(), search(), search()] == [[20, 21], [21], []]
 
 
 class Clock:

@@ -38,6 +38,8 @@ class Process(NamedTuple):
     parent: int
     marked: bool
     """Whether it carries the mark of the run."""
+    start: int = 0
+    """When it began, in clock ticks since boot: a pid may be used again."""
 
 
 def processes(run: str) -> Iterator[Process]:
@@ -47,10 +49,11 @@ def processes(run: str) -> Iterator[Process]:
         if name.isdecimal():
             with contextlib.suppress(OSError):  # it ended meanwhile
                 with open(f'/proc/{name}/stat', 'rb') as file:
-                    # 'pid (any name) state parent …'
-                    state, parent, *_ = file.read().rpartition(b')')[2].split()
+                    # 'pid (any name) state parent …', 22 fields up to the start
+                    state, parent, *rest = file.read().rpartition(b')')[2].split()
                 if state not in b'ZX':
-                    yield Process(int(name), int(parent), mark in _environment(name))
+                    marked = mark in _environment(name)
+                    yield Process(int(name), int(parent), marked, int(rest[17]))
 
 
 def _environment(pid: str) -> list[bytes]:
@@ -61,22 +64,41 @@ def _environment(pid: str) -> list[bytes]:
         return []
 
 
-def family(processes: Iterable[Process], root: int, spare: int) -> list[int]:
+def family(processes: Iterable[Process], root: int, spare: int) -> list[Process]:
     """
-    Return the pids of all marked processes, and of the descendants of those and of ``root``.
+    Return all marked processes, and the descendants of those and of ``root``, by pid.
 
     :param root: The orchestrator, which is not in the family.
     :param spare: A process, the guardian, to leave out with its descendants.
     """
     listed = [process for process in processes if process.pid not in (root, spare)]
-    found = {process.pid for process in listed if process.marked}
+    found = {process.pid: process for process in listed if process.marked}
     while more := {
-        process.pid
+        process.pid: process
         for process in listed
         if process.pid not in found and (process.parent in found or process.parent == root)
     }:
         found |= more
-    return sorted(found)
+    return [found[pid] for pid in sorted(found)]
+
+
+class Search:
+    """Finds the family of a run, and whoever was in it once: its parent may be gone since."""
+
+    def __init__(self, run: str, root: int, spare: int) -> None:
+        """See :func:`processes` and :func:`family`."""
+        self._run, self._root, self._spare = run, root, spare
+        self._met: set[tuple[int, int]] = set()
+
+    def __call__(self) -> list[int]:
+        """Look; return pids."""
+        listed = [
+            process._replace(marked=process.marked or (process.pid, process.start) in self._met)
+            for process in processes(self._run)
+        ]
+        found = family(listed, self._root, self._spare)
+        self._met.update((process.pid, process.start) for process in found)
+        return [process.pid for process in found]
 
 
 def end(find: Callable[[], list[int]]) -> tuple[set[int], list[int]]:
@@ -143,7 +165,7 @@ def main(lifeline: int, run: str, orchestrator: int) -> int:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     os.read(lifeline, 1)  # nobody ever writes: this returns when the last writer is gone
-    ended, immortal = end(lambda: family(processes(run), orchestrator, os.getpid()))
+    ended, immortal = end(Search(run, orchestrator, os.getpid()))
     remove_unused_segments()
     if ended:
         _say(f'[WARNING] [guardian]: ended what was left: pid {_list(ended)}')
