@@ -31,6 +31,7 @@ export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Sh
   const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, head, tabs.element);
   const slot: Panel = { id: 'plots', title: 'Plots', element: h('div', { class: 'plots-slot' }) };
   drive.element.id = 'drive';
+  drive.element.tabIndex = -1; // where "Skip to driving" leads
   tabs.add(slot);
   document.body.append(view.element, dock, drive.element, sheet);
 

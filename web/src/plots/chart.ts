@@ -49,10 +49,6 @@ export class Chart {
     new ResizeObserver(() => this.fit()).observe(this.place);
   }
 
-  get canvas(): HTMLCanvasElement | null {
-    return this.plot?.ctx.canvas ?? null;
-  }
-
   get series(): readonly Line[] {
     return this.lines;
   }
@@ -89,6 +85,18 @@ export class Chart {
       this.plot = new uPlot({ ...this.options(), ...size }, this.table, this.place);
       this.fit(); // its legend takes place, too
     }
+  }
+
+  /** Draw the same in another size (CSS px), apart from the page, and give what was drawn. */
+  picture<T>(width: number, height: number, take: (canvas: HTMLCanvasElement) => T): Promise<T> {
+    return new Promise((resolve) => {
+      const drawn = (plot: uPlot): void => {
+        resolve(take(plot.ctx.canvas));
+        queueMicrotask(() => plot.destroy());
+      };
+      const apart = { legend: { show: false }, cursor: { show: false }, hooks: { draw: [drawn] } };
+      new uPlot({ ...this.options(), width, height, ...apart }, this.table, h('div'));
+    });
   }
 
   private fit(): void {

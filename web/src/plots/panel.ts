@@ -130,7 +130,7 @@ export class PlotsPanel implements Panel {
   private async savePng(): Promise<void> {
     const image = await toPng(this.charts.filter((chart) => !chart.element.hidden));
     if (image === null) {
-      this.app.store.note('warning', 'There is no plot to save: open the plots first.');
+      this.app.store.note('warning', 'This browser could not draw the image.');
     } else {
       saveFile('plots.png', image);
     }

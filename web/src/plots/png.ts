@@ -4,31 +4,30 @@
 import { colour } from '../theme';
 import type { Chart } from './chart';
 
-const HEAD = 26; // px above each plot
-const MARGIN = 12; // px
+const WIDTH = 800; // px, all
+const HEIGHT = 190;
+const HEAD = 26; // above each plot
+const MARGIN = 14;
 
-/** One below the other; null when none is drawn. */
+/** One below the other. */
 export async function toPng(charts: readonly Chart[]): Promise<Blob | null> {
-  const drawn = charts.flatMap((chart) =>
-    chart.canvas === null ? [] : [{ chart, canvas: chart.canvas }],
-  );
   const scale = window.devicePixelRatio;
   const image = document.createElement('canvas');
   const context = image.getContext('2d');
-  if (drawn.length === 0 || context === null) {
+  if (context === null) {
     return null;
   }
-  const heights = drawn.map(({ canvas }) => canvas.height + HEAD * scale);
-  image.width = Math.max(...drawn.map(({ canvas }) => canvas.width)) + 2 * MARGIN * scale;
-  image.height = heights.reduce((sum, one) => sum + one, 2 * MARGIN * scale);
+  image.width = (WIDTH + 2 * MARGIN) * scale;
+  image.height = (charts.length * (HEAD + HEIGHT) + 2 * MARGIN) * scale;
   context.fillStyle = colour('surface');
   context.fillRect(0, 0, image.width, image.height);
-  let top = MARGIN * scale;
-  drawn.forEach(({ chart, canvas }, index) => {
+  for (const [index, chart] of charts.entries()) {
+    const top = (MARGIN + index * (HEAD + HEIGHT)) * scale;
     drawHead(context, chart, MARGIN * scale, top + 16 * scale, scale);
-    context.drawImage(canvas, MARGIN * scale, top + HEAD * scale);
-    top += heights[index];
-  });
+    await chart.picture(WIDTH, HEIGHT, (canvas) => {
+      context.drawImage(canvas, MARGIN * scale, top + HEAD * scale);
+    });
+  }
   return new Promise((resolve) => image.toBlob(resolve, 'image/png'));
 }
 
