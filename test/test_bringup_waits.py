@@ -123,6 +123,13 @@ def test_an_optional_node_is_given_up_and_the_stack_goes_on():
     assert progress.startable() == []
 
 
+def test_two_are_given_up_at_once():
+    late = [Node(n, start_when=topic('/odom'), required=False, patience=3.0) for n in 'ab']
+    progress = begun(Node('sim'), *late)
+    progress.at(1003.0)
+    assert progress.unreachable() == late
+
+
 def test_a_stack_of_which_nothing_is_left_but_what_was_given_up_is_over():
     step = Node('step')
     late = Node('late', start_when=topic('/odom'), required=False, patience=3.0)

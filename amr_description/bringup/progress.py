@@ -124,15 +124,16 @@ class Progress:
         Called once all that has happened until then was told.
         """
         self.tick(time)
-        expired = None if self.over else self._waits.expired(self._pending(), self._situation)
-        if expired is None:
-            return
-        if expired.node is None or expired.node.required:
-            self.failure, self.over = expired, True
-            return
-        self.gave_up.append(expired)
-        self._changed()
-        self.over = self._is_idle()
+        while not self.over:
+            expired = self._waits.expired(self._pending(), self._situation)
+            if expired is None:
+                return
+            if expired.node is None or expired.node.required:
+                self.failure, self.over = expired, True
+                return
+            self.gave_up.append(expired)
+            self._changed()
+            self.over = self._is_idle()
 
     def next_time(self) -> float | None:
         """Return the time at which :meth:`at` has something to say; None: only events matter."""
