@@ -18,6 +18,8 @@ const STEP = Math.PI / 24; // rad a key press
 export class CameraRig {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.03, 600);
   readonly controls: OrbitControls;
+  /** Whether hands have moved it since it was last pointed at something. */
+  isMoved = false;
   private isFollowing = false;
   private heading = 0; // rad, of the robot as the camera follows it
   private lift = 0; // m, from the robot's base up to what the camera looks at
@@ -41,6 +43,7 @@ export class CameraRig {
       zoomToCursor: false,
     });
     this.controls.addEventListener('change', changed);
+    this.controls.addEventListener('start', () => (this.isMoved = true));
     canvas.addEventListener('keydown', this.onKey);
     this.controls.update();
   }
@@ -67,6 +70,7 @@ export class CameraRig {
     const ball = box.isEmpty() ? new Sphere(new Vector3(), 1) : box.getBoundingSphere(new Sphere());
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
     const distance = (margin * Math.max(ball.radius, SMALLEST)) / half;
+    this.isMoved = false;
     this.target.copy(ball.center);
     this.camera.position.copy(ball.center).addScaledVector(FROM, distance);
     this.controls.update();
@@ -158,6 +162,7 @@ export class CameraRig {
     }
     event.preventDefault();
     event.stopPropagation(); // it is not for driving
+    this.isMoved = true;
     this.camera.position.copy(this.target).add(offset);
     this.controls.update();
     this.changed();

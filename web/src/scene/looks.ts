@@ -84,8 +84,9 @@ export class Highlight {
       const lit = [mesh.material].flat().map((material) => {
         const copy = material.clone();
         if (copy instanceof MeshPhongMaterial) {
+          copy.color.lerp(new Color(colour), 0.8);
           copy.emissive.set(colour);
-          copy.emissiveIntensity = 0.55;
+          copy.emissiveIntensity = 0.2;
         }
         return copy;
       });

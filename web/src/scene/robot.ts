@@ -16,6 +16,7 @@ import type { URDFJoint, URDFMimicJoint, URDFRobot } from 'urdf-loader';
 import type { Model } from '../protocol';
 import { addEdges, collisionMaterial, correctColour, disposeTree, Highlight } from './looks';
 import { loadMesh, managerOf } from './meshes';
+import { isPrimitive, meshesOf, radiusAbout } from './parts';
 import { WORLD } from './placement';
 import { PALETTES, type Palette } from './theme';
 import { BadModel, readUrdf } from './urdf';
@@ -41,6 +42,7 @@ export class RobotView {
   private readonly parts: LinkPart[] = []; // parents before children
   private readonly basePart: LinkPart;
   private readonly colliders: Object3D[] = [];
+  private readonly problems = new Set<string>();
   private readonly highlight = new Highlight();
   private readonly edges = new LineBasicMaterial({ transparent: true });
   private collider = collisionMaterial(PALETTES.light.collision);
@@ -131,23 +133,7 @@ export class RobotView {
   /** The radius of a wheel about its joint's axis, m; 0 if nothing of it is drawn. */
   wheelRadius(joint: string): number {
     const wheel = this.object.joints[joint];
-    const link = wheel?.children.find((child) => child.name in this.object.links);
-    if (link === undefined) {
-      return 0;
-    }
-    const toLink = link.matrixWorld.clone().invert();
-    const corner = new Vector3();
-    let radius = 0;
-    for (const mesh of meshesOf(link, false)) {
-      const points = mesh.geometry.getAttribute('position');
-      const inLink = toLink.clone().multiply(mesh.matrixWorld);
-      for (let i = 0; i < points.count; i++) {
-        corner.fromBufferAttribute(points, i).applyMatrix4(inLink);
-        const along = corner.dot(wheel.axis);
-        radius = Math.max(radius, Math.sqrt(Math.max(0, corner.lengthSq() - along * along)));
-      }
-    }
-    return radius;
+    return wheel === undefined ? 0 : radiusAbout(wheel);
   }
 
   /** The link that a mesh is of; null for none of this robot's. */
@@ -196,7 +182,7 @@ export class RobotView {
     loader.packages = (name) => `package://${name}`; // as in the URDF: so are the names of files
     loader.parseCollision = true;
     manager.onLoad = () => this.events.changed(); // textures come after their meshes
-    manager.onError = (name) => this.events.problem(`'${name}' could not be loaded`);
+    manager.onError = (name) => this.report(`'${name}' could not be loaded`);
     loader.loadMeshCb = (name, _manager, material, done) => {
       correct(material);
       loadMesh(name, files, manager, material).then(
@@ -205,21 +191,31 @@ export class RobotView {
           this.dress();
           this.events.changed();
         },
-        (error: Error) => this.events.problem(error.message),
+        (error: Error) => this.report(error.message),
       );
     };
     const xml = readUrdf(urdf, files, (name) =>
-      this.events.problem(`the texture '${name}' was not found`),
+      this.report(`the texture '${name}' was not found`),
     );
     try {
       const robot = loader.parse(xml);
       for (const joint of Object.values(robot.joints)) {
         joint.ignoreLimits = true; // what is, is drawn
-        joint.setJointValue(0); // now it knows its origin, and mimic joints have their offsets
       }
+      // Now all know their origins, and mimic joints, led by the others, have their offsets.
+      const leaders = Object.values(robot.joints).filter((joint) => !isMimicJoint(joint));
+      leaders.forEach((joint) => joint.setJointValue(0));
       return robot;
     } catch (error) {
       throw new BadModel(`the robot '${this.model.robot}' cannot be drawn: ${String(error)}`);
+    }
+  }
+
+  /** Tell of a problem once: a visual and a collision often have the same mesh. */
+  private report(text: string): void {
+    if (!this.problems.has(text)) {
+      this.problems.add(text);
+      this.events.problem(text);
     }
   }
 
@@ -266,25 +262,3 @@ function correct(material: Material): void {
 function isMimicJoint(joint: URDFJoint): joint is URDFMimicJoint {
   return 'mimicJoint' in joint;
 }
-
-/** The loader makes primitives of unit size, and scales them. */
-function isPrimitive(mesh: Mesh): boolean {
-  return 'parameters' in mesh.geometry;
-}
-
-/** The visual meshes below an object; `deep`: those of links further down, too. */
-function meshesOf(object: Object3D, deep: boolean): Mesh[] {
-  const found: Mesh[] = [];
-  const visit = (each: Object3D): void => {
-    if ('isURDFCollider' in each || (!deep && 'isURDFJoint' in each)) {
-      return;
-    }
-    if (each instanceof Mesh) {
-      found.push(each);
-    }
-    each.children.forEach(visit);
-  };
-  visit(object);
-  return found;
-}
-

@@ -23,7 +23,7 @@ import type { Palette } from './theme';
 
 const FAR = 400; // m, the radius of the sky
 const IDENTITY = new Matrix4();
-const SUN = new Vector3(-0.95, -0.1, 1.5); // towards it
+const SUN = new Vector3(-0.9, -0.45, 1.5); // towards it
 const SHADOW_PIXELS = { hardware: 2048, software: 512 };
 const WIDEST = 24; // m, half of the side of what shadows fall on
 const SOFTWARE_WIDEST = 1;
@@ -32,7 +32,7 @@ export class Surroundings {
   private readonly floor = new Group(); // at z = 0 of `world`, or of the fixed frame
   private readonly fog = new Fog(0, 10, 100);
   private readonly ground = new Ground(FAR, this.fog);
-  private readonly shadows = new Mesh(new PlaneGeometry(2, 2), new ShadowMaterial());
+  private readonly shadows = new Mesh(new PlaneGeometry(2, 2), new ShadowMaterial({ depthWrite: false }));
   private readonly sky: Mesh<SphereGeometry, MeshBasicMaterial>;
   private readonly sun = new DirectionalLight();
   private readonly dome = new HemisphereLight();
@@ -50,6 +50,7 @@ export class Surroundings {
     this.sky.renderOrder = 2; // after what hides it
     this.sky.visible = !isSoftware;
     this.shadows.receiveShadow = true;
+    this.shadows.renderOrder = 2; // on the ground
     this.shadows.raycast = () => {};
     this.floor.matrixAutoUpdate = false;
     this.floor.add(this.ground, this.shadows);
