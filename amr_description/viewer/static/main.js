@@ -1,0 +1,4685 @@
+function z(s,t={},...e){let n=document.createElement(s);for(let[i,r]of Object.entries(t))typeof r=="function"?n.addEventListener(i.slice(2),r):r!==!1&&r!==null&&n.setAttribute(i,r===!0?"":String(r));return n.append(...e.filter(i=>i!==null)),n}var tb={play:"M5 3.5v9l7.5-4.5z",pause:"M4.5 3.5h2.5v9H4.5zM9 3.5h2.5v9H9z",step:"M3.5 3.5v9L9.5 8zM10.5 3.5h2v9h-2z",reset:"M8 2.5V0L4 3.5 8 7V4.3a3.9 3.9 0 1 1-3.9 3.9H2.3A5.7 5.7 0 1 0 8 2.5z",theme:"M8 1.5a6.5 6.5 0 1 0 0 13zM8 1.5v1.3a5.2 5.2 0 0 1 0 10.4v1.3a6.5 6.5 0 0 0 0-13z",panels:"M2 3h12v2H2zM2 7h12v2H2zM2 11h12v2H2z",close:"M3.2 4.6 4.6 3.2 8 6.6l3.4-3.4 1.4 1.4L9.4 8l3.4 3.4-1.4 1.4L8 9.4l-3.4 3.4-1.4-1.4L6.6 8z",down:"M3 5.5 8 10.5l5-5z",up:"M3 10.5 8 5.5l5 5z"};function nf(s){let t="http://www.w3.org/2000/svg",e=document.createElementNS(t,"svg");e.setAttribute("viewBox","0 0 16 16"),e.setAttribute("class","icon"),e.setAttribute("aria-hidden","true");let n=document.createElementNS(t,"path");return n.setAttribute("d",tb[s]),e.append(n),e}function Ye(s,t,{icon:e,title:n,kind:i}={}){return z("button",{type:"button",class:i===void 0?"button":`button ${i}`,title:n??null,"aria-label":s===""?n??null:null,onclick:t},e===void 0?null:nf(e),s===""?null:z("span",{},s))}var eb=3e3;function tg(s,t,e){let n=null,i=()=>{n=null,r.classList.remove("danger"),r.replaceChildren(z("span",{},s))},r=Ye(s,()=>{if(n!==null){clearTimeout(n),i(),e();return}r.classList.add("danger"),r.replaceChildren(z("span",{},t)),n=setTimeout(i,eb)},{kind:"quiet"});return r}function Wa(s,t,e,n=null){let i=z("button",{type:"button",class:"toggle",title:n},s);return i.setAttribute("aria-pressed",String(t)),i.addEventListener("click",()=>{let r=i.getAttribute("aria-pressed")!=="true";i.setAttribute("aria-pressed",String(r)),e(r)}),i}function wn(s,...t){return z("section",{class:"section"},z("h3",{},s),...t)}function eg(s,t,e){let n=t.map(({name:i,number:r})=>z("th",{scope:"col",class:r===!0?"number":null},i));return z("div",{class:"table"},z("table",{},z("caption",{class:"unseen"},s),z("thead",{},z("tr",{},...n)),e))}function sf(s){let t=s.map(([e,n])=>z("div",{},z("dt",{},e),z("dd",{title:n},n)));return z("dl",{class:"facts"},...t)}function Me(s,t){s.textContent!==t&&(s.textContent=t)}function rf(s,t){return s instanceof HTMLElement?s.matches("textarea, select, input:not([type=range], [type=checkbox])")?!0:t.startsWith("Arrow")&&s.closest("[type=range], [role=tablist], .chart-plot")!==null:!1}var nb={info:5e3,warning:9e3,error:12e3},ib=3;function ng(s){let t=z("div",{class:"unseen",role:"status","aria-live":"polite"}),e=z("div",{class:"toasts"}),n=s.notices[0],i=n?.count??0;return s.watch(["notice"],()=>{let[r]=s.notices;if(r!==void 0&&(r!==n||r.count!==i)){let o=r===n;for(n=r,i=r.count,o&&e.firstElementChild?.remove(),e.prepend(sb(r.level,r.text)),Me(t,r.text);e.childElementCount>ib;)e.lastElementChild?.remove()}}),s.watch(["link"],()=>{Me(t,{connecting:"",open:"Connected.",waiting:"The connection was lost."}[s.link.state])}),s.watch(["driver","robot"],()=>{let{driver:r}=s;Me(t,r===null?"":r.me?"You drive.":`${r.name} drives.`)}),z("div",{class:"announce"},t,e)}function sb(s,t){let e=z("div",{class:"toast","data-tone":s},z("p",{},t)),n=()=>e.remove();return e.append(Ye("",n,{icon:"close",kind:"quiet",title:"Dismiss"})),setTimeout(n,nb[s]),e}var ig="amr.v1";var rb=250,ob=4e3,ab=1.7,sg=20,lb={open:(s,t)=>new WebSocket(s,t),after:(s,t)=>{let e=setTimeout(t,s);return()=>clearTimeout(e)}},cb=1,bc=class{constructor(t,e=lb){this.url=t;this.port=e}url;port;link={state:"connecting"};onLink=()=>{};onMessage=()=>{};onState=()=>{};socket=null;attempt=0;nextId=1;waiting=new Map;cancelRetry=null;ended=!1;open(){this.cancelRetry?.(),this.cancelRetry=null,this.tell({state:"connecting"});let t=this.port.open(this.url,ig);t.binaryType="arraybuffer",t.onopen=()=>{this.attempt=0,this.tell({state:"open"})},t.onmessage=e=>this.receive(e.data),t.onclose=e=>this.closed(e.reason),this.socket=t}close(){this.ended=!0,this.cancelRetry?.(),this.socket?.close()}send(t){return this.socket===null||this.socket.readyState!==cb?!1:(this.socket.send(JSON.stringify(t)),!0)}request(t){let e=this.nextId;return this.nextId+=1,new Promise(n=>{let i=this.port.after(sg*1e3,()=>{this.answer(of(e,`No answer to "${t.type}" within ${sg} s.`))});this.waiting.set(e,r=>{i(),n(r)}),this.send({...t,id:e})||this.answer(of(e,"There is no connection to the node."))})}receive(t){if(t instanceof ArrayBuffer)this.onState(t);else if(typeof t=="string"){let e=JSON.parse(t);(e.type!=="reply"||!this.answer(e))&&this.onMessage(e)}}answer(t){let e=this.waiting.get(t.id);return this.waiting.delete(t.id),e?.(t),e!==void 0}closed(t){this.socket=null;for(let n of[...this.waiting.keys()])this.answer(of(n,"The connection to the node was lost."));if(this.ended)return;let e=Math.min(rb*ab**this.attempt,ob);this.attempt+=1,this.cancelRetry=this.port.after(e,()=>this.open()),this.tell({state:"waiting",attempt:this.attempt,reason:t})}tell(t){this.link=t,this.onLink(t)}};function of(s,t){return{type:"reply",id:s,ok:!1,message:t}}function rg(s){return`${s.protocol==="https:"?"wss":"ws"}://${s.host}/ws${s.search}`}var lg={forward:0,turn:0},cg=new Map([["KeyW",{forward:1,turn:0}],["ArrowUp",{forward:1,turn:0}],["KeyS",{forward:-1,turn:0}],["ArrowDown",{forward:-1,turn:0}],["KeyA",{forward:0,turn:1}],["ArrowLeft",{forward:0,turn:1}],["KeyD",{forward:0,turn:-1}],["ArrowRight",{forward:0,turn:-1}]]);function hg(s){return cg.has(s)}function ug(s){return qa([...s].map(t=>cg.get(t)??lg))}function Xa(s,t,e){let n=Math.hypot(s,t);if(!Number.isFinite(n)||n<=e)return lg;let i=(Math.min(n,1)-e)/(1-e)/n;return{forward:ag(-t*i),turn:ag(-s*i)}}function qa(s){let t=0,e=0;for(let n of s)t+=n.forward,e+=n.turn;return{forward:og(t),turn:og(e)}}function dg(s,t){return{linear:s.forward*t.linear,angular:s.turn*t.angular}}function og(s){return Math.min(1,Math.max(-1,s))}function ag(s){return s===0?0:s}var fg=.12,pg="gamepad",hb=1;function ub({axes:s}){let t=Xa(s[0]??0,s[1]??0,fg),e=Xa(s[2]??0,0,fg),n=qa([t,{forward:0,turn:e.turn}]);return n.forward===0&&n.turn===0?null:n}function db({buttons:s}){return s[hb]?.pressed===!0}function mg(s,t){let e=!1,n=!1,i=()=>{let r=navigator.getGamepads().find(a=>a!==null&&a.connected)??null;if(r===null){e=!1,s.set(pg,null),t(null);return}let o=db(r);o&&!n&&s.stop(),n=o,s.set(pg,document.hasFocus()?ub(r):null),requestAnimationFrame(i)};window.addEventListener("gamepadconnected",r=>{t(r.gamepad.id.replace(/\s*\(.*$/,"")),e||(e=!0,requestAnimationFrame(i))})}var fb=new Set(["MetaLeft","MetaRight","ControlLeft","ControlRight","AltLeft"]);function gg(s){let t=new Set,e=()=>s.set("keys",t.size===0?null:ug(t));window.addEventListener("keydown",i=>{i.code==="Escape"||i.code==="Space"&&mb(i,s)?(i.preventDefault(),s.stop()):fb.has(i.code)?(t.clear(),e()):hg(i.code)&&pb(i)&&(i.preventDefault(),i.repeat||(t.add(i.code),e()))}),window.addEventListener("keyup",i=>{t.delete(i.code)&&e()});let n=()=>{s.release(),t.clear(),e()};window.addEventListener("blur",n),window.addEventListener("pagehide",n),document.addEventListener("visibilitychange",()=>{document.hidden&&n()})}function pb(s){return!(s.ctrlKey||s.metaKey||s.altKey)&&!rf(s.target,s.code)}function mb(s,t){let{target:e}=s,i=e instanceof HTMLElement&&e.matches("button:focus-visible, a:focus-visible, summary:focus-visible");return t.driving||!(i||rf(e,s.code))}function _n(s,t){if(s==null||!Number.isFinite(s))return"\u2013";let e=Math.abs(s).toFixed(t);return s<0&&Number(e)!==0?`\u2212${e}`:e}function Sc(s){return Number.isFinite(s)?`${_n(s*180/Math.PI,1)}\xB0`:"\u2013"}function Mc(s){return s===null?"\u2013":`${_n(s,2)}\xD7`}function Dr(s){if(!Number.isFinite(s))return"\u2013";if(s>1e8)return new Date(s*1e3).toLocaleTimeString("en-GB");let t=Math.floor(s*10+1e-6),e=Math.floor(t/10),n=Math.floor(e/3600),i=Math.floor(e/60)%60,r=`${String(e%60).padStart(2,"0")}.${t%10}`;return`${n===0?`${i}`:`${n}:${String(i).padStart(2,"0")}`}:${r}`}var Os=["command","odometry","truth"],gb=7,yb=8;function cr(s,t){return s.robots.find(e=>e.id===t)??null}function wc(s,t){return t==="command"?{linear:s.command[0],angular:s.command[1]}:{linear:s[t][gb],angular:s[t][yb]}}function yg(s,t){return s.layout.robots.find(({id:e})=>e===t.id)??{joints:[],wheels:[]}}function _g(s,t){return yg(s,t).joints.map((e,n)=>({name:e,position:t.positions[n],velocity:t.velocities[n]}))}function Tc(s,t){let{joints:e,wheels:n}=yg(s,t);return n.map((i,r)=>{let[o,a,l,c]=t.wheels.subarray(r*4),h=t.velocities[e.indexOf(i)]??Number.NaN;return{name:i,speed:h,contact:_b(o),force:a,along:l,across:c}})}function _b(s){return Number.isNaN(s)?null:s>.5}var xg="amr.",af=new Map;function Ri(s,t){af.set(s,t);try{localStorage.setItem(xg+s,t)}catch{}}function Qi(s){try{return af.get(s)??localStorage.getItem(xg+s)}catch{return af.get(s)??null}}function Ec(s,t,e,n){let i=Number.parseFloat(Qi(s)??"");return i>=t&&i<=e?i:n}var xb=.08,vg="joystick",Ac=class{constructor(t){this.pilot=t;this.element=z("div",{class:"joystick",role:"img","aria-label":"Joystick: drag to drive. With the keyboard: W A S D or the arrow keys."},z("div",{class:"joystick-cross"}),this.knob),this.element.addEventListener("pointerdown",e=>this.take(e)),this.element.addEventListener("pointermove",e=>this.move(e));for(let e of["pointerup","pointercancel","lostpointercapture"])this.element.addEventListener(e,n=>this.letGo(n));this.element.addEventListener("contextmenu",e=>e.preventDefault())}pilot;element;knob=z("div",{class:"joystick-knob"});pointer=null;show(t){let e=(this.element.clientWidth-this.knob.offsetWidth)/2,n=Math.max(1,Math.hypot(t.forward,t.turn)),i=-t.turn/n*e,r=-t.forward/n*e;this.knob.style.transform=`translate(${i.toFixed(1)}px, ${r.toFixed(1)}px)`;let o=t.forward!==0||t.turn!==0;this.element.classList.toggle("held",o||this.pointer!==null)}take(t){this.pointer===null&&t.button===0&&(t.preventDefault(),this.pointer=t.pointerId,this.element.setPointerCapture(t.pointerId),this.move(t))}move(t){if(t.pointerId!==this.pointer)return;let e=this.element.getBoundingClientRect(),n=(e.width-this.knob.offsetWidth)/2,i=(t.clientX-e.left-e.width/2)/n,r=(t.clientY-e.top-e.height/2)/n;this.pilot.set(vg,Xa(i,r,xb))}letGo(t){t.pointerId===this.pointer&&(this.pointer=null,this.pilot.set(vg,null))}};var vb={command:"Command",odometry:"Odometry",truth:"Truth"},Mg={linear:{label:"Speed",unit:"m/s",least:.05,most:2,step:.05,usual:.5},angular:{label:"Turn",unit:"rad/s",least:.1,most:4,step:.1,usual:1}},Rc=class{constructor(t){this.app=t;this.joystick=new Ac(t.pilot),t.pilot.limits={linear:bg("linear"),angular:bg("angular")},this.element=z("section",{class:"drive","aria-label":"Drive"},z("header",{class:"drive-head"},z("h2",{},"Drive"),this.who),this.joystick.element,this.readout(),z("div",{class:"drive-limits"},this.limit("linear"),this.limit("angular")),bb(t.pilot),z("div",{class:"drive-notes"},Sb(),this.pad,this.topic)),t.store.watch(["graph","robot","driver","link","hello"],()=>this.showWho()),t.pilot.onChange=e=>this.showAsked(e)}app;id="drive";title="Drive";element;joystick;who=z("span",{class:"chip"});topic=z("p",{class:"fine"});pad=z("span",{class:"fine"});cells=new Map;pulse(t){let e=cr(t,this.app.store.robot?.id);for(let n of Os){let i=this.cells.get(n),r=e===null?null:wc(e,n);i!==void 0&&(Me(i.linear,_n(r?.linear,2)),Me(i.angular,_n(r?.angular,2)))}}showPad(t){Me(this.pad,t===null?"":`Gamepad: ${t}`)}showAsked(t){let{linear:e,angular:n}=this.app.pilot.limits;this.joystick.show({forward:(t?.linear??0)/e,turn:(t?.angular??0)/n}),this.element.classList.toggle("driving",t!==null),document.documentElement.classList.toggle("driven",t!==null||this.drove())}drove(){return document.documentElement.classList.contains("driven")}showWho(){let{store:t}=this.app,e=t.robot?.command??null,n=t.driver,i=n===null?"Nobody drives":n.me?"You drive":`${n.name} drives`;Me(this.who,i),this.who.dataset.tone=n===null?"calm":n.me?"good":"warning";let r=e?.message.split("/").at(-1)??"";Me(this.topic,e===null?"No command topic: this robot cannot be driven.":e.topic),this.topic.title=e===null?"":`${r} on ${e.topic}`,this.element.classList.toggle("cannot",e===null||t.link.state!=="open"),this.app.pilot.setRobot(e===null?null:t.robot?.id??null)}readout(){let t=Os.map(e=>{let n={linear:z("td",{},"\u2013"),angular:z("td",{},"\u2013")};this.cells.set(e,n);let i=z("th",{scope:"row"},z("i",{class:`swatch ${e}`}),vb[e]);return z("tr",{},i,n.linear,n.angular)});return z("table",{class:"readout"},z("caption",{class:"unseen"},"Velocity of the robot"),z("thead",{},z("tr",{},z("td"),Sg("m/s"),Sg("rad/s"))),z("tbody",{},...t))}limit(t){let{label:e,unit:n,least:i,most:r,step:o}=Mg[t],a=z("output",{}),l=z("input",{type:"range",min:i,max:r,step:o,value:this.app.pilot.limits[t]}),c=()=>{Me(a,`${_n(l.valueAsNumber,2)} ${n}`),l.setAttribute("aria-valuetext",`${_n(l.valueAsNumber,2)} ${n}`)};return l.addEventListener("input",()=>{Ri(`limit.${t}`,l.value),this.app.pilot.setLimits({...this.app.pilot.limits,[t]:l.valueAsNumber}),c()}),c(),z("label",{class:"slider"},z("span",{},e),l,a)}};function bg(s){let{least:t,most:e,usual:n}=Mg[s];return Ec(`limit.${s}`,t,e,n)}function Sg(s){return z("th",{scope:"col"},s)}function bb(s){let t=z("button",{type:"button",class:"stop","aria-label":"Stop all robots","aria-keyshortcuts":"Escape"},z("strong",{},"STOP"),z("span",{class:"keys","aria-hidden":"true"},z("kbd",{},"Space"),z("kbd",{},"Esc")));return t.addEventListener("pointerdown",()=>s.stop()),t.addEventListener("click",()=>s.stop()),t}function Sb(){let s=["W","A","S","D"].map(t=>z("kbd",{},t));return z("p",{class:"fine keys-hint"},"Hold ",...s," or the arrow keys")}var Mb=1e3/60,wg=1e3/30,Tg=250,Eg=500,Cc=class{constructor(t){this.port=t}port;limits={linear:.5,angular:1};onChange=()=>{};onRefused=()=>{};robot=null;hands=new Map;blocked=new Set;sentAt=-1/0;lateAt=-1/0;stoppedAt=-1/0;repeats=!1;driver="nobody";cancel=null;get driving(){return this.robot!==null&&this.hands.size>0}get velocity(){return this.driving?dg(qa([...this.hands.values()]),this.limits):null}setRobot(t){t!==this.robot&&(this.release(),this.robot=t)}setLimits(t){this.limits=t,this.driving&&this.changed()}set(t,e){if(e===null)this.blocked.delete(t),this.hands.delete(t)&&this.changed();else{if(this.blocked.has(t))return;this.driver==="other"?(this.blocked.add(t),this.onRefused()):wb(this.hands.get(t),e)||(this.hands.set(t,e),this.changed())}}release(){let t=this.driving;this.letGo(),t&&(this.sendStop(this.robot),this.onChange(null))}stop(){this.letGo(),this.sendStop(null),this.onChange(null)}halt(){let t=this.driving;this.letGo(),t&&this.onChange(null)}hearDriver(t){let e=this.port.now(),n=e-this.stoppedAt<=Eg,i=e-this.lateAt<=Eg||this.driving&&e-this.sentAt>Tg,r=this.driver==="me"&&t==="nobody"&&!n&&!i;this.driver=t,(r||t==="other")&&this.halt()}keepUp(){this.repeats&&this.port.now()-this.sentAt>=wg&&this.sendDrive()}letGo(){for(let t of this.hands.keys())this.blocked.add(t);this.hands.clear(),this.repeats=!1,this.cancel?.(),this.cancel=null}changed(){if(this.robot===null)return;if(this.hands.size===0){this.letGo(),this.sendStop(this.robot),this.onChange(null);return}this.onChange(this.velocity);let t=this.sentAt+Mb-this.port.now();t<=0?this.sendDrive():this.schedule(t)}sendDrive(){let t=this.velocity;if(this.robot===null||t===null)return;let e=this.port.now();this.repeats&&e-this.sentAt>Tg&&(this.lateAt=e),this.sentAt=e,this.port.send({type:"drive",robot:this.robot,...t})?(this.repeats=!0,this.schedule(wg)):this.halt()}sendStop(t){this.stoppedAt=this.port.now(),this.port.send({type:"stop",robot:t})}schedule(t){this.cancel?.(),this.cancel=this.port.after(t,()=>{this.cancel=null,this.sendDrive()})}};function wb(s,t){return s!==void 0&&s.forward===t.forward&&s.turn===t.turn}var Tb=new Set(["spawn","delete"]);async function Ur(s,t){let{ok:e,message:n}=await s.connection.request(t);return(!e||Tb.has(t.type))&&s.store.note(e?"info":"error",n),e}var Eb={connecting:"Connecting \u2026",open:"Connected",waiting:"Reconnecting \u2026"},Ab={connecting:"warning",open:"good",waiting:"error"},Pc=class{constructor(t,e){this.app=t;this.play=Ye("",()=>this.playOrPause(),{title:"Pause"}),this.play.classList.add("play");let n=Ye("",()=>this.simulate("step"),{icon:"step",title:"One step"});n.classList.add("step");let i=Ye("",()=>this.simulate("reset_simulation"),{icon:"reset",title:"Reset: robots to their starts, time to 0"});this.transport=z("div",{class:"transport",role:"group","aria-label":"Simulation"},this.play,n,i),this.robots.addEventListener("change",()=>t.store.choose(this.robots.value));let r=Ye("",e.flipTheme,{icon:"theme",title:"Light or dark"}),o=Ye("Panels",e.openPanels,{icon:"panels"});o.classList.add("open-panels"),this.element=z("header",{class:"top"},z("img",{class:"mark",src:"icon.svg",alt:""}),z("h1",{},this.name,this.robots),this.link,this.domain,z("span",{class:"grow"}),this.transport,z("div",{class:"clock"},this.time,this.real),z("span",{class:"grow"}),r,o);let{store:a}=t;a.watch(["graph","robot"],()=>this.showRobots()),a.watch(["link","hello"],()=>this.showLink()),a.watch(["simulation","graph"],()=>this.showSimulation())}app;element;link=z("span",{class:"chip link"});robots=z("select",{"aria-label":"Robot"});name=z("span",{class:"robot-name"});transport;play;time=z("span",{class:"time",title:"Time"},"\u2013");real=z("span",{class:"factor",title:"Real-time factor"},"\u2013");domain=z("span",{class:"fine domain"});pulse(t){Me(this.time,Dr(t.time))}showRobots(){let{graph:t,robot:e}=this.app.store,n=t?.robots??[];this.robots.hidden=n.length<2,this.name.hidden=n.length>=2,Me(this.name,e?.name??"No robot"),this.robots.replaceChildren(...n.map(({id:i,name:r})=>z("option",{value:i},i==="/"?r:`${r} (${i.slice(1)})`))),this.robots.value=e?.id??"",document.title=e===null?"amr viewer":`${e.name} \xB7 amr viewer`}showLink(){let{link:t,hello:e}=this.app.store;Me(this.link,Eb[t.state]),this.link.dataset.tone=Ab[t.state],Me(this.domain,e===null?"":`${e.client} \xB7 domain ${e.domain}`),this.domain.title=e===null?"":`amr_description ${e.version}`}showSimulation(){let{simulator:t,simulation:e}=this.app.store;this.transport.hidden=t===null,this.real.hidden=t===null;let n=e!==null&&e.state!=="playing",i=n?"Play":"Pause";(this.play.title!==i||this.play.childElementCount===0)&&(this.play.replaceChildren(nf(n?"play":"pause")),this.play.title=i,this.play.setAttribute("aria-label",i)),this.play.classList.toggle("primary",n),Me(this.real,n?e.state:Mc(e?.real_factor??null))}playOrPause(){let t=this.app.store.simulation?.state==="playing";this.simulate(t?"pause":"play")}simulate(t){let e=this.app.store.simulator?.id;e!==void 0&&Ur(this.app,t==="step"?{type:t,simulator:e,steps:1}:{type:t,simulator:e})}};function Ag({app:s,stream:t,recorder:e,view:n}){let{store:i,pilot:r}=s;window.amr={get now(){return{link:i.link.state,client:i.hello?.client??null,robot:i.robot?.id??null,driver:i.driver?.name??null,driving:r.driving,...t.counts,time:t.latest?.time??null,age:t.latest===null?null:performance.now()-t.arrivedAt,samples:e.length,notices:i.notices.length,scene:n.scene?.stats()??null}}}}var Lc=class{constructor(t){this.app=t;t.store.watch(["controllers","graph","robot"],()=>this.show())}app;id="control";title="Control";element=z("div",{});signature="";show(){let{robot:t,controllers:e}=this.app.store,n=t===null?void 0:e.get(t.id),i=JSON.stringify([t?.id,n??null]);if(i===this.signature)return;if(this.signature=i,n===void 0){this.element.replaceChildren(z("p",{class:"empty"},"No controller manager runs for this robot."));return}let r=document.activeElement?.id;this.element.replaceChildren(wn("Controllers",Rg(n.controllers.map(o=>this.controller(o)))),wn("Hardware",Rg(n.hardware.map(Rb)))),r!==void 0&&r.startsWith("switch-")&&document.getElementById(r)?.focus()}controller({name:t,kind:e,state:n,claims:i}){let r=n==="active",o=z("button",{type:"button",role:"switch",class:"switch",id:`switch-${t}`,"aria-checked":String(r),"aria-label":`${t} is active`,title:r?`Deactivate ${t}`:`Activate ${t}`,disabled:!r&&n!=="inactive"});o.addEventListener("click",()=>{this.flip(t,!r,o)});let a=i.length===0?"claims nothing":`claims ${i.join(", ")}`;return z("li",{class:"unit"},z("span",{class:"unit-name"},t),Cg(n),o,z("span",{class:"fine"},e),z("span",{class:"fine"},a))}async flip(t,e,n){let i=this.app.store.robot;i!==null&&(n.disabled=!0,n.setAttribute("aria-busy","true"),await Ur(this.app,{type:"switch",robot:i.id,activate:e?[t]:[],deactivate:e?[]:[t]}),n.disabled=!1,n.removeAttribute("aria-busy"))}};function Rb({name:s,kind:t,state:e}){return z("li",{class:"unit"},z("span",{class:"unit-name"},s),Cg(e),z("span",{class:"fine"},t))}function Cg(s){return z("span",{class:"chip","data-tone":s==="active"?"good":s==="inactive"?"calm":"warning"},s)}function Rg(s){return s.length===0?z("p",{class:"empty"},"None."):z("ul",{class:"rows"},...s)}var Cb={position:[0,0,0],orientation:[0,0,0,1]};function Pb(s,t){let[e,n,i,r,o,a,l]=s.poses.subarray(t*7);return{position:[e,n,i],orientation:[r,o,a,l]}}function Lg(s,t,e){let n=Pg(s,t),i=Pg(s,e);return n.root===i.root?Ng(Lb(i.pose),n.pose):null}function Ig([s,t,e,n]){let i=Math.max(-1,Math.min(1,2*(n*t-e*s)));return[Math.atan2(2*(n*s+t*e),1-2*(s*s+t*t)),Math.asin(i),Math.atan2(2*(n*e+s*t),1-2*(t*t+e*e))]}function cf(s){let t=new Set(s.frames.map(({name:e})=>e));return[...new Set(s.frames.map(({parent:e})=>e))].filter(e=>!t.has(e))}function Pg(s,t){let{frames:e}=s.layout,n=t,i=Cb;for(let r=e.length-1;r>=0;r-=1)e[r].name===n&&(i=Ng(Pb(s,r),i),n=e[r].parent);return{root:n,pose:i}}function Ng(s,t){let[e,n,i]=Dg(s.orientation,t.position),[r,o,a]=s.position;return{position:[r+e,o+n,a+i],orientation:lf(s.orientation,t.orientation)}}function Lb({position:s,orientation:t}){let[e,n,i,r]=t,o=[-e,-n,-i,r],[a,l,c]=Dg(o,s);return{position:[-a,-l,-c],orientation:o}}function lf(s,t){return[s[3]*t[0]+s[0]*t[3]+s[1]*t[2]-s[2]*t[1],s[3]*t[1]-s[0]*t[2]+s[1]*t[3]+s[2]*t[0],s[3]*t[2]+s[0]*t[1]-s[1]*t[0]+s[2]*t[3],s[3]*t[3]-s[0]*t[0]-s[1]*t[1]-s[2]*t[2]]}function Dg(s,[t,e,n]){let i=[-s[0],-s[1],-s[2],s[3]],[r,o,a]=lf(lf(s,[t,e,n,0]),i);return[r,o,a]}var Ic=class{constructor(t){this.app=t;let{store:e}=t;this.fixed.addEventListener("change",()=>e.setFixedFrame(this.fixed.value||null)),this.element.append(z("label",{class:"field"},z("span",{},"Fixed frame"),this.fixed),wn("Tree",this.tree),wn("Chosen frame",this.where)),e.watch(["layout"],()=>this.build()),e.watch(["frame"],()=>{this.fixed.value=e.fixedFrame??""}),e.watch(["selection","frame"],()=>this.showSelection())}app;id="frames";title="Frames";element=z("div",{});tree=z("ul",{class:"tree","aria-label":"TF tree"});fixed=z("select",{id:"fixed-frame"});where=z("div",{});rows=new Map;values=new Map;signature="";pulse(t){let e=this.app.store.selection?.frame??null;if(e===null)return;let n=this.app.store.fixedFrame??cf(t.layout)[0],i=t.layout.frames.find(({name:r})=>r===e)?.parent;for(let[r,o]of[["parent",i],["fixed",n]]){let a=o===void 0?null:Lg(t,e,o),[l,c,h]=a?.position??[],[u,d,f]=a===null?[]:Ig(a.orientation),p=a===null?[]:a.orientation;this.put(`${r} in`,o??"\u2013"),this.put(`${r} xyz`,[l,c,h].map(y=>_n(y,3)).join("  ")),this.put(`${r} rpy`,[u,d,f].map(y=>Sc(y??Number.NaN)).join("  ")),this.put(`${r} q`,p.map(y=>_n(y,3)).join("  "))}}put(t,e){let n=this.values.get(t);n!==void 0&&Me(n,e)}build(){let t=this.app.store.layout,e=JSON.stringify(t?.frames??[]);if(e===this.signature)return;this.signature=e,this.rows.clear();let n=t===null?[]:cf(t),i=[...n,...(t?.frames??[]).map(({name:r})=>r)];this.fixed.replaceChildren(z("option",{value:""},n[0]===void 0?"none yet":`automatic (${n[0]})`),...i.map(r=>z("option",{value:r},r))),this.fixed.value=this.app.store.fixedFrame??"",this.tree.replaceChildren(...t===null?[]:n.map(r=>this.branch(r,t))),i.length===0&&this.tree.replaceChildren(z("li",{class:"empty"},"Nobody publishes transforms.")),this.showSelection()}branch(t,e){let n=e.frames.filter(({parent:r})=>r===t).map(({name:r})=>this.branch(r,e)),i=z("button",{type:"button",class:"frame"},t);return i.addEventListener("click",()=>{let r=this.app.store.robot?.id??"/";this.app.store.select({robot:r,frame:t})}),this.rows.set(t,i),z("li",{},i,n.length===0?null:z("ul",{},...n))}showSelection(){let t=this.app.store.selection?.frame??null;for(let[e,n]of this.rows)n.setAttribute("aria-pressed",String(e===t));if(this.values.clear(),t===null){this.where.replaceChildren(z("p",{class:"fine"},"Choose a frame here, or click a part of the robot."));return}this.where.replaceChildren(z("p",{class:"chosen"},t),this.poseTable("parent","In its parent"),this.poseTable("fixed","In the fixed frame"))}poseTable(t,e){let n=(i,r)=>{let o=z("dd",{},"\u2013");return this.values.set(`${t} ${r}`,o),z("div",{},z("dt",{},i),o)};return z("dl",{class:"facts numbers"},n(e,"in"),n("x y z, m","xyz"),n("roll pitch yaw","rpy"),n("quaternion x y z w","q"))}};var Fg=["error","stale","warn","ok"],Ib={error:"error",stale:"warning",warn:"warning",ok:"good"},Ug=["Wheel","rad/s","Load, N","Slip along","across"],Nc=class{constructor(t){this.app=t;let e=Ug.map((n,i)=>({name:n,number:i>0}));this.wheelSection=wn("Wheels on the ground",eg("Contact and slip of each wheel",e,this.wheels),z("p",{class:"fine"},"Slip in m/s: along the rolling direction and across it.")),this.element=z("div",{},wn("Diagnostics",this.diagnostics),this.wheelSection,wn("Notices",this.notices,Ye("Clear",()=>t.store.clearNotices()))),t.store.watch(["diagnostics","graph","robot"],()=>this.showDiagnostics()),t.store.watch(["notice"],()=>this.showNotices())}app;id="health";title="Health";element;diagnostics=z("ul",{class:"rows"});wheels=z("tbody",{});notices=z("ul",{class:"rows notices"});wheelSection;names="";get toLookAt(){return this.items().filter(({level:t})=>t!=="ok").length}pulse(t){let e=cr(t,this.app.store.robot?.id),n=e===null?[]:Tc(t,e),i=n.map(({name:r})=>r).join();this.wheelSection.hidden=n.length===0,i!==this.names&&(this.names=i,this.wheels.replaceChildren(...n.map(Nb))),n.forEach((r,o)=>Db(this.wheels.rows[o],r))}items(){let{robot:t,diagnostics:e}=this.app.store;return t===null?[]:e.get(t.id)?.items??[]}showDiagnostics(){let t=[...this.items()].sort((e,n)=>Fg.indexOf(e.level)-Fg.indexOf(n.level));this.diagnostics.replaceChildren(...t.map(({level:e,name:n,message:i})=>z("li",{class:"unit"},z("span",{class:"unit-name"},n),z("span",{class:"chip","data-tone":Ib[e]},e),z("span",{class:"fine"},i)))),t.length===0&&this.diagnostics.append(z("li",{class:"empty"},"Nobody publishes /diagnostics."))}showNotices(){let{notices:t}=this.app.store;this.notices.replaceChildren(...t.map(({level:e,text:n,count:i,at:r})=>z("li",{"data-tone":e},z("time",{class:"fine"},r.toLocaleTimeString("en-GB")),z("span",{class:"grow"},i>1?`${n} (${i} times)`:n)))),t.length===0&&this.notices.append(z("li",{class:"empty"},"None."))}};function Nb({name:s}){let t=Ug.slice(1).map(()=>z("td",{class:"number"})),e=s.replace(/^joint_/,"").replace(/_joint$/,"").replace(/^wheel_/,"");return z("tr",{},z("th",{scope:"row",title:s},z("i",{}),e),...t)}function Db(s,t){let{speed:e,contact:n,force:i,along:r,across:o}=t,a=s.cells[0].firstElementChild,l=n===null?"unknown":n?"on the ground":"in the air";a?.setAttribute("class",`lamp ${n===!0?"on":""}`),a?.setAttribute("title",l),[_n(e,2),_n(i,1),_n(r,3),_n(o,3)].forEach((h,u)=>Me(s.cells[u+1],h))}var Dc=class{constructor(t){this.app=t;t.store.watch(["model","graph","robot"],()=>this.build())}app;id="joints";title="Joints";element=z("div",{});rows=new Map;wanted={};sending=null;pulse(t){let e=cr(t,this.app.store.robot?.id);for(let n of e===null?[]:_g(t,e))this.rows.get(n.name)?.show(n)}build(){let{model:t,robot:e}=this.app.store,n=e?.joint_publisher??null,i=t?.joints??[];if(this.rows.clear(),i.length===0){this.element.replaceChildren(z("p",{class:"empty"},"No joint moves."));return}let r=i.filter(o=>o.follows===null);this.element.replaceChildren(n===null?this.watching():this.tools(r),...i.map(o=>this.row(o,n!==null&&o.follows===null)))}watching(){let t=this.app.store.robot?.joint_states,e=t==null?"Nobody publishes joint states.":`Measured, from ${t}. Sliders appear with a joint_state_publisher.`;return z("p",{class:"fine"},e)}tools(t){let e=i=>{for(let r of t)this.rows.get(r.name)?.set(i(r)),this.want(r.name,i(r))},n=({lower:i,upper:r})=>i+Math.random()*(r-i);return z("div",{class:"tools"},Ye("Randomize",()=>e(n)),Ye("Center",()=>e(({zero:i})=>i)))}row(t,e){let n=t.kind!=="prismatic",[i,r]=n?["rad","rad/s"]:["m","m/s"],o=z("span",{class:"fine"},"\u2013"),a=({position:c,velocity:h})=>{let u=n?`${Sc(c)}  `:"";return Number.isNaN(h)?u:`${u}${_n(h,2)} ${r}`},l=z("span",{class:"joint-name",title:t.kind},t.name);if(!e){let c=z("span",{class:"value"},"\u2013"),h=t.follows===null?"":`follows ${t.follows}`;return this.rows.set(t.name,{show:u=>{Me(c,`${_n(u.position,3)} ${i}`),Me(o,a(u))},set:()=>{}}),z("div",{class:"joint",title:h},l,c,o)}return this.sliderRow(t,i,l,o,a)}sliderRow(t,e,n,i,r){let{name:o,lower:a,upper:l,zero:c}=t,h={min:a,max:l,value:c},u=z("input",{type:"range",...h,step:"any","aria-label":`${o}, ${e}`}),d=z("input",{type:"number",...h,step:.01,"aria-label":`${o}, value in ${e}`}),f=p=>{u.valueAsNumber=p,d.value=p.toFixed(3)};return u.addEventListener("input",()=>{d.value=u.valueAsNumber.toFixed(3),this.want(o,u.valueAsNumber)}),d.addEventListener("change",()=>{let p=d.valueAsNumber,y=Number.isNaN(p)?c:Math.min(l,Math.max(a,p));f(y),this.want(o,y)}),this.rows.set(o,{set:f,show:p=>{Me(i,r(p)),!(u.matches(":active")||document.activeElement===d)&&Number.isFinite(p.position)&&this.sending===null&&f(p.position)}}),z("div",{class:"joint slides"},n,d,u,i)}want(t,e){this.wanted[t]=e,this.sending??=requestAnimationFrame(()=>{this.sending=null;let n=this.app.store.robot;if(n!==null){let i={...this.wanted};this.app.connection.send({type:"set_joints",robot:n.id,positions:i})}for(let i of Object.keys(this.wanted))delete this.wanted[i]})}};function Ya(s,t){let e=URL.createObjectURL(t);z("a",{href:e,download:s}).click(),setTimeout(()=>URL.revokeObjectURL(e),1e4)}var Og={error:"Error",warning:"Warning",note:"Note"},Fc=class{constructor(t){this.app=t;t.store.watch(["model","graph","robot"],()=>this.show())}app;id="model";title="Model";element=z("div",{});get toLookAt(){return(this.app.store.model?.findings??[]).filter(({level:e})=>e!=="note").length}show(){let{store:t}=this.app,{model:e,robot:n}=t;if(n===null||e===null){this.element.replaceChildren(z("p",{class:"empty"},t.graph?.hint??"No robot description yet."));return}let i=[["Command",n.command?.topic??null],["Odometry",n.odometry],["Truth",n.truth],["Joint states",n.joint_states],["Wheels",n.wheels],["Controller manager",n.manager]];this.element.replaceChildren(wn("Description",sf(Fb(e,n.name,n.id))),wn("Findings of check_urdf",Ub(e.findings)),wn("In the ROS graph",sf(i.map(([r,o])=>[r,o??"nobody publishes it"]))),wn("URDF",Ob(e,n.name)))}};function Fb(s,t,e){let n=new DOMParser().parseFromString(s.urdf,"text/xml"),i=[...n.querySelectorAll("robot > link")],r=[...n.querySelectorAll("robot > joint")],a=i.map(l=>Number(l.querySelector("inertial > mass")?.getAttribute("value")??0)).reduce((l,c)=>l+c,0);return[["Name",t],["Namespace",e],["Root link",s.root],["Links",String(i.length)],["Joints",`${r.length}, of which ${s.joints.length} move`],["Mass",`${Number(a.toFixed(3))} kg`]]}function Ub(s){if(s.length===0)return z("p",{class:"verdict","data-tone":"good"},"No errors, no warnings.");let t=s.map(({level:e,line:n,text:i,remedy:r})=>z("li",{"data-tone":e},z("p",{},z("b",{},n===null?Og[e]:`${Og[e]}, line ${n}`)),z("p",{},i),r===""?null:z("p",{class:"fine"},r)));return z("ul",{class:"findings"},...t)}function Ob(s,t){let e=z("button",{type:"button",class:"button quiet"},"Save the URDF");return e.addEventListener("click",()=>{Ya(`${t}.urdf`,new Blob([s.urdf],{type:"application/xml"}))}),z("details",{class:"source"},z("summary",{},`${s.urdf.split(`
+`).length} lines`),z("pre",{tabindex:0},s.urdf),e)}var Bb=[.1,.25,.5,1,2,5,0],kb=.95,Uc=class{constructor(t){this.app=t;this.wanted.append(...Bb.map(e=>z("option",{value:e},e===0?"as fast as possible":`${e}\xD7`))),this.wanted.addEventListener("change",()=>{this.ask({type:"set_factor",factor:Number(this.wanted.value)})}),this.body.append(wn("Clock",this.clock(),this.tools()),wn("In the world",this.entities)),this.body.append(wn("Another robot like this one",this.spawnForm())),this.element.append(this.none,this.body),t.store.watch(["graph","simulation"],()=>this.show()),t.store.watch(["graph"],()=>this.showEntities())}app;id="simulation";title="Simulation";element=z("div",{});body=z("div",{});none=z("p",{class:"empty"},"There is no simulator in the graph.");time=z("dd",{},"\u2013");state=z("dd",{},"\u2013");real=z("dd",{},"\u2013");steps=z("input",{type:"number",min:1,max:1e4,value:10,id:"steps"});wanted=z("select",{id:"factor"});entities=z("ul",{class:"rows"});signature=null;pulse(t){Me(this.time,Dr(t.time))}ask(t){let e=this.app.store.simulator;e!==null&&Ur(this.app,{...t,simulator:e.id})}show(){let{simulator:t,simulation:e}=this.app.store;if(this.none.hidden=t!==null,this.body.hidden=t===null,e===null)return;let{factor:n,real_factor:i,state:r}=e;Me(this.state,r),Me(this.real,Mc(i));let o=r==="playing"&&n!==null&&n>0&&i!==null;this.real.dataset.tone=o&&i<kb*n?"warning":"calm",this.real.title=this.real.dataset.tone==="warning"?"This machine is too slow for it.":"",n!==null&&document.activeElement!==this.wanted&&this.showFactor(n)}showFactor(t){let e=String(t);[...this.wanted.options].some(n=>n.value===e)||this.wanted.append(z("option",{value:e},`${e}\xD7`)),this.wanted.value=e}clock(){let t=(e,n)=>z("div",{},z("dt",{},e),n);return z("dl",{class:"facts"},t("Time",this.time),t("State",this.state),t("Real-time factor",this.real))}tools(){let t=()=>this.ask({type:"step",steps:this.steps.valueAsNumber||1});return z("div",{class:"form"},z("label",{class:"field"},z("span",{},"Factor wanted"),this.wanted),z("div",{class:"field"},z("label",{for:"steps"},"Steps"),z("span",{class:"join"},this.steps,Ye("Step",t,{icon:"step"}))))}showEntities(){let t=this.app.store.simulator?.entities??[],e=t.join();e!==this.signature&&(this.signature=e,this.entities.replaceChildren(...t.map(n=>this.entity(n))))}entity(t){let e=tg("Delete","Really delete?",()=>this.ask({type:"delete",name:t}));return e.title=`Take ${t} out of the world`,z("li",{},z("span",{class:"grow"},t),e)}spawnForm(){let t=(i,r,o)=>z("label",{class:"field"},z("span",{},r),z("input",{type:"number",name:i,value:o,step:"any",required:!0})),e=z("input",{type:"text",name:"name",required:!0,pattern:"[A-Za-z]\\w*"}),n=z("form",{class:"form spawn"},z("label",{class:"field wide"},z("span",{},"Name"),e),t("x","x, m",1),t("y","y, m",0),t("yaw","Yaw, \xB0",0),z("button",{type:"submit",class:"button primary"},"Spawn"));return n.addEventListener("submit",i=>{i.preventDefault(),this.spawn(new FormData(n))}),this.app.store.watch(["graph"],()=>{document.activeElement!==e&&(e.value=zb(this.app.store.simulator?.entities??[]))}),n}spawn(t){let{simulator:e,robot:n}=this.app.store,i=r=>String(t.get(r)??"");if(e===null||n===null){this.app.store.note("error","There is no robot here to make another one like it.");return}Ur(this.app,{type:"spawn",simulator:e.id,name:i("name"),namespace:`/${i("name")}`,position:[Number(i("x")),Number(i("y")),0],yaw:Number(i("yaw"))*Math.PI/180,like:n.id})}};function zb(s){let t=1;for(;s.includes(`robot${t}`);)t+=1;return`robot${t}`}var Vb="uplot",Gb="u-hz",Hb="u-vt",Wb="u-title",Xb="u-wrap",qb="u-under",Yb="u-over",jb="u-axis",zr="u-off",Jb="u-select",$b="u-cursor-x",Zb="u-cursor-y",Kb="u-cursor-pt",Qb="u-legend",tS="u-live",eS="u-inline",nS="u-series",iS="u-marker",Bg="u-label",sS="u-value",Ja="width",$a="height";var kg="bottom",Lo="left",hf="right",Af="#000",zg=Af+"0",uf="mousemove",Vg="mousedown",df="mouseup",Gg="mouseenter",Hg="mouseleave",Wg="dblclick",rS="resize",oS="scroll",Xg="change",Vc="dppxchange",Rf="--",Bo=typeof window<"u",yf=Bo?document:null,No=Bo?window:null,aS=Bo?navigator:null,Re,Oc;function _f(){let s=devicePixelRatio;Re!=s&&(Re=s,Oc&&vf(Xg,Oc,_f),Oc=matchMedia(`(min-resolution: ${Re-.001}dppx) and (max-resolution: ${Re+.001}dppx)`),Vr(Xg,Oc,_f),No.dispatchEvent(new CustomEvent(Vc)))}function Ci(s,t){if(t!=null){let e=s.classList;!e.contains(t)&&e.add(t)}}function xf(s,t){let e=s.classList;e.contains(t)&&e.remove(t)}function je(s,t,e){s.style[t]=e+"px"}function ts(s,t,e,n){let i=yf.createElement(s);return t!=null&&Ci(i,t),e?.insertBefore(i,n),i}function Vi(s,t){return ts("div",s,t)}var qg=new WeakMap;function _s(s,t,e,n,i){let r="translate("+t+"px,"+e+"px)",o=qg.get(s);r!=o&&(s.style.transform=r,qg.set(s,r),t<0||e<0||t>n||e>i?Ci(s,zr):xf(s,zr))}var Yg=new WeakMap;function jg(s,t,e){let n=t+e,i=Yg.get(s);n!=i&&(Yg.set(s,n),s.style.background=t,s.style.borderColor=e)}var Jg=new WeakMap;function $g(s,t,e,n){let i=t+""+e,r=Jg.get(s);i!=r&&(Jg.set(s,i),s.style.height=e+"px",s.style.width=t+"px",s.style.marginLeft=n?-t/2+"px":0,s.style.marginTop=n?-e/2+"px":0)}var Cf={passive:!0},lS={...Cf,capture:!0};function Vr(s,t,e,n){t.addEventListener(s,e,n?lS:Cf)}function vf(s,t,e,n){t.removeEventListener(s,e,Cf)}Bo&&_f();function es(s,t,e,n){let i;e=e||0,n=n||t.length-1;let r=n<=2147483647;for(;n-e>1;)i=r?e+n>>1:Pi((e+n)/2),t[i]<s?e=i:n=i;return s-t[e]<=t[n]-s?e:n}function w0(s){return(e,n,i)=>{let r=-1,o=-1;for(let a=n;a<=i;a++)if(s(e[a])){r=a;break}for(let a=i;a>=n;a--)if(s(e[a])){o=a;break}return[r,o]}}var T0=s=>s!=null,E0=s=>s!=null&&s>0,Wc=w0(T0),cS=w0(E0);function hS(s,t,e,n=0,i=!1){let r=i?cS:Wc,o=i?E0:T0;[t,e]=r(s,t,e);let a=s[t],l=s[t];if(t>-1)if(n==1)a=s[t],l=s[e];else if(n==-1)a=s[e],l=s[t];else for(let c=t;c<=e;c++){let h=s[c];o(h)&&(h<a?a=h:h>l&&(l=h))}return[a??ke,l??-ke]}function Xc(s,t,e,n){let i=Qg(s),r=Qg(t);s==t&&(i==-1?(s*=e,t/=e):(s/=e,t*=e));let o=e==10?Bs:A0,a=i==1?Pi:Gi,l=r==1?Gi:Pi,c=a(o(En(s))),h=l(o(En(t))),u=Do(e,c),d=Do(e,h);return e==10&&(c<0&&(u=ze(u,-c)),h<0&&(d=ze(d,-h))),n||e==2?(s=u*i,t=d*r):(s=L0(s,u),t=qc(t,d)),[s,t]}function Pf(s,t,e,n){let i=Xc(s,t,e,n);return s==0&&(i[0]=0),t==0&&(i[1]=0),i}var Lf=.1,Zg={mode:3,pad:Lf},Ka={pad:0,soft:null,mode:0},uS={min:Ka,max:Ka};function Gc(s,t,e,n){return Yc(e)?Kg(s,t,e):(Ka.pad=e,Ka.soft=n?0:null,Ka.mode=n?3:0,Kg(s,t,uS))}function Ee(s,t){return s??t}function dS(s,t,e){for(t=Ee(t,0),e=Ee(e,s.length-1);t<=e;){if(s[t]!=null)return!0;t++}return!1}function Kg(s,t,e){let n=e.min,i=e.max,r=Ee(n.pad,0),o=Ee(i.pad,0),a=Ee(n.hard,-ke),l=Ee(i.hard,ke),c=Ee(n.soft,ke),h=Ee(i.soft,-ke),u=Ee(n.mode,0),d=Ee(i.mode,0),f=t-s,p=Bs(f),y=li(En(s),En(t)),m=Bs(y),g=En(m-p);(f<1e-24||g>10)&&(f=0,(s==0||t==0)&&(f=1e-24,u==2&&c!=ke&&(r=0),d==2&&h!=-ke&&(o=0)));let _=f||y||1e3,w=Bs(_),v=Do(10,Pi(w)),E=_*(f==0?s==0?.1:1:r),S=ze(L0(s-E,v/10),24),x=s>=c&&(u==1||u==3&&S<=c||u==2&&S>=c)?c:ke,M=li(a,S<x&&s>=x?x:ns(x,S)),L=_*(f==0?t==0?.1:1:o),P=ze(qc(t+L,v/10),24),C=t<=h&&(d==1||d==3&&P>=h||d==2&&P<=h)?h:-ke,F=ns(l,P>C&&t<=C?C:li(C,P));return M==F&&M==0&&(F=100),[M,F]}var fS=new Intl.NumberFormat(Bo?aS.language:"en-US"),If=s=>fS.format(s),Li=Math,zc=Li.PI,En=Li.abs,Pi=Li.floor,Tn=Li.round,Gi=Li.ceil,ns=Li.min,li=Li.max,Do=Li.pow,Qg=Li.sign,Bs=Li.log10,A0=Li.log2,pS=(s,t=1)=>Li.sinh(s)*t,ff=(s,t=1)=>Li.asinh(s/t),ke=1/0;function t0(s){return(Bs((s^s>>31)-(s>>31))|0)+1}function bf(s,t,e){return ns(li(s,t),e)}function R0(s){return typeof s=="function"}function ve(s){return R0(s)?s:()=>s}var mS=()=>{},C0=s=>s,P0=(s,t)=>t,gS=s=>null,e0=s=>!0,n0=(s,t)=>s==t,yS=/\.\d*?(?=9{6,}|0{6,})/gm,Gr=s=>{if(N0(s)||ur.has(s))return s;let t=`${s}`,e=t.match(yS);if(e==null)return s;let n=e[0].length-1;if(t.indexOf("e-")!=-1){let[i,r]=t.split("e");return+`${Gr(i)}e${r}`}return ze(s,n)};function Br(s,t){return Gr(ze(Gr(s/t))*t)}function qc(s,t){return Gr(Gi(Gr(s/t))*t)}function L0(s,t){return Gr(Pi(Gr(s/t))*t)}function ze(s,t=0){if(N0(s))return s;let e=10**t,n=s*e*(1+Number.EPSILON);return Tn(n)/e}var ur=new Map;function I0(s){return((""+s).split(".")[1]||"").length}function tl(s,t,e,n){let i=[],r=n.map(I0);for(let o=t;o<e;o++){let a=En(o),l=ze(Do(s,o),a);for(let c=0;c<n.length;c++){let h=s==10?+`${n[c]}e${o}`:n[c]*l,u=(o>=0?0:a)+(o>=r[c]?0:r[c]),d=s==10?h:ze(h,u);i.push(d),ur.set(d,u)}}return i}var Qa={},Nf=[],Fo=[null,null],hr=Array.isArray,N0=Number.isInteger,_S=s=>s===void 0;function i0(s){return typeof s=="string"}function Yc(s){let t=!1;if(s!=null){let e=s.constructor;t=e==null||e==Object}return t}function xS(s){return s!=null&&typeof s=="object"}var vS=Object.getPrototypeOf(Uint8Array),D0="__proto__";function Uo(s,t=Yc){let e;if(hr(s)){let n=s.find(i=>i!=null);if(hr(n)||t(n)){e=Array(s.length);for(let i=0;i<s.length;i++)e[i]=Uo(s[i],t)}else e=s.slice()}else if(s instanceof vS)e=s.slice();else if(t(s)){e={};for(let n in s)n!=D0&&(e[n]=Uo(s[n],t))}else e=s;return e}function xn(s){let t=arguments;for(let e=1;e<t.length;e++){let n=t[e];for(let i in n)i!=D0&&(Yc(s[i])?xn(s[i],Uo(n[i])):s[i]=Uo(n[i]))}return s}var bS=0,SS=1,MS=2;function wS(s,t,e){for(let n=0,i,r=-1;n<t.length;n++){let o=t[n];if(o>r){for(i=o-1;i>=0&&s[i]==null;)s[i--]=null;for(i=o+1;i<e&&s[i]==null;)s[r=i++]=null}}}function TS(s,t){if(RS(s)){let o=s[0].slice();for(let a=1;a<s.length;a++)o.push(...s[a].slice(1));return CS(o[0])||(o=AS(o)),o}let e=new Set;for(let o=0;o<s.length;o++){let l=s[o][0],c=l.length;for(let h=0;h<c;h++)e.add(l[h])}let n=[Array.from(e).sort((o,a)=>o-a)],i=n[0].length,r=new Map;for(let o=0;o<i;o++)r.set(n[0][o],o);for(let o=0;o<s.length;o++){let a=s[o],l=a[0];for(let c=1;c<a.length;c++){let h=a[c],u=Array(i).fill(void 0),d=t?t[o][c]:SS,f=[];for(let p=0;p<h.length;p++){let y=h[p],m=r.get(l[p]);y===null?d!=bS&&(u[m]=y,d==MS&&f.push(m)):u[m]=y}wS(u,f,i),n.push(u)}}return n}var ES=typeof queueMicrotask>"u"?s=>Promise.resolve().then(s):queueMicrotask;function AS(s){let t=s[0],e=t.length,n=Array(e);for(let r=0;r<n.length;r++)n[r]=r;n.sort((r,o)=>t[r]-t[o]);let i=[];for(let r=0;r<s.length;r++){let o=s[r],a=Array(e);for(let l=0;l<e;l++)a[l]=o[n[l]];i.push(a)}return i}function RS(s){let t=s[0][0],e=t.length;for(let n=1;n<s.length;n++){let i=s[n][0];if(i.length!=e)return!1;if(i!=t){for(let r=0;r<e;r++)if(i[r]!=t[r])return!1}}return!0}function CS(s,t=100){let e=s.length;if(e<=1)return!0;let n=0,i=e-1;for(;n<=i&&s[n]==null;)n++;for(;i>=n&&s[i]==null;)i--;if(i<=n)return!0;let r=li(1,Pi((i-n+1)/t));for(let o=s[n],a=n+r;a<=i;a+=r){let l=s[a];if(l!=null){if(l<=o)return!1;o=l}}return!0}var F0=["January","February","March","April","May","June","July","August","September","October","November","December"],U0=["Sunday","Monday","Tuesday","Wednesday","Thursday","Friday","Saturday"];function O0(s){return s.slice(0,3)}var PS=U0.map(O0),LS=F0.map(O0),IS={MMMM:F0,MMM:LS,WWWW:U0,WWW:PS};function ja(s){return(s<10?"0":"")+s}function NS(s){return(s<10?"00":s<100?"0":"")+s}var DS={YYYY:s=>s.getFullYear(),YY:s=>(s.getFullYear()+"").slice(2),MMMM:(s,t)=>t.MMMM[s.getMonth()],MMM:(s,t)=>t.MMM[s.getMonth()],MM:s=>ja(s.getMonth()+1),M:s=>s.getMonth()+1,DD:s=>ja(s.getDate()),D:s=>s.getDate(),WWWW:(s,t)=>t.WWWW[s.getDay()],WWW:(s,t)=>t.WWW[s.getDay()],HH:s=>ja(s.getHours()),H:s=>s.getHours(),h:s=>{let t=s.getHours();return t==0?12:t>12?t-12:t},AA:s=>s.getHours()>=12?"PM":"AM",aa:s=>s.getHours()>=12?"pm":"am",a:s=>s.getHours()>=12?"p":"a",mm:s=>ja(s.getMinutes()),m:s=>s.getMinutes(),ss:s=>ja(s.getSeconds()),s:s=>s.getSeconds(),fff:s=>NS(s.getMilliseconds())};function Df(s,t){t=t||IS;let e=[],n=/\{([a-z]+)\}|[^{]+/gi,i;for(;i=n.exec(s);)e.push(i[0][0]=="{"?DS[i[1]]:i[0]);return r=>{let o="";for(let a=0;a<e.length;a++)o+=typeof e[a]=="string"?e[a]:e[a](r,t);return o}}var FS=new Intl.DateTimeFormat().resolvedOptions().timeZone;function US(s,t){let e;return t=="UTC"||t=="Etc/UTC"?e=new Date(+s+s.getTimezoneOffset()*6e4):t==FS?e=s:(e=new Date(s.toLocaleString("en-US",{timeZone:t})),e.setMilliseconds(s.getMilliseconds())),e}var B0=s=>s%1==0,Hc=[1,2,2.5,5],OS=tl(10,-32,0,Hc),k0=tl(10,0,32,Hc),BS=k0.filter(B0),kr=OS.concat(k0),Ff=`
+`,z0="{YYYY}",s0=Ff+z0,V0="{M}/{D}",Za=Ff+V0,Bc=Za+"/{YY}",G0="{aa}",kS="{h}:{mm}",Io=kS+G0,r0=Ff+Io,o0=":{ss}",Pe=null;function H0(s){let t=s*1e3,e=t*60,n=e*60,i=n*24,r=i*30,o=i*365,l=(s==1?tl(10,0,3,Hc).filter(B0):tl(10,-3,0,Hc)).concat([t,t*5,t*10,t*15,t*30,e,e*5,e*10,e*15,e*30,n,n*2,n*3,n*4,n*6,n*8,n*12,i,i*2,i*3,i*4,i*5,i*6,i*7,i*8,i*9,i*10,i*15,r,r*2,r*3,r*4,r*6,o,o*2,o*5,o*10,o*25,o*50,o*100]),c=[[o,z0,Pe,Pe,Pe,Pe,Pe,Pe,1],[i*28,"{MMM}",s0,Pe,Pe,Pe,Pe,Pe,1],[i,V0,s0,Pe,Pe,Pe,Pe,Pe,1],[n,"{h}"+G0,Bc,Pe,Za,Pe,Pe,Pe,1],[e,Io,Bc,Pe,Za,Pe,Pe,Pe,1],[t,o0,Bc+" "+Io,Pe,Za+" "+Io,Pe,r0,Pe,1],[s,o0+".{fff}",Bc+" "+Io,Pe,Za+" "+Io,Pe,r0,Pe,1]];function h(u){return(d,f,p,y,m,g)=>{let _=[],w=m>=o,v=m>=r&&m<o,E=u(p),S=ze(E*s,3),x=pf(E.getFullYear(),w?0:E.getMonth(),v||w?1:E.getDate()),M=ze(x*s,3);if(v||w){let L=v?m/r:0,P=w?m/o:0,C=S==M?S:ze(pf(x.getFullYear()+P,x.getMonth()+L,1)*s,3),F=new Date(Tn(C/s)),B=F.getFullYear(),N=F.getMonth();for(let W=0;C<=y;W++){let k=pf(B+P*W,N+L*W,1),H=k-u(ze(k*s,3));C=ze((+k+H)*s,3),C<=y&&_.push(C)}}else{let L=m>=i?i:m,P=Pi(p)-Pi(S),C=M+P+qc(S-M,L);_.push(C);let F=u(C),B=F.getHours()+F.getMinutes()/e+F.getSeconds()/n,N=m/n,W=d.axes[f]._space,k=g/W;for(;C=ze(C+m,s==1?0:3),!(C>y);)if(N>1){let H=Pi(ze(B+N,6))%24,Z=u(C).getHours()-H;Z>1&&(Z=-1),C-=Z*n,B=(B+N)%24;let tt=_[_.length-1];ze((C-tt)/m,3)*k>=.7&&_.push(C)}else _.push(C)}return _}}return[l,c,h]}var[zS,VS,GS]=H0(1),[HS,WS,XS]=H0(.001);tl(2,-53,53,[1]);function a0(s,t){return s.map(e=>e.map((n,i)=>i==0||i==8||n==null?n:t(i==1||e[8]==0?n:e[1]+n)))}function l0(s,t){return(e,n,i,r,o)=>{let a=t.find(p=>o>=p[0])||t[t.length-1],l,c,h,u,d,f;return n.map(p=>{let y=s(p),m=y.getFullYear(),g=y.getMonth(),_=y.getDate(),w=y.getHours(),v=y.getMinutes(),E=y.getSeconds(),S=m!=l&&a[2]||g!=c&&a[3]||_!=h&&a[4]||w!=u&&a[5]||v!=d&&a[6]||E!=f&&a[7]||a[1];return l=m,c=g,h=_,u=w,d=v,f=E,S(y)})}}function qS(s,t){let e=Df(t);return(n,i,r,o,a)=>i.map(l=>e(s(l)))}function pf(s,t,e){return new Date(s,t,e)}function c0(s,t){return t(s)}var YS="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function h0(s,t){return(e,n,i,r)=>r==null?Rf:t(s(n))}function jS(s,t){let e=s.series[t];return e.width?e.stroke(s,t):e.points.width?e.points.stroke(s,t):null}function JS(s,t){return s.series[t].fill(s,t)}var $S={show:!0,live:!0,isolate:!1,mount:mS,markers:{show:!0,width:2,stroke:jS,fill:JS,dash:"solid"},idx:null,idxs:null,values:[]};function ZS(s,t){let e=s.cursor.points,n=Vi(),i=e.size(s,t);je(n,Ja,i),je(n,$a,i);let r=i/-2;je(n,"marginLeft",r),je(n,"marginTop",r);let o=e.width(s,t,i);return o&&je(n,"borderWidth",o),n}function KS(s,t){let e=s.series[t].points;return e._fill||e._stroke}function QS(s,t){let e=s.series[t].points;return e._stroke||e._fill}function tM(s,t){return s.series[t].points.size}var mf=[0,0];function eM(s,t,e){return mf[0]=t,mf[1]=e,mf}function kc(s,t,e,n=!0){return i=>{i.button==0&&(!n||i.target==t)&&e(i)}}function gf(s,t,e,n=!0){return i=>{(!n||i.target==t)&&e(i)}}var nM={show:!0,x:!0,y:!0,lock:!1,move:eM,points:{one:!1,show:ZS,size:tM,width:0,stroke:QS,fill:KS},bind:{mousedown:kc,mouseup:kc,click:kc,dblclick:kc,mousemove:gf,mouseleave:gf,mouseenter:gf},drag:{setScale:!0,x:!0,y:!1,dist:0,uni:null,click:(s,t)=>{t.stopPropagation(),t.stopImmediatePropagation()},_x:!1,_y:!1},focus:{dist:(s,t,e,n,i)=>n-i,prox:-1,bias:0},hover:{skip:[void 0],prox:null,bias:0},left:-10,top:-10,idx:null,dataIdx:null,idxs:null,event:null},W0={show:!0,stroke:"rgba(0,0,0,0.07)",width:2},Uf=xn({},W0,{filter:P0}),X0=xn({},Uf,{size:10}),q0=xn({},W0,{show:!1}),Of='12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',Y0="bold "+Of,j0=1.5,u0={show:!0,scale:"x",stroke:Af,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Y0,side:2,grid:Uf,ticks:X0,border:q0,font:Of,lineGap:j0,rotate:0},iM="Value",sM="Time",d0={show:!0,scale:"x",auto:!1,sorted:1,min:ke,max:-ke,idxs:[]};function rM(s,t,e,n,i){return t.map(r=>r==null?"":If(r))}function oM(s,t,e,n,i,r,o){let a=[],l=ur.get(i)||0;e=o?e:ze(qc(e,i),l);for(let c=e;c<=n;c=ze(c+i,l))a.push(Object.is(c,-0)?0:c);return a}function Sf(s,t,e,n,i,r,o){let a=[],l=s.scales[s.axes[t].scale].log,c=l==10?Bs:A0,h=Pi(c(e));i=Do(l,h),l==10&&(i=kr[es(i,kr)]);let u=e,d=i*l;l==10&&(d=kr[es(d,kr)]);do a.push(u),u=u+i,l==10&&!ur.has(u)&&(u=ze(u,ur.get(i))),u>=d&&(i=u,d=i*l,l==10&&(d=kr[es(d,kr)]));while(u<=n);return a}function aM(s,t,e,n,i,r,o){let l=s.scales[s.axes[t].scale].asinh,c=n>l?Sf(s,t,li(l,e),n,i):[l],h=n>=0&&e<=0?[0]:[];return(e<-l?Sf(s,t,li(l,-n),-e,i):[l]).reverse().map(d=>-d).concat(h,c)}var J0=/./,lM=/[12357]/,cM=/[125]/,f0=/1/,Mf=(s,t,e,n)=>s.map((i,r)=>t==4&&i==0||r%n==0&&e.test(i.toExponential()[i<0?1:0])?i:null);function hM(s,t,e,n,i){let r=s.axes[e],o=r.scale,a=s.scales[o],l=s.valToPos,c=r._space,h=l(10,o),u=l(9,o)-h>=c?J0:l(7,o)-h>=c?lM:l(5,o)-h>=c?cM:f0;if(u==f0){let d=En(l(1,o)-h);if(d<c)return Mf(t.slice().reverse(),a.distr,u,Gi(c/d)).reverse()}return Mf(t,a.distr,u,1)}function uM(s,t,e,n,i){let r=s.axes[e],o=r.scale,a=r._space,l=s.valToPos,c=En(l(1,o)-l(2,o));return c<a?Mf(t.slice().reverse(),3,J0,Gi(a/c)).reverse():t}function dM(s,t,e,n){return n==null?Rf:t==null?"":If(t)}var p0={show:!0,scale:"y",stroke:Af,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Y0,side:3,grid:Uf,ticks:X0,border:q0,font:Of,lineGap:j0,rotate:0};function fM(s,t){let e=3+(s||1)*2;return ze(e*t,3)}function pM(s,t){let{scale:e,idxs:n}=s.series[0],i=s._data[0],r=s.valToPos(i[n[0]],e,!0),o=s.valToPos(i[n[1]],e,!0),a=En(o-r),l=s.series[t],c=a/(l.points.space*Re);return n[1]-n[0]<=c}var m0={scale:null,auto:!0,sorted:0,min:ke,max:-ke},$0=(s,t,e,n,i)=>i,g0={show:!0,auto:!0,sorted:0,gaps:$0,alpha:1,facets:[xn({},m0,{scale:"x"}),xn({},m0,{scale:"y"})]},y0={scale:"y",auto:!0,sorted:0,show:!0,spanGaps:!1,gaps:$0,alpha:1,points:{show:pM,filter:null},values:null,min:ke,max:-ke,idxs:[],path:null,clip:null};function mM(s,t,e,n,i){return e/10}var Z0={time:!0,auto:!0,distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},gM=xn({},Z0,{time:!1,ori:1}),_0={};function K0(s,t){let e=_0[s];return e||(e={key:s,plots:[],sub(n){e.plots.push(n)},unsub(n){e.plots=e.plots.filter(i=>i!=n)},pub(n,i,r,o,a,l,c){for(let h=0;h<e.plots.length;h++)e.plots[h]!=i&&e.plots[h].pub(n,i,r,o,a,l,c)}},s!=null&&(_0[s]=e)),e}var Oo=1,wf=2;function Hr(s,t,e){let n=s.mode,i=s.series[t],r=n==2?s._data[t]:s._data,o=s.scales,a=s.bbox,l=r[0],c=n==2?r[1]:r[t],h=n==2?o[i.facets[0].scale]:o[s.series[0].scale],u=n==2?o[i.facets[1].scale]:o[i.scale],d=a.left,f=a.top,p=a.width,y=a.height,m=s.valToPosH,g=s.valToPosV;return h.ori==0?e(i,l,c,h,u,m,g,d,f,p,y,Jc,ko,Zc,ty,ny):e(i,l,c,h,u,g,m,f,d,y,p,$c,zo,zf,ey,iy)}function Bf(s,t){let e=0,n=0,i=Ee(s.bands,Nf);for(let r=0;r<i.length;r++){let o=i[r];o.series[0]==t?e=o.dir:o.series[1]==t&&(o.dir==1?n|=1:n|=2)}return[e,n==1?-1:n==2?1:n==3?2:0]}function yM(s,t,e,n,i){let r=s.mode,o=s.series[t],a=r==2?o.facets[1].scale:o.scale,l=s.scales[a];return i==-1?l.min:i==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function ks(s,t,e,n,i,r){return Hr(s,t,(o,a,l,c,h,u,d,f,p,y,m)=>{let g=o.pxRound,_=c.dir*(c.ori==0?1:-1),w=c.ori==0?ko:zo,v,E;_==1?(v=e,E=n):(v=n,E=e);let S=g(u(a[v],c,y,f)),x=g(d(l[v],h,m,p)),M=g(u(a[E],c,y,f)),L=g(d(r==1?h.max:h.min,h,m,p)),P=new Path2D(i);return w(P,M,L),w(P,S,L),w(P,S,x),P})}function jc(s,t,e,n,i,r){let o=null;if(s.length>0){o=new Path2D;let a=t==0?Zc:zf,l=e;for(let u=0;u<s.length;u++){let d=s[u];if(d[1]>d[0]){let f=d[0]-l;f>0&&a(o,l,n,f,n+r),l=d[1]}}let c=e+i-l,h=10;c>0&&a(o,l,n-h/2,c,n+r+h)}return o}function _M(s,t,e){let n=s[s.length-1];n&&n[0]==t?n[1]=e:s.push([t,e])}function kf(s,t,e,n,i,r,o){let a=[],l=s.length;for(let c=i==1?e:n;c>=e&&c<=n;c+=i)if(t[c]===null){let u=c,d=c;if(i==1)for(;++c<=n&&t[c]===null;)d=c;else for(;--c>=e&&t[c]===null;)d=c;let f=r(s[u]),p=d==u?f:r(s[d]),y=u-i;f=o<=0&&y>=0&&y<l?r(s[y]):f;let g=d+i;p=o>=0&&g>=0&&g<l?r(s[g]):p,p>=f&&a.push([f,p])}return a}function x0(s){return s==0?C0:s==1?Tn:t=>Br(t,s)}function Q0(s){let t=s==0?Jc:$c,e=s==0?(i,r,o,a,l,c)=>{i.arcTo(r,o,a,l,c)}:(i,r,o,a,l,c)=>{i.arcTo(o,r,l,a,c)},n=s==0?(i,r,o,a,l)=>{i.rect(r,o,a,l)}:(i,r,o,a,l)=>{i.rect(o,r,l,a)};return(i,r,o,a,l,c=0,h=0)=>{c==0&&h==0?n(i,r,o,a,l):(c=ns(c,a/2,l/2),h=ns(h,a/2,l/2),t(i,r+c,o),e(i,r+a,o,r+a,o+l,c),e(i,r+a,o+l,r,o+l,h),e(i,r,o+l,r,o,h),e(i,r,o,r+a,o,c),i.closePath())}}var Jc=(s,t,e)=>{s.moveTo(t,e)},$c=(s,t,e)=>{s.moveTo(e,t)},ko=(s,t,e)=>{s.lineTo(t,e)},zo=(s,t,e)=>{s.lineTo(e,t)},Zc=Q0(0),zf=Q0(1),ty=(s,t,e,n,i,r)=>{s.arc(t,e,n,i,r)},ey=(s,t,e,n,i,r)=>{s.arc(e,t,n,i,r)},ny=(s,t,e,n,i,r,o)=>{s.bezierCurveTo(t,e,n,i,r,o)},iy=(s,t,e,n,i,r,o)=>{s.bezierCurveTo(e,t,i,n,o,r)};function sy(s){return(t,e,n,i,r)=>Hr(t,e,(o,a,l,c,h,u,d,f,p,y,m)=>{let{pxRound:g,points:_}=o,w,v;c.ori==0?(w=Jc,v=ty):(w=$c,v=ey);let E=ze(_.width*Re,3),S=(_.size-_.width)/2*Re,x=ze(S*2,3),M=new Path2D,L=new Path2D,{left:P,top:C,width:F,height:B}=t.bbox;Zc(L,P-x,C-x,F+x*2,B+x*2);let N=W=>{if(l[W]!=null){let k=g(u(a[W],c,y,f)),H=g(d(l[W],h,m,p));w(M,k+S,H),v(M,k,H,S,0,zc*2)}};if(r)r.forEach(N);else for(let W=n;W<=i;W++)N(W);return{stroke:E>0?M:null,fill:M,clip:L,flags:Oo|wf}})}function ry(s){return(t,e,n,i,r,o)=>{n!=i&&(r!=n&&o!=n&&s(t,e,n),r!=i&&o!=i&&s(t,e,i),s(t,e,o))}}var xM=ry(ko),vM=ry(zo);function oy(s){let t=Ee(s?.alignGaps,0);return(e,n,i,r)=>Hr(e,n,(o,a,l,c,h,u,d,f,p,y,m)=>{[i,r]=Wc(l,i,r);let g=o.pxRound,_=B=>g(u(B,c,y,f)),w=B=>g(d(B,h,m,p)),v,E;c.ori==0?(v=ko,E=xM):(v=zo,E=vM);let S=c.dir*(c.ori==0?1:-1),x={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:Oo},M=x.stroke,L=!1;if(r-i>=y*4){let B=st=>e.posToVal(st,c.key,!0),N=null,W=null,k,H,it,j=_(a[S==1?i:r]),Z=_(a[i]),tt=_(a[r]),ht=B(S==1?Z+1:tt-1);for(let st=S==1?i:r;st>=i&&st<=r;st+=S){let Y=a[st],nt=(S==1?Y<ht:Y>ht)?j:_(Y),lt=l[st];nt==j?lt!=null?(H=lt,N==null?(v(M,nt,w(H)),k=N=W=H):H<N?N=H:H>W&&(W=H)):lt===null&&(L=!0):(N!=null&&E(M,j,w(N),w(W),w(k),w(H)),lt!=null?(H=lt,v(M,nt,w(H)),N=W=k=H):(N=W=null,lt===null&&(L=!0)),j=nt,ht=B(j+S))}N!=null&&N!=W&&it!=j&&E(M,j,w(N),w(W),w(k),w(H))}else for(let B=S==1?i:r;B>=i&&B<=r;B+=S){let N=l[B];N===null?L=!0:N!=null&&v(M,_(a[B]),w(N))}let[C,F]=Bf(e,n);if(o.fill!=null||C!=0){let B=x.fill=new Path2D(M),N=o.fillTo(e,n,o.min,o.max,C),W=w(N),k=_(a[i]),H=_(a[r]);S==-1&&([H,k]=[k,H]),v(B,H,W),v(B,k,W)}if(!o.spanGaps){let B=[];L&&B.push(...kf(a,l,i,r,S,_,t)),x.gaps=B=o.gaps(e,n,i,r,B),x.clip=jc(B,c.ori,f,p,y,m)}return F!=0&&(x.band=F==2?[ks(e,n,i,r,M,-1),ks(e,n,i,r,M,1)]:ks(e,n,i,r,M,F)),x})}function bM(s){let t=Ee(s.align,1),e=Ee(s.ascDesc,!1),n=Ee(s.alignGaps,0),i=Ee(s.extend,!1);return(r,o,a,l)=>Hr(r,o,(c,h,u,d,f,p,y,m,g,_,w)=>{[a,l]=Wc(u,a,l);let v=c.pxRound,{left:E,width:S}=r.bbox,x=Z=>v(p(Z,d,_,m)),M=Z=>v(y(Z,f,w,g)),L=d.ori==0?ko:zo,P={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:Oo},C=P.stroke,F=d.dir*(d.ori==0?1:-1),B=M(u[F==1?a:l]),N=x(h[F==1?a:l]),W=N,k=N;i&&t==-1&&(k=E,L(C,k,B)),L(C,N,B);for(let Z=F==1?a:l;Z>=a&&Z<=l;Z+=F){let tt=u[Z];if(tt==null)continue;let ht=x(h[Z]),st=M(tt);t==1?L(C,ht,B):L(C,W,st),L(C,ht,st),B=st,W=ht}let H=W;i&&t==1&&(H=E+S,L(C,H,B));let[it,j]=Bf(r,o);if(c.fill!=null||it!=0){let Z=P.fill=new Path2D(C),tt=c.fillTo(r,o,c.min,c.max,it),ht=M(tt);L(Z,H,ht),L(Z,k,ht)}if(!c.spanGaps){let Z=[];Z.push(...kf(h,u,a,l,F,x,n));let tt=c.width*Re/2,ht=e||t==1?tt:-tt,st=e||t==-1?-tt:tt;Z.forEach(Y=>{Y[0]+=ht,Y[1]+=st}),P.gaps=Z=c.gaps(r,o,a,l,Z),P.clip=jc(Z,d.ori,m,g,_,w)}return j!=0&&(P.band=j==2?[ks(r,o,a,l,C,-1),ks(r,o,a,l,C,1)]:ks(r,o,a,l,C,j)),P})}function v0(s,t,e,n,i,r,o=ke){if(s.length>1){let a=null;for(let l=0,c=1/0;l<s.length;l++)if(t[l]!==void 0){if(a!=null){let h=En(s[l]-s[a]);h<c&&(c=h,o=En(e(s[l],n,i,r)-e(s[a],n,i,r)))}a=l}}return o}function SM(s){s=s||Qa;let t=Ee(s.size,[.6,ke,1]),e=s.align||0,n=s.gap||0,i=s.radius;i=i==null?[0,0]:typeof i=="number"?[i,0]:i;let r=ve(i),o=1-t[0],a=Ee(t[1],ke),l=Ee(t[2],1),c=Ee(s.disp,Qa),h=Ee(s.each,f=>{}),{fill:u,stroke:d}=c;return(f,p,y,m)=>Hr(f,p,(g,_,w,v,E,S,x,M,L,P,C)=>{let F=g.pxRound,B=e,N=n*Re,W=a*Re,k=l*Re,H,it;v.ori==0?[H,it]=r(f,p):[it,H]=r(f,p);let j=v.dir*(v.ori==0?1:-1),Z=v.ori==0?Zc:zf,tt=v.ori==0?h:(Ct,Kt,ae,wt,Be,Wt,$t)=>{h(Ct,Kt,ae,Be,wt,$t,Wt)},ht=Ee(f.bands,Nf).find(Ct=>Ct.series[0]==p),st=ht!=null?ht.dir:0,Y=g.fillTo(f,p,g.min,g.max,st),rt=F(x(Y,E,C,L)),nt,lt,gt,Ot=P,Zt=F(g.width*Re),zt=!1,me=null,de=null,re=null,$e=null;u!=null&&(Zt==0||d!=null)&&(zt=!0,me=u.values(f,p,y,m),de=new Map,new Set(me).forEach(Ct=>{Ct!=null&&de.set(Ct,new Path2D)}),Zt>0&&(re=d.values(f,p,y,m),$e=new Map,new Set(re).forEach(Ct=>{Ct!=null&&$e.set(Ct,new Path2D)})));let{x0:Ve,size:dn}=c;if(Ve!=null&&dn!=null){B=1,_=Ve.values(f,p,y,m),Ve.unit==2&&(_=_.map(ae=>f.posToVal(M+ae*P,v.key,!0)));let Ct=dn.values(f,p,y,m);dn.unit==2?lt=Ct[0]*P:lt=S(Ct[0],v,P,M)-S(0,v,P,M),Ot=v0(_,w,S,v,P,M,Ot),gt=Ot-lt+N}else Ot=v0(_,w,S,v,P,M,Ot),gt=Ot*o+N,lt=Ot-gt;gt<1&&(gt=0),Zt>=lt/2&&(Zt=0),gt<5&&(F=C0);let Ue=gt>0,Pn=Ot-gt-(Ue?Zt:0);lt=F(bf(Pn,k,W)),nt=(B==0?lt/2:B==j?0:lt)-B*j*((B==0?N/2:0)+(Ue?Zt/2:0));let Se={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Sn=zt?null:new Path2D,sn=null;if(ht!=null)sn=f.data[ht.series[1]];else{let{y0:Ct,y1:Kt}=c;Ct!=null&&Kt!=null&&(w=Kt.values(f,p,y,m),sn=Ct.values(f,p,y,m))}let fn=H*lt,G=it*lt;for(let Ct=j==1?y:m;Ct>=y&&Ct<=m;Ct+=j){let Kt=w[Ct];if(Kt==null)continue;if(sn!=null){let J=sn[Ct]??0;if(Kt-J==0)continue;rt=x(J,E,C,L)}let ae=v.distr!=2||c!=null?_[Ct]:Ct,wt=S(ae,v,P,M),Be=x(Ee(Kt,Y),E,C,L),Wt=F(wt-nt),$t=F(li(Be,rt)),I=F(ns(Be,rt)),T=$t-I;if(Kt!=null){let J=Kt<0?G:fn,mt=Kt<0?fn:G;zt?(Zt>0&&re[Ct]!=null&&Z($e.get(re[Ct]),Wt,I+Pi(Zt/2),lt,li(0,T-Zt),J,mt),me[Ct]!=null&&Z(de.get(me[Ct]),Wt,I+Pi(Zt/2),lt,li(0,T-Zt),J,mt)):Z(Sn,Wt,I+Pi(Zt/2),lt,li(0,T-Zt),J,mt),tt(f,p,Ct,Wt-Zt/2,I,lt+Zt,T)}}return Zt>0?Se.stroke=zt?$e:Sn:zt||(Se._fill=g.width==0?g._fill:g._stroke??g._fill,Se.width=0),Se.fill=zt?de:Sn,Se})}function MM(s,t){let e=Ee(t?.alignGaps,0);return(n,i,r,o)=>Hr(n,i,(a,l,c,h,u,d,f,p,y,m,g)=>{[r,o]=Wc(c,r,o);let _=a.pxRound,w=H=>_(d(H,h,m,p)),v=H=>_(f(H,u,g,y)),E,S,x;h.ori==0?(E=Jc,x=ko,S=ny):(E=$c,x=zo,S=iy);let M=h.dir*(h.ori==0?1:-1),L=w(l[M==1?r:o]),P=L,C=[],F=[];for(let H=M==1?r:o;H>=r&&H<=o;H+=M)if(c[H]!=null){let j=l[H],Z=w(j);C.push(P=Z),F.push(v(c[H]))}let B={stroke:s(C,F,E,x,S,_),fill:null,clip:null,band:null,gaps:null,flags:Oo},N=B.stroke,[W,k]=Bf(n,i);if(a.fill!=null||W!=0){let H=B.fill=new Path2D(N),it=a.fillTo(n,i,a.min,a.max,W),j=v(it);x(H,P,j),x(H,L,j)}if(!a.spanGaps){let H=[];H.push(...kf(l,c,r,o,M,w,e)),B.gaps=H=a.gaps(n,i,r,o,H),B.clip=jc(H,h.ori,p,y,m,g)}return k!=0&&(B.band=k==2?[ks(n,i,r,o,N,-1),ks(n,i,r,o,N,1)]:ks(n,i,r,o,N,k)),B})}function wM(s){return MM(TM,s)}function TM(s,t,e,n,i,r){let o=s.length;if(o<2)return null;let a=new Path2D;if(e(a,s[0],t[0]),o==2)n(a,s[1],t[1]);else{let l=Array(o),c=Array(o-1),h=Array(o-1),u=Array(o-1);for(let d=0;d<o-1;d++)h[d]=t[d+1]-t[d],u[d]=s[d+1]-s[d],c[d]=h[d]/u[d];l[0]=c[0];for(let d=1;d<o-1;d++)c[d]===0||c[d-1]===0||c[d-1]>0!=c[d]>0?l[d]=0:(l[d]=3*(u[d-1]+u[d])/((2*u[d]+u[d-1])/c[d-1]+(u[d]+2*u[d-1])/c[d]),isFinite(l[d])||(l[d]=0));l[o-1]=c[o-2];for(let d=0;d<o-1;d++)i(a,s[d]+u[d]/3,t[d]+l[d]*u[d]/3,s[d+1]-u[d]/3,t[d+1]-l[d+1]*u[d]/3,s[d+1],t[d+1])}return a}var Tf=new Set;function b0(){for(let s of Tf)s.syncRect(!0)}Bo&&(Vr(rS,No,b0),Vr(oS,No,b0,!0),Vr(Vc,No,()=>{Fn.pxRatio=Re}));var EM=oy(),AM=sy();function S0(s,t,e,n){return(n?[s[0],s[1]].concat(s.slice(2)):[s[0]].concat(s.slice(1))).map((r,o)=>Ef(r,o,t,e))}function RM(s,t){return s.map((e,n)=>n==0?{}:xn({},t,e))}function Ef(s,t,e,n){return xn({},t==0?e:n,s)}function ay(s,t,e){return t==null?Fo:[t,e]}var CM=ay;function PM(s,t,e){return t==null?Fo:Gc(t,e,Lf,!0)}function ly(s,t,e,n){return t==null?Fo:Xc(t,e,s.scales[n].log,!1)}var LM=ly;function cy(s,t,e,n){return t==null?Fo:Pf(t,e,s.scales[n].log,!1)}var IM=cy;function NM(s,t,e,n,i){let r=li(t0(s),t0(t)),o=t-s,a=es(i/n*o,e);do{let l=e[a],c=n*l/o;if(c>=i&&r+(l<5?ur.get(l):0)<=17)return[l,c]}while(++a<e.length);return[0,0]}function M0(s){let t,e;return s=s.replace(/(\d+)px/,(n,i)=>(t=Tn((e=+i)*Re))+"px"),[s,t,e]}function DM(s){s.show&&[s.font,s.labelFont].forEach(t=>{let e=ze(t[2]*Re,1);t[0]=t[0].replace(/[0-9.]+px/,e+"px"),t[1]=e})}function Fn(s,t,e){let n={mode:Ee(s.mode,1)},i=n.mode;function r(b,A,D,U){let q=A.valToPct(b);return U+D*(A.dir==-1?1-q:q)}function o(b,A,D,U){let q=A.valToPct(b);return U+D*(A.dir==-1?q:1-q)}function a(b,A,D,U){return A.ori==0?r(b,A,D,U):o(b,A,D,U)}n.valToPosH=r,n.valToPosV=o;let l=!1;n.status=0;let c=n.root=Vi(Vb);if(s.id!=null&&(c.id=s.id),Ci(c,s.class),s.title){let b=Vi(Wb,c);b.textContent=s.title}let h=ts("canvas"),u=n.ctx=h.getContext("2d"),d=Vi(Xb,c);Vr("click",d,b=>{b.target===p&&(We!=Eo||Ze!=Ao)&&Vn.click(n,b)},!0);let f=n.under=Vi(qb,d);d.appendChild(h);let p=n.over=Vi(Yb,d);s=Uo(s);let y=+Ee(s.pxAlign,1),m=x0(y);(s.plugins||[]).forEach(b=>{b.opts&&(s=b.opts(n,s)||s)});let g=s.ms||.001,_=n.series=i==1?S0(s.series||[],d0,y0,!1):RM(s.series||[null],g0),w=n.axes=S0(s.axes||[],u0,p0,!0),v=n.scales={},E=n.bands=s.bands||[];E.forEach(b=>{b.fill=ve(b.fill||null),b.dir=Ee(b.dir,-1)});let S=i==2?_[1].facets[0].scale:_[0].scale,x={axes:Fs,series:ye},M=(s.drawOrder||["axes","series"]).map(b=>x[b]);function L(b){let A=b.distr==3?D=>Bs(D>0?D:b.clamp(n,D,b.min,b.max,b.key)):b.distr==4?D=>ff(D,b.asinh):b.distr==100?D=>b.fwd(D):D=>D;return D=>{let U=A(D),{_min:q,_max:Q}=b,ft=Q-q;return(U-q)/ft}}function P(b){let A=v[b];if(A==null){let D=(s.scales||Qa)[b]||Qa;if(D.from!=null){P(D.from);let U=xn({},v[D.from],D,{key:b});U.valToPct=L(U),v[b]=U}else{A=v[b]=xn({},b==S?Z0:gM,D),A.key=b;let U=A.time,q=A.range,Q=hr(q);if((b!=S||i==2&&!U)&&(Q&&(q[0]==null||q[1]==null)&&(q={min:q[0]==null?Zg:{mode:1,hard:q[0],soft:q[0]},max:q[1]==null?Zg:{mode:1,hard:q[1],soft:q[1]}},Q=!1),!Q&&Yc(q))){let ft=q;q=(yt,St,Ft)=>St==null?Fo:Gc(St,Ft,ft)}A.range=ve(q||(U?CM:b==S?A.distr==3?LM:A.distr==4?IM:ay:A.distr==3?ly:A.distr==4?cy:PM)),A.auto=ve(Q?!1:A.auto),A.clamp=ve(A.clamp||mM),A._min=A._max=null,A.valToPct=L(A)}}}P("x"),P("y"),i==1&&_.forEach(b=>{P(b.scale)}),w.forEach(b=>{P(b.scale)});for(let b in s.scales)P(b);let C=v[S],F=C.distr,B,N;C.ori==0?(Ci(c,Gb),B=r,N=o):(Ci(c,Hb),B=o,N=r);let W={};for(let b in v){let A=v[b];(A.min!=null||A.max!=null)&&(W[b]={min:A.min,max:A.max},A.min=A.max=null)}let k=s.tzDate||(b=>new Date(Tn(b/g))),H=s.fmtDate||Df,it=g==1?GS(k):XS(k),j=l0(k,a0(g==1?VS:WS,H)),Z=h0(k,c0(YS,H)),tt=[],ht=n.legend=xn({},$S,s.legend),st=n.cursor=xn({},nM,{drag:{y:i==2}},s.cursor),Y=ht.show,rt=st.show,nt=ht.markers;ht.idxs=tt,nt.width=ve(nt.width),nt.dash=ve(nt.dash),nt.stroke=ve(nt.stroke),nt.fill=ve(nt.fill);let lt,gt,Ot,Zt=[],zt=[],me,de=!1,re={};if(ht.live){let b=_[1]?_[1].values:null;de=b!=null,me=de?b(n,1,0):{_:0};for(let A in me)re[A]=Rf}if(Y)if(lt=ts("table",Qb,c),Ot=ts("tbody",null,lt),ht.mount(n,lt),de){gt=ts("thead",null,lt,Ot);let b=ts("tr",null,gt);ts("th",null,b);for(var $e in me)ts("th",Bg,b).textContent=$e}else Ci(lt,eS),ht.live&&Ci(lt,tS);let Ve={show:!0},dn={show:!1};function Ue(b,A){if(A==0&&(de||!ht.live||i==2))return Fo;let D=[],U=ts("tr",nS,Ot,Ot.childNodes[A]);Ci(U,b.class),b.show||Ci(U,zr);let q=ts("th",null,U);if(nt.show){let yt=Vi(iS,q);if(A>0){let St=nt.width(n,A);St&&(yt.style.border=St+"px "+nt.dash(n,A)+" "+nt.stroke(n,A)),yt.style.background=nt.fill(n,A)}}let Q=Vi(Bg,q);b.label instanceof HTMLElement?Q.appendChild(b.label):Q.textContent=b.label,A>0&&(nt.show||(Q.style.color=b.width>0?nt.stroke(n,A):nt.fill(n,A)),Se("click",q,yt=>{if(st._lock)return;ee(yt);let St=_.indexOf(b);if((yt.ctrlKey||yt.metaKey)!=ht.isolate){let Ft=_.some((Ut,kt)=>kt>0&&kt!=St&&Ut.show);_.forEach((Ut,kt)=>{kt>0&&ps(kt,Ft?kt==St?Ve:dn:Ve,!0,yn.setSeries)})}else ps(St,{show:!b.show},!0,yn.setSeries)},!1),ne&&Se(Gg,q,yt=>{st._lock||(ee(yt),ps(_.indexOf(b),Co,!0,yn.setSeries))},!1));for(var ft in me){let yt=ts("td",sS,U);yt.textContent="--",D.push(yt)}return[U,D]}let Pn=new Map;function Se(b,A,D,U=!0){let q=Pn.get(A)||{},Q=st.bind[b](n,A,D,U);Q&&(Vr(b,A,q[b]=Q),Pn.set(A,q))}function Sn(b,A,D){let U=Pn.get(A)||{};for(let q in U)(b==null||q==b)&&(vf(q,A,U[q]),delete U[q]);b==null&&Pn.delete(A)}let sn=0,fn=0,G=0,Ct=0,Kt=0,ae=0,wt=Kt,Be=ae,Wt=G,$t=Ct,I=0,T=0,J=0,mt=0;n.bbox={};let dt=!1,vt=!1,bt=!1,ot=!1,ct=!1,_t=!1;function V(b,A,D){(D||b!=n.width||A!=n.height)&&ut(b,A),fe(!1),bt=!0,vt=!0,jn()}function ut(b,A){n.width=sn=G=b,n.height=fn=Ct=A,Kt=ae=0,Mt(),qt();let D=n.bbox;I=D.left=Br(Kt*Re,.5),T=D.top=Br(ae*Re,.5),J=D.width=Br(G*Re,.5),mt=D.height=Br(Ct*Re,.5)}let at=3;function Tt(){let b=!1,A=0;for(;!b;){A++;let D=Mo(A),U=fs(A);b=A==at||D&&U,b||(ut(n.width,n.height),vt=!0)}}function xt({width:b,height:A}){V(b,A)}n.setSize=xt;function Mt(){let b=!1,A=!1,D=!1,U=!1;w.forEach((q,Q)=>{if(q.show&&q._show){let{side:ft,_size:yt}=q,St=ft%2,Ft=q.label!=null?q.labelSize:0,Ut=yt+Ft;Ut>0&&(St?(G-=Ut,ft==3?(Kt+=Ut,U=!0):D=!0):(Ct-=Ut,ft==0?(ae+=Ut,b=!0):A=!0))}}),us[0]=b,us[1]=D,us[2]=A,us[3]=U,G-=$i[1]+$i[3],Kt+=$i[3],Ct-=$i[2]+$i[0],ae+=$i[0]}function qt(){let b=Kt+G,A=ae+Ct,D=Kt,U=ae;function q(Q,ft){switch(Q){case 1:return b+=ft,b-ft;case 2:return A+=ft,A-ft;case 3:return D-=ft,D+ft;case 0:return U-=ft,U+ft}}w.forEach((Q,ft)=>{if(Q.show&&Q._show){let yt=Q.side;Q._pos=q(yt,Q._size),Q.label!=null&&(Q._lpos=q(yt,Q.labelSize))}})}if(st.dataIdx==null){let b=st.hover,A=b.skip=new Set(b.skip??[]);A.add(void 0);let D=b.prox=ve(b.prox),U=b.bias??=0;st.dataIdx=(q,Q,ft,yt)=>{if(Q==0)return ft;let St=ft,Ft=D(q,Q,ft,yt)??ke,Ut=Ft>=0&&Ft<ke,kt=C.ori==0?G:Ct,oe=st.left,Ae=t[0],Te=t[Q];if(A.has(Te[ft])){St=null;let _e=null,Qt=null,Yt;if(U==0||U==-1)for(Yt=ft;_e==null&&Yt-- >0;)A.has(Te[Yt])||(_e=Yt);if(U==0||U==1)for(Yt=ft;Qt==null&&Yt++<Te.length;)A.has(Te[Yt])||(Qt=Yt);if(_e!=null||Qt!=null)if(Ut){let qe=_e==null?-1/0:B(Ae[_e],C,kt,0),an=Qt==null?1/0:B(Ae[Qt],C,kt,0),Dn=oe-qe,Oe=an-oe;Dn<=Oe?Dn<=Ft&&(St=_e):Oe<=Ft&&(St=Qt)}else St=Qt==null?_e:_e==null?Qt:ft-_e<=Qt-ft?_e:Qt}else Ut&&En(oe-B(Ae[ft],C,kt,0))>Ft&&(St=null);return St}}let ee=b=>{st.event=b};st.idxs=tt,st._lock=!1;let pt=st.points;pt.show=ve(pt.show),pt.size=ve(pt.size),pt.stroke=ve(pt.stroke),pt.width=ve(pt.width),pt.fill=ve(pt.fill);let Vt=n.focus=xn({},s.focus||{alpha:.3},st.focus),ne=Vt.prox>=0,Rt=ne&&pt.one,ce=[],He=[],ii=[];function Ua(b,A){let D=pt.show(n,A);if(D instanceof HTMLElement)return Ci(D,Kb),Ci(D,b.class),_s(D,-10,-10,G,Ct),p.insertBefore(D,ce[A]),D}function vo(b,A){if(i==1||A>0){let D=i==1&&v[b.scale].time,U=b.value;b.value=D?i0(U)?h0(k,c0(U,H)):U||Z:U||dM,b.label=b.label||(D?sM:iM)}if(Rt||A>0){b.width=b.width==null?1:b.width,b.paths=b.paths||EM||gS,b.fillTo=ve(b.fillTo||yM),b.pxAlign=+Ee(b.pxAlign,y),b.pxRound=x0(b.pxAlign),b.stroke=ve(b.stroke||null),b.fill=ve(b.fill||null),b._stroke=b._fill=b._paths=b._focus=null;let D=fM(li(1,b.width),1),U=b.points=xn({},{size:D,width:li(1,D*.2),stroke:b.stroke,space:D*2,paths:AM,_stroke:null,_fill:null},b.points);U.show=ve(U.show),U.filter=ve(U.filter),U.fill=ve(U.fill),U.stroke=ve(U.stroke),U.paths=ve(U.paths),U.pxAlign=b.pxAlign}if(Y){let D=Ue(b,A);Zt.splice(A,0,D[0]),zt.splice(A,0,D[1]),ht.values.push(null)}if(rt){tt.splice(A,0,null);let D=null;Rt?A==0&&(D=Ua(b,A)):A>0&&(D=Ua(b,A)),ce.splice(A,0,D),He.splice(A,0,0),ii.splice(A,0,0)}Nn("addSeries",A)}function qd(b,A){A=A??_.length,b=i==1?Ef(b,A,d0,y0):Ef(b,A,{},g0),_.splice(A,0,b),vo(_[A],A)}n.addSeries=qd;function yc(b){if(_.splice(b,1),Y){ht.values.splice(b,1),zt.splice(b,1);let A=Zt.splice(b,1)[0];Sn(null,A.firstChild),A.remove()}rt&&(tt.splice(b,1),ce.splice(b,1)[0].remove(),He.splice(b,1),ii.splice(b,1)),Nn("delSeries",b)}n.delSeries=yc;let us=[!1,!1,!1,!1];function Is(b,A){if(b._show=b.show,b.show){let D=b.side%2,U=v[b.scale];U==null&&(b.scale=D?_[1].scale:S,U=v[b.scale]);let q=U.time;b.size=ve(b.size),b.space=ve(b.space),b.rotate=ve(b.rotate),hr(b.incrs)&&b.incrs.forEach(ft=>{!ur.has(ft)&&ur.set(ft,I0(ft))}),b.incrs=ve(b.incrs||(U.distr==2?BS:q?g==1?zS:HS:kr)),b.splits=ve(b.splits||(q&&U.distr==1?it:U.distr==3?Sf:U.distr==4?aM:oM)),b.stroke=ve(b.stroke),b.grid.stroke=ve(b.grid.stroke),b.ticks.stroke=ve(b.ticks.stroke),b.border.stroke=ve(b.border.stroke);let Q=b.values;b.values=hr(Q)&&!hr(Q[0])?ve(Q):q?hr(Q)?l0(k,a0(Q,H)):i0(Q)?qS(k,Q):Q||j:Q||rM,b.filter=ve(b.filter||(U.distr>=3&&U.log==10?hM:U.distr==3&&U.log==2?uM:P0)),b.font=M0(b.font),b.labelFont=M0(b.labelFont),b._size=b.size(n,null,A,0),b._space=b._rotate=b._incrs=b._found=b._splits=b._values=null,b._size>0&&(us[A]=!0,b._el=Vi(jb,d))}}function Ns(b,A,D,U){let[q,Q,ft,yt]=D,St=A%2,Ft=0;return St==0&&(yt||Q)&&(Ft=A==0&&!q||A==2&&!ft?Tn(u0.size/3):0),St==1&&(q||ft)&&(Ft=A==1&&!Q||A==3&&!yt?Tn(p0.size/2):0),Ft}let Oa=n.padding=(s.padding||[Ns,Ns,Ns,Ns]).map(b=>ve(Ee(b,Ns))),$i=n._padding=Oa.map((b,A)=>b(n,A,us,0)),rn,cn=null,hn=null,ds=i==1?_[0].idxs:null,wi=null,ir=!1;function Ba(b,A){if(t=b??[],n.data=n._data=t,i==2){rn=0;for(let D=1;D<_.length;D++)rn+=t[D][0].length}else{t.length==0&&(n.data=n._data=t=[[]]),wi=t[0],rn=wi.length;let D=t;if(F==2){D=t.slice();let U=D[0]=Array(rn);for(let q=0;q<rn;q++)U[q]=q}n._data=t=D}if(fe(!0),Nn("setData"),F==2&&(bt=!0),A!==!1){let D=C;D.auto(n,ir)?ka():or(S,D.min,D.max),ot=ot||st.left>=0,_t=!0,jn()}}n.setData=Ba;function ka(){ir=!0;let b,A;i==1&&(rn>0?(cn=ds[0]=0,hn=ds[1]=rn-1,b=t[0][cn],A=t[0][hn],F==2?(b=cn,A=hn):b==A&&(F==3?[b,A]=Xc(b,b,C.log,!1):F==4?[b,A]=Pf(b,b,C.log,!1):C.time?A=b+Tn(86400/g):[b,A]=Gc(b,A,Lf,!0))):(cn=ds[0]=b=null,hn=ds[1]=A=null)),or(S,b,A)}let bo,sr,So,R,X,et,$,K,Et,Lt;function At(b,A,D,U,q,Q){b??=zg,D??=Nf,U??="butt",q??=zg,Q??="round",b!=bo&&(u.strokeStyle=bo=b),q!=sr&&(u.fillStyle=sr=q),A!=So&&(u.lineWidth=So=A),Q!=X&&(u.lineJoin=X=Q),U!=et&&(u.lineCap=et=U),D!=R&&u.setLineDash(R=D)}function It(b,A,D,U){A!=sr&&(u.fillStyle=sr=A),b!=$&&(u.font=$=b),D!=K&&(u.textAlign=K=D),U!=Et&&(u.textBaseline=Et=U)}function Ht(b,A,D,U,q=0){if(U.length>0&&b.auto(n,ir)&&(A==null||A.min==null)){let Q=Ee(cn,0),ft=Ee(hn,U.length-1),yt=D.min==null?hS(U,Q,ft,q,b.distr==3):[D.min,D.max];b.min=ns(b.min,D.min=yt[0]),b.max=li(b.max,D.max=yt[1])}}let ie={min:null,max:null};function ge(){for(let U in v){let q=v[U];W[U]==null&&(q.min==null||W[S]!=null&&q.auto(n,ir))&&(W[U]=ie)}for(let U in v){let q=v[U];W[U]==null&&q.from!=null&&W[q.from]!=null&&(W[U]=ie)}W[S]!=null&&fe(!0);let b={};for(let U in W){let q=W[U];if(q!=null){let Q=b[U]=Uo(v[U],xS);if(q.min!=null)xn(Q,q);else if(U!=S||i==2)if(rn==0&&Q.from==null){let ft=Q.range(n,null,null,U);Q.min=ft[0],Q.max=ft[1]}else Q.min=ke,Q.max=-ke}}if(rn>0){_.forEach((U,q)=>{if(i==1){let Q=U.scale,ft=W[Q];if(ft==null)return;let yt=b[Q];if(q==0){let St=yt.range(n,yt.min,yt.max,Q);yt.min=St[0],yt.max=St[1],cn=es(yt.min,t[0]),hn=es(yt.max,t[0]),hn-cn>1&&(t[0][cn]<yt.min&&cn++,t[0][hn]>yt.max&&hn--),U.min=wi[cn],U.max=wi[hn]}else U.show&&U.auto&&Ht(yt,ft,U,t[q],U.sorted);U.idxs[0]=cn,U.idxs[1]=hn}else if(q>0&&U.show&&U.auto){let[Q,ft]=U.facets,yt=Q.scale,St=ft.scale,[Ft,Ut]=t[q],kt=b[yt],oe=b[St];kt!=null&&Ht(kt,W[yt],Q,Ft,Q.sorted),oe!=null&&Ht(oe,W[St],ft,Ut,ft.sorted),U.min=ft.min,U.max=ft.max}});for(let U in b){let q=b[U],Q=W[U];if(q.from==null&&(Q==null||Q.min==null)){let ft=q.range(n,q.min==ke?null:q.min,q.max==-ke?null:q.max,U);q.min=ft[0],q.max=ft[1]}}}for(let U in b){let q=b[U];if(q.from!=null){let Q=b[q.from];if(Q.min==null)q.min=q.max=null;else{let ft=q.range(n,Q.min,Q.max,U);q.min=ft[0],q.max=ft[1]}}}let A={},D=!1;for(let U in b){let q=b[U],Q=v[U];if(Q.min!=q.min||Q.max!=q.max){Q.min=q.min,Q.max=q.max;let ft=Q.distr;Q._min=ft==3?Bs(Q.min):ft==4?ff(Q.min,Q.asinh):ft==100?Q.fwd(Q.min):Q.min,Q._max=ft==3?Bs(Q.max):ft==4?ff(Q.max,Q.asinh):ft==100?Q.fwd(Q.max):Q.max,A[U]=D=!0}}if(D){_.forEach((U,q)=>{i==2?q>0&&A.y&&(U._paths=null):A[U.scale]&&(U._paths=null)});for(let U in A)bt=!0,Nn("setScale",U);rt&&st.left>=0&&(ot=_t=!0)}for(let U in W)W[U]=null}function Gt(b){let A=bf(cn-1,0,rn-1),D=bf(hn+1,0,rn-1);for(;b[A]==null&&A>0;)A--;for(;b[D]==null&&D<rn-1;)D++;return[A,D]}function ye(){if(rn>0){let b=_.some(A=>A._focus)&&Lt!=Vt.alpha;b&&(u.globalAlpha=Lt=Vt.alpha),_.forEach((A,D)=>{if(D>0&&A.show&&(Qe(D,!1),Qe(D,!0),A._paths==null)){let U=Lt;Lt!=A.alpha&&(u.globalAlpha=Lt=A.alpha);let q=i==2?[0,t[D][0].length-1]:Gt(t[D]);A._paths=A.paths(n,D,q[0],q[1]),Lt!=U&&(u.globalAlpha=Lt=U)}}),_.forEach((A,D)=>{if(D>0&&A.show){let U=Lt;Lt!=A.alpha&&(u.globalAlpha=Lt=A.alpha),A._paths!=null&&Ie(D,!1);{let q=A._paths!=null?A._paths.gaps:null,Q=A.points.show(n,D,cn,hn,q),ft=A.points.filter(n,D,Q,q);(Q||ft)&&(A.points._paths=A.points.paths(n,D,cn,hn,ft),Ie(D,!0))}Lt!=U&&(u.globalAlpha=Lt=U),Nn("drawSeries",D)}}),b&&(u.globalAlpha=Lt=1)}}function Qe(b,A){let D=A?_[b].points:_[b];D._stroke=D.stroke(n,b),D._fill=D.fill(n,b)}function Ie(b,A){let D=A?_[b].points:_[b],{stroke:U,fill:q,clip:Q,flags:ft,_stroke:yt=D._stroke,_fill:St=D._fill,_width:Ft=D.width}=D._paths;Ft=ze(Ft*Re,3);let Ut=null,kt=Ft%2/2;A&&St==null&&(St=Ft>0?"#fff":yt);let oe=D.pxAlign==1&&kt>0;if(oe&&u.translate(kt,kt),!A){let Ae=I-Ft/2,Te=T-Ft/2,_e=J+Ft,Qt=mt+Ft;Ut=new Path2D,Ut.rect(Ae,Te,_e,Qt)}A?Bt(yt,Ft,D.dash,D.cap,St,U,q,ft,Q):Ne(b,yt,Ft,D.dash,D.cap,St,U,q,ft,Ut,Q),oe&&u.translate(-kt,-kt)}function Ne(b,A,D,U,q,Q,ft,yt,St,Ft,Ut){let kt=!1;St!=0&&E.forEach((oe,Ae)=>{if(oe.series[0]==b){let Te=_[oe.series[1]],_e=t[oe.series[1]],Qt=(Te._paths||Qa).band;hr(Qt)&&(Qt=oe.dir==1?Qt[0]:Qt[1]);let Yt,qe=null;Te.show&&Qt&&dS(_e,cn,hn)?(qe=oe.fill(n,Ae)||Q,Yt=Te._paths.clip):Qt=null,Bt(A,D,U,q,qe,ft,yt,St,Ft,Ut,Yt,Qt),kt=!0}}),kt||Bt(A,D,U,q,Q,ft,yt,St,Ft,Ut)}let Mn=Oo|wf;function Bt(b,A,D,U,q,Q,ft,yt,St,Ft,Ut,kt){At(b,A,D,U,q),(St||Ft||kt)&&(u.save(),St&&u.clip(St),Ft&&u.clip(Ft)),kt?(yt&Mn)==Mn?(u.clip(kt),Ut&&u.clip(Ut),xe(q,ft),pn(b,Q,A)):yt&wf?(xe(q,ft),u.clip(kt),pn(b,Q,A)):yt&Oo&&(u.save(),u.clip(kt),Ut&&u.clip(Ut),xe(q,ft),u.restore(),pn(b,Q,A)):(xe(q,ft),pn(b,Q,A)),(St||Ft||kt)&&u.restore()}function pn(b,A,D){D>0&&(A instanceof Map?A.forEach((U,q)=>{u.strokeStyle=bo=q,u.stroke(U)}):A!=null&&b&&u.stroke(A))}function xe(b,A){A instanceof Map?A.forEach((D,U)=>{u.fillStyle=sr=U,u.fill(D)}):A!=null&&b&&u.fill(A)}function Ds(b,A,D,U){let q=w[b],Q;if(U<=0)Q=[0,0];else{let ft=q._space=q.space(n,b,A,D,U),yt=q._incrs=q.incrs(n,b,A,D,U,ft);Q=NM(A,D,yt,U,ft)}return q._found=Q}function mn(b,A,D,U,q,Q,ft,yt,St,Ft){let Ut=ft%2/2;y==1&&u.translate(Ut,Ut),At(yt,ft,St,Ft,yt),u.beginPath();let kt,oe,Ae,Te,_e=q+(U==0||U==3?-Q:Q);D==0?(oe=q,Te=_e):(kt=q,Ae=_e);for(let Qt=0;Qt<b.length;Qt++)A[Qt]!=null&&(D==0?kt=Ae=b[Qt]:oe=Te=b[Qt],u.moveTo(kt,oe),u.lineTo(Ae,Te));u.stroke(),y==1&&u.translate(-Ut,-Ut)}function Mo(b){let A=!0;return w.forEach((D,U)=>{if(!D.show)return;let q=v[D.scale];if(q.min==null){D._show&&(A=!1,D._show=!1,fe(!1));return}else D._show||(A=!1,D._show=!0,fe(!1));let Q=D.side,ft=Q%2,{min:yt,max:St}=q,[Ft,Ut]=Ds(U,yt,St,ft==0?G:Ct);if(Ut==0)return;let kt=q.distr==2,oe=D._splits=D.splits(n,U,yt,St,Ft,Ut,kt),Ae=q.distr==2?oe.map(Yt=>wi[Yt]):oe,Te=q.distr==2?wi[oe[1]]-wi[oe[0]]:Ft,_e=D._values=D.values(n,D.filter(n,Ae,U,Ut,Te),U,Ut,Te);D._rotate=Q==2?D.rotate(n,_e,U,Ut):0;let Qt=D._size;D._size=Gi(D.size(n,_e,U,b)),Qt!=null&&D._size!=Qt&&(A=!1)}),A}function fs(b){let A=!0;return Oa.forEach((D,U)=>{let q=D(n,U,us,b);q!=$i[U]&&(A=!1),$i[U]=q}),A}function Fs(){for(let b=0;b<w.length;b++){let A=w[b];if(!A.show||!A._show)continue;let D=A.side,U=D%2,q,Q,ft=A.stroke(n,b),yt=D==0||D==3?-1:1,[St,Ft]=A._found;if(A.label!=null){let oi=A.labelGap*yt,Ai=Tn((A._lpos+oi)*Re);It(A.labelFont[0],ft,"center",D==2?"top":kg),u.save(),U==1?(q=Q=0,u.translate(Ai,Tn(T+mt/2)),u.rotate((D==3?-zc:zc)/2)):(q=Tn(I+J/2),Q=Ai);let Nr=R0(A.label)?A.label(n,b,St,Ft):A.label;u.fillText(Nr,q,Q),u.restore()}if(Ft==0)continue;let Ut=v[A.scale],kt=U==0?J:mt,oe=U==0?I:T,Ae=A._splits,Te=Ut.distr==2?Ae.map(oi=>wi[oi]):Ae,_e=Ut.distr==2?wi[Ae[1]]-wi[Ae[0]]:St,Qt=A.ticks,Yt=A.border,qe=Qt.show?Qt.size:0,an=Tn(qe*Re),Dn=Tn((A.alignTo==2?A._size-qe-A.gap:A.gap)*Re),Oe=A._rotate*-zc/180,ln=m(A._pos*Re),Ti=(an+Dn)*yt,ri=ln+Ti;Q=U==0?ri:0,q=U==1?ri:0;let ki=A.font[0],Zi=A.align==1?Lo:A.align==2?hf:Oe>0?Lo:Oe<0?hf:U==0?"center":D==3?hf:Lo,gs=Oe||U==1?"middle":D==2?"top":kg;It(ki,ft,Zi,gs);let Ei=A.font[1]*A.lineGap,zi=Ae.map(oi=>m(a(oi,Ut,kt,oe))),Ki=A._values;for(let oi=0;oi<Ki.length;oi++){let Ai=Ki[oi];if(Ai!=null){U==0?q=zi[oi]:Q=zi[oi],Ai=""+Ai;let Nr=Ai.indexOf(`
+`)==-1?[Ai]:Ai.split(/\n/gm);for(let ai=0;ai<Nr.length;ai++){let Qm=Nr[ai];Oe?(u.save(),u.translate(q,Q+ai*Ei),u.rotate(Oe),u.fillText(Qm,0,0),u.restore()):u.fillText(Qm,q,Q+ai*Ei)}}}Qt.show&&mn(zi,Qt.filter(n,Te,b,Ft,_e),U,D,ln,an,ze(Qt.width*Re,3),Qt.stroke(n,b),Qt.dash,Qt.cap);let ys=A.grid;ys.show&&mn(zi,ys.filter(n,Te,b,Ft,_e),U,U==0?2:1,U==0?T:I,U==0?mt:J,ze(ys.width*Re,3),ys.stroke(n,b),ys.dash,ys.cap),Yt.show&&mn([ln],[1],U==0?1:0,U==0?1:2,U==1?T:I,U==1?mt:J,ze(Yt.width*Re,3),Yt.stroke(n,b),Yt.dash,Yt.cap)}Nn("drawAxes")}function fe(b){_.forEach((A,D)=>{D>0&&(A._paths=null,b&&(i==1?(A.min=null,A.max=null):A.facets.forEach(U=>{U.min=null,U.max=null})))})}let on=!1,si=!1,De=[];function gn(){si=!1;for(let b=0;b<De.length;b++)Nn(...De[b]);De.length=0}function jn(){on||(ES(Fm),on=!0)}function _c(b,A=!1){on=!0,si=A,b(n),Fm(),A&&De.length>0&&queueMicrotask(gn)}n.batch=_c;function Fm(){if(dt&&(ge(),dt=!1),bt&&(Tt(),bt=!1),vt){if(je(f,Lo,Kt),je(f,"top",ae),je(f,Ja,G),je(f,$a,Ct),je(p,Lo,Kt),je(p,"top",ae),je(p,Ja,G),je(p,$a,Ct),je(d,Ja,sn),je(d,$a,fn),h.width=Tn(sn*Re),h.height=Tn(fn*Re),w.forEach(({_el:b,_show:A,_size:D,_pos:U,side:q})=>{if(b!=null)if(A){let Q=q===3||q===0?D:0,ft=q%2==1;je(b,ft?"left":"top",U-Q),je(b,ft?"width":"height",D),je(b,ft?"top":"left",ft?ae:Kt),je(b,ft?"height":"width",ft?Ct:G),xf(b,zr)}else Ci(b,zr)}),bo=sr=So=X=et=$=K=Et=R=null,Lt=1,Ga(!0),Kt!=wt||ae!=Be||G!=Wt||Ct!=$t){fe(!1);let b=G/Wt,A=Ct/$t;if(rt&&!ot&&st.left>=0){st.left*=b,st.top*=A,wo&&_s(wo,Tn(st.left),0,G,Ct),To&&_s(To,0,Tn(st.top),G,Ct);for(let D=0;D<ce.length;D++){let U=ce[D];U!=null&&(He[D]*=b,ii[D]*=A,_s(U,Gi(He[D]),Gi(ii[D]),G,Ct))}}if(Xe.show&&!ct&&Xe.left>=0&&Xe.width>0){Xe.left*=b,Xe.width*=b,Xe.top*=A,Xe.height*=A;for(let D in Kd)je(Ro,D,Xe[D])}wt=Kt,Be=ae,Wt=G,$t=Ct}Nn("setSize"),vt=!1}sn>0&&fn>0&&(u.clearRect(0,0,h.width,h.height),Nn("drawClear"),M.forEach(b=>b()),Nn("draw")),Xe.show&&ct&&(xc(Xe),ct=!1),rt&&ot&&(Ir(null,!0,!1),ot=!1),ht.show&&ht.live&&_t&&($d(),_t=!1),l||(l=!0,n.status=1,Nn("ready")),ir=!1,on=!1}n.redraw=(b,A)=>{bt=A||!1,b!==!1?or(S,C.min,C.max):jn()};function Yd(b,A){let D=v[b];if(D.from==null){if(rn==0){let U=D.range(n,A.min,A.max,b);A.min=U[0],A.max=U[1]}if(A.min>A.max){let U=A.min;A.min=A.max,A.max=U}if(rn>1&&A.min!=null&&A.max!=null&&A.max-A.min<1e-16)return;b==S&&D.distr==2&&rn>0&&(A.min=es(A.min,t[0]),A.max=es(A.max,t[0]),A.min==A.max&&A.max++),W[b]=A,dt=!0,jn()}}n.setScale=Yd;let jd,Jd,wo,To,Um,Om,Eo,Ao,Bm,km,We,Ze,rr=!1,Vn=st.drag,Ln=Vn.x,In=Vn.y;rt&&(st.x&&(jd=Vi($b,p)),st.y&&(Jd=Vi(Zb,p)),C.ori==0?(wo=jd,To=Jd):(wo=Jd,To=jd),We=st.left,Ze=st.top);let Xe=n.select=xn({show:!0,over:!0,left:0,width:0,top:0,height:0},s.select),Ro=Xe.show?Vi(Jb,Xe.over?p:f):null;function xc(b,A){if(Xe.show){for(let D in b)Xe[D]=b[D],D in Kd&&je(Ro,D,b[D]);A!==!1&&Nn("setSelect")}}n.setSelect=xc;function Gv(b){if(_[b].show)Y&&xf(Zt[b],zr);else if(Y&&Ci(Zt[b],zr),rt){let D=Rt?ce[0]:ce[b];D!=null&&_s(D,-10,-10,G,Ct)}}function or(b,A,D){Yd(b,{min:A,max:D})}function ps(b,A,D,U){A.focus!=null&&Yv(b),A.show!=null&&_.forEach((q,Q)=>{Q>0&&(b==Q||b==null)&&(q.show=A.show,Gv(Q),i==2?(or(q.facets[0].scale,null,null),or(q.facets[1].scale,null,null)):or(q.scale,null,null),jn())}),D!==!1&&Nn("setSeries",b,A),U&&Ha("setSeries",n,b,A)}n.setSeries=ps;function Hv(b,A){xn(E[b],A)}function Wv(b,A){b.fill=ve(b.fill||null),b.dir=Ee(b.dir,-1),A=A??E.length,E.splice(A,0,b)}function Xv(b){b==null?E.length=0:E.splice(b,1)}n.addBand=Wv,n.setBand=Hv,n.delBand=Xv;function qv(b,A){_[b].alpha=A,rt&&ce[b]!=null&&(ce[b].style.opacity=A),Y&&Zt[b]&&(Zt[b].style.opacity=A)}let Us,ar,Lr,Co={focus:!0};function Yv(b){if(b!=Lr){let A=b==null,D=Vt.alpha!=1;_.forEach((U,q)=>{if(i==1||q>0){let Q=A||q==0||q==b;U._focus=A?null:Q,D&&qv(q,Q?1:Vt.alpha)}}),Lr=b,D&&jn()}}Y&&ne&&Se(Hg,lt,b=>{st._lock||(ee(b),Lr!=null&&ps(null,Co,!0,yn.setSeries))});function ms(b,A,D){let U=v[A];D&&(b=b/Re-(U.ori==1?ae:Kt));let q=G;U.ori==1&&(q=Ct,b=q-b),U.dir==-1&&(b=q-b);let Q=U._min,ft=U._max,yt=b/q,St=Q+(ft-Q)*yt,Ft=U.distr;return Ft==3?Do(10,St):Ft==4?pS(St,U.asinh):Ft==100?U.bwd(St):St}function jv(b,A){let D=ms(b,S,A);return es(D,t[0],cn,hn)}n.valToIdx=b=>es(b,t[0]),n.posToIdx=jv,n.posToVal=ms,n.valToPos=(b,A,D)=>v[A].ori==0?r(b,v[A],D?J:G,D?I:0):o(b,v[A],D?mt:Ct,D?T:0),n.setCursor=(b,A,D)=>{We=b.left,Ze=b.top,Ir(null,A,D)};function zm(b,A){je(Ro,Lo,Xe.left=b),je(Ro,Ja,Xe.width=A)}function Vm(b,A){je(Ro,"top",Xe.top=b),je(Ro,$a,Xe.height=A)}let za=C.ori==0?zm:Vm,Va=C.ori==1?zm:Vm;function Jv(){if(Y&&ht.live)for(let b=i==2?1:0;b<_.length;b++){if(b==0&&de)continue;let A=ht.values[b],D=0;for(let U in A)zt[b][D++].firstChild.nodeValue=A[U]}}function $d(b,A){if(b!=null&&(b.idxs?b.idxs.forEach((D,U)=>{tt[U]=D}):_S(b.idx)||tt.fill(b.idx),ht.idx=tt[0]),Y&&ht.live){for(let D=0;D<_.length;D++)(D>0||i==1&&!de)&&$v(D,tt[D]);Jv()}_t=!1,A!==!1&&Nn("setLegend")}n.setLegend=$d;function $v(b,A){let D=_[b],U=b==0&&F==2?wi:t[b],q;de?q=D.values(n,b,A)??re:(q=D.value(n,A==null?null:U[A],b,A),q=q==null?re:{_:q}),ht.values[b]=q}function Ir(b,A,D){Bm=We,km=Ze,[We,Ze]=st.move(n,We,Ze),st.left=We,st.top=Ze,rt&&(wo&&_s(wo,Tn(We),0,G,Ct),To&&_s(To,0,Tn(Ze),G,Ct));let U,q=cn>hn;Us=ke,ar=null;let Q=C.ori==0?G:Ct,ft=C.ori==1?G:Ct;if(We<0||rn==0||q){U=st.idx=null;for(let yt=0;yt<_.length;yt++){let St=ce[yt];St!=null&&_s(St,-10,-10,G,Ct)}ne&&ps(null,Co,!0,b==null&&yn.setSeries),ht.live&&(tt.fill(U),_t=!0)}else{let yt,St,Ft;i==1&&(yt=C.ori==0?We:Ze,St=ms(yt,S),U=st.idx=es(St,t[0],cn,hn),Ft=B(t[0][U],C,Q,0));let Ut=-10,kt=-10,oe=0,Ae=0,Te=!0,_e="",Qt="";for(let Yt=i==2?1:0;Yt<_.length;Yt++){let qe=_[Yt],an=tt[Yt],Dn=an==null?null:i==1?t[Yt][an]:t[Yt][1][an],Oe=st.dataIdx(n,Yt,U,St),ln=Oe==null?null:i==1?t[Yt][Oe]:t[Yt][1][Oe];if(_t=_t||ln!=Dn||Oe!=an,tt[Yt]=Oe,Yt>0&&qe.show){let Ti=Oe==null?-10:Oe==U?Ft:B(i==1?t[0][Oe]:t[Yt][0][Oe],C,Q,0),ri=ln==null?-10:N(ln,i==1?v[qe.scale]:v[qe.facets[1].scale],ft,0);if(ne&&ln!=null){let ki=C.ori==1?We:Ze,Zi=En(Vt.dist(n,Yt,Oe,ri,ki));if(Zi<Us){let gs=Vt.bias;if(gs!=0){let Ei=ms(ki,qe.scale),zi=ln>=0?1:-1,Ki=Ei>=0?1:-1;Ki==zi&&(Ki==1?gs==1?ln>=Ei:ln<=Ei:gs==1?ln<=Ei:ln>=Ei)&&(Us=Zi,ar=Yt)}else Us=Zi,ar=Yt}}if(_t||Rt){let ki,Zi;C.ori==0?(ki=Ti,Zi=ri):(ki=ri,Zi=Ti);let gs,Ei,zi,Ki,ys,oi,Ai=!0,Nr=pt.bbox;if(Nr!=null){Ai=!1;let ai=Nr(n,Yt);zi=ai.left,Ki=ai.top,gs=ai.width,Ei=ai.height}else zi=ki,Ki=Zi,gs=Ei=pt.size(n,Yt);if(oi=pt.fill(n,Yt),ys=pt.stroke(n,Yt),Rt)Yt==ar&&Us<=Vt.prox&&(Ut=zi,kt=Ki,oe=gs,Ae=Ei,Te=Ai,_e=oi,Qt=ys);else{let ai=ce[Yt];ai!=null&&(He[Yt]=zi,ii[Yt]=Ki,$g(ai,gs,Ei,Ai),jg(ai,oi,ys),_s(ai,Gi(zi),Gi(Ki),G,Ct))}}}}if(Rt){let Yt=Vt.prox,qe=Lr==null?Us<=Yt:Us>Yt||ar!=Lr;if(_t||qe){let an=ce[0];an!=null&&(He[0]=Ut,ii[0]=kt,$g(an,oe,Ae,Te),jg(an,_e,Qt),_s(an,Gi(Ut),Gi(kt),G,Ct))}}}if(Xe.show&&rr)if(b!=null){let[yt,St]=yn.scales,[Ft,Ut]=yn.match,[kt,oe]=b.cursor.sync.scales,Ae=b.cursor.drag;if(Ln=Ae._x,In=Ae._y,Ln||In){let{left:Te,top:_e,width:Qt,height:Yt}=b.select,qe=b.scales[kt].ori,an=b.posToVal,Dn,Oe,ln,Ti,ri,ki=yt!=null&&Ft(yt,kt),Zi=St!=null&&Ut(St,oe);ki&&Ln?(qe==0?(Dn=Te,Oe=Qt):(Dn=_e,Oe=Yt),ln=v[yt],Ti=B(an(Dn,kt),ln,Q,0),ri=B(an(Dn+Oe,kt),ln,Q,0),za(ns(Ti,ri),En(ri-Ti))):za(0,Q),Zi&&In?(qe==1?(Dn=Te,Oe=Qt):(Dn=_e,Oe=Yt),ln=v[St],Ti=N(an(Dn,oe),ln,ft,0),ri=N(an(Dn+Oe,oe),ln,ft,0),Va(ns(Ti,ri),En(ri-Ti))):Va(0,ft)}else Qd()}else{let yt=En(Bm-Um),St=En(km-Om);if(C.ori==1){let oe=yt;yt=St,St=oe}Ln=Vn.x&&yt>=Vn.dist,In=Vn.y&&St>=Vn.dist;let Ft=Vn.uni;Ft!=null?Ln&&In&&(Ln=yt>=Ft,In=St>=Ft,!Ln&&!In&&(St>yt?In=!0:Ln=!0)):Vn.x&&Vn.y&&(Ln||In)&&(Ln=In=!0);let Ut,kt;Ln&&(C.ori==0?(Ut=Eo,kt=We):(Ut=Ao,kt=Ze),za(ns(Ut,kt),En(kt-Ut)),In||Va(0,ft)),In&&(C.ori==1?(Ut=Eo,kt=We):(Ut=Ao,kt=Ze),Va(ns(Ut,kt),En(kt-Ut)),Ln||za(0,Q)),!Ln&&!In&&(za(0,0),Va(0,0))}if(Vn._x=Ln,Vn._y=In,b==null){if(D){if(Km!=null){let[yt,St]=yn.scales;yn.values[0]=yt!=null?ms(C.ori==0?We:Ze,yt):null,yn.values[1]=St!=null?ms(C.ori==1?We:Ze,St):null}Ha(uf,n,We,Ze,G,Ct,U)}if(ne){let yt=D&&yn.setSeries,St=Vt.prox;Lr==null?Us<=St&&ps(ar,Co,!0,yt):Us>St?ps(null,Co,!0,yt):ar!=Lr&&ps(ar,Co,!0,yt)}}_t&&(ht.idx=U,$d()),A!==!1&&Nn("setCursor")}let lr=null;Object.defineProperty(n,"rect",{get(){return lr==null&&Ga(!1),lr}});function Ga(b=!1){b?lr=null:(lr=p.getBoundingClientRect(),Nn("syncRect",lr))}function Gm(b,A,D,U,q,Q,ft){st._lock||rr&&b!=null&&b.movementX==0&&b.movementY==0||(Zd(b,A,D,U,q,Q,ft,!1,b!=null),b!=null?Ir(null,!0,!0):Ir(A,!0,!1))}function Zd(b,A,D,U,q,Q,ft,yt,St){if(lr==null&&Ga(!1),ee(b),b!=null)D=b.clientX-lr.left,U=b.clientY-lr.top;else{if(D<0||U<0){We=-10,Ze=-10;return}let[Ft,Ut]=yn.scales,kt=A.cursor.sync,[oe,Ae]=kt.values,[Te,_e]=kt.scales,[Qt,Yt]=yn.match,qe=A.axes[0].side%2==1,an=C.ori==0?G:Ct,Dn=C.ori==1?G:Ct,Oe=qe?Q:q,ln=qe?q:Q,Ti=qe?U:D,ri=qe?D:U;if(Te!=null?D=Qt(Ft,Te)?a(oe,v[Ft],an,0):-10:D=an*(Ti/Oe),_e!=null?U=Yt(Ut,_e)?a(Ae,v[Ut],Dn,0):-10:U=Dn*(ri/ln),C.ori==1){let ki=D;D=U,U=ki}}St&&(A==null||A.cursor.event.type==uf)&&((D<=1||D>=G-1)&&(D=Br(D,G)),(U<=1||U>=Ct-1)&&(U=Br(U,Ct))),yt?(Um=D,Om=U,[Eo,Ao]=st.move(n,D,U)):(We=D,Ze=U)}let Kd={width:0,height:0,left:0,top:0};function Qd(){xc(Kd,!1)}let Hm,Wm,Xm,qm;function Ym(b,A,D,U,q,Q,ft){rr=!0,Ln=In=Vn._x=Vn._y=!1,Zd(b,A,D,U,q,Q,ft,!0,!1),b!=null&&(Se(df,yf,jm,!1),Ha(Vg,n,Eo,Ao,G,Ct,null));let{left:yt,top:St,width:Ft,height:Ut}=Xe;Hm=yt,Wm=St,Xm=Ft,qm=Ut}function jm(b,A,D,U,q,Q,ft){rr=Vn._x=Vn._y=!1,Zd(b,A,D,U,q,Q,ft,!1,!0);let{left:yt,top:St,width:Ft,height:Ut}=Xe,kt=Ft>0||Ut>0,oe=Hm!=yt||Wm!=St||Xm!=Ft||qm!=Ut;if(kt&&oe&&xc(Xe),Vn.setScale&&kt&&oe){let Ae=yt,Te=Ft,_e=St,Qt=Ut;if(C.ori==1&&(Ae=St,Te=Ut,_e=yt,Qt=Ft),Ln&&or(S,ms(Ae,S),ms(Ae+Te,S)),In)for(let Yt in v){let qe=v[Yt];Yt!=S&&qe.from==null&&qe.min!=ke&&or(Yt,ms(_e+Qt,Yt),ms(_e,Yt))}Qd()}else st.lock&&(st._lock=!st._lock,Ir(A,!0,b!=null));b!=null&&(Sn(df,yf),Ha(df,n,We,Ze,G,Ct,null))}function Zv(b,A,D,U,q,Q,ft){if(st._lock)return;ee(b);let yt=rr;if(rr){let St=!0,Ft=!0,Ut=10,kt,oe;C.ori==0?(kt=Ln,oe=In):(kt=In,oe=Ln),kt&&oe&&(St=We<=Ut||We>=G-Ut,Ft=Ze<=Ut||Ze>=Ct-Ut),kt&&St&&(We=We<Eo?0:G),oe&&Ft&&(Ze=Ze<Ao?0:Ct),Ir(null,!0,!0),rr=!1}We=-10,Ze=-10,tt.fill(null),Ir(null,!0,!0),yt&&(rr=yt)}function Jm(b,A,D,U,q,Q,ft){st._lock||(ee(b),ka(),Qd(),b!=null&&Ha(Wg,n,We,Ze,G,Ct,null))}function $m(){w.forEach(DM),V(n.width,n.height,!0)}Vr(Vc,No,$m);let Po={};Po.mousedown=Ym,Po.mousemove=Gm,Po.mouseup=jm,Po.dblclick=Jm,Po.setSeries=(b,A,D,U)=>{let q=yn.match[2];D=q(n,A,D),D!=-1&&ps(D,U,!0,!1)},rt&&(Se(Vg,p,Ym),Se(uf,p,Gm),Se(Gg,p,b=>{ee(b),Ga(!1)}),Se(Hg,p,Zv),Se(Wg,p,Jm),Tf.add(n),n.syncRect=Ga);let vc=n.hooks=s.hooks||{};function Nn(b,A,D){si?De.push([b,A,D]):b in vc&&vc[b].forEach(U=>{U.call(null,n,A,D)})}(s.plugins||[]).forEach(b=>{for(let A in b.hooks)vc[A]=(vc[A]||[]).concat(b.hooks[A])});let Zm=(b,A,D)=>D,yn=xn({key:null,setSeries:!1,filters:{pub:e0,sub:e0},scales:[S,_[1]?_[1].scale:null],match:[n0,n0,Zm],values:[null,null]},st.sync);yn.match.length==2&&yn.match.push(Zm),st.sync=yn;let Km=yn.key,tf=K0(Km);function Ha(b,A,D,U,q,Q,ft){yn.filters.pub(b,A,D,U,q,Q,ft)&&tf.pub(b,A,D,U,q,Q,ft)}tf.sub(n);function Kv(b,A,D,U,q,Q,ft){yn.filters.sub(b,A,D,U,q,Q,ft)&&Po[b](null,A,D,U,q,Q,ft)}n.pub=Kv;function Qv(){tf.unsub(n),Tf.delete(n),Pn.clear(),vf(Vc,No,$m),c.remove(),lt?.remove(),Nn("destroy")}n.destroy=Qv;function ef(){Nn("init",s,t),Ba(t||s.data,!1),W[S]?Yd(S,W[S]):ka(),ct=Xe.show&&(Xe.width>0||Xe.height>0),ot=_t=!0,V(s.width,s.height)}return _.forEach(vo),w.forEach(Is),e?e instanceof HTMLElement?(e.appendChild(c),ef()):e(n,ef):ef(),n}Fn.assign=xn;Fn.fmtNum=If;Fn.rangeNum=Gc;Fn.rangeLog=Xc;Fn.rangeAsinh=Pf;Fn.orient=Hr;Fn.pxRatio=Re;Fn.join=TS;Fn.fmtDate=Df,Fn.tzDate=US;Fn.sync=K0;{Fn.addGap=_M,Fn.clipGaps=jc;let s=Fn.paths={points:sy};s.linear=oy,s.stepped=bM,s.bars=SM,s.spline=wM}var hy=window.matchMedia("(prefers-color-scheme: dark)");function Vf(){let s=Qi("theme");return s==="light"||s==="dark"?s:hy.matches?"dark":"light"}function uy(s){let t=()=>{document.documentElement.dataset.theme=Vf(),s(Vf())};return hy.addEventListener("change",t),t(),{flip:()=>{Ri("theme",Vf()==="dark"?"light":"dark"),t()}}}function dr(s){return getComputedStyle(document.documentElement).getPropertyValue(`--${s}`).trim()}var FM=60,UM=.2,dy=.02,Wr=class{constructor(t,e,n,i=null){this.title=t;this.unit=e;this.lines=n;this.always=i;this.legend=z("div",{class:"chart-legend"}),this.place=z("div",{class:"chart-plot",tabindex:0,role:"group","aria-label":`${t} over time; the left and right arrow keys move the cursor`});let r=z("span",{class:"chart-title"},t,z("span",{class:"fine"},e));this.element=z("figure",{class:"chart"},z("figcaption",{},r,this.legend),this.place),this.place.addEventListener("keydown",o=>this.moveCursor(o)),new ResizeObserver(()=>this.fit()).observe(this.place)}title;unit;lines;always;element;place;legend;plot=null;table=[[]];range=[0,1];get series(){return this.lines}setLines(t){JSON.stringify(t)!==JSON.stringify(this.lines)&&(this.lines=t,this.rebuild())}show(t,e){this.table=[t[0],...this.lines.map(({column:n})=>t[n+1]??[])],this.range=e,this.plot===null?this.rebuild():this.plot.setData(this.table),this.plot!==null&&(this.plot.cursor.left??-1)<0&&t[0].length>0&&this.plot.setLegend({idx:t[0].length-1})}rebuild(){this.plot?.destroy(),this.plot=null;let{clientWidth:t,clientHeight:e}=this.place;if(t>0&&e>=FM){let n={width:t,height:e};this.plot=new Fn({...this.options(),...n},this.table,this.place),this.fit()}}picture(t,e,n){return new Promise(i=>{let o={legend:{show:!1},cursor:{show:!1},hooks:{draw:[a=>{i(n(a.ctx.canvas)),queueMicrotask(()=>a.destroy())}]}};new Fn({...this.options(),width:t,height:e,...o},this.table,z("div"))})}fit(){let{clientWidth:t,clientHeight:e}=this.place;this.plot===null?this.rebuild():e>0&&!this.fits()&&this.plot.setSize({width:t,height:e})}fits(){let{clientWidth:t,clientHeight:e}=this.place;return t===this.plot?.width&&e===this.plot.height}moveCursor(t){let e={ArrowLeft:-dy,ArrowRight:dy}[t.key];if(this.plot!==null&&e!==void 0){let n=this.plot.over.clientWidth,i=this.plot.cursor.left??-1,r=(i<0?n:i)+e*n;this.plot.setCursor({left:Math.min(n-1,Math.max(0,r)),top:1})}}options(){let t={stroke:dr("grid"),width:1},e={stroke:dr("muted"),grid:t,ticks:{show:!1},font:"11px system-ui"};return{scales:{x:{time:!1,range:()=>this.range},y:{range:(n,i,r)=>this.spanOf(i,r)}},axes:[{...e,size:22,gap:4,values:(n,i)=>i.map(OM)},{...e,size:38,gap:4}],series:[{label:"t",value:(n,i)=>i===null?"\u2013":Dr(i)},...this.lines.map(({name:n,colour:i})=>({label:n,stroke:dr(i),width:1.5,points:{show:!1},value:(r,o)=>_n(o,2)}))],cursor:{y:!1,drag:{x:!1,y:!1},sync:{key:"amr"}},legend:{mount:(n,i)=>this.legend.replaceChildren(i),markers:{width:2}}}}spanOf(t,e){let n=Math.min(t??0,this.always?.[0]??1/0),i=Math.max(e??0,this.always?.[1]??-1/0),r=Math.max((i-n)*.08,(UM-(i-n))/2);return[n-r,i+r]}};function OM(s){return s>1e8?Dr(s):`${Number(s.toFixed(2))}`}function fy(s,t){let e=[s.map(BM).join(",")];for(let n=0;n<t[0].length;n+=1)e.push(t.map(i=>kM(i[n])).join(","));return`${e.join(`\r
+`)}\r
+`}function BM(s){return/[",\r\n]/.test(s)?`"${s.replaceAll('"','""')}"`:s}function kM(s){return s==null?"":String(Number(s.toFixed(6)))}var py=800,Gf=190,Hf=26,el=14;async function my(s){let t=window.devicePixelRatio,e=document.createElement("canvas"),n=e.getContext("2d");if(n===null)return null;e.width=(py+2*el)*t,e.height=(s.length*(Hf+Gf)+2*el)*t,n.fillStyle=dr("surface"),n.fillRect(0,0,e.width,e.height);for(let[i,r]of s.entries()){let o=(el+i*(Hf+Gf))*t;zM(n,r,el*t,o+16*t,t),await r.picture(py,Gf,a=>{n.drawImage(a,el*t,o+Hf*t)})}return new Promise(i=>e.toBlob(i,"image/png"))}function zM(s,{title:t,unit:e,series:n},i,r,o){let a=(l,c,h)=>{s.font=`${h} ${12*o}px system-ui, sans-serif`,s.fillStyle=c,s.fillText(l,i,r),i+=s.measureText(l).width+12*o};a(`${t}, ${e}`,dr("text"),600);for(let l of n)a(l.name,dr(l.colour),500)}var Kc=class{constructor(t,e,n){this.columns=t;this.span=e;this.capacity=n;this.times=new Float64Array(n),this.values=new Float32Array(n*t)}columns;span;capacity;times;values;count=0;next=0;get length(){return this.count}get latest(){return this.count===0?Number.NaN:this.times[this.index(this.count-1)]}push(t,e){if(t<this.latest&&this.clear(),!(this.count>0&&t-this.latest<.99*this.span/this.capacity)){this.times[this.next]=t;for(let n=0;n<this.columns;n+=1)this.values[this.next*this.columns+n]=e[n];this.next=(this.next+1)%this.capacity,this.count=Math.min(this.count+1,this.capacity)}}clear(){this.count=0,this.next=0}since(t){let e=0,n=this.count;for(;e<n;){let o=e+n>>1;this.times[this.index(o)]<t?e=o+1:n=o}let i=this.count-e,r=[new Array(i)];for(let o=0;o<this.columns;o+=1)r.push(new Array(i));for(let o=0;o<i;o+=1){let a=this.index(e+o);r[0][o]=this.times[a];for(let l=0;l<this.columns;l+=1){let c=this.values[a*this.columns+l];r[l+1][o]=Number.isNaN(c)?null:c}}return r}index(t){return(this.next-this.count+t+this.capacity)%this.capacity}};var Xr=300,VM=60,Wf=2*Os.length,gy=Wf+1;function yy(s,t){return 2*s+(t==="linear"?0:1)}var Qc=class{records=new Map;record(t,e){for(let{id:n}of t.layout.robots){let i=cr(t,n);i!==null&&this.recordRobot(t,i,e??Number.NaN)}}of(t){return t===void 0?null:this.records.get(t)??null}clear(){this.records.clear()}keep(t){for(let e of[...this.records.keys()])t.includes(e)||this.records.delete(e)}get length(){let t=0;for(let{history:e}of this.records.values())t+=e.length;return t}recordRobot(t,e,n){let i=Tc(t,e),o=[...Os.flatMap(c=>{let{linear:h,angular:u}=wc(e,c);return[h,u]}),n,...i.map(({speed:c})=>c)],a=i.map(({name:c})=>c),l=this.records.get(e.id);(l===void 0||l.wheels.join()!==a.join())&&(l={wheels:a,history:new Kc(o.length,Xr,Xr*VM)},this.records.set(e.id,l)),l.history.push(t.time,o)}};var _y=[10,30,60,120,Xr],xy=100,GM=500,HM=6,th=class{constructor(t,e){this.app=t;this.recorder=e;this.charts=[new Wr("Linear velocity","m/s",vy("linear")),new Wr("Angular velocity","rad/s",vy("angular")),new Wr("Wheel speeds","rad/s",[]),new Wr("Real-time factor","\xD7",[{name:"real",colour:"accent",column:Wf}],[0,1])],this.element=z("section",{class:"plots","aria-label":"Plots"},this.tools(),z("div",{class:"charts"},...this.charts.map(n=>n.element))),t.store.watch(["graph","robot","reset"],()=>this.draw())}app;recorder;id="plots";title="Plots";element;charts;window=Ec("window",_y[0],Xr,30);paused=null;drawnAt=0;pulse(t){let e=xy+(GM-xy)*(this.window/Xr);this.paused===null&&performance.now()-this.drawnAt>=.9*e&&this.draw()}repaint(){for(let t of this.charts)t.rebuild()}draw(){this.drawnAt=performance.now();let t=this.recorder.of(this.app.store.robot?.id),{table:e,end:n}=this.paused??this.current(t);this.charts[2].setLines(WM(t?.wheels??[])),this.charts[3].element.hidden=this.app.store.simulator===null;for(let i of this.charts)i.show(e,[n-this.window,n])}current(t){if(t===null)return{table:[[]],end:this.window};let e=t.history.latest;return{table:t.history.since(e-this.window),end:Number.isNaN(e)?0:e}}tools(){let t=z("select",{"aria-label":"Window of time"},..._y.map(e=>z("option",{value:e},e<60?`${e} s`:`${e/60} min`)));return t.value=String(this.window),t.addEventListener("change",()=>{this.window=Number(t.value),Ri("window",t.value),this.draw()}),z("div",{class:"plot-tools",role:"toolbar","aria-label":"Plots"},z("h2",{},"Plots"),t,Wa("Pause",!1,e=>this.pause(e),"Hold the plots; recording goes on"),z("span",{class:"grow"}),Ye("CSV",()=>this.saveCsv(),{kind:"quiet",title:"Save these samples as CSV"}),Ye("PNG",()=>{this.savePng()},{kind:"quiet",title:"Save an image"}))}pause(t){let e=this.recorder.of(this.app.store.robot?.id),n=e?.history.latest??0;this.paused=t&&e!==null?{table:e.history.since(n-Xr),end:n}:null,this.draw()}saveCsv(){let t=this.recorder.of(this.app.store.robot?.id),{table:e,end:n}=this.paused??this.current(t),i=e[0].findIndex(a=>a>=n-this.window),r=e.map(a=>a.slice(Math.max(0,i))),o=["time_s",...XM(t?.wheels??[])];Ya("velocities.csv",new Blob([fy(o,r)],{type:"text/csv"}))}async savePng(){let t=await my(this.charts.filter(e=>!e.element.hidden));t===null?this.app.store.note("warning","This browser could not draw the image."):Ya("plots.png",t)}};function vy(s){return Os.map((t,e)=>({name:t,colour:t,column:yy(e,s)}))}function WM(s){return s.map((t,e)=>({name:t.replace(/^(joint_)?(wheel_)?/,"").replace(/(_wheel)?(_joint)?$/,""),colour:`wheel-${e%HM}`,column:gy+e}))}function XM(s){return[...Os.flatMap(t=>[`${t}_linear_m_s`,`${t}_angular_rad_s`]),"real_time_factor",...s.map(t=>`${t}_rad_s`)]}var qM="(max-width: 760px)";function by({store:s},{view:t,drive:e,plots:n,tabs:i}){let r=z("div",{class:"dock"}),o=Ye("",()=>f(!1),{icon:"close",title:"Close the panels"}),a=z("div",{class:"sheet-head"},z("h2",{},"Panels"),o),l=z("aside",{class:"sheet","aria-label":"Panels"},a,i.element),c={id:"plots",title:"Plots",element:z("div",{class:"plots-slot"})};e.element.id="drive",e.element.tabIndex=-1,i.add(c),document.body.append(t.element,r,e.element,l);let h=window.matchMedia(qM),u=Ye("",()=>d(!r.classList.contains("folded")),{kind:"quiet"});n.element.querySelector(".plot-tools")?.append(u);function d(y){r.classList.toggle("folded",y),document.body.classList.toggle("folded",y),u.textContent=y?"Show":"Hide",u.setAttribute("aria-expanded",String(!y)),Ri("folded",y?"yes":"no")}function f(y){l.dataset.sheet=y?"open":"closed",l.inert=h.matches&&!y,y&&o.focus()}function p(){(h.matches?c.element:r).append(n.element),i.setHidden("plots",!h.matches),f(!1)}return s.watch(["graph","robot"],()=>{let{robot:y}=s,m=y===null||y.command!==null||y.odometry!==null;document.body.classList.toggle("still",!m),y!==null&&y.joint_publisher!==null&&i.suggest("joints")}),h.addEventListener("change",p),d(Qi("folded")==="yes"),p(),{openPanels:()=>f(l.dataset.sheet!=="open"),pulse:y=>{n.element.querySelector(".charts")?.checkVisibility()===!0&&n.pulse?.(y)}}}var Sy=1,Yr=class extends Error{name="BadState"};function YM(s){let t=7*s.frames.length;for(let{joints:e,wheels:n}of s.robots)t+=2*e.length+18+2,t+=4*n.length;return 16+4*t}function wy(s,t){if(s.byteLength<16)throw new Yr(`a frame of ${s.byteLength} bytes, less than its header`);let e=new DataView(s,0,16);if(e.getUint8(0)!==Sy)throw new Yr(`a frame of kind ${e.getUint8(0)}, not ${Sy}`);if(e.getUint16(2,!0)!==t.id)return null;let n=YM(t);if(s.byteLength!==n)throw new Yr(`a state of ${s.byteLength} bytes; layout ${t.id} asks for ${n}`);let i=new Float32Array(s,16),r=0,o=a=>i.subarray(r,r+=a);return{layout:t,sequence:e.getUint32(4,!0),time:e.getFloat64(8,!0),poses:o(7*t.frames.length),robots:t.robots.map(({id:a,joints:l,wheels:c})=>({id:a,positions:o(l.length),velocities:o(l.length),odometry:o(9),truth:o(9),command:o(2),wheels:o(4*c.length)}))}}function eh(s,t=0){for(let e=t;e<t+7;e++)if(!Number.isFinite(s[e]))return!1;return!0}var nh=class{constructor(t){this.store=t;t.watch(["layout"],()=>{this.latest=null,this.isFresh=!1})}store;counts={states:0,skipped:0,stale:0,bad:0};latest=null;arrivedAt=Number.NaN;isFresh=!1;take(t){let e=this.decode(t);return e===null?null:(this.latest!==null&&(this.counts.skipped+=Math.max(0,e.sequence-this.latest.sequence-1)),this.counts.states+=1,this.arrivedAt=performance.now(),this.latest=e,this.isFresh=!0,e)}fresh(){let t=this.isFresh?this.latest:null;return this.isFresh=!1,t}decode(t){let{layout:e}=this.store;try{let n=e===null?null:wy(t,e);return this.counts.stale+=n===null?1:0,n}catch(n){if(!(n instanceof Yr))throw n;return this.counts.bad+=1,this.store.note("error",`The node sent ${n.message}.`),null}}};var ih=class{link={state:"connecting"};hello=null;graph=null;layout=null;fixedFrame=null;selection=null;models=new Map;worlds=new Map;simulations=new Map;controllers=new Map;diagnostics=new Map;drivers=new Map;notices=[];onModel=()=>{};onWorld=()=>{};chosen=null;listeners=new Map;watch(t,e){for(let n of t){let i=this.listeners.get(n)??new Set;this.listeners.set(n,i.add(e))}e()}get robot(){let t=this.graph?.robots??[];return t.find(e=>e.id===this.chosen)??t[0]??null}get simulator(){return this.graph?.simulators[0]??null}get simulation(){return this.simulator===null?null:this.simulations.get(this.simulator.id)??null}get model(){return this.robot===null?null:this.models.get(this.robot.id)??null}get driver(){let t=this.robot===null?null:this.drivers.get(this.robot.id)??null;return t===null?null:{me:t===this.hello?.client,name:t}}choose(t){this.chosen=t,this.tell("robot")}setLink(t){this.link=t,this.tell("link")}setFixedFrame(t){this.fixedFrame=t,this.tell("frame")}select(t){this.selection=t,this.tell("selection")}note(t,e){let[n]=this.notices;n!==void 0&&n.text===e&&n.level===t?(n.count+=1,n.at=new Date):(this.notices.unshift({type:"notice",level:t,text:e,count:1,at:new Date}),this.notices.length=Math.min(this.notices.length,50)),this.tell("notice")}clearNotices(){this.notices.length=0,this.tell("notice")}take(t){switch(t.type){case"hello":return this.begin(t);case"graph":return this.setGraph(t);case"model":return this.models.set(t.robot,t),this.onModel(t),this.tell("model");case"world":return this.worlds.set(t.simulator,t),this.onWorld(t),this.tell("world");case"layout":return this.layout=t,this.tell("layout");case"simulation":return this.simulations.set(t.simulator,t),this.tell("simulation");case"reset":return this.tell("reset");case"controllers":return this.controllers.set(t.robot,t),this.tell("controllers");case"diagnostics":return this.diagnostics.set(t.robot,t),this.tell("diagnostics");case"driver":return this.drivers.set(t.robot,t.client),this.tell("driver");case"reply":return t.ok?void 0:this.note("error",t.message);case"notice":return this.note(t.level,t.text)}}begin(t){let e=this.hello;if(this.hello=t,this.setGraph({type:"graph",robots:[],simulators:[],hint:null}),this.layout=null,this.tell("layout"),this.tell("hello"),e!==null&&e.version!==t.version){let n=`${e.version} \u2192 ${t.version}`;this.note("warning",`The node was updated (${n}): reload this page to match it.`)}}setGraph(t){this.graph=t;let e=new Set(t.robots.map(i=>i.id)),n=new Set(t.simulators.map(i=>i.id));for(let i of[this.models,this.controllers,this.diagnostics,this.drivers])Ty(i,e);for(let i of[this.worlds,this.simulations])Ty(i,n);this.selection!==null&&!e.has(this.selection.robot)&&(this.selection=null),this.tell("graph")}tell(t){for(let e of this.listeners.get(t)??[])e()}};function Ty(s,t){for(let e of[...s.keys()])t.has(e)||s.delete(e)}var sh=class{constructor(t){this.name=t;this.element.append(this.list),this.list.addEventListener("keydown",e=>this.move(e))}name;element=z("div",{class:"panels"});list=z("div",{class:"tabs",role:"tablist","aria-label":"Panels"});tabs=[];active=null;add(t){let e=z("span",{class:"badge",hidden:!0}),n=z("button",{type:"button",role:"tab",id:`tab-${t.id}`,"aria-controls":`panel-${t.id}`,onclick:()=>this.show(t.id)},z("span",{},t.title),e),i=z("div",{class:"panel",role:"tabpanel",id:`panel-${t.id}`,"aria-labelledby":`tab-${t.id}`,tabindex:0,hidden:!0},t.element);this.tabs.push({panel:t,button:n,badge:e,body:i}),this.list.append(n),this.element.append(i),this.show(Qi(this.name)??this.tabs[0].panel.id,!1)}setHidden(t,e){let n=this.tabs.find(({panel:i})=>i.id===t);n!==void 0&&(n.button.hidden=e,e&&n===this.active&&this.show(this.tabs[0].panel.id,!1))}setBadge(t,e,n){let i=this.tabs.find(({panel:r})=>r.id===t);i!==void 0&&(i.badge.hidden=e===0,i.badge.dataset.tone=n,Me(i.badge,String(e)),i.badge.setAttribute("aria-label",`${e} to look at`))}show(t,e=!0){let n=this.tabs.find(({panel:i,button:r})=>i.id===t&&!r.hidden);this.active=n??this.tabs[0];for(let i of this.tabs){let r=i===this.active;i.body.hidden=!r,i.button.tabIndex=r?0:-1,i.button.setAttribute("aria-selected",String(r))}n!==void 0&&e&&Ri(this.name,t)}suggest(t){Qi(this.name)===null&&this.show(t,!1)}pulse(t){this.element.closest("[inert]")===null&&this.active?.panel.pulse?.(t)}move(t){let e=this.tabs.filter(({button:o})=>!o.hidden),n=e.findIndex(o=>o===this.active),i={ArrowRight:(n+1)%e.length,ArrowLeft:(n-1+e.length)%e.length,Home:0,End:e.length-1},r=e[i[t.key]];r!==void 0&&(t.preventDefault(),this.show(r.panel.id),r.button.focus())}};var Mr={LEFT:0,MIDDLE:1,RIGHT:2,ROTATE:0,DOLLY:1,PAN:2},wr={ROTATE:0,PAN:1,DOLLY_PAN:2,DOLLY_ROTATE:3},x_=0,Ip=1,v_=2;var co=1,b_=2,Ma=3,Ts=0,Wn=1,pi=2,ho=0,wa=1,Np=2,Dp=3,Fp=4,S_=5;var uo=100,M_=101,w_=102,T_=103,E_=104,A_=200,R_=201,C_=202,P_=203,Up=204,Op=205,L_=206,I_=207,N_=208,D_=209,F_=210,U_=211,O_=212,B_=213,k_=214,Bh=0,kh=1,zh=2,oa=3,Vh=4,Gh=5,Hh=6,Wh=7,ql=0,z_=1,V_=2,Es=0,Bp=1,kp=2,zp=3,Vp=4,Gp=5,Hp=6,Wp=7,yp="attached",G_="detached",Xp=300,fo=301,Ta=302,hu=303,uu=304,Ys=1e3,hi=1001,Xh=1002,Bn=1003,H_=1004;var Yl=1005;var On=1006,du=1007;var qi=1008;var vi=1009,qp=1010,Yp=1011,Ea=1012,fu=1013,cs=1014,Bi=1015,hs=1016,pu=1017,mu=1018,po=1020,jp=35902,Jp=35899,$p=1021,Zp=1022,Yi=1023,js=1026,er=1027,gu=1028,yu=1029,Tr=1030,_u=1031;var xu=1033,jl=33776,Jl=33777,$l=33778,Zl=33779,vu=35840,bu=35841,Su=35842,Mu=35843,wu=36196,Tu=37492,Eu=37496,Au=37488,Ru=37489,Kl=37490,Cu=37491,Pu=37808,Lu=37809,Iu=37810,Nu=37811,Du=37812,Fu=37813,Uu=37814,Ou=37815,Bu=37816,ku=37817,zu=37818,Vu=37819,Gu=37820,Hu=37821,Wu=36492,Xu=36494,qu=36495,Yu=36283,ju=36284,Ql=36285,Ju=36286;var Kr=2300,qh=2301,Uh=2302,pl=2303,_p=2400,xp=2401,vp=2402,W_=2500;var X_=3200;var tc=0,q_=1,nr="",we="srgb",ml="srgb-linear",gl="linear",Le="srgb";var Oh=7680;var Y_=519,j_=512,J_=513,$_=514,Kp=515,Z_=516,K_=517,Qp=518,tm=519,em=35044,mo=35048;var nm="300 es",Wi=2e3,aa=2001;function jM(s){for(let t=s.length-1;t>=0;--t)if(s[t]>=65535)return!0;return!1}function JM(s){return ArrayBuffer.isView(s)&&!(s instanceof DataView)}function la(s){return document.createElementNS("http://www.w3.org/1999/xhtml",s)}function Q_(){let s=la("canvas");return s.style.display="block",s}var Ey={},ca=null;function yl(...s){let t="THREE."+s.shift();ca?ca("log",t,...s):console.log(t,...s)}function tx(s){let t=s[0];if(typeof t=="string"&&t.startsWith("TSL:")){let e=s[1];e&&e.isStackTrace?s[0]+=" "+e.getLocation():s[1]='Stack trace not available. Enable "THREE.Node.captureStackTrace" to capture stack traces.'}return s}function jt(...s){s=tx(s);let t="THREE."+s.shift();if(ca)ca("warn",t,...s);else{let e=s[0];e&&e.isStackTrace?console.warn(e.getError(t)):console.warn(t,...s)}}function te(...s){s=tx(s);let t="THREE."+s.shift();if(ca)ca("error",t,...s);else{let e=s[0];e&&e.isStackTrace?console.error(e.getError(t)):console.error(t,...s)}}function dl(...s){let t=s.join(" ");t in Ey||(Ey[t]=!0,jt(...s))}function ex(s,t,e){return new Promise(function(n,i){function r(){switch(s.clientWaitSync(t,s.SYNC_FLUSH_COMMANDS_BIT,0)){case s.WAIT_FAILED:i();break;case s.TIMEOUT_EXPIRED:setTimeout(r,e);break;default:n()}}setTimeout(r,e)})}var nx={[Bh]:Bh,[zh]:Hh,[Vh]:Vh,[oa]:Gh,[kh]:kh,[Hh]:zh,[Wh]:Wh,[Gh]:oa},as=class{addEventListener(t,e){this._listeners===void 0&&(this._listeners={});let n=this._listeners;n[t]===void 0&&(n[t]=[]),n[t].indexOf(e)===-1&&n[t].push(e)}hasEventListener(t,e){let n=this._listeners;return n===void 0?!1:n[t]!==void 0&&n[t].indexOf(e)!==-1}removeEventListener(t,e){let n=this._listeners;if(n===void 0)return;let i=n[t];if(i!==void 0){let r=i.indexOf(e);r!==-1&&i.splice(r,1)}}dispatchEvent(t){let e=this._listeners;if(e===void 0)return;let n=e[t.type];if(n!==void 0){t.target=this;let i=n.slice(0);for(let r=0,o=i.length;r<o;r++)i[r].call(this,t);t.target=null}}},Jn=["00","01","02","03","04","05","06","07","08","09","0a","0b","0c","0d","0e","0f","10","11","12","13","14","15","16","17","18","19","1a","1b","1c","1d","1e","1f","20","21","22","23","24","25","26","27","28","29","2a","2b","2c","2d","2e","2f","30","31","32","33","34","35","36","37","38","39","3a","3b","3c","3d","3e","3f","40","41","42","43","44","45","46","47","48","49","4a","4b","4c","4d","4e","4f","50","51","52","53","54","55","56","57","58","59","5a","5b","5c","5d","5e","5f","60","61","62","63","64","65","66","67","68","69","6a","6b","6c","6d","6e","6f","70","71","72","73","74","75","76","77","78","79","7a","7b","7c","7d","7e","7f","80","81","82","83","84","85","86","87","88","89","8a","8b","8c","8d","8e","8f","90","91","92","93","94","95","96","97","98","99","9a","9b","9c","9d","9e","9f","a0","a1","a2","a3","a4","a5","a6","a7","a8","a9","aa","ab","ac","ad","ae","af","b0","b1","b2","b3","b4","b5","b6","b7","b8","b9","ba","bb","bc","bd","be","bf","c0","c1","c2","c3","c4","c5","c6","c7","c8","c9","ca","cb","cc","cd","ce","cf","d0","d1","d2","d3","d4","d5","d6","d7","d8","d9","da","db","dc","dd","de","df","e0","e1","e2","e3","e4","e5","e6","e7","e8","e9","ea","eb","ec","ed","ee","ef","f0","f1","f2","f3","f4","f5","f6","f7","f8","f9","fa","fb","fc","fd","fe","ff"],Ay=1234567,ia=Math.PI/180,Qr=180/Math.PI;function As(){let s=Math.random()*4294967295|0,t=Math.random()*4294967295|0,e=Math.random()*4294967295|0,n=Math.random()*4294967295|0;return(Jn[s&255]+Jn[s>>8&255]+Jn[s>>16&255]+Jn[s>>24&255]+"-"+Jn[t&255]+Jn[t>>8&255]+"-"+Jn[t>>16&15|64]+Jn[t>>24&255]+"-"+Jn[e&63|128]+Jn[e>>8&255]+"-"+Jn[e>>16&255]+Jn[e>>24&255]+Jn[n&255]+Jn[n>>8&255]+Jn[n>>16&255]+Jn[n>>24&255]).toLowerCase()}function le(s,t,e){return Math.max(t,Math.min(e,s))}function im(s,t){return(s%t+t)%t}function $M(s,t,e,n,i){return n+(s-t)*(i-n)/(e-t)}function ZM(s,t,e){return s!==t?(e-s)/(t-s):0}function fl(s,t,e){return(1-e)*s+e*t}function KM(s,t,e,n){return fl(s,t,1-Math.exp(-e*n))}function QM(s,t=1){return t-Math.abs(im(s,t*2)-t)}function tw(s,t,e){return s<=t?0:s>=e?1:(s=(s-t)/(e-t),s*s*(3-2*s))}function ew(s,t,e){return s<=t?0:s>=e?1:(s=(s-t)/(e-t),s*s*s*(s*(s*6-15)+10))}function nw(s,t){return s+Math.floor(Math.random()*(t-s+1))}function iw(s,t){return s+Math.random()*(t-s)}function sw(s){return s*(.5-Math.random())}function rw(s){s!==void 0&&(Ay=s);let t=Ay+=1831565813;return t=Math.imul(t^t>>>15,t|1),t^=t+Math.imul(t^t>>>7,t|61),((t^t>>>14)>>>0)/4294967296}function ow(s){return s*ia}function aw(s){return s*Qr}function lw(s){return s>0&&Number.isInteger(s)&&2**Math.round(Math.log2(s))===s}function cw(s){return Math.pow(2,Math.ceil(Math.log(s)/Math.LN2))}function sm(s){return Math.pow(2,Math.floor(Math.log(s)/Math.LN2))}function hw(s,t,e,n,i){let r=Math.cos,o=Math.sin,a=r(e/2),l=o(e/2),c=r((t+n)/2),h=o((t+n)/2),u=r((t-n)/2),d=o((t-n)/2),f=r((n-t)/2),p=o((n-t)/2);switch(i){case"XYX":s.set(a*h,l*u,l*d,a*c);break;case"YZY":s.set(l*d,a*h,l*u,a*c);break;case"ZXZ":s.set(l*u,l*d,a*h,a*c);break;case"XZX":s.set(a*h,l*p,l*f,a*c);break;case"YXY":s.set(l*f,a*h,l*p,a*c);break;case"ZYZ":s.set(l*p,l*f,a*h,a*c);break;default:jt("MathUtils: .setQuaternionFromProperEuler() encountered an unknown order: "+i)}}function $u(s){switch(s.constructor){case Uint32Array:return 4294967295;case Uint16Array:return 65535;case Uint8Array:case Uint8ClampedArray:return 255;case Int32Array:return 2147483647;case Int16Array:return 32767;case Int8Array:return 127;default:return}}function rm(s,t){if(t.constructor===Float32Array)return s;let e=$u(t);if(e===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.max(s/e,-1)}function om(s,t){if(t.constructor===Float32Array)return s;let e=$u(t);if(e===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.round(s*e)}var ti={DEG2RAD:ia,RAD2DEG:Qr,generateUUID:As,clamp:le,euclideanModulo:im,mapLinear:$M,inverseLerp:ZM,lerp:fl,damp:KM,pingpong:QM,smoothstep:tw,smootherstep:ew,randInt:nw,randFloat:iw,randFloatSpread:sw,seededRandom:rw,degToRad:ow,radToDeg:aw,isPowerOfTwo:lw,ceilPowerOfTwo:cw,floorPowerOfTwo:sm,setQuaternionFromProperEuler:hw,normalize:om,denormalize:rm},Xt=class{static{this.prototype.isVector2=!0}constructor(t=0,e=0){this.x=t,this.y=e}get width(){return this.x}set width(t){this.x=t}get height(){return this.y}set height(t){this.y=t}set(t,e){return this.x=t,this.y=e,this}setScalar(t){return this.x=t,this.y=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;default:throw new Error("THREE.Vector2: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;default:throw new Error("THREE.Vector2: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y)}copy(t){return this.x=t.x,this.y=t.y,this}add(t){return this.x+=t.x,this.y+=t.y,this}addScalar(t){return this.x+=t,this.y+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this}subScalar(t){return this.x-=t,this.y-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this}multiply(t){return this.x*=t.x,this.y*=t.y,this}multiplyScalar(t){return this.x*=t,this.y*=t,this}divide(t){return this.x/=t.x,this.y/=t.y,this}divideScalar(t){return this.multiplyScalar(1/t)}applyMatrix3(t){let e=this.x,n=this.y,i=t.elements;return this.x=i[0]*e+i[3]*n+i[6],this.y=i[1]*e+i[4]*n+i[7],this}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this}clamp(t,e){return this.x=le(this.x,t.x,e.x),this.y=le(this.y,t.y,e.y),this}clampScalar(t,e){return this.x=le(this.x,t,e),this.y=le(this.y,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(le(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this}negate(){return this.x=-this.x,this.y=-this.y,this}dot(t){return this.x*t.x+this.y*t.y}cross(t){return this.x*t.y-this.y*t.x}lengthSq(){return this.x*this.x+this.y*this.y}length(){return Math.sqrt(this.x*this.x+this.y*this.y)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)}normalize(){return this.divideScalar(this.length()||1)}angle(){return Math.atan2(-this.y,-this.x)+Math.PI}angleTo(t){let e=Math.sqrt(this.lengthSq()*t.lengthSq());if(e===0)return Math.PI/2;let n=this.dot(t)/e;return Math.acos(le(n,-1,1))}distanceTo(t){return Math.sqrt(this.distanceToSquared(t))}distanceToSquared(t){let e=this.x-t.x,n=this.y-t.y;return e*e+n*n}manhattanDistanceTo(t){return Math.abs(this.x-t.x)+Math.abs(this.y-t.y)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this}equals(t){return t.x===this.x&&t.y===this.y}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this}rotateAround(t,e){let n=Math.cos(e),i=Math.sin(e),r=this.x-t.x,o=this.y-t.y;return this.x=r*n-o*i+t.x,this.y=r*i+o*n+t.y,this}random(){return this.x=Math.random(),this.y=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y}},Ge=class{constructor(t=0,e=0,n=0,i=1){this.isQuaternion=!0,this._x=t,this._y=e,this._z=n,this._w=i}static slerpFlat(t,e,n,i,r,o,a){let l=n[i+0],c=n[i+1],h=n[i+2],u=n[i+3],d=r[o+0],f=r[o+1],p=r[o+2],y=r[o+3];if(u!==y||l!==d||c!==f||h!==p){let m=l*d+c*f+h*p+u*y;m<0&&(d=-d,f=-f,p=-p,y=-y,m=-m);let g=1-a;if(m<.9995){let _=Math.acos(m),w=Math.sin(_);g=Math.sin(g*_)/w,a=Math.sin(a*_)/w,l=l*g+d*a,c=c*g+f*a,h=h*g+p*a,u=u*g+y*a}else{l=l*g+d*a,c=c*g+f*a,h=h*g+p*a,u=u*g+y*a;let _=1/Math.sqrt(l*l+c*c+h*h+u*u);l*=_,c*=_,h*=_,u*=_}}t[e]=l,t[e+1]=c,t[e+2]=h,t[e+3]=u}static multiplyQuaternionsFlat(t,e,n,i,r,o){let a=n[i],l=n[i+1],c=n[i+2],h=n[i+3],u=r[o],d=r[o+1],f=r[o+2],p=r[o+3];return t[e]=a*p+h*u+l*f-c*d,t[e+1]=l*p+h*d+c*u-a*f,t[e+2]=c*p+h*f+a*d-l*u,t[e+3]=h*p-a*u-l*d-c*f,t}get x(){return this._x}set x(t){this._x=t,this._onChangeCallback()}get y(){return this._y}set y(t){this._y=t,this._onChangeCallback()}get z(){return this._z}set z(t){this._z=t,this._onChangeCallback()}get w(){return this._w}set w(t){this._w=t,this._onChangeCallback()}set(t,e,n,i){return this._x=t,this._y=e,this._z=n,this._w=i,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._w)}copy(t){return this._x=t.x,this._y=t.y,this._z=t.z,this._w=t.w,this._onChangeCallback(),this}setFromEuler(t,e=!0){let n=t._x,i=t._y,r=t._z,o=t._order,a=Math.cos,l=Math.sin,c=a(n/2),h=a(i/2),u=a(r/2),d=l(n/2),f=l(i/2),p=l(r/2);switch(o){case"XYZ":this._x=d*h*u+c*f*p,this._y=c*f*u-d*h*p,this._z=c*h*p+d*f*u,this._w=c*h*u-d*f*p;break;case"YXZ":this._x=d*h*u+c*f*p,this._y=c*f*u-d*h*p,this._z=c*h*p-d*f*u,this._w=c*h*u+d*f*p;break;case"ZXY":this._x=d*h*u-c*f*p,this._y=c*f*u+d*h*p,this._z=c*h*p+d*f*u,this._w=c*h*u-d*f*p;break;case"ZYX":this._x=d*h*u-c*f*p,this._y=c*f*u+d*h*p,this._z=c*h*p-d*f*u,this._w=c*h*u+d*f*p;break;case"YZX":this._x=d*h*u+c*f*p,this._y=c*f*u+d*h*p,this._z=c*h*p-d*f*u,this._w=c*h*u-d*f*p;break;case"XZY":this._x=d*h*u-c*f*p,this._y=c*f*u-d*h*p,this._z=c*h*p+d*f*u,this._w=c*h*u+d*f*p;break;default:jt("Quaternion: .setFromEuler() encountered an unknown order: "+o)}return e===!0&&this._onChangeCallback(),this}setFromAxisAngle(t,e){let n=e/2,i=Math.sin(n);return this._x=t.x*i,this._y=t.y*i,this._z=t.z*i,this._w=Math.cos(n),this._onChangeCallback(),this}setFromRotationMatrix(t){let e=t.elements,n=e[0],i=e[4],r=e[8],o=e[1],a=e[5],l=e[9],c=e[2],h=e[6],u=e[10],d=n+a+u;if(d>0){let f=.5/Math.sqrt(d+1);this._w=.25/f,this._x=(h-l)*f,this._y=(r-c)*f,this._z=(o-i)*f}else if(n>a&&n>u){let f=2*Math.sqrt(1+n-a-u);this._w=(h-l)/f,this._x=.25*f,this._y=(i+o)/f,this._z=(r+c)/f}else if(a>u){let f=2*Math.sqrt(1+a-n-u);this._w=(r-c)/f,this._x=(i+o)/f,this._y=.25*f,this._z=(l+h)/f}else{let f=2*Math.sqrt(1+u-n-a);this._w=(o-i)/f,this._x=(r+c)/f,this._y=(l+h)/f,this._z=.25*f}return this._onChangeCallback(),this}setFromUnitVectors(t,e){let n=t.dot(e)+1;return n<1e-8?(n=0,Math.abs(t.x)>Math.abs(t.z)?(this._x=-t.y,this._y=t.x,this._z=0,this._w=n):(this._x=0,this._y=-t.z,this._z=t.y,this._w=n)):(this._x=t.y*e.z-t.z*e.y,this._y=t.z*e.x-t.x*e.z,this._z=t.x*e.y-t.y*e.x,this._w=n),this.normalize()}angleTo(t){return 2*Math.acos(Math.abs(le(this.dot(t),-1,1)))}rotateTowards(t,e){let n=this.angleTo(t);if(n===0)return this;let i=Math.min(1,e/n);return this.slerp(t,i),this}identity(){return this.set(0,0,0,1)}invert(){return this.conjugate()}conjugate(){return this._x*=-1,this._y*=-1,this._z*=-1,this._onChangeCallback(),this}dot(t){return this._x*t._x+this._y*t._y+this._z*t._z+this._w*t._w}lengthSq(){return this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w}length(){return Math.sqrt(this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w)}normalize(){let t=this.length();return t===0?(this._x=0,this._y=0,this._z=0,this._w=1):(t=1/t,this._x=this._x*t,this._y=this._y*t,this._z=this._z*t,this._w=this._w*t),this._onChangeCallback(),this}multiply(t){return this.multiplyQuaternions(this,t)}premultiply(t){return this.multiplyQuaternions(t,this)}multiplyQuaternions(t,e){let n=t._x,i=t._y,r=t._z,o=t._w,a=e._x,l=e._y,c=e._z,h=e._w;return this._x=n*h+o*a+i*c-r*l,this._y=i*h+o*l+r*a-n*c,this._z=r*h+o*c+n*l-i*a,this._w=o*h-n*a-i*l-r*c,this._onChangeCallback(),this}slerp(t,e){let n=t._x,i=t._y,r=t._z,o=t._w,a=this.dot(t);a<0&&(n=-n,i=-i,r=-r,o=-o,a=-a);let l=1-e;if(a<.9995){let c=Math.acos(a),h=Math.sin(c);l=Math.sin(l*c)/h,e=Math.sin(e*c)/h,this._x=this._x*l+n*e,this._y=this._y*l+i*e,this._z=this._z*l+r*e,this._w=this._w*l+o*e,this._onChangeCallback()}else this._x=this._x*l+n*e,this._y=this._y*l+i*e,this._z=this._z*l+r*e,this._w=this._w*l+o*e,this.normalize();return this}slerpQuaternions(t,e,n){return this.copy(t).slerp(e,n)}random(){let t=2*Math.PI*Math.random(),e=2*Math.PI*Math.random(),n=Math.random(),i=Math.sqrt(1-n),r=Math.sqrt(n);return this.set(i*Math.sin(t),i*Math.cos(t),r*Math.sin(e),r*Math.cos(e))}equals(t){return t._x===this._x&&t._y===this._y&&t._z===this._z&&t._w===this._w}fromArray(t,e=0){return this._x=t[e],this._y=t[e+1],this._z=t[e+2],this._w=t[e+3],this._onChangeCallback(),this}toArray(t=[],e=0){return t[e]=this._x,t[e+1]=this._y,t[e+2]=this._z,t[e+3]=this._w,t}fromBufferAttribute(t,e){return this._x=t.getX(e),this._y=t.getY(e),this._z=t.getZ(e),this._w=t.getW(e),this._onChangeCallback(),this}toJSON(){return this.toArray()}_onChange(t){return this._onChangeCallback=t,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._w}},O=class{static{this.prototype.isVector3=!0}constructor(t=0,e=0,n=0){this.x=t,this.y=e,this.z=n}set(t,e,n){return n===void 0&&(n=this.z),this.x=t,this.y=e,this.z=n,this}setScalar(t){return this.x=t,this.y=t,this.z=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setZ(t){return this.z=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;case 2:this.z=e;break;default:throw new Error("THREE.Vector3: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;case 2:return this.z;default:throw new Error("THREE.Vector3: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y,this.z)}copy(t){return this.x=t.x,this.y=t.y,this.z=t.z,this}add(t){return this.x+=t.x,this.y+=t.y,this.z+=t.z,this}addScalar(t){return this.x+=t,this.y+=t,this.z+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this.z=t.z+e.z,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this.z+=t.z*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this.z-=t.z,this}subScalar(t){return this.x-=t,this.y-=t,this.z-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this.z=t.z-e.z,this}multiply(t){return this.x*=t.x,this.y*=t.y,this.z*=t.z,this}multiplyScalar(t){return this.x*=t,this.y*=t,this.z*=t,this}multiplyVectors(t,e){return this.x=t.x*e.x,this.y=t.y*e.y,this.z=t.z*e.z,this}applyEuler(t){return this.applyQuaternion(Ry.setFromEuler(t))}applyAxisAngle(t,e){return this.applyQuaternion(Ry.setFromAxisAngle(t,e))}applyMatrix3(t){let e=this.x,n=this.y,i=this.z,r=t.elements;return this.x=r[0]*e+r[3]*n+r[6]*i,this.y=r[1]*e+r[4]*n+r[7]*i,this.z=r[2]*e+r[5]*n+r[8]*i,this}applyNormalMatrix(t){return this.applyMatrix3(t).normalize()}applyMatrix4(t){let e=this.x,n=this.y,i=this.z,r=t.elements,o=1/(r[3]*e+r[7]*n+r[11]*i+r[15]);return this.x=(r[0]*e+r[4]*n+r[8]*i+r[12])*o,this.y=(r[1]*e+r[5]*n+r[9]*i+r[13])*o,this.z=(r[2]*e+r[6]*n+r[10]*i+r[14])*o,this}applyQuaternion(t){let e=this.x,n=this.y,i=this.z,r=t.x,o=t.y,a=t.z,l=t.w,c=2*(o*i-a*n),h=2*(a*e-r*i),u=2*(r*n-o*e);return this.x=e+l*c+o*u-a*h,this.y=n+l*h+a*c-r*u,this.z=i+l*u+r*h-o*c,this}project(t){return this.applyMatrix4(t.matrixWorldInverse).applyMatrix4(t.projectionMatrix)}unproject(t){return this.applyMatrix4(t.projectionMatrixInverse).applyMatrix4(t.matrixWorld)}transformDirection(t){let e=this.x,n=this.y,i=this.z,r=t.elements;return this.x=r[0]*e+r[4]*n+r[8]*i,this.y=r[1]*e+r[5]*n+r[9]*i,this.z=r[2]*e+r[6]*n+r[10]*i,this.normalize()}divide(t){return this.x/=t.x,this.y/=t.y,this.z/=t.z,this}divideScalar(t){return this.multiplyScalar(1/t)}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this.z=Math.min(this.z,t.z),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this.z=Math.max(this.z,t.z),this}clamp(t,e){return this.x=le(this.x,t.x,e.x),this.y=le(this.y,t.y,e.y),this.z=le(this.z,t.z,e.z),this}clampScalar(t,e){return this.x=le(this.x,t,e),this.y=le(this.y,t,e),this.z=le(this.z,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(le(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this}dot(t){return this.x*t.x+this.y*t.y+this.z*t.z}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)}normalize(){return this.divideScalar(this.length()||1)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this.z+=(t.z-this.z)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this.z=t.z+(e.z-t.z)*n,this}cross(t){return this.crossVectors(this,t)}crossVectors(t,e){let n=t.x,i=t.y,r=t.z,o=e.x,a=e.y,l=e.z;return this.x=i*l-r*a,this.y=r*o-n*l,this.z=n*a-i*o,this}projectOnVector(t){let e=t.lengthSq();if(e===0)return this.set(0,0,0);let n=t.dot(this)/e;return this.copy(t).multiplyScalar(n)}projectOnPlane(t){return qf.copy(this).projectOnVector(t),this.sub(qf)}reflect(t){return this.sub(qf.copy(t).multiplyScalar(2*this.dot(t)))}angleTo(t){let e=Math.sqrt(this.lengthSq()*t.lengthSq());if(e===0)return Math.PI/2;let n=this.dot(t)/e;return Math.acos(le(n,-1,1))}distanceTo(t){return Math.sqrt(this.distanceToSquared(t))}distanceToSquared(t){let e=this.x-t.x,n=this.y-t.y,i=this.z-t.z;return e*e+n*n+i*i}manhattanDistanceTo(t){return Math.abs(this.x-t.x)+Math.abs(this.y-t.y)+Math.abs(this.z-t.z)}setFromSpherical(t){return this.setFromSphericalCoords(t.radius,t.phi,t.theta)}setFromSphericalCoords(t,e,n){let i=Math.sin(e)*t;return this.x=i*Math.sin(n),this.y=Math.cos(e)*t,this.z=i*Math.cos(n),this}setFromCylindrical(t){return this.setFromCylindricalCoords(t.radius,t.theta,t.y)}setFromCylindricalCoords(t,e,n){return this.x=t*Math.sin(e),this.y=n,this.z=t*Math.cos(e),this}setFromMatrixPosition(t){let e=t.elements;return this.x=e[12],this.y=e[13],this.z=e[14],this}setFromMatrixScale(t){let e=this.setFromMatrixColumn(t,0).length(),n=this.setFromMatrixColumn(t,1).length(),i=this.setFromMatrixColumn(t,2).length();return this.x=e,this.y=n,this.z=i,this}setFromMatrixColumn(t,e){return this.fromArray(t.elements,e*4)}setFromMatrix3Column(t,e){return this.fromArray(t.elements,e*3)}setFromEuler(t){return this.x=t._x,this.y=t._y,this.z=t._z,this}setFromColor(t){return this.x=t.r,this.y=t.g,this.z=t.b,this}equals(t){return t.x===this.x&&t.y===this.y&&t.z===this.z}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this.z=t[e+2],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t[e+2]=this.z,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this.z=t.getZ(e),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this}randomDirection(){let t=Math.random()*Math.PI*2,e=Math.random()*2-1,n=Math.sqrt(1-e*e);return this.x=n*Math.cos(t),this.y=e,this.z=n*Math.sin(t),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z}},qf=new O,Ry=new Ge,se=class{static{this.prototype.isMatrix3=!0}constructor(t,e,n,i,r,o,a,l,c){this.elements=[1,0,0,0,1,0,0,0,1],t!==void 0&&this.set(t,e,n,i,r,o,a,l,c)}set(t,e,n,i,r,o,a,l,c){let h=this.elements;return h[0]=t,h[1]=i,h[2]=a,h[3]=e,h[4]=r,h[5]=l,h[6]=n,h[7]=o,h[8]=c,this}identity(){return this.set(1,0,0,0,1,0,0,0,1),this}copy(t){let e=this.elements,n=t.elements;return e[0]=n[0],e[1]=n[1],e[2]=n[2],e[3]=n[3],e[4]=n[4],e[5]=n[5],e[6]=n[6],e[7]=n[7],e[8]=n[8],this}extractBasis(t,e,n){return t.setFromMatrix3Column(this,0),e.setFromMatrix3Column(this,1),n.setFromMatrix3Column(this,2),this}setFromMatrix4(t){let e=t.elements;return this.set(e[0],e[4],e[8],e[1],e[5],e[9],e[2],e[6],e[10]),this}multiply(t){return this.multiplyMatrices(this,t)}premultiply(t){return this.multiplyMatrices(t,this)}multiplyMatrices(t,e){let n=t.elements,i=e.elements,r=this.elements,o=n[0],a=n[3],l=n[6],c=n[1],h=n[4],u=n[7],d=n[2],f=n[5],p=n[8],y=i[0],m=i[3],g=i[6],_=i[1],w=i[4],v=i[7],E=i[2],S=i[5],x=i[8];return r[0]=o*y+a*_+l*E,r[3]=o*m+a*w+l*S,r[6]=o*g+a*v+l*x,r[1]=c*y+h*_+u*E,r[4]=c*m+h*w+u*S,r[7]=c*g+h*v+u*x,r[2]=d*y+f*_+p*E,r[5]=d*m+f*w+p*S,r[8]=d*g+f*v+p*x,this}multiplyScalar(t){let e=this.elements;return e[0]*=t,e[3]*=t,e[6]*=t,e[1]*=t,e[4]*=t,e[7]*=t,e[2]*=t,e[5]*=t,e[8]*=t,this}determinant(){let t=this.elements,e=t[0],n=t[1],i=t[2],r=t[3],o=t[4],a=t[5],l=t[6],c=t[7],h=t[8];return e*o*h-e*a*c-n*r*h+n*a*l+i*r*c-i*o*l}invert(){let t=this.elements,e=t[0],n=t[1],i=t[2],r=t[3],o=t[4],a=t[5],l=t[6],c=t[7],h=t[8],u=h*o-a*c,d=a*l-h*r,f=c*r-o*l,p=e*u+n*d+i*f;if(p===0)return this.set(0,0,0,0,0,0,0,0,0);let y=1/p;return t[0]=u*y,t[1]=(i*c-h*n)*y,t[2]=(a*n-i*o)*y,t[3]=d*y,t[4]=(h*e-i*l)*y,t[5]=(i*r-a*e)*y,t[6]=f*y,t[7]=(n*l-c*e)*y,t[8]=(o*e-n*r)*y,this}transpose(){let t,e=this.elements;return t=e[1],e[1]=e[3],e[3]=t,t=e[2],e[2]=e[6],e[6]=t,t=e[5],e[5]=e[7],e[7]=t,this}getNormalMatrix(t){return this.setFromMatrix4(t).invert().transpose()}transposeIntoArray(t){let e=this.elements;return t[0]=e[0],t[1]=e[3],t[2]=e[6],t[3]=e[1],t[4]=e[4],t[5]=e[7],t[6]=e[2],t[7]=e[5],t[8]=e[8],this}setUvTransform(t,e,n,i,r,o,a){let l=Math.cos(r),c=Math.sin(r);return this.set(n*l,n*c,-n*(l*o+c*a)+o+t,-i*c,i*l,-i*(-c*o+l*a)+a+e,0,0,1),this}scale(t,e){return dl("Matrix3: .scale() is deprecated. Use .makeScale() instead."),this.premultiply(Yf.makeScale(t,e)),this}rotate(t){return dl("Matrix3: .rotate() is deprecated. Use .makeRotation() instead."),this.premultiply(Yf.makeRotation(-t)),this}translate(t,e){return dl("Matrix3: .translate() is deprecated. Use .makeTranslation() instead."),this.premultiply(Yf.makeTranslation(t,e)),this}makeTranslation(t,e){return t.isVector2?this.set(1,0,t.x,0,1,t.y,0,0,1):this.set(1,0,t,0,1,e,0,0,1),this}makeRotation(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,-n,0,n,e,0,0,0,1),this}makeScale(t,e){return this.set(t,0,0,0,e,0,0,0,1),this}equals(t){let e=this.elements,n=t.elements;for(let i=0;i<9;i++)if(e[i]!==n[i])return!1;return!0}fromArray(t,e=0){for(let n=0;n<9;n++)this.elements[n]=t[n+e];return this}toArray(t=[],e=0){let n=this.elements;return t[e]=n[0],t[e+1]=n[1],t[e+2]=n[2],t[e+3]=n[3],t[e+4]=n[4],t[e+5]=n[5],t[e+6]=n[6],t[e+7]=n[7],t[e+8]=n[8],t}clone(){return new this.constructor().fromArray(this.elements)}},Yf=new se,Cy=new se().set(.4123908,.3575843,.1804808,.212639,.7151687,.0721923,.0193308,.1191948,.9505322),Py=new se().set(3.2409699,-1.5373832,-.4986108,-.9692436,1.8759675,.0415551,.0556301,-.203977,1.0569715);function uw(){let s={enabled:!0,workingColorSpace:ml,spaces:{},convert:function(i,r,o){return this.enabled===!1||r===o||!r||!o||(this.spaces[r].transfer===Le&&(i.r=qs(i.r),i.g=qs(i.g),i.b=qs(i.b)),this.spaces[r].primaries!==this.spaces[o].primaries&&(i.applyMatrix3(this.spaces[r].toXYZ),i.applyMatrix3(this.spaces[o].fromXYZ)),this.spaces[o].transfer===Le&&(i.r=sa(i.r),i.g=sa(i.g),i.b=sa(i.b))),i},workingToColorSpace:function(i,r){return this.convert(i,this.workingColorSpace,r)},colorSpaceToWorking:function(i,r){return this.convert(i,r,this.workingColorSpace)},getPrimaries:function(i){return this.spaces[i].primaries},getTransfer:function(i){return i===nr?gl:this.spaces[i].transfer},getToneMappingMode:function(i){return this.spaces[i].outputColorSpaceConfig.toneMappingMode||"standard"},getLuminanceCoefficients:function(i,r=this.workingColorSpace){return i.fromArray(this.spaces[r].luminanceCoefficients)},define:function(i){Object.assign(this.spaces,i)},_getMatrix:function(i,r,o){return i.copy(this.spaces[o].fromXYZ).multiply(this.spaces[r].toXYZ)},_getDrawingBufferColorSpace:function(i){return this.spaces[i].outputColorSpaceConfig.drawingBufferColorSpace},_getUnpackColorSpace:function(i=this.workingColorSpace){return this.spaces[i].workingColorSpaceConfig.unpackColorSpace}},t=[.64,.33,.3,.6,.15,.06],e=[.2126,.7152,.0722],n=[.3127,.329];return s.define({[ml]:{primaries:t,whitePoint:n,transfer:gl,toXYZ:Cy,fromXYZ:Py,luminanceCoefficients:e,workingColorSpaceConfig:{unpackColorSpace:we},outputColorSpaceConfig:{drawingBufferColorSpace:we}},[we]:{primaries:t,whitePoint:n,transfer:Le,toXYZ:Cy,fromXYZ:Py,luminanceCoefficients:e,outputColorSpaceConfig:{drawingBufferColorSpace:we}}}),s}var he=uw();function qs(s){return s<.04045?s*.0773993808:Math.pow(s*.9478672986+.0521327014,2.4)}function sa(s){return s<.0031308?s*12.92:1.055*Math.pow(s,.41666)-.055}var Vo,Yh=class{static getDataURL(t,e="image/png"){if(/^data:/i.test(t.src)||typeof HTMLCanvasElement>"u")return t.src;let n;if(t instanceof HTMLCanvasElement)n=t;else{Vo===void 0&&(Vo=la("canvas")),Vo.width=t.width,Vo.height=t.height;let i=Vo.getContext("2d");t instanceof ImageData?i.putImageData(t,0,0):i.drawImage(t,0,0,t.width,t.height),n=Vo}return n.toDataURL(e)}static sRGBToLinear(t){if(typeof HTMLImageElement<"u"&&t instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&t instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&t instanceof ImageBitmap){let e=la("canvas");e.width=t.width,e.height=t.height;let n=e.getContext("2d");n.drawImage(t,0,0,t.width,t.height);let i=n.getImageData(0,0,t.width,t.height),r=i.data;for(let o=0;o<r.length;o++)r[o]=qs(r[o]/255)*255;return n.putImageData(i,0,0),e}else if(t.data){let e=t.data.slice(0);for(let n=0;n<e.length;n++)e instanceof Uint8Array||e instanceof Uint8ClampedArray?e[n]=Math.floor(qs(e[n]/255)*255):e[n]=qs(e[n]);return{data:e,width:t.width,height:t.height}}else return jt("ImageUtils.sRGBToLinear(): Unsupported image type. No color space conversion applied."),t}},dw=0,ha=class{constructor(t=null){this.isTextureSource=!0,Object.defineProperty(this,"id",{value:dw++}),this.uuid=As(),this.data=t,this.dataReady=!0,this.version=0}getSize(t){let e=this.data;return typeof HTMLVideoElement<"u"&&e instanceof HTMLVideoElement?t.set(e.videoWidth,e.videoHeight,0):typeof VideoFrame<"u"&&e instanceof VideoFrame?t.set(e.displayWidth,e.displayHeight,0):e!==null?t.set(e.width||0,e.height||0,e.depth||0):t.set(0,0,0),t}set needsUpdate(t){t===!0&&this.version++}toJSON(t){let e=t===void 0||typeof t=="string";if(!e&&t.images[this.uuid]!==void 0)return t.images[this.uuid];let n={uuid:this.uuid,url:""},i=this.data;if(i!==null){let r;if(Array.isArray(i)){r=[];for(let o=0,a=i.length;o<a;o++)i[o].isDataTexture?r.push(jf(i[o].image)):r.push(jf(i[o]))}else r=jf(i);n.url=r}return e||(t.images[this.uuid]=n),n}};function jf(s){return typeof HTMLImageElement<"u"&&s instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&s instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&s instanceof ImageBitmap?Yh.getDataURL(s):s.data?{data:Array.from(s.data),width:s.width,height:s.height,type:s.data.constructor.name}:(jt("Texture: Unable to serialize Texture."),{})}var fw=0,Jf=new O,ui=class s extends as{constructor(t=s.DEFAULT_IMAGE,e=s.DEFAULT_MAPPING,n=hi,i=hi,r=On,o=qi,a=Yi,l=vi,c=s.DEFAULT_ANISOTROPY,h=nr){super(),this.isTexture=!0,Object.defineProperty(this,"id",{value:fw++}),this.uuid=As(),this.name="",this.source=new ha(t),this.mipmaps=[],this.mapping=e,this.channel=0,this.wrapS=n,this.wrapT=i,this.magFilter=r,this.minFilter=o,this.anisotropy=c,this.format=a,this.internalFormat=null,this.type=l,this.offset=new Xt(0,0),this.repeat=new Xt(1,1),this.center=new Xt(0,0),this.rotation=0,this.matrixAutoUpdate=!0,this.matrix=new se,this.generateMipmaps=!0,this.mipmapsAutoUpdate=!0,this.premultiplyAlpha=!1,this.flipY=!0,this.unpackAlignment=4,this.colorSpace=h,this.userData={},this.updateRanges=[],this.version=0,this.onUpdate=null,this.renderTarget=null,this.isRenderTargetTexture=!1,this.isArrayTexture=!!(t&&t.depth&&t.depth>1),this.pmremVersion=0,this.isPMREMTexture=!1,this.normalized=!1}get width(){return this.source.getSize(Jf).x}get height(){return this.source.getSize(Jf).y}get depth(){return this.source.getSize(Jf).z}get image(){return this.source.data}set image(t){this.source.data=t}updateMatrix(){this.matrix.setUvTransform(this.offset.x,this.offset.y,this.repeat.x,this.repeat.y,this.rotation,this.center.x,this.center.y)}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}clone(){return new this.constructor().copy(this)}copy(t){return this.name=t.name,this.source=t.source,this.mipmaps=t.mipmaps.slice(0),this.mapping=t.mapping,this.channel=t.channel,this.wrapS=t.wrapS,this.wrapT=t.wrapT,this.magFilter=t.magFilter,this.minFilter=t.minFilter,this.anisotropy=t.anisotropy,this.format=t.format,this.internalFormat=t.internalFormat,this.type=t.type,this.normalized=t.normalized,this.offset.copy(t.offset),this.repeat.copy(t.repeat),this.center.copy(t.center),this.rotation=t.rotation,this.matrixAutoUpdate=t.matrixAutoUpdate,this.matrix.copy(t.matrix),this.generateMipmaps=t.generateMipmaps,this.mipmapsAutoUpdate=t.mipmapsAutoUpdate,this.premultiplyAlpha=t.premultiplyAlpha,this.flipY=t.flipY,this.unpackAlignment=t.unpackAlignment,this.colorSpace=t.colorSpace,this.renderTarget=t.renderTarget,this.isRenderTargetTexture=t.isRenderTargetTexture,this.isPMREMTexture=t.isPMREMTexture,this.isArrayTexture=t.isArrayTexture,this.userData=JSON.parse(JSON.stringify(t.userData)),this.needsUpdate=!0,this}setValues(t){for(let e in t){let n=t[e];if(n===void 0){jt(`Texture.setValues(): parameter '${e}' has value of undefined.`);continue}let i=this[e];if(i===void 0){jt(`Texture.setValues(): property '${e}' does not exist.`);continue}i&&n&&i.isVector2&&n.isVector2||i&&n&&i.isVector3&&n.isVector3||i&&n&&i.isMatrix3&&n.isMatrix3?i.copy(n):this[e]=n}}toJSON(t){let e=t===void 0||typeof t=="string";if(!e&&t.textures[this.uuid]!==void 0)return t.textures[this.uuid];let n={metadata:{version:4.7,type:"Texture",generator:"Texture.toJSON"},uuid:this.uuid,name:this.name,image:this.source.toJSON(t).uuid,mapping:this.mapping,channel:this.channel,repeat:[this.repeat.x,this.repeat.y],offset:[this.offset.x,this.offset.y],center:[this.center.x,this.center.y],rotation:this.rotation,wrap:[this.wrapS,this.wrapT],format:this.format,internalFormat:this.internalFormat,type:this.type,normalized:this.normalized,colorSpace:this.colorSpace,minFilter:this.minFilter,magFilter:this.magFilter,anisotropy:this.anisotropy,flipY:this.flipY,generateMipmaps:this.generateMipmaps,mipmapsAutoUpdate:this.mipmapsAutoUpdate,premultiplyAlpha:this.premultiplyAlpha,unpackAlignment:this.unpackAlignment};return Object.keys(this.userData).length>0&&(n.userData=this.userData),e||(t.textures[this.uuid]=n),n}dispose(){this.dispatchEvent({type:"dispose"})}transformUv(t){if(this.mapping!==Xp)return t;if(t.applyMatrix3(this.matrix),t.x<0||t.x>1)switch(this.wrapS){case Ys:t.x=t.x-Math.floor(t.x);break;case hi:t.x=t.x<0?0:1;break;case Xh:Math.abs(Math.floor(t.x)%2)===1?t.x=Math.ceil(t.x)-t.x:t.x=t.x-Math.floor(t.x);break}if(t.y<0||t.y>1)switch(this.wrapT){case Ys:t.y=t.y-Math.floor(t.y);break;case hi:t.y=t.y<0?0:1;break;case Xh:Math.abs(Math.floor(t.y)%2)===1?t.y=Math.ceil(t.y)-t.y:t.y=t.y-Math.floor(t.y);break}return this.flipY&&(t.y=1-t.y),t}set needsUpdate(t){t===!0&&(this.version++,this.source.needsUpdate=!0)}set needsPMREMUpdate(t){t===!0&&this.pmremVersion++}};ui.DEFAULT_IMAGE=null;ui.DEFAULT_MAPPING=Xp;ui.DEFAULT_ANISOTROPY=1;var be=class{static{this.prototype.isVector4=!0}constructor(t=0,e=0,n=0,i=1){this.x=t,this.y=e,this.z=n,this.w=i}get width(){return this.z}set width(t){this.z=t}get height(){return this.w}set height(t){this.w=t}set(t,e,n,i){return this.x=t,this.y=e,this.z=n,this.w=i,this}setScalar(t){return this.x=t,this.y=t,this.z=t,this.w=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setZ(t){return this.z=t,this}setW(t){return this.w=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;case 2:this.z=e;break;case 3:this.w=e;break;default:throw new Error("THREE.Vector4: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;case 2:return this.z;case 3:return this.w;default:throw new Error("THREE.Vector4: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y,this.z,this.w)}copy(t){return this.x=t.x,this.y=t.y,this.z=t.z,this.w=t.w!==void 0?t.w:1,this}add(t){return this.x+=t.x,this.y+=t.y,this.z+=t.z,this.w+=t.w,this}addScalar(t){return this.x+=t,this.y+=t,this.z+=t,this.w+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this.z=t.z+e.z,this.w=t.w+e.w,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this.z+=t.z*e,this.w+=t.w*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this.z-=t.z,this.w-=t.w,this}subScalar(t){return this.x-=t,this.y-=t,this.z-=t,this.w-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this.z=t.z-e.z,this.w=t.w-e.w,this}multiply(t){return this.x*=t.x,this.y*=t.y,this.z*=t.z,this.w*=t.w,this}multiplyScalar(t){return this.x*=t,this.y*=t,this.z*=t,this.w*=t,this}applyMatrix4(t){let e=this.x,n=this.y,i=this.z,r=this.w,o=t.elements;return this.x=o[0]*e+o[4]*n+o[8]*i+o[12]*r,this.y=o[1]*e+o[5]*n+o[9]*i+o[13]*r,this.z=o[2]*e+o[6]*n+o[10]*i+o[14]*r,this.w=o[3]*e+o[7]*n+o[11]*i+o[15]*r,this}divide(t){return this.x/=t.x,this.y/=t.y,this.z/=t.z,this.w/=t.w,this}divideScalar(t){return this.multiplyScalar(1/t)}setAxisAngleFromQuaternion(t){this.w=2*Math.acos(t.w);let e=Math.sqrt(1-t.w*t.w);return e<1e-4?(this.x=1,this.y=0,this.z=0):(this.x=t.x/e,this.y=t.y/e,this.z=t.z/e),this}setAxisAngleFromRotationMatrix(t){let e,n,i,r,l=t.elements,c=l[0],h=l[4],u=l[8],d=l[1],f=l[5],p=l[9],y=l[2],m=l[6],g=l[10];if(Math.abs(h-d)<.01&&Math.abs(u-y)<.01&&Math.abs(p-m)<.01){if(Math.abs(h+d)<.1&&Math.abs(u+y)<.1&&Math.abs(p+m)<.1&&Math.abs(c+f+g-3)<.1)return this.set(1,0,0,0),this;e=Math.PI;let w=(c+1)/2,v=(f+1)/2,E=(g+1)/2,S=(h+d)/4,x=(u+y)/4,M=(p+m)/4;return w>v&&w>E?w<.01?(n=0,i=.707106781,r=.707106781):(n=Math.sqrt(w),i=S/n,r=x/n):v>E?v<.01?(n=.707106781,i=0,r=.707106781):(i=Math.sqrt(v),n=S/i,r=M/i):E<.01?(n=.707106781,i=.707106781,r=0):(r=Math.sqrt(E),n=x/r,i=M/r),this.set(n,i,r,e),this}let _=Math.sqrt((m-p)*(m-p)+(u-y)*(u-y)+(d-h)*(d-h));return Math.abs(_)<.001&&(_=1),this.x=(m-p)/_,this.y=(u-y)/_,this.z=(d-h)/_,this.w=Math.acos((c+f+g-1)/2),this}setFromMatrixPosition(t){let e=t.elements;return this.x=e[12],this.y=e[13],this.z=e[14],this.w=e[15],this}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this.z=Math.min(this.z,t.z),this.w=Math.min(this.w,t.w),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this.z=Math.max(this.z,t.z),this.w=Math.max(this.w,t.w),this}clamp(t,e){return this.x=le(this.x,t.x,e.x),this.y=le(this.y,t.y,e.y),this.z=le(this.z,t.z,e.z),this.w=le(this.w,t.w,e.w),this}clampScalar(t,e){return this.x=le(this.x,t,e),this.y=le(this.y,t,e),this.z=le(this.z,t,e),this.w=le(this.w,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(le(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this.w=Math.floor(this.w),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this.w=Math.ceil(this.w),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this.w=Math.round(this.w),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this.w=Math.trunc(this.w),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this.w=-this.w,this}dot(t){return this.x*t.x+this.y*t.y+this.z*t.z+this.w*t.w}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)+Math.abs(this.w)}normalize(){return this.divideScalar(this.length()||1)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this.z+=(t.z-this.z)*e,this.w+=(t.w-this.w)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this.z=t.z+(e.z-t.z)*n,this.w=t.w+(e.w-t.w)*n,this}equals(t){return t.x===this.x&&t.y===this.y&&t.z===this.z&&t.w===this.w}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this.z=t[e+2],this.w=t[e+3],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t[e+2]=this.z,t[e+3]=this.w,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this.z=t.getZ(e),this.w=t.getW(e),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this.w=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z,yield this.w}},jh=class extends as{constructor(t=1,e=1,n={}){super(),n=Object.assign({generateMipmaps:!1,internalFormat:null,minFilter:On,depthBuffer:!0,stencilBuffer:!1,resolveColorBuffer:!0,resolveDepthBuffer:!0,resolveStencilBuffer:!0,storeMultisampledColorBuffer:!0,storeMultisampledDepthBuffer:!0,storeMultisampledStencilBuffer:!0,depthTexture:null,samples:0,count:1,depth:1,multiview:!1,useArrayDepthTexture:!1},n),this.isRenderTarget=!0,this.width=t,this.height=e,this.depth=n.depth,this.scissor=new be(0,0,t,e),this.scissorTest=!1,this.viewport=new be(0,0,t,e),this.textures=[];let i=n.count;for(let r=0;r<i;r++)this.textures[r]=new ui({width:t,height:e,depth:n.depth}),this.textures[r].isRenderTargetTexture=!0,this.textures[r].renderTarget=this;this._setTextureOptions(n),this.depthBuffer=n.depthBuffer,this.stencilBuffer=n.stencilBuffer,this.resolveColorBuffer=n.resolveColorBuffer,this.resolveDepthBuffer=n.resolveDepthBuffer,this.resolveStencilBuffer=n.resolveStencilBuffer,this.storeMultisampledColorBuffer=n.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=n.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=n.storeMultisampledStencilBuffer,this._depthTexture=null,this.depthTexture=n.depthTexture,this.samples=n.samples,this.multiview=n.multiview,this.useArrayDepthTexture=n.useArrayDepthTexture}_setTextureOptions(t={}){let e={minFilter:On,generateMipmaps:!1,flipY:!1,internalFormat:null};t.mapping!==void 0&&(e.mapping=t.mapping),t.wrapS!==void 0&&(e.wrapS=t.wrapS),t.wrapT!==void 0&&(e.wrapT=t.wrapT),t.wrapR!==void 0&&(e.wrapR=t.wrapR),t.magFilter!==void 0&&(e.magFilter=t.magFilter),t.minFilter!==void 0&&(e.minFilter=t.minFilter),t.format!==void 0&&(e.format=t.format),t.type!==void 0&&(e.type=t.type),t.anisotropy!==void 0&&(e.anisotropy=t.anisotropy),t.colorSpace!==void 0&&(e.colorSpace=t.colorSpace),t.flipY!==void 0&&(e.flipY=t.flipY),t.generateMipmaps!==void 0&&(e.generateMipmaps=t.generateMipmaps),t.mipmapsAutoUpdate!==void 0&&(e.mipmapsAutoUpdate=t.mipmapsAutoUpdate),t.internalFormat!==void 0&&(e.internalFormat=t.internalFormat);for(let n=0;n<this.textures.length;n++)this.textures[n].setValues(e)}get texture(){return this.textures[0]}set texture(t){this.textures[0]=t}set depthTexture(t){this._depthTexture!==null&&this._depthTexture.renderTarget===this&&(this._depthTexture.renderTarget=null),t!==null&&t.renderTarget===null&&(t.renderTarget=this),this._depthTexture=t}get depthTexture(){return this._depthTexture}setSize(t,e,n=1){if(this.width!==t||this.height!==e||this.depth!==n){this.width=t,this.height=e,this.depth=n;for(let i=0,r=this.textures.length;i<r;i++)this.textures[i].image.width=t,this.textures[i].image.height=e,this.textures[i].image.depth=n,this.textures[i].isData3DTexture!==!0&&(this.textures[i].isArrayTexture=this.textures[i].image.depth>1);this.dispose()}this.viewport.set(0,0,t,e),this.scissor.set(0,0,t,e)}clone(){return new this.constructor().copy(this)}copy(t){this.width=t.width,this.height=t.height,this.depth=t.depth,this.scissor.copy(t.scissor),this.scissorTest=t.scissorTest,this.viewport.copy(t.viewport),this.textures.length=0;for(let e=0,n=t.textures.length;e<n;e++){this.textures[e]=t.textures[e].clone(),this.textures[e].isRenderTargetTexture=!0,this.textures[e].renderTarget=this;let i=Object.assign({},t.textures[e].image);this.textures[e].source=new ha(i)}if(this.depthBuffer=t.depthBuffer,this.stencilBuffer=t.stencilBuffer,this.resolveColorBuffer=t.resolveColorBuffer,this.resolveDepthBuffer=t.resolveDepthBuffer,this.resolveStencilBuffer=t.resolveStencilBuffer,this.storeMultisampledColorBuffer=t.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=t.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=t.storeMultisampledStencilBuffer,t.depthTexture!==null)if(t.depthTexture.renderTarget===t){let e=t.depthTexture.clone();e.renderTarget=null,this.depthTexture=e}else this.depthTexture=t.depthTexture;else this.depthTexture=null;return this.samples=t.samples,this.multiview=t.multiview,this.useArrayDepthTexture=t.useArrayDepthTexture,this}dispose(){this.dispatchEvent({type:"dispose"})}},Fi=class extends jh{constructor(t=1,e=1,n={}){super(t,e,n),this.isWebGLRenderTarget=!0}},_l=class extends ui{constructor(t=null,e=1,n=1,i=1){super(null),this.isDataArrayTexture=!0,this.image={data:t,width:e,height:n,depth:i},this.magFilter=Bn,this.minFilter=Bn,this.wrapR=hi,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1,this.layerUpdates=new Set}copy(t){return super.copy(t),this.wrapR=t.wrapR,this}addLayerUpdate(t){this.layerUpdates.add(t)}clearLayerUpdates(){this.layerUpdates.clear()}};var Jh=class extends ui{constructor(t=null,e=1,n=1,i=1){super(null),this.isData3DTexture=!0,this.image={data:t,width:e,height:n,depth:i},this.magFilter=Bn,this.minFilter=Bn,this.wrapR=hi,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}copy(t){return super.copy(t),this.wrapR=t.wrapR,this}};var Nt=class s{static{this.prototype.isMatrix4=!0}constructor(t,e,n,i,r,o,a,l,c,h,u,d,f,p,y,m){this.elements=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],t!==void 0&&this.set(t,e,n,i,r,o,a,l,c,h,u,d,f,p,y,m)}set(t,e,n,i,r,o,a,l,c,h,u,d,f,p,y,m){let g=this.elements;return g[0]=t,g[4]=e,g[8]=n,g[12]=i,g[1]=r,g[5]=o,g[9]=a,g[13]=l,g[2]=c,g[6]=h,g[10]=u,g[14]=d,g[3]=f,g[7]=p,g[11]=y,g[15]=m,this}identity(){return this.set(1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1),this}clone(){return new s().fromArray(this.elements)}copy(t){let e=this.elements,n=t.elements;return e[0]=n[0],e[1]=n[1],e[2]=n[2],e[3]=n[3],e[4]=n[4],e[5]=n[5],e[6]=n[6],e[7]=n[7],e[8]=n[8],e[9]=n[9],e[10]=n[10],e[11]=n[11],e[12]=n[12],e[13]=n[13],e[14]=n[14],e[15]=n[15],this}copyPosition(t){let e=this.elements,n=t.elements;return e[12]=n[12],e[13]=n[13],e[14]=n[14],this}setFromMatrix3(t){let e=t.elements;return this.set(e[0],e[3],e[6],0,e[1],e[4],e[7],0,e[2],e[5],e[8],0,0,0,0,1),this}extractBasis(t,e,n){return this.determinantAffine()===0?(t.set(1,0,0),e.set(0,1,0),n.set(0,0,1),this):(t.setFromMatrixColumn(this,0),e.setFromMatrixColumn(this,1),n.setFromMatrixColumn(this,2),this)}makeBasis(t,e,n){return this.set(t.x,e.x,n.x,0,t.y,e.y,n.y,0,t.z,e.z,n.z,0,0,0,0,1),this}extractRotation(t){if(t.determinantAffine()===0)return this.identity();let e=this.elements,n=t.elements,i=1/Go.setFromMatrixColumn(t,0).length(),r=1/Go.setFromMatrixColumn(t,1).length(),o=1/Go.setFromMatrixColumn(t,2).length();return e[0]=n[0]*i,e[1]=n[1]*i,e[2]=n[2]*i,e[3]=0,e[4]=n[4]*r,e[5]=n[5]*r,e[6]=n[6]*r,e[7]=0,e[8]=n[8]*o,e[9]=n[9]*o,e[10]=n[10]*o,e[11]=0,e[12]=0,e[13]=0,e[14]=0,e[15]=1,this}makeRotationFromEuler(t){let e=this.elements,n=t.x,i=t.y,r=t.z,o=Math.cos(n),a=Math.sin(n),l=Math.cos(i),c=Math.sin(i),h=Math.cos(r),u=Math.sin(r);if(t.order==="XYZ"){let d=o*h,f=o*u,p=a*h,y=a*u;e[0]=l*h,e[4]=-l*u,e[8]=c,e[1]=f+p*c,e[5]=d-y*c,e[9]=-a*l,e[2]=y-d*c,e[6]=p+f*c,e[10]=o*l}else if(t.order==="YXZ"){let d=l*h,f=l*u,p=c*h,y=c*u;e[0]=d+y*a,e[4]=p*a-f,e[8]=o*c,e[1]=o*u,e[5]=o*h,e[9]=-a,e[2]=f*a-p,e[6]=y+d*a,e[10]=o*l}else if(t.order==="ZXY"){let d=l*h,f=l*u,p=c*h,y=c*u;e[0]=d-y*a,e[4]=-o*u,e[8]=p+f*a,e[1]=f+p*a,e[5]=o*h,e[9]=y-d*a,e[2]=-o*c,e[6]=a,e[10]=o*l}else if(t.order==="ZYX"){let d=o*h,f=o*u,p=a*h,y=a*u;e[0]=l*h,e[4]=p*c-f,e[8]=d*c+y,e[1]=l*u,e[5]=y*c+d,e[9]=f*c-p,e[2]=-c,e[6]=a*l,e[10]=o*l}else if(t.order==="YZX"){let d=o*l,f=o*c,p=a*l,y=a*c;e[0]=l*h,e[4]=y-d*u,e[8]=p*u+f,e[1]=u,e[5]=o*h,e[9]=-a*h,e[2]=-c*h,e[6]=f*u+p,e[10]=d-y*u}else if(t.order==="XZY"){let d=o*l,f=o*c,p=a*l,y=a*c;e[0]=l*h,e[4]=-u,e[8]=c*h,e[1]=d*u+y,e[5]=o*h,e[9]=f*u-p,e[2]=p*u-f,e[6]=a*h,e[10]=y*u+d}return e[3]=0,e[7]=0,e[11]=0,e[12]=0,e[13]=0,e[14]=0,e[15]=1,this}makeRotationFromQuaternion(t){return this.compose(pw,t,mw)}lookAt(t,e,n){let i=this.elements;return Ii.subVectors(t,e),Ii.lengthSq()===0&&(Ii.z=1),Ii.normalize(),fr.crossVectors(n,Ii),fr.lengthSq()===0&&(Math.abs(n.z)===1?Ii.x+=1e-4:Ii.z+=1e-4,Ii.normalize(),fr.crossVectors(n,Ii)),fr.normalize(),rh.crossVectors(Ii,fr),i[0]=fr.x,i[4]=rh.x,i[8]=Ii.x,i[1]=fr.y,i[5]=rh.y,i[9]=Ii.y,i[2]=fr.z,i[6]=rh.z,i[10]=Ii.z,this}multiply(t){return this.multiplyMatrices(this,t)}premultiply(t){return this.multiplyMatrices(t,this)}multiplyMatrices(t,e){let n=t.elements,i=e.elements,r=this.elements,o=n[0],a=n[4],l=n[8],c=n[12],h=n[1],u=n[5],d=n[9],f=n[13],p=n[2],y=n[6],m=n[10],g=n[14],_=n[3],w=n[7],v=n[11],E=n[15],S=i[0],x=i[4],M=i[8],L=i[12],P=i[1],C=i[5],F=i[9],B=i[13],N=i[2],W=i[6],k=i[10],H=i[14],it=i[3],j=i[7],Z=i[11],tt=i[15];return r[0]=o*S+a*P+l*N+c*it,r[4]=o*x+a*C+l*W+c*j,r[8]=o*M+a*F+l*k+c*Z,r[12]=o*L+a*B+l*H+c*tt,r[1]=h*S+u*P+d*N+f*it,r[5]=h*x+u*C+d*W+f*j,r[9]=h*M+u*F+d*k+f*Z,r[13]=h*L+u*B+d*H+f*tt,r[2]=p*S+y*P+m*N+g*it,r[6]=p*x+y*C+m*W+g*j,r[10]=p*M+y*F+m*k+g*Z,r[14]=p*L+y*B+m*H+g*tt,r[3]=_*S+w*P+v*N+E*it,r[7]=_*x+w*C+v*W+E*j,r[11]=_*M+w*F+v*k+E*Z,r[15]=_*L+w*B+v*H+E*tt,this}multiplyScalar(t){let e=this.elements;return e[0]*=t,e[4]*=t,e[8]*=t,e[12]*=t,e[1]*=t,e[5]*=t,e[9]*=t,e[13]*=t,e[2]*=t,e[6]*=t,e[10]*=t,e[14]*=t,e[3]*=t,e[7]*=t,e[11]*=t,e[15]*=t,this}determinant(){let t=this.elements,e=t[0],n=t[4],i=t[8],r=t[12],o=t[1],a=t[5],l=t[9],c=t[13],h=t[2],u=t[6],d=t[10],f=t[14],p=t[3],y=t[7],m=t[11],g=t[15],_=l*f-c*d,w=a*f-c*u,v=a*d-l*u,E=o*f-c*h,S=o*d-l*h,x=o*u-a*h;return e*(y*_-m*w+g*v)-n*(p*_-m*E+g*S)+i*(p*w-y*E+g*x)-r*(p*v-y*S+m*x)}determinantAffine(){let t=this.elements,e=t[0],n=t[4],i=t[8],r=t[1],o=t[5],a=t[9],l=t[2],c=t[6],h=t[10];return e*(o*h-a*c)-n*(r*h-a*l)+i*(r*c-o*l)}transpose(){let t=this.elements,e;return e=t[1],t[1]=t[4],t[4]=e,e=t[2],t[2]=t[8],t[8]=e,e=t[6],t[6]=t[9],t[9]=e,e=t[3],t[3]=t[12],t[12]=e,e=t[7],t[7]=t[13],t[13]=e,e=t[11],t[11]=t[14],t[14]=e,this}setPosition(t,e,n){let i=this.elements;return t.isVector3?(i[12]=t.x,i[13]=t.y,i[14]=t.z):(i[12]=t,i[13]=e,i[14]=n),this}invert(){let t=this.elements,e=t[0],n=t[1],i=t[2],r=t[3],o=t[4],a=t[5],l=t[6],c=t[7],h=t[8],u=t[9],d=t[10],f=t[11],p=t[12],y=t[13],m=t[14],g=t[15],_=e*a-n*o,w=e*l-i*o,v=e*c-r*o,E=n*l-i*a,S=n*c-r*a,x=i*c-r*l,M=h*y-u*p,L=h*m-d*p,P=h*g-f*p,C=u*m-d*y,F=u*g-f*y,B=d*g-f*m,N=_*B-w*F+v*C+E*P-S*L+x*M;if(N===0)return this.set(0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0);let W=1/N;return t[0]=(a*B-l*F+c*C)*W,t[1]=(i*F-n*B-r*C)*W,t[2]=(y*x-m*S+g*E)*W,t[3]=(d*S-u*x-f*E)*W,t[4]=(l*P-o*B-c*L)*W,t[5]=(e*B-i*P+r*L)*W,t[6]=(m*v-p*x-g*w)*W,t[7]=(h*x-d*v+f*w)*W,t[8]=(o*F-a*P+c*M)*W,t[9]=(n*P-e*F-r*M)*W,t[10]=(p*S-y*v+g*_)*W,t[11]=(u*v-h*S-f*_)*W,t[12]=(a*L-o*C-l*M)*W,t[13]=(e*C-n*L+i*M)*W,t[14]=(y*w-p*E-m*_)*W,t[15]=(h*E-u*w+d*_)*W,this}scale(t){let e=this.elements,n=t.x,i=t.y,r=t.z;return e[0]*=n,e[4]*=i,e[8]*=r,e[1]*=n,e[5]*=i,e[9]*=r,e[2]*=n,e[6]*=i,e[10]*=r,e[3]*=n,e[7]*=i,e[11]*=r,this}getMaxScaleOnAxis(){let t=this.elements,e=t[0]*t[0]+t[1]*t[1]+t[2]*t[2],n=t[4]*t[4]+t[5]*t[5]+t[6]*t[6],i=t[8]*t[8]+t[9]*t[9]+t[10]*t[10];return Math.sqrt(Math.max(e,n,i))}makeTranslation(t,e,n){return t.isVector3?this.set(1,0,0,t.x,0,1,0,t.y,0,0,1,t.z,0,0,0,1):this.set(1,0,0,t,0,1,0,e,0,0,1,n,0,0,0,1),this}makeRotationX(t){let e=Math.cos(t),n=Math.sin(t);return this.set(1,0,0,0,0,e,-n,0,0,n,e,0,0,0,0,1),this}makeRotationY(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,0,n,0,0,1,0,0,-n,0,e,0,0,0,0,1),this}makeRotationZ(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,-n,0,0,n,e,0,0,0,0,1,0,0,0,0,1),this}makeRotationAxis(t,e){let n=Math.cos(e),i=Math.sin(e),r=1-n,o=t.x,a=t.y,l=t.z,c=r*o,h=r*a;return this.set(c*o+n,c*a-i*l,c*l+i*a,0,c*a+i*l,h*a+n,h*l-i*o,0,c*l-i*a,h*l+i*o,r*l*l+n,0,0,0,0,1),this}makeScale(t,e,n){return this.set(t,0,0,0,0,e,0,0,0,0,n,0,0,0,0,1),this}makeShear(t,e,n,i,r,o){return this.set(1,n,r,0,t,1,o,0,e,i,1,0,0,0,0,1),this}compose(t,e,n){let i=this.elements,r=e._x,o=e._y,a=e._z,l=e._w,c=r+r,h=o+o,u=a+a,d=r*c,f=r*h,p=r*u,y=o*h,m=o*u,g=a*u,_=l*c,w=l*h,v=l*u,E=n.x,S=n.y,x=n.z;return i[0]=(1-(y+g))*E,i[1]=(f+v)*E,i[2]=(p-w)*E,i[3]=0,i[4]=(f-v)*S,i[5]=(1-(d+g))*S,i[6]=(m+_)*S,i[7]=0,i[8]=(p+w)*x,i[9]=(m-_)*x,i[10]=(1-(d+y))*x,i[11]=0,i[12]=t.x,i[13]=t.y,i[14]=t.z,i[15]=1,this}decompose(t,e,n){let i=this.elements;t.x=i[12],t.y=i[13],t.z=i[14];let r=this.determinantAffine();if(r===0)return n.set(1,1,1),e.identity(),this;let o=Go.set(i[0],i[1],i[2]).length(),a=Go.set(i[4],i[5],i[6]).length(),l=Go.set(i[8],i[9],i[10]).length();r<0&&(o=-o),is.copy(this);let c=1/o,h=1/a,u=1/l;return is.elements[0]*=c,is.elements[1]*=c,is.elements[2]*=c,is.elements[4]*=h,is.elements[5]*=h,is.elements[6]*=h,is.elements[8]*=u,is.elements[9]*=u,is.elements[10]*=u,e.setFromRotationMatrix(is),n.x=o,n.y=a,n.z=l,this}makePerspective(t,e,n,i,r,o,a=Wi,l=!1){let c=this.elements,h=2*r/(e-t),u=2*r/(n-i),d=(e+t)/(e-t),f=(n+i)/(n-i),p,y;if(l)p=r/(o-r),y=o*r/(o-r);else if(a===Wi)p=-(o+r)/(o-r),y=-2*o*r/(o-r);else if(a===aa)p=-o/(o-r),y=-o*r/(o-r);else throw new Error("THREE.Matrix4.makePerspective(): Invalid coordinate system: "+a);return c[0]=h,c[4]=0,c[8]=d,c[12]=0,c[1]=0,c[5]=u,c[9]=f,c[13]=0,c[2]=0,c[6]=0,c[10]=p,c[14]=y,c[3]=0,c[7]=0,c[11]=-1,c[15]=0,this}makeOrthographic(t,e,n,i,r,o,a=Wi,l=!1){let c=this.elements,h=2/(e-t),u=2/(n-i),d=-(e+t)/(e-t),f=-(n+i)/(n-i),p,y;if(l)p=1/(o-r),y=o/(o-r);else if(a===Wi)p=-2/(o-r),y=-(o+r)/(o-r);else if(a===aa)p=-1/(o-r),y=-r/(o-r);else throw new Error("THREE.Matrix4.makeOrthographic(): Invalid coordinate system: "+a);return c[0]=h,c[4]=0,c[8]=0,c[12]=d,c[1]=0,c[5]=u,c[9]=0,c[13]=f,c[2]=0,c[6]=0,c[10]=p,c[14]=y,c[3]=0,c[7]=0,c[11]=0,c[15]=1,this}equals(t){let e=this.elements,n=t.elements;for(let i=0;i<16;i++)if(e[i]!==n[i])return!1;return!0}fromArray(t,e=0){for(let n=0;n<16;n++)this.elements[n]=t[n+e];return this}toArray(t=[],e=0){let n=this.elements;return t[e]=n[0],t[e+1]=n[1],t[e+2]=n[2],t[e+3]=n[3],t[e+4]=n[4],t[e+5]=n[5],t[e+6]=n[6],t[e+7]=n[7],t[e+8]=n[8],t[e+9]=n[9],t[e+10]=n[10],t[e+11]=n[11],t[e+12]=n[12],t[e+13]=n[13],t[e+14]=n[14],t[e+15]=n[15],t}},Go=new O,is=new Nt,pw=new O(0,0,0),mw=new O(1,1,1),fr=new O,rh=new O,Ii=new O,Ly=new Nt,Iy=new Ge,yi=class s{constructor(t=0,e=0,n=0,i=s.DEFAULT_ORDER){this.isEuler=!0,this._x=t,this._y=e,this._z=n,this._order=i}get x(){return this._x}set x(t){this._x=t,this._onChangeCallback()}get y(){return this._y}set y(t){this._y=t,this._onChangeCallback()}get z(){return this._z}set z(t){this._z=t,this._onChangeCallback()}get order(){return this._order}set order(t){this._order=t,this._onChangeCallback()}set(t,e,n,i=this._order){return this._x=t,this._y=e,this._z=n,this._order=i,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._order)}copy(t){return this._x=t._x,this._y=t._y,this._z=t._z,this._order=t._order,this._onChangeCallback(),this}setFromRotationMatrix(t,e=this._order,n=!0){let i=t.elements,r=i[0],o=i[4],a=i[8],l=i[1],c=i[5],h=i[9],u=i[2],d=i[6],f=i[10];switch(e){case"XYZ":this._y=Math.asin(le(a,-1,1)),Math.abs(a)<.9999999?(this._x=Math.atan2(-h,f),this._z=Math.atan2(-o,r)):(this._x=Math.atan2(d,c),this._z=0);break;case"YXZ":this._x=Math.asin(-le(h,-1,1)),Math.abs(h)<.9999999?(this._y=Math.atan2(a,f),this._z=Math.atan2(l,c)):(this._y=Math.atan2(-u,r),this._z=0);break;case"ZXY":this._x=Math.asin(le(d,-1,1)),Math.abs(d)<.9999999?(this._y=Math.atan2(-u,f),this._z=Math.atan2(-o,c)):(this._y=0,this._z=Math.atan2(l,r));break;case"ZYX":this._y=Math.asin(-le(u,-1,1)),Math.abs(u)<.9999999?(this._x=Math.atan2(d,f),this._z=Math.atan2(l,r)):(this._x=0,this._z=Math.atan2(-o,c));break;case"YZX":this._z=Math.asin(le(l,-1,1)),Math.abs(l)<.9999999?(this._x=Math.atan2(-h,c),this._y=Math.atan2(-u,r)):(this._x=0,this._y=Math.atan2(a,f));break;case"XZY":this._z=Math.asin(-le(o,-1,1)),Math.abs(o)<.9999999?(this._x=Math.atan2(d,c),this._y=Math.atan2(a,r)):(this._x=Math.atan2(-h,f),this._y=0);break;default:jt("Euler: .setFromRotationMatrix() encountered an unknown order: "+e)}return this._order=e,n===!0&&this._onChangeCallback(),this}setFromQuaternion(t,e,n){return Ly.makeRotationFromQuaternion(t),this.setFromRotationMatrix(Ly,e,n)}setFromVector3(t,e=this._order){return this.set(t.x,t.y,t.z,e)}reorder(t){return Iy.setFromEuler(this),this.setFromQuaternion(Iy,t)}equals(t){return t._x===this._x&&t._y===this._y&&t._z===this._z&&t._order===this._order}fromArray(t){return this._x=t[0],this._y=t[1],this._z=t[2],t[3]!==void 0&&(this._order=t[3]),this._onChangeCallback(),this}toArray(t=[],e=0){return t[e]=this._x,t[e+1]=this._y,t[e+2]=this._z,t[e+3]=this._order,t}_onChange(t){return this._onChangeCallback=t,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._order}};yi.DEFAULT_ORDER="XYZ";var ua=class{constructor(){this.mask=1}set(t){this.mask=(1<<t|0)>>>0}enable(t){this.mask|=1<<t|0}enableAll(){this.mask=-1}toggle(t){this.mask^=1<<t|0}disable(t){this.mask&=~(1<<t|0)}disableAll(){this.mask=0}test(t){return(this.mask&t.mask)!==0}isEnabled(t){return(this.mask&(1<<t|0))!==0}},gw=0,Ny=new O,Ho=new Ge,zs=new Nt,oh=new O,nl=new O,yw=new O,_w=new Ge,Dy=new O(1,0,0),Fy=new O(0,1,0),Uy=new O(0,0,1),Oy={type:"added"},xw={type:"removed"},Wo={type:"childadded",child:null},$f={type:"childremoved",child:null},en=class s extends as{constructor(){super(),this.isObject3D=!0,Object.defineProperty(this,"id",{value:gw++}),this.uuid=As(),this.name="",this.type="Object3D",this.parent=null,this.children=[],this.up=s.DEFAULT_UP.clone();let t=new O,e=new yi,n=new Ge,i=new O(1,1,1);function r(){n.setFromEuler(e,!1)}function o(){e.setFromQuaternion(n,void 0,!1)}e._onChange(r),n._onChange(o),Object.defineProperties(this,{position:{configurable:!0,enumerable:!0,value:t},rotation:{configurable:!0,enumerable:!0,value:e},quaternion:{configurable:!0,enumerable:!0,value:n},scale:{configurable:!0,enumerable:!0,value:i},modelViewMatrix:{value:new Nt},normalMatrix:{value:new se}}),this.matrix=new Nt,this.matrixWorld=new Nt,this.matrixAutoUpdate=s.DEFAULT_MATRIX_AUTO_UPDATE,this.matrixWorldAutoUpdate=s.DEFAULT_MATRIX_WORLD_AUTO_UPDATE,this.matrixWorldNeedsUpdate=!1,this.layers=new ua,this.visible=!0,this.castShadow=!1,this.receiveShadow=!1,this.frustumCulled=!0,this.renderOrder=0,this.animations=[],this.customDepthMaterial=void 0,this.customDistanceMaterial=void 0,this.static=!1,this.userData={},this.pivot=null}onBeforeShadow(){}onAfterShadow(){}onBeforeRender(){}onAfterRender(){}applyMatrix4(t){this.matrixAutoUpdate&&this.updateMatrix(),this.matrix.premultiply(t),this.matrix.decompose(this.position,this.quaternion,this.scale),this.pivot!==null&&this.position.copy(this.pivot).applyMatrix4(this.matrix).sub(this.pivot)}applyQuaternion(t){return this.quaternion.premultiply(t),this}setRotationFromAxisAngle(t,e){this.quaternion.setFromAxisAngle(t,e)}setRotationFromEuler(t){this.quaternion.setFromEuler(t,!0)}setRotationFromMatrix(t){this.quaternion.setFromRotationMatrix(t)}setRotationFromQuaternion(t){this.quaternion.copy(t)}rotateOnAxis(t,e){return Ho.setFromAxisAngle(t,e),this.quaternion.multiply(Ho),this}rotateOnWorldAxis(t,e){return Ho.setFromAxisAngle(t,e),this.quaternion.premultiply(Ho),this}rotateX(t){return this.rotateOnAxis(Dy,t)}rotateY(t){return this.rotateOnAxis(Fy,t)}rotateZ(t){return this.rotateOnAxis(Uy,t)}translateOnAxis(t,e){return Ny.copy(t).applyQuaternion(this.quaternion),this.position.add(Ny.multiplyScalar(e)),this}translateX(t){return this.translateOnAxis(Dy,t)}translateY(t){return this.translateOnAxis(Fy,t)}translateZ(t){return this.translateOnAxis(Uy,t)}localToWorld(t){return this.updateWorldMatrix(!0,!1),t.applyMatrix4(this.matrixWorld)}worldToLocal(t){return this.updateWorldMatrix(!0,!1),t.applyMatrix4(zs.copy(this.matrixWorld).invert())}lookAt(t,e,n){t.isVector3?oh.copy(t):oh.set(t,e,n);let i=this.parent;this.updateWorldMatrix(!0,!1),nl.setFromMatrixPosition(this.matrixWorld),this.isCamera||this.isLight?zs.lookAt(nl,oh,this.up):zs.lookAt(oh,nl,this.up),this.quaternion.setFromRotationMatrix(zs),i&&(zs.extractRotation(i.matrixWorld),Ho.setFromRotationMatrix(zs),this.quaternion.premultiply(Ho.invert()))}add(t){if(arguments.length>1){for(let e=0;e<arguments.length;e++)this.add(arguments[e]);return this}return t===this?(te("Object3D.add: object can't be added as a child of itself.",t),this):(t&&t.isObject3D?(t.removeFromParent(),t.parent=this,this.children.push(t),t.dispatchEvent(Oy),Wo.child=t,this.dispatchEvent(Wo),Wo.child=null):te("Object3D.add: object not an instance of THREE.Object3D.",t),this)}remove(t){if(arguments.length>1){for(let n=0;n<arguments.length;n++)this.remove(arguments[n]);return this}let e=this.children.indexOf(t);return e!==-1&&(t.parent=null,this.children.splice(e,1),t.dispatchEvent(xw),$f.child=t,this.dispatchEvent($f),$f.child=null),this}removeFromParent(){let t=this.parent;return t!==null&&t.remove(this),this}clear(){return this.remove(...this.children)}attach(t){return this.updateWorldMatrix(!0,!1),zs.copy(this.matrixWorld).invert(),t.parent!==null&&(t.parent.updateWorldMatrix(!0,!1),zs.multiply(t.parent.matrixWorld)),t.applyMatrix4(zs),t.removeFromParent(),t.parent=this,this.children.push(t),t.updateWorldMatrix(!1,!0),t.dispatchEvent(Oy),Wo.child=t,this.dispatchEvent(Wo),Wo.child=null,this}getObjectById(t){return this.getObjectByProperty("id",t)}getObjectByName(t){return this.getObjectByProperty("name",t)}getObjectByProperty(t,e){if(this[t]===e)return this;for(let n=0,i=this.children.length;n<i;n++){let o=this.children[n].getObjectByProperty(t,e);if(o!==void 0)return o}}getObjectsByProperty(t,e,n=[]){this[t]===e&&n.push(this);let i=this.children;for(let r=0,o=i.length;r<o;r++)i[r].getObjectsByProperty(t,e,n);return n}getWorldPosition(t){return this.updateWorldMatrix(!0,!1),t.setFromMatrixPosition(this.matrixWorld)}getWorldQuaternion(t){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(nl,t,yw),t}getWorldScale(t){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(nl,_w,t),t}getWorldDirection(t){this.updateWorldMatrix(!0,!1);let e=this.matrixWorld.elements;return t.set(e[8],e[9],e[10]).normalize()}raycast(){}intersectsFrustum(){return!0}traverse(t){t(this);let e=this.children;for(let n=0,i=e.length;n<i;n++)e[n].traverse(t)}traverseVisible(t){if(this.visible===!1)return;t(this);let e=this.children;for(let n=0,i=e.length;n<i;n++)e[n].traverseVisible(t)}traverseAncestors(t){let e=this.parent;e!==null&&(t(e),e.traverseAncestors(t))}updateMatrix(){this.matrix.compose(this.position,this.quaternion,this.scale);let t=this.pivot;if(t!==null){let e=t.x,n=t.y,i=t.z,r=this.matrix.elements;r[12]+=e-r[0]*e-r[4]*n-r[8]*i,r[13]+=n-r[1]*e-r[5]*n-r[9]*i,r[14]+=i-r[2]*e-r[6]*n-r[10]*i}this.matrixWorldNeedsUpdate=!0}updateMatrixWorld(t){this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||t)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,t=!0);let e=this.children;for(let n=0,i=e.length;n<i;n++)e[n].updateMatrixWorld(t)}updateWorldMatrix(t,e,n=!1){let i=this.parent;if(t===!0&&i!==null&&i.updateWorldMatrix(!0,!1),this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||n)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,n=!0),e===!0){let r=this.children;for(let o=0,a=r.length;o<a;o++)r[o].updateWorldMatrix(!1,!0,n)}}toJSON(t){let e=t===void 0||typeof t=="string",n={};e&&(t={geometries:{},materials:{},textures:{},images:{},shapes:{},skeletons:{},animations:{},nodes:{}},n.metadata={version:4.7,type:"Object",generator:"Object3D.toJSON"});let i={};i.uuid=this.uuid,i.type=this.type,i.name=this.name,i.castShadow=this.castShadow,i.receiveShadow=this.receiveShadow,i.visible=this.visible,i.frustumCulled=this.frustumCulled,i.renderOrder=this.renderOrder,i.static=this.static,i.matrixAutoUpdate=this.matrixAutoUpdate,Object.keys(this.userData).length>0&&(i.userData=this.userData),i.layers=this.layers.mask,i.matrix=this.matrix.toArray(),i.up=this.up.toArray(),this.pivot!==null&&(i.pivot=this.pivot.toArray()),this.morphTargetDictionary!==void 0&&(i.morphTargetDictionary=Object.assign({},this.morphTargetDictionary)),this.morphTargetInfluences!==void 0&&(i.morphTargetInfluences=this.morphTargetInfluences.slice()),this.isInstancedMesh&&(i.type="InstancedMesh",i.count=this.count,i.instanceMatrix=this.instanceMatrix.toJSON(),this.instanceColor!==null&&(i.instanceColor=this.instanceColor.toJSON())),this.isBatchedMesh&&(i.type="BatchedMesh",i.perObjectFrustumCulled=this.perObjectFrustumCulled,i.sortObjects=this.sortObjects,i.drawRanges=this._drawRanges,i.reservedRanges=this._reservedRanges,i.geometryInfo=this._geometryInfo.map(a=>({...a,boundingBox:a.boundingBox?a.boundingBox.toJSON():void 0,boundingSphere:a.boundingSphere?a.boundingSphere.toJSON():void 0})),i.instanceInfo=this._instanceInfo.map(a=>({...a})),i.availableInstanceIds=this._availableInstanceIds.slice(),i.availableGeometryIds=this._availableGeometryIds.slice(),i.nextIndexStart=this._nextIndexStart,i.nextVertexStart=this._nextVertexStart,i.geometryCount=this._geometryCount,i.maxInstanceCount=this._maxInstanceCount,i.maxVertexCount=this._maxVertexCount,i.maxIndexCount=this._maxIndexCount,i.geometryInitialized=this._geometryInitialized,i.matricesTexture=this._matricesTexture.toJSON(t),i.indirectTexture=this._indirectTexture.toJSON(t),this._colorsTexture!==null&&(i.colorsTexture=this._colorsTexture.toJSON(t)),this.boundingSphere!==null&&(i.boundingSphere=this.boundingSphere.toJSON()),this.boundingBox!==null&&(i.boundingBox=this.boundingBox.toJSON()));function r(a,l){return a[l.uuid]===void 0&&(a[l.uuid]=l.toJSON(t)),l.uuid}if(this.isScene)this.background&&(this.background.isColor?i.background=this.background.toJSON():this.background.isTexture&&(i.background=this.background.toJSON(t).uuid)),this.environment&&this.environment.isTexture&&this.environment.isRenderTargetTexture!==!0&&(i.environment=this.environment.toJSON(t).uuid);else if(this.isMesh||this.isLine||this.isPoints){i.geometry=r(t.geometries,this.geometry);let a=this.geometry.parameters;if(a!==void 0&&a.shapes!==void 0){let l=a.shapes;if(Array.isArray(l))for(let c=0,h=l.length;c<h;c++){let u=l[c];r(t.shapes,u)}else r(t.shapes,l)}}if(this.isSkinnedMesh&&(i.bindMode=this.bindMode,i.bindMatrix=this.bindMatrix.toArray(),this.skeleton!==void 0&&(r(t.skeletons,this.skeleton),i.skeleton=this.skeleton.uuid)),this.material!==void 0)if(Array.isArray(this.material)){let a=[];for(let l=0,c=this.material.length;l<c;l++)a.push(r(t.materials,this.material[l]));i.material=a}else i.material=r(t.materials,this.material);if(this.children.length>0){i.children=[];for(let a=0;a<this.children.length;a++)i.children.push(this.children[a].toJSON(t).object)}if(this.animations.length>0){i.animations=[];for(let a=0;a<this.animations.length;a++){let l=this.animations[a];i.animations.push(r(t.animations,l))}}if(e){let a=o(t.geometries),l=o(t.materials),c=o(t.textures),h=o(t.images),u=o(t.shapes),d=o(t.skeletons),f=o(t.animations),p=o(t.nodes);a.length>0&&(n.geometries=a),l.length>0&&(n.materials=l),c.length>0&&(n.textures=c),h.length>0&&(n.images=h),u.length>0&&(n.shapes=u),d.length>0&&(n.skeletons=d),f.length>0&&(n.animations=f),p.length>0&&(n.nodes=p)}return n.object=i,n;function o(a){let l=[];for(let c in a){let h=a[c];delete h.metadata,l.push(h)}return l}}clone(t){return new this.constructor().copy(this,t)}copy(t,e=!0){if(this.name=t.name,this.up.copy(t.up),this.position.copy(t.position),this.rotation.order=t.rotation.order,this.quaternion.copy(t.quaternion),this.scale.copy(t.scale),this.pivot=t.pivot!==null?t.pivot.clone():null,this.matrix.copy(t.matrix),this.matrixWorld.copy(t.matrixWorld),this.matrixAutoUpdate=t.matrixAutoUpdate,this.matrixWorldAutoUpdate=t.matrixWorldAutoUpdate,this.matrixWorldNeedsUpdate=t.matrixWorldNeedsUpdate,this.layers.mask=t.layers.mask,this.visible=t.visible,this.castShadow=t.castShadow,this.receiveShadow=t.receiveShadow,this.frustumCulled=t.frustumCulled,this.renderOrder=t.renderOrder,this.static=t.static,this.animations=t.animations.slice(),this.userData=JSON.parse(JSON.stringify(t.userData)),e===!0)for(let n=0;n<t.children.length;n++){let i=t.children[n];this.add(i.clone())}return this}dispose(){this.dispatchEvent({type:"dispose"})}};en.DEFAULT_UP=new O(0,1,0);en.DEFAULT_MATRIX_AUTO_UPDATE=!0;en.DEFAULT_MATRIX_WORLD_AUTO_UPDATE=!0;var Ke=class extends en{constructor(){super(),this.isGroup=!0,this.type="Group"}},vw={type:"move"},da=class{constructor(){this._targetRay=null,this._grip=null,this._hand=null}getHandSpace(){return this._hand===null&&(this._hand=new Ke,this._hand.matrixAutoUpdate=!1,this._hand.visible=!1,this._hand.joints={},this._hand.inputState={pinching:!1}),this._hand}getTargetRaySpace(){return this._targetRay===null&&(this._targetRay=new Ke,this._targetRay.matrixAutoUpdate=!1,this._targetRay.visible=!1,this._targetRay.hasLinearVelocity=!1,this._targetRay.linearVelocity=new O,this._targetRay.hasAngularVelocity=!1,this._targetRay.angularVelocity=new O),this._targetRay}getGripSpace(){return this._grip===null&&(this._grip=new Ke,this._grip.matrixAutoUpdate=!1,this._grip.visible=!1,this._grip.hasLinearVelocity=!1,this._grip.linearVelocity=new O,this._grip.hasAngularVelocity=!1,this._grip.angularVelocity=new O,this._grip.eventsEnabled=!1),this._grip}dispatchEvent(t){return this._targetRay!==null&&this._targetRay.dispatchEvent(t),this._grip!==null&&this._grip.dispatchEvent(t),this._hand!==null&&this._hand.dispatchEvent(t),this}connect(t){if(t&&t.hand){let e=this._hand;if(e)for(let n of t.hand.values())this._getHandJoint(e,n)}return this.dispatchEvent({type:"connected",data:t}),this}disconnect(t){return this.dispatchEvent({type:"disconnected",data:t}),this._targetRay!==null&&(this._targetRay.visible=!1),this._grip!==null&&(this._grip.visible=!1),this._hand!==null&&(this._hand.visible=!1),this}update(t,e,n){let i=null,r=null,o=null,a=this._targetRay,l=this._grip,c=this._hand;if(t&&e.session.visibilityState!=="visible-blurred"){if(c&&t.hand){o=!0;for(let y of t.hand.values()){let m=e.getJointPose(y,n),g=this._getHandJoint(c,y);m!==null&&(g.matrix.fromArray(m.transform.matrix),g.matrix.decompose(g.position,g.quaternion,g.scale),g.matrixWorldNeedsUpdate=!0,g.jointRadius=m.radius),g.visible=m!==null}let h=c.joints["index-finger-tip"],u=c.joints["thumb-tip"],d=h.position.distanceTo(u.position),f=.02,p=.005;c.inputState.pinching&&d>f+p?(c.inputState.pinching=!1,this.dispatchEvent({type:"pinchend",handedness:t.handedness,target:this})):!c.inputState.pinching&&d<=f-p&&(c.inputState.pinching=!0,this.dispatchEvent({type:"pinchstart",handedness:t.handedness,target:this}))}else l!==null&&t.gripSpace&&(r=e.getPose(t.gripSpace,n),r!==null&&(l.matrix.fromArray(r.transform.matrix),l.matrix.decompose(l.position,l.quaternion,l.scale),l.matrixWorldNeedsUpdate=!0,r.linearVelocity?(l.hasLinearVelocity=!0,l.linearVelocity.copy(r.linearVelocity)):l.hasLinearVelocity=!1,r.angularVelocity?(l.hasAngularVelocity=!0,l.angularVelocity.copy(r.angularVelocity)):l.hasAngularVelocity=!1,l.eventsEnabled&&l.dispatchEvent({type:"gripUpdated",data:t,target:this})));a!==null&&(i=e.getPose(t.targetRaySpace,n),i===null&&r!==null&&(i=r),i!==null&&(a.matrix.fromArray(i.transform.matrix),a.matrix.decompose(a.position,a.quaternion,a.scale),a.matrixWorldNeedsUpdate=!0,i.linearVelocity?(a.hasLinearVelocity=!0,a.linearVelocity.copy(i.linearVelocity)):a.hasLinearVelocity=!1,i.angularVelocity?(a.hasAngularVelocity=!0,a.angularVelocity.copy(i.angularVelocity)):a.hasAngularVelocity=!1,this.dispatchEvent(vw)))}return a!==null&&(a.visible=i!==null),l!==null&&(l.visible=r!==null),c!==null&&(c.visible=o!==null),this}_getHandJoint(t,e){if(t.joints[e.jointName]===void 0){let n=new Ke;n.matrixAutoUpdate=!1,n.visible=!1,t.joints[e.jointName]=n,t.add(n)}return t.joints[e.jointName]}},ix={aliceblue:15792383,antiquewhite:16444375,aqua:65535,aquamarine:8388564,azure:15794175,beige:16119260,bisque:16770244,black:0,blanchedalmond:16772045,blue:255,blueviolet:9055202,brown:10824234,burlywood:14596231,cadetblue:6266528,chartreuse:8388352,chocolate:13789470,coral:16744272,cornflowerblue:6591981,cornsilk:16775388,crimson:14423100,cyan:65535,darkblue:139,darkcyan:35723,darkgoldenrod:12092939,darkgray:11119017,darkgreen:25600,darkgrey:11119017,darkkhaki:12433259,darkmagenta:9109643,darkolivegreen:5597999,darkorange:16747520,darkorchid:10040012,darkred:9109504,darksalmon:15308410,darkseagreen:9419919,darkslateblue:4734347,darkslategray:3100495,darkslategrey:3100495,darkturquoise:52945,darkviolet:9699539,deeppink:16716947,deepskyblue:49151,dimgray:6908265,dimgrey:6908265,dodgerblue:2003199,firebrick:11674146,floralwhite:16775920,forestgreen:2263842,fuchsia:16711935,gainsboro:14474460,ghostwhite:16316671,gold:16766720,goldenrod:14329120,gray:8421504,green:32768,greenyellow:11403055,grey:8421504,honeydew:15794160,hotpink:16738740,indianred:13458524,indigo:4915330,ivory:16777200,khaki:15787660,lavender:15132410,lavenderblush:16773365,lawngreen:8190976,lemonchiffon:16775885,lightblue:11393254,lightcoral:15761536,lightcyan:14745599,lightgoldenrodyellow:16448210,lightgray:13882323,lightgreen:9498256,lightgrey:13882323,lightpink:16758465,lightsalmon:16752762,lightseagreen:2142890,lightskyblue:8900346,lightslategray:7833753,lightslategrey:7833753,lightsteelblue:11584734,lightyellow:16777184,lime:65280,limegreen:3329330,linen:16445670,magenta:16711935,maroon:8388608,mediumaquamarine:6737322,mediumblue:205,mediumorchid:12211667,mediumpurple:9662683,mediumseagreen:3978097,mediumslateblue:8087790,mediumspringgreen:64154,mediumturquoise:4772300,mediumvioletred:13047173,midnightblue:1644912,mintcream:16121850,mistyrose:16770273,moccasin:16770229,navajowhite:16768685,navy:128,oldlace:16643558,olive:8421376,olivedrab:7048739,orange:16753920,orangered:16729344,orchid:14315734,palegoldenrod:15657130,palegreen:10025880,paleturquoise:11529966,palevioletred:14381203,papayawhip:16773077,peachpuff:16767673,peru:13468991,pink:16761035,plum:14524637,powderblue:11591910,purple:8388736,rebeccapurple:6697881,red:16711680,rosybrown:12357519,royalblue:4286945,saddlebrown:9127187,salmon:16416882,sandybrown:16032864,seagreen:3050327,seashell:16774638,sienna:10506797,silver:12632256,skyblue:8900331,slateblue:6970061,slategray:7372944,slategrey:7372944,snow:16775930,springgreen:65407,steelblue:4620980,tan:13808780,teal:32896,thistle:14204888,tomato:16737095,turquoise:4251856,violet:15631086,wheat:16113331,white:16777215,whitesmoke:16119285,yellow:16776960,yellowgreen:10145074},pr={h:0,s:0,l:0},ah={h:0,s:0,l:0};function Zf(s,t,e){return e<0&&(e+=1),e>1&&(e-=1),e<1/6?s+(t-s)*6*e:e<1/2?t:e<2/3?s+(t-s)*6*(2/3-e):s}var Dt=class{constructor(t,e,n){return this.isColor=!0,this.r=1,this.g=1,this.b=1,this.set(t,e,n)}set(t,e,n){if(e===void 0&&n===void 0){let i=t;i&&i.isColor?this.copy(i):typeof i=="number"?this.setHex(i):typeof i=="string"&&this.setStyle(i)}else this.setRGB(t,e,n);return this}setScalar(t){return this.r=t,this.g=t,this.b=t,this}setHex(t,e=we){return t=Math.floor(t),this.r=(t>>16&255)/255,this.g=(t>>8&255)/255,this.b=(t&255)/255,he.colorSpaceToWorking(this,e),this}setRGB(t,e,n,i=he.workingColorSpace){return this.r=t,this.g=e,this.b=n,he.colorSpaceToWorking(this,i),this}setHSL(t,e,n,i=he.workingColorSpace){if(t=im(t,1),e=le(e,0,1),n=le(n,0,1),e===0)this.r=this.g=this.b=n;else{let r=n<=.5?n*(1+e):n+e-n*e,o=2*n-r;this.r=Zf(o,r,t+1/3),this.g=Zf(o,r,t),this.b=Zf(o,r,t-1/3)}return he.colorSpaceToWorking(this,i),this}setStyle(t,e=we){function n(r){r!==void 0&&parseFloat(r)<1&&jt("Color: Alpha component of "+t+" will be ignored.")}let i;if(i=/^(\w+)\(([^\)]*)\)/.exec(t)){let r,o=i[1],a=i[2];switch(o){case"rgb":case"rgba":if(r=/^\s*(\d+)\s*,\s*(\d+)\s*,\s*(\d+)\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(a))return n(r[4]),this.setRGB(Math.min(255,parseInt(r[1],10))/255,Math.min(255,parseInt(r[2],10))/255,Math.min(255,parseInt(r[3],10))/255,e);if(r=/^\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(a))return n(r[4]),this.setRGB(Math.min(100,parseFloat(r[1]))/100,Math.min(100,parseFloat(r[2]))/100,Math.min(100,parseFloat(r[3]))/100,e);break;case"hsl":case"hsla":if(r=/^\s*([+-]?(?:\d+(?:\.\d+)?|\.\d+))\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(a))return n(r[4]),this.setHSL(parseFloat(r[1])/360,parseFloat(r[2])/100,parseFloat(r[3])/100,e);break;default:jt("Color: Unknown color model "+t)}}else if(i=/^\#([A-Fa-f\d]+)$/.exec(t)){let r=i[1],o=r.length;if(o===3)return this.setRGB(parseInt(r.charAt(0),16)/15,parseInt(r.charAt(1),16)/15,parseInt(r.charAt(2),16)/15,e);if(o===6)return this.setHex(parseInt(r,16),e);jt("Color: Invalid hex color "+t)}else if(t&&t.length>0)return this.setColorName(t,e);return this}setColorName(t,e=we){let n=ix[t.toLowerCase()];return n!==void 0?this.setHex(n,e):jt("Color: Unknown color "+t),this}clone(){return new this.constructor(this.r,this.g,this.b)}copy(t){return this.r=t.r,this.g=t.g,this.b=t.b,this}copySRGBToLinear(t){return this.r=qs(t.r),this.g=qs(t.g),this.b=qs(t.b),this}copyLinearToSRGB(t){return this.r=sa(t.r),this.g=sa(t.g),this.b=sa(t.b),this}convertSRGBToLinear(){return this.copySRGBToLinear(this),this}convertLinearToSRGB(){return this.copyLinearToSRGB(this),this}getHex(t=we){return he.workingToColorSpace($n.copy(this),t),Math.round(le($n.r*255,0,255))*65536+Math.round(le($n.g*255,0,255))*256+Math.round(le($n.b*255,0,255))}getHexString(t=we){return("000000"+this.getHex(t).toString(16)).slice(-6)}getHSL(t,e=he.workingColorSpace){he.workingToColorSpace($n.copy(this),e);let n=$n.r,i=$n.g,r=$n.b,o=Math.max(n,i,r),a=Math.min(n,i,r),l,c,h=(a+o)/2;if(a===o)l=0,c=0;else{let u=o-a;switch(c=h<=.5?u/(o+a):u/(2-o-a),o){case n:l=(i-r)/u+(i<r?6:0);break;case i:l=(r-n)/u+2;break;case r:l=(n-i)/u+4;break}l/=6}return t.h=l,t.s=c,t.l=h,t}getRGB(t,e=he.workingColorSpace){return he.workingToColorSpace($n.copy(this),e),t.r=$n.r,t.g=$n.g,t.b=$n.b,t}getStyle(t=we){he.workingToColorSpace($n.copy(this),t);let e=$n.r,n=$n.g,i=$n.b;return t!==we?`color(${t} ${e.toFixed(3)} ${n.toFixed(3)} ${i.toFixed(3)})`:`rgb(${Math.round(e*255)},${Math.round(n*255)},${Math.round(i*255)})`}offsetHSL(t,e,n){return this.getHSL(pr),this.setHSL(pr.h+t,pr.s+e,pr.l+n)}add(t){return this.r+=t.r,this.g+=t.g,this.b+=t.b,this}addColors(t,e){return this.r=t.r+e.r,this.g=t.g+e.g,this.b=t.b+e.b,this}addScalar(t){return this.r+=t,this.g+=t,this.b+=t,this}sub(t){return this.r=Math.max(0,this.r-t.r),this.g=Math.max(0,this.g-t.g),this.b=Math.max(0,this.b-t.b),this}multiply(t){return this.r*=t.r,this.g*=t.g,this.b*=t.b,this}multiplyScalar(t){return this.r*=t,this.g*=t,this.b*=t,this}lerp(t,e){return this.r+=(t.r-this.r)*e,this.g+=(t.g-this.g)*e,this.b+=(t.b-this.b)*e,this}lerpColors(t,e,n){return this.r=t.r+(e.r-t.r)*n,this.g=t.g+(e.g-t.g)*n,this.b=t.b+(e.b-t.b)*n,this}lerpHSL(t,e){this.getHSL(pr),t.getHSL(ah);let n=fl(pr.h,ah.h,e),i=fl(pr.s,ah.s,e),r=fl(pr.l,ah.l,e);return this.setHSL(n,i,r),this}setFromVector3(t){return this.r=t.x,this.g=t.y,this.b=t.z,this}applyMatrix3(t){let e=this.r,n=this.g,i=this.b,r=t.elements;return this.r=r[0]*e+r[3]*n+r[6]*i,this.g=r[1]*e+r[4]*n+r[7]*i,this.b=r[2]*e+r[5]*n+r[8]*i,this}equals(t){return t.r===this.r&&t.g===this.g&&t.b===this.b}fromArray(t,e=0){return this.r=t[e],this.g=t[e+1],this.b=t[e+2],this}toArray(t=[],e=0){return t[e]=this.r,t[e+1]=this.g,t[e+2]=this.b,t}fromBufferAttribute(t,e){return this.r=t.getX(e),this.g=t.getY(e),this.b=t.getZ(e),this}toJSON(){return this.getHex()}*[Symbol.iterator](){yield this.r,yield this.g,yield this.b}},$n=new Dt;Dt.NAMES=ix;var xl=class s{constructor(t,e=1,n=1e3){this.isFog=!0,this.name="",this.color=new Dt(t),this.near=e,this.far=n}clone(){return new s(this.color,this.near,this.far)}toJSON(){return{type:"Fog",name:this.name,color:this.color.getHex(),near:this.near,far:this.far}}},xr=class extends en{constructor(){super(),this.isScene=!0,this.type="Scene",this.background=null,this.environment=null,this.fog=null,this.backgroundBlurriness=0,this.backgroundIntensity=1,this.backgroundRotation=new yi,this.environmentIntensity=1,this.environmentRotation=new yi,this.overrideMaterial=null,typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}copy(t,e){return super.copy(t,e),this.background=t.background!==null?t.background.clone():null,this.environment=t.environment!==null?t.environment.clone():null,this.fog=t.fog!==null?t.fog.clone():null,this.backgroundBlurriness=t.backgroundBlurriness,this.backgroundIntensity=t.backgroundIntensity,this.backgroundRotation.copy(t.backgroundRotation),this.environmentIntensity=t.environmentIntensity,this.environmentRotation.copy(t.environmentRotation),this.overrideMaterial=t.overrideMaterial!==null?t.overrideMaterial.clone():null,this.matrixAutoUpdate=t.matrixAutoUpdate,this}toJSON(t){let e=super.toJSON(t);return this.fog!==null&&(e.object.fog=this.fog.toJSON()),e.object.backgroundBlurriness=this.backgroundBlurriness,e.object.backgroundIntensity=this.backgroundIntensity,e.object.backgroundRotation=this.backgroundRotation.toArray(),e.object.environmentIntensity=this.environmentIntensity,e.object.environmentRotation=this.environmentRotation.toArray(),e}},ss=new O,Vs=new O,Kf=new O,Gs=new O,Xo=new O,qo=new O,By=new O,Qf=new O,tp=new O,ep=new O,np=new be,ip=new be,sp=new be,os=class s{constructor(t=new O,e=new O,n=new O){this.a=t,this.b=e,this.c=n}static getNormal(t,e,n,i){i.subVectors(n,e),ss.subVectors(t,e),i.cross(ss);let r=i.lengthSq();return r>0?i.multiplyScalar(1/Math.sqrt(r)):i.set(0,0,0)}static getBarycoord(t,e,n,i,r){ss.subVectors(i,e),Vs.subVectors(n,e),Kf.subVectors(t,e);let o=ss.dot(ss),a=ss.dot(Vs),l=ss.dot(Kf),c=Vs.dot(Vs),h=Vs.dot(Kf),u=o*c-a*a;if(u===0)return r.set(0,0,0),null;let d=1/u,f=(c*l-a*h)*d,p=(o*h-a*l)*d;return r.set(1-f-p,p,f)}static containsPoint(t,e,n,i){return this.getBarycoord(t,e,n,i,Gs)===null?!1:Gs.x>=0&&Gs.y>=0&&Gs.x+Gs.y<=1}static getInterpolation(t,e,n,i,r,o,a,l){return this.getBarycoord(t,e,n,i,Gs)===null?(l.x=0,l.y=0,"z"in l&&(l.z=0),"w"in l&&(l.w=0),null):(l.setScalar(0),l.addScaledVector(r,Gs.x),l.addScaledVector(o,Gs.y),l.addScaledVector(a,Gs.z),l)}static getInterpolatedAttribute(t,e,n,i,r,o){return np.setScalar(0),ip.setScalar(0),sp.setScalar(0),np.fromBufferAttribute(t,e),ip.fromBufferAttribute(t,n),sp.fromBufferAttribute(t,i),o.setScalar(0),o.addScaledVector(np,r.x),o.addScaledVector(ip,r.y),o.addScaledVector(sp,r.z),o}static isFrontFacing(t,e,n,i){return ss.subVectors(n,e),Vs.subVectors(t,e),ss.cross(Vs).dot(i)<0}set(t,e,n){return this.a.copy(t),this.b.copy(e),this.c.copy(n),this}setFromPointsAndIndices(t,e,n,i){return this.a.copy(t[e]),this.b.copy(t[n]),this.c.copy(t[i]),this}setFromAttributeAndIndices(t,e,n,i){return this.a.fromBufferAttribute(t,e),this.b.fromBufferAttribute(t,n),this.c.fromBufferAttribute(t,i),this}clone(){return new this.constructor().copy(this)}copy(t){return this.a.copy(t.a),this.b.copy(t.b),this.c.copy(t.c),this}getArea(){return ss.subVectors(this.c,this.b),Vs.subVectors(this.a,this.b),ss.cross(Vs).length()*.5}getMidpoint(t){return t.addVectors(this.a,this.b).add(this.c).multiplyScalar(1/3)}getNormal(t){return s.getNormal(this.a,this.b,this.c,t)}getPlane(t){return t.setFromCoplanarPoints(this.a,this.b,this.c)}getBarycoord(t,e){return s.getBarycoord(t,this.a,this.b,this.c,e)}getInterpolation(t,e,n,i,r){return s.getInterpolation(t,this.a,this.b,this.c,e,n,i,r)}containsPoint(t){return s.containsPoint(t,this.a,this.b,this.c)}isFrontFacing(t){return s.isFrontFacing(this.a,this.b,this.c,t)}intersectsBox(t){return t.intersectsTriangle(this)}closestPointToPoint(t,e){let n=this.a,i=this.b,r=this.c,o,a;Xo.subVectors(i,n),qo.subVectors(r,n),Qf.subVectors(t,n);let l=Xo.dot(Qf),c=qo.dot(Qf);if(l<=0&&c<=0)return e.copy(n);tp.subVectors(t,i);let h=Xo.dot(tp),u=qo.dot(tp);if(h>=0&&u<=h)return e.copy(i);let d=l*u-h*c;if(d<=0&&l>=0&&h<=0&&l-h>0)return o=l/(l-h),e.copy(n).addScaledVector(Xo,o);ep.subVectors(t,r);let f=Xo.dot(ep),p=qo.dot(ep);if(p>=0&&f<=p)return e.copy(r);let y=f*c-l*p;if(y<=0&&c>=0&&p<=0)return a=c/(c-p),e.copy(n).addScaledVector(qo,a);let m=h*p-f*u;if(m<=0&&u-h>=0&&f-p>=0)return By.subVectors(r,i),a=(u-h)/(u-h+(f-p)),e.copy(i).addScaledVector(By,a);let g=1/(m+y+d);return o=y*g,a=d*g,e.copy(n).addScaledVector(Xo,o).addScaledVector(qo,a)}equals(t){return t.a.equals(this.a)&&t.b.equals(this.b)&&t.c.equals(this.c)}},un=class{constructor(t=new O(1/0,1/0,1/0),e=new O(-1/0,-1/0,-1/0)){this.isBox3=!0,this.min=t,this.max=e}set(t,e){return this.min.copy(t),this.max.copy(e),this}setFromArray(t){this.makeEmpty();for(let e=0,n=t.length;e<n;e+=3)this.expandByPoint(rs.fromArray(t,e));return this}setFromBufferAttribute(t){this.makeEmpty();for(let e=0,n=t.count;e<n;e++)this.expandByPoint(rs.fromBufferAttribute(t,e));return this}setFromPoints(t){this.makeEmpty();for(let e=0,n=t.length;e<n;e++)this.expandByPoint(t[e]);return this}setFromCenterAndSize(t,e){let n=rs.copy(e).multiplyScalar(.5);return this.min.copy(t).sub(n),this.max.copy(t).add(n),this}setFromObject(t,e=!1){return this.makeEmpty(),this.expandByObject(t,e)}clone(){return new this.constructor().copy(this)}copy(t){return this.min.copy(t.min),this.max.copy(t.max),this}makeEmpty(){return this.min.x=this.min.y=this.min.z=1/0,this.max.x=this.max.y=this.max.z=-1/0,this}isEmpty(){return this.max.x<this.min.x||this.max.y<this.min.y||this.max.z<this.min.z}getCenter(t){return this.isEmpty()?t.set(0,0,0):t.addVectors(this.min,this.max).multiplyScalar(.5)}getSize(t){return this.isEmpty()?t.set(0,0,0):t.subVectors(this.max,this.min)}expandByPoint(t){return this.min.min(t),this.max.max(t),this}expandByVector(t){return this.min.sub(t),this.max.add(t),this}expandByScalar(t){return this.min.addScalar(-t),this.max.addScalar(t),this}expandByObject(t,e=!1){t.updateWorldMatrix(!1,!1);let n=t.geometry;if(n!==void 0){let r=n.getAttribute("position");if(e===!0&&r!==void 0&&t.isInstancedMesh!==!0&&t.isBatchedMesh!==!0)for(let o=0,a=r.count;o<a;o++)t.isMesh===!0?t.getVertexPosition(o,rs):rs.fromBufferAttribute(r,o),rs.applyMatrix4(t.matrixWorld),this.expandByPoint(rs);else t.boundingBox!==void 0?(t.boundingBox===null&&t.computeBoundingBox(),lh.copy(t.boundingBox)):(n.boundingBox===null&&n.computeBoundingBox(),lh.copy(n.boundingBox)),lh.applyMatrix4(t.matrixWorld),this.union(lh)}let i=t.children;for(let r=0,o=i.length;r<o;r++)this.expandByObject(i[r],e);return this}containsPoint(t){return t.x>=this.min.x&&t.x<=this.max.x&&t.y>=this.min.y&&t.y<=this.max.y&&t.z>=this.min.z&&t.z<=this.max.z}containsBox(t){return this.min.x<=t.min.x&&t.max.x<=this.max.x&&this.min.y<=t.min.y&&t.max.y<=this.max.y&&this.min.z<=t.min.z&&t.max.z<=this.max.z}getParameter(t,e){return e.set((t.x-this.min.x)/(this.max.x-this.min.x),(t.y-this.min.y)/(this.max.y-this.min.y),(t.z-this.min.z)/(this.max.z-this.min.z))}intersectsBox(t){return t.max.x>=this.min.x&&t.min.x<=this.max.x&&t.max.y>=this.min.y&&t.min.y<=this.max.y&&t.max.z>=this.min.z&&t.min.z<=this.max.z}intersectsSphere(t){return this.clampPoint(t.center,rs),rs.distanceToSquared(t.center)<=t.radius*t.radius}intersectsPlane(t){let e,n;return t.normal.x>0?(e=t.normal.x*this.min.x,n=t.normal.x*this.max.x):(e=t.normal.x*this.max.x,n=t.normal.x*this.min.x),t.normal.y>0?(e+=t.normal.y*this.min.y,n+=t.normal.y*this.max.y):(e+=t.normal.y*this.max.y,n+=t.normal.y*this.min.y),t.normal.z>0?(e+=t.normal.z*this.min.z,n+=t.normal.z*this.max.z):(e+=t.normal.z*this.max.z,n+=t.normal.z*this.min.z),e<=-t.constant&&n>=-t.constant}intersectsTriangle(t){if(this.isEmpty())return!1;this.getCenter(il),ch.subVectors(this.max,il),Yo.subVectors(t.a,il),jo.subVectors(t.b,il),Jo.subVectors(t.c,il),mr.subVectors(jo,Yo),gr.subVectors(Jo,jo),jr.subVectors(Yo,Jo);let e=[0,-mr.z,mr.y,0,-gr.z,gr.y,0,-jr.z,jr.y,mr.z,0,-mr.x,gr.z,0,-gr.x,jr.z,0,-jr.x,-mr.y,mr.x,0,-gr.y,gr.x,0,-jr.y,jr.x,0];return!rp(e,Yo,jo,Jo,ch)||(e=[1,0,0,0,1,0,0,0,1],!rp(e,Yo,jo,Jo,ch))?!1:(hh.crossVectors(mr,gr),e=[hh.x,hh.y,hh.z],rp(e,Yo,jo,Jo,ch))}clampPoint(t,e){return e.copy(t).clamp(this.min,this.max)}distanceToPoint(t){return this.clampPoint(t,rs).distanceTo(t)}getBoundingSphere(t){return this.isEmpty()?t.makeEmpty():(this.getCenter(t.center),t.radius=this.getSize(rs).length()*.5),t}intersect(t){return this.min.max(t.min),this.max.min(t.max),this.isEmpty()&&this.makeEmpty(),this}union(t){return this.min.min(t.min),this.max.max(t.max),this}applyMatrix4(t){return this.isEmpty()?this:(Hs[0].set(this.min.x,this.min.y,this.min.z).applyMatrix4(t),Hs[1].set(this.min.x,this.min.y,this.max.z).applyMatrix4(t),Hs[2].set(this.min.x,this.max.y,this.min.z).applyMatrix4(t),Hs[3].set(this.min.x,this.max.y,this.max.z).applyMatrix4(t),Hs[4].set(this.max.x,this.min.y,this.min.z).applyMatrix4(t),Hs[5].set(this.max.x,this.min.y,this.max.z).applyMatrix4(t),Hs[6].set(this.max.x,this.max.y,this.min.z).applyMatrix4(t),Hs[7].set(this.max.x,this.max.y,this.max.z).applyMatrix4(t),this.setFromPoints(Hs),this)}translate(t){return this.min.add(t),this.max.add(t),this}equals(t){return t.min.equals(this.min)&&t.max.equals(this.max)}toJSON(){return{min:this.min.toArray(),max:this.max.toArray()}}fromJSON(t){return this.min.fromArray(t.min),this.max.fromArray(t.max),this}},Hs=[new O,new O,new O,new O,new O,new O,new O,new O],rs=new O,lh=new un,Yo=new O,jo=new O,Jo=new O,mr=new O,gr=new O,jr=new O,il=new O,ch=new O,hh=new O,Jr=new O;function rp(s,t,e,n,i){for(let r=0,o=s.length-3;r<=o;r+=3){Jr.fromArray(s,r);let a=i.x*Math.abs(Jr.x)+i.y*Math.abs(Jr.y)+i.z*Math.abs(Jr.z),l=t.dot(Jr),c=e.dot(Jr),h=n.dot(Jr);if(Math.max(-Math.max(l,c,h),Math.min(l,c,h))>a)return!1}return!0}var vn=new O,uh=new Xt,bw=0,Zn=class extends as{constructor(t,e,n=!1){if(super(),Array.isArray(t))throw new TypeError("THREE.BufferAttribute: array should be a Typed Array.");this.isBufferAttribute=!0,Object.defineProperty(this,"id",{value:bw++}),this.name="",this.array=t,this.itemSize=e,this.count=t!==void 0?t.length/e:0,this.normalized=n,this.usage=em,this.updateRanges=[],this.gpuType=Bi,this.version=0,this._normalizationScale=t!==void 0?$u(t):void 0}onUploadCallback(){}set needsUpdate(t){t===!0&&this.version++}setUsage(t){return this.usage=t,this}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}copy(t){return this.name=t.name,this.array=new t.array.constructor(t.array),this.itemSize=t.itemSize,this.count=t.count,this.normalized=t.normalized,this.usage=t.usage,this.gpuType=t.gpuType,this._normalizationScale=t._normalizationScale,this}copyAt(t,e,n){t*=this.itemSize,n*=e.itemSize;for(let i=0,r=this.itemSize;i<r;i++)this.array[t+i]=e.array[n+i];return this}copyArray(t){return this.array.set(t),this}applyMatrix3(t){if(this.itemSize===2)for(let e=0,n=this.count;e<n;e++)uh.fromBufferAttribute(this,e),uh.applyMatrix3(t),this.setXY(e,uh.x,uh.y);else if(this.itemSize===3)for(let e=0,n=this.count;e<n;e++)vn.fromBufferAttribute(this,e),vn.applyMatrix3(t),this.setXYZ(e,vn.x,vn.y,vn.z);return this}applyMatrix4(t){for(let e=0,n=this.count;e<n;e++)vn.fromBufferAttribute(this,e),vn.applyMatrix4(t),this.setXYZ(e,vn.x,vn.y,vn.z);return this}applyNormalMatrix(t){for(let e=0,n=this.count;e<n;e++)vn.fromBufferAttribute(this,e),vn.applyNormalMatrix(t),this.setXYZ(e,vn.x,vn.y,vn.z);return this}transformDirection(t){for(let e=0,n=this.count;e<n;e++)vn.fromBufferAttribute(this,e),vn.transformDirection(t),this.setXYZ(e,vn.x,vn.y,vn.z);return this}set(t,e=0){return this.array.set(t,e),this}getComponent(t,e){let n=this.array[t*this.itemSize+e];return this.normalized&&(n=this._denormalize(n)),n}setComponent(t,e,n){return this.normalized&&(n=this._normalize(n)),this.array[t*this.itemSize+e]=n,this}getX(t){let e=this.array[t*this.itemSize];return this.normalized&&(e=this._denormalize(e)),e}setX(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize]=e,this}getY(t){let e=this.array[t*this.itemSize+1];return this.normalized&&(e=this._denormalize(e)),e}setY(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+1]=e,this}getZ(t){let e=this.array[t*this.itemSize+2];return this.normalized&&(e=this._denormalize(e)),e}setZ(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+2]=e,this}getW(t){let e=this.array[t*this.itemSize+3];return this.normalized&&(e=this._denormalize(e)),e}setW(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+3]=e,this}setXY(t,e,n){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n)),this.array[t+0]=e,this.array[t+1]=n,this}setXYZ(t,e,n,i){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n),i=this._normalize(i)),this.array[t+0]=e,this.array[t+1]=n,this.array[t+2]=i,this}setXYZW(t,e,n,i,r){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n),i=this._normalize(i),r=this._normalize(r)),this.array[t+0]=e,this.array[t+1]=n,this.array[t+2]=i,this.array[t+3]=r,this}onUpload(t){return this.onUploadCallback=t,this}clone(){return new this.constructor(this.array,this.itemSize).copy(this)}toJSON(){let t={itemSize:this.itemSize,type:this.array.constructor.name,array:Array.from(this.array),normalized:this.normalized};return t.name=this.name,t.usage=this.usage,t.gpuType=this.gpuType,t}dispose(){this.dispatchEvent({type:"dispose"})}_denormalize(t){let e=this._normalizationScale;return e!==void 0?Math.max(t/e,-1):rm(t,this.array)}_normalize(t){let e=this._normalizationScale;return e!==void 0?Math.round(t*e):om(t,this.array)}};var vl=class extends Zn{constructor(t,e,n){super(new Uint16Array(t),e,n)}};var bl=class extends Zn{constructor(t,e,n){super(new Uint32Array(t),e,n)}};var Jt=class extends Zn{constructor(t,e,n){super(new Float32Array(t),e,n)}},Sw=new un,sl=new O,op=new O,nn=class{constructor(t=new O,e=-1){this.isSphere=!0,this.center=t,this.radius=e}set(t,e){return this.center.copy(t),this.radius=e,this}setFromPoints(t,e){let n=this.center;e!==void 0?n.copy(e):Sw.setFromPoints(t).getCenter(n);let i=0;for(let r=0,o=t.length;r<o;r++)i=Math.max(i,n.distanceToSquared(t[r]));return this.radius=Math.sqrt(i),this}copy(t){return this.center.copy(t.center),this.radius=t.radius,this}isEmpty(){return this.radius<0}makeEmpty(){return this.center.set(0,0,0),this.radius=-1,this}containsPoint(t){return t.distanceToSquared(this.center)<=this.radius*this.radius}distanceToPoint(t){return t.distanceTo(this.center)-this.radius}intersectsSphere(t){let e=this.radius+t.radius;return t.center.distanceToSquared(this.center)<=e*e}intersectsBox(t){return t.intersectsSphere(this)}intersectsPlane(t){return Math.abs(t.distanceToPoint(this.center))<=this.radius}clampPoint(t,e){let n=this.center.distanceToSquared(t);return e.copy(t),n>this.radius*this.radius&&(e.sub(this.center).normalize(),e.multiplyScalar(this.radius).add(this.center)),e}getBoundingBox(t){return this.isEmpty()?(t.makeEmpty(),t):(t.set(this.center,this.center),t.expandByScalar(this.radius),t)}applyMatrix4(t){return this.center.applyMatrix4(t),this.radius=this.radius*t.getMaxScaleOnAxis(),this}translate(t){return this.center.add(t),this}expandByPoint(t){if(this.isEmpty())return this.center.copy(t),this.radius=0,this;sl.subVectors(t,this.center);let e=sl.lengthSq();if(e>this.radius*this.radius){let n=Math.sqrt(e),i=(n-this.radius)*.5;this.center.addScaledVector(sl,i/n),this.radius+=i}return this}union(t){return t.isEmpty()?this:this.isEmpty()?(this.copy(t),this):(this.center.equals(t.center)===!0?this.radius=Math.max(this.radius,t.radius):(op.subVectors(t.center,this.center).setLength(t.radius),this.expandByPoint(sl.copy(t.center).add(op)),this.expandByPoint(sl.copy(t.center).sub(op))),this)}equals(t){return t.center.equals(this.center)&&t.radius===this.radius}clone(){return new this.constructor().copy(this)}toJSON(){return{radius:this.radius,center:this.center.toArray()}}fromJSON(t){return this.radius=t.radius,this.center.fromArray(t.center),this}},Mw=0,Hi=new Nt,ap=new en,$o=new O,Ni=new un,rl=new un,Un=new O,Fe=class s extends as{constructor(){super(),this.isBufferGeometry=!0,Object.defineProperty(this,"id",{value:Mw++}),this.uuid=As(),this.name="",this.type="BufferGeometry",this.index=null,this.indirect=null,this.indirectOffset=0,this.attributes={},this.morphAttributes={},this.morphTargetsRelative=!1,this.groups=[],this.boundingBox=null,this.boundingSphere=null,this.drawRange={start:0,count:1/0},this.userData={},this._transformed=!1}getIndex(){return this.index}setIndex(t){return Array.isArray(t)?this.index=new(jM(t)?bl:vl)(t,1):this.index=t,this}setIndirect(t,e=0){return this.indirect=t,this.indirectOffset=e,this}getIndirect(){return this.indirect}getAttribute(t){return this.attributes[t]}setAttribute(t,e){return this.attributes[t]=e,this}deleteAttribute(t){return delete this.attributes[t],this}hasAttribute(t){return this.attributes[t]!==void 0}addGroup(t,e,n=0){this.groups.push({start:t,count:e,materialIndex:n})}clearGroups(){this.groups=[]}setDrawRange(t,e){this.drawRange.start=t,this.drawRange.count=e}applyMatrix4(t){let e=this.attributes.position;e!==void 0&&(e.applyMatrix4(t),e.needsUpdate=!0);let n=this.attributes.normal;if(n!==void 0){let r=new se().getNormalMatrix(t);n.applyNormalMatrix(r),n.needsUpdate=!0}let i=this.attributes.tangent;return i!==void 0&&(i.transformDirection(t),i.needsUpdate=!0),this.boundingBox!==null&&this.computeBoundingBox(),this.boundingSphere!==null&&this.computeBoundingSphere(),this._transformed=!0,this}applyQuaternion(t){return Hi.makeRotationFromQuaternion(t),this.applyMatrix4(Hi),this}rotateX(t){return Hi.makeRotationX(t),this.applyMatrix4(Hi),this}rotateY(t){return Hi.makeRotationY(t),this.applyMatrix4(Hi),this}rotateZ(t){return Hi.makeRotationZ(t),this.applyMatrix4(Hi),this}translate(t,e,n){return Hi.makeTranslation(t,e,n),this.applyMatrix4(Hi),this}scale(t,e,n){return Hi.makeScale(t,e,n),this.applyMatrix4(Hi),this}lookAt(t){return ap.lookAt(t),ap.updateMatrix(),this.applyMatrix4(ap.matrix),this}center(){return this.computeBoundingBox(),this.boundingBox.getCenter($o).negate(),this.translate($o.x,$o.y,$o.z),this}setFromPoints(t){let e=this.getAttribute("position");if(e===void 0){let n=[];for(let i=0,r=t.length;i<r;i++){let o=t[i];n.push(o.x,o.y,o.z||0)}this.setAttribute("position",new Jt(n,3))}else{let n=Math.min(t.length,e.count);for(let i=0;i<n;i++){let r=t[i];e.setXYZ(i,r.x,r.y,r.z||0)}t.length>e.count&&jt("BufferGeometry: Buffer size too small for points data. Use .dispose() and create a new geometry."),e.needsUpdate=!0}return this}computeBoundingBox(){this.boundingBox===null&&(this.boundingBox=new un);let t=this.attributes.position,e=this.morphAttributes.position;if(t&&t.isGLBufferAttribute){te("BufferGeometry.computeBoundingBox(): GLBufferAttribute requires a manual bounding box.",this),this.boundingBox.set(new O(-1/0,-1/0,-1/0),new O(1/0,1/0,1/0));return}if(t!==void 0){if(this.boundingBox.setFromBufferAttribute(t),e)for(let n=0,i=e.length;n<i;n++){let r=e[n];Ni.setFromBufferAttribute(r),this.morphTargetsRelative?(Un.addVectors(this.boundingBox.min,Ni.min),this.boundingBox.expandByPoint(Un),Un.addVectors(this.boundingBox.max,Ni.max),this.boundingBox.expandByPoint(Un)):(this.boundingBox.expandByPoint(Ni.min),this.boundingBox.expandByPoint(Ni.max))}}else this.boundingBox.makeEmpty();(isNaN(this.boundingBox.min.x)||isNaN(this.boundingBox.min.y)||isNaN(this.boundingBox.min.z))&&te('BufferGeometry.computeBoundingBox(): Computed min/max have NaN values. The "position" attribute is likely to have NaN values.',this)}computeBoundingSphere(){this.boundingSphere===null&&(this.boundingSphere=new nn);let t=this.attributes.position,e=this.morphAttributes.position;if(t&&t.isGLBufferAttribute){te("BufferGeometry.computeBoundingSphere(): GLBufferAttribute requires a manual bounding sphere.",this),this.boundingSphere.set(new O,1/0);return}if(t){let n=this.boundingSphere.center;if(Ni.setFromBufferAttribute(t),e)for(let r=0,o=e.length;r<o;r++){let a=e[r];rl.setFromBufferAttribute(a),this.morphTargetsRelative?(Un.addVectors(Ni.min,rl.min),Ni.expandByPoint(Un),Un.addVectors(Ni.max,rl.max),Ni.expandByPoint(Un)):(Ni.expandByPoint(rl.min),Ni.expandByPoint(rl.max))}Ni.getCenter(n);let i=0;for(let r=0,o=t.count;r<o;r++)Un.fromBufferAttribute(t,r),i=Math.max(i,n.distanceToSquared(Un));if(e)for(let r=0,o=e.length;r<o;r++){let a=e[r],l=this.morphTargetsRelative;for(let c=0,h=a.count;c<h;c++)Un.fromBufferAttribute(a,c),l&&($o.fromBufferAttribute(t,c),Un.add($o)),i=Math.max(i,n.distanceToSquared(Un))}this.boundingSphere.radius=Math.sqrt(i),isNaN(this.boundingSphere.radius)&&te('BufferGeometry.computeBoundingSphere(): Computed radius is NaN. The "position" attribute is likely to have NaN values.',this)}}computeTangents(){let t=this.index,e=this.attributes;if(t===null||e.position===void 0||e.normal===void 0||e.uv===void 0){te("BufferGeometry: .computeTangents() failed. Missing required attributes (index, position, normal or uv)");return}let n=e.position,i=e.normal,r=e.uv,o=this.getAttribute("tangent");(o===void 0||o.count!==n.count)&&(o=new Zn(new Float32Array(4*n.count),4),this.setAttribute("tangent",o));let a=[],l=[],c=new Uint8Array(n.count);for(let L=0;L<n.count;L++)a[L]=new O,l[L]=new O;let h=new O,u=new O,d=new O,f=new Xt,p=new Xt,y=new Xt,m=new O,g=new O;function _(L,P,C){c[L]=c[P]=c[C]=1,h.fromBufferAttribute(n,L),u.fromBufferAttribute(n,P),d.fromBufferAttribute(n,C),f.fromBufferAttribute(r,L),p.fromBufferAttribute(r,P),y.fromBufferAttribute(r,C),u.sub(h),d.sub(h),p.sub(f),y.sub(f);let F=1/(p.x*y.y-y.x*p.y);isFinite(F)&&(m.copy(u).multiplyScalar(y.y).addScaledVector(d,-p.y).multiplyScalar(F),g.copy(d).multiplyScalar(p.x).addScaledVector(u,-y.x).multiplyScalar(F),a[L].add(m),a[P].add(m),a[C].add(m),l[L].add(g),l[P].add(g),l[C].add(g))}let w=this.groups;w.length===0&&(w=[{start:0,count:t.count}]);for(let L=0,P=w.length;L<P;++L){let C=w[L],F=C.start,B=C.count;for(let N=F,W=F+B;N<W;N+=3)_(t.getX(N+0),t.getX(N+1),t.getX(N+2))}let v=new O,E=new O,S=new O,x=new O;function M(L){S.fromBufferAttribute(i,L),x.copy(S);let P=a[L];v.copy(P),v.sub(S.multiplyScalar(S.dot(P))).normalize(),E.crossVectors(x,P);let F=E.dot(l[L])<0?-1:1;o.setXYZW(L,v.x,v.y,v.z,F)}for(let L=0,P=n.count;L<P;++L)c[L]&&M(L);this._transformed=!0}computeVertexNormals(){let t=this.index,e=this.getAttribute("position");if(e!==void 0){let n=this.getAttribute("normal");if(n===void 0||n.count!==e.count)n=new Zn(new Float32Array(e.count*3),3),this.setAttribute("normal",n);else for(let d=0,f=n.count;d<f;d++)n.setXYZ(d,0,0,0);let i=new O,r=new O,o=new O,a=new O,l=new O,c=new O,h=new O,u=new O;if(t)for(let d=0,f=t.count;d<f;d+=3){let p=t.getX(d+0),y=t.getX(d+1),m=t.getX(d+2);i.fromBufferAttribute(e,p),r.fromBufferAttribute(e,y),o.fromBufferAttribute(e,m),h.subVectors(o,r),u.subVectors(i,r),h.cross(u),a.fromBufferAttribute(n,p),l.fromBufferAttribute(n,y),c.fromBufferAttribute(n,m),a.add(h),l.add(h),c.add(h),n.setXYZ(p,a.x,a.y,a.z),n.setXYZ(y,l.x,l.y,l.z),n.setXYZ(m,c.x,c.y,c.z)}else for(let d=0,f=e.count;d<f;d+=3)i.fromBufferAttribute(e,d+0),r.fromBufferAttribute(e,d+1),o.fromBufferAttribute(e,d+2),h.subVectors(o,r),u.subVectors(i,r),h.cross(u),n.setXYZ(d+0,h.x,h.y,h.z),n.setXYZ(d+1,h.x,h.y,h.z),n.setXYZ(d+2,h.x,h.y,h.z);this.normalizeNormals(),n.needsUpdate=!0}}normalizeNormals(){let t=this.attributes.normal;for(let e=0,n=t.count;e<n;e++)Un.fromBufferAttribute(t,e),Un.normalize(),t.setXYZ(e,Un.x,Un.y,Un.z)}toNonIndexed(){function t(a,l){let c=a.array,h=a.itemSize,u=a.normalized,d=new c.constructor(l.length*h),f=0,p=0;for(let y=0,m=l.length;y<m;y++){a.isInterleavedBufferAttribute?f=l[y]*a.data.stride+a.offset:f=l[y]*h;for(let g=0;g<h;g++)d[p++]=c[f++]}return new Zn(d,h,u)}if(this.index===null)return jt("BufferGeometry.toNonIndexed(): BufferGeometry is already non-indexed."),this;let e=new s,n=this.index.array,i=this.attributes;for(let a in i){let l=i[a],c=t(l,n);e.setAttribute(a,c)}let r=this.morphAttributes;for(let a in r){let l=[],c=r[a];for(let h=0,u=c.length;h<u;h++){let d=c[h],f=t(d,n);l.push(f)}e.morphAttributes[a]=l}e.morphTargetsRelative=this.morphTargetsRelative;let o=this.groups;for(let a=0,l=o.length;a<l;a++){let c=o[a];e.addGroup(c.start,c.count,c.materialIndex)}return e}toJSON(){let t={metadata:{version:4.7,type:"BufferGeometry",generator:"BufferGeometry.toJSON"}};if(t.uuid=this.uuid,t.type=this.parameters!==void 0&&this._transformed===!0?"BufferGeometry":this.type,t.name=this.name,Object.keys(this.userData).length>0&&(t.userData=this.userData),this.parameters!==void 0&&this._transformed!==!0){let l=this.parameters;for(let c in l)l[c]!==void 0&&(t[c]=l[c]);return t}t.data={attributes:{}};let e=this.index;e!==null&&(t.data.index={type:e.array.constructor.name,array:Array.prototype.slice.call(e.array)});let n=this.attributes;for(let l in n){let c=n[l];t.data.attributes[l]=c.toJSON(t.data)}let i={},r=!1;for(let l in this.morphAttributes){let c=this.morphAttributes[l],h=[];for(let u=0,d=c.length;u<d;u++){let f=c[u];h.push(f.toJSON(t.data))}h.length>0&&(i[l]=h,r=!0)}r&&(t.data.morphAttributes=i,t.data.morphTargetsRelative=this.morphTargetsRelative);let o=this.groups;o.length>0&&(t.data.groups=JSON.parse(JSON.stringify(o)));let a=this.boundingSphere;return a!==null&&(t.data.boundingSphere=a.toJSON()),t}clone(){return new this.constructor().copy(this)}copy(t){this.index=null,this.attributes={},this.morphAttributes={},this.groups=[],this.boundingBox=null,this.boundingSphere=null;let e={};this.name=t.name;let n=t.index;n!==null&&this.setIndex(n.clone());let i=t.attributes;for(let c in i){let h=i[c];this.setAttribute(c,h.clone(e))}let r=t.morphAttributes;for(let c in r){let h=[],u=r[c];for(let d=0,f=u.length;d<f;d++)h.push(u[d].clone(e));this.morphAttributes[c]=h}this.morphTargetsRelative=t.morphTargetsRelative;let o=t.groups;for(let c=0,h=o.length;c<h;c++){let u=o[c];this.addGroup(u.start,u.count,u.materialIndex)}let a=t.boundingBox;a!==null&&(this.boundingBox=a.clone());let l=t.boundingSphere;return l!==null&&(this.boundingSphere=l.clone()),this.drawRange.start=t.drawRange.start,this.drawRange.count=t.drawRange.count,this.userData=t.userData,this._transformed=t._transformed,this}dispose(){this.dispatchEvent({type:"dispose"})}},$h=class{constructor(t,e){this.isInterleavedBuffer=!0,this.array=t,this.stride=e,this.count=t!==void 0?t.length/e:0,this.usage=em,this.updateRanges=[],this.version=0,this.uuid=As()}onUploadCallback(){}set needsUpdate(t){t===!0&&this.version++}setUsage(t){return this.usage=t,this}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}copy(t){return this.array=new t.array.constructor(t.array),this.count=t.count,this.stride=t.stride,this.usage=t.usage,this}copyAt(t,e,n){t*=this.stride,n*=e.stride;for(let i=0,r=this.stride;i<r;i++)this.array[t+i]=e.array[n+i];return this}set(t,e=0){return this.array.set(t,e),this}clone(t){t.arrayBuffers===void 0&&(t.arrayBuffers={});let e=ky(this.array);t.arrayBuffers[e]===void 0&&(t.arrayBuffers[e]=this.array.slice(0).buffer);let n=new this.array.constructor(t.arrayBuffers[e]),i=new this.constructor(n,this.stride);return i.setUsage(this.usage),i}onUpload(t){return this.onUploadCallback=t,this}toJSON(t){t.arrayBuffers===void 0&&(t.arrayBuffers={});let e=ky(this.array);t.arrayBuffers[e]===void 0&&(t.arrayBuffers[e]=Array.from(new Uint32Array(this.array.slice(0).buffer)));let n={uuid:this.uuid,buffer:e,type:this.array.constructor.name,stride:this.stride};return n.usage=this.usage,n}};function ky(s){return s.buffer._uuid===void 0&&(s.buffer._uuid=As()),s.byteOffset===0&&s.byteLength===s.buffer.byteLength?s.buffer._uuid:s.buffer._uuid+":"+s.byteOffset+":"+s.byteLength}var ci=new O,Gn=class s{constructor(t,e,n,i=!1){this.isInterleavedBufferAttribute=!0,this.name="",this.data=t,this.itemSize=e,this.offset=n,this.normalized=i,this._normalizationScale=t!==void 0?$u(t.array):void 0}get count(){return this.data.count}get array(){return this.data.array}set needsUpdate(t){this.data.needsUpdate=t}applyMatrix4(t){for(let e=0,n=this.data.count;e<n;e++)ci.fromBufferAttribute(this,e),ci.applyMatrix4(t),this.setXYZ(e,ci.x,ci.y,ci.z);return this}applyNormalMatrix(t){for(let e=0,n=this.count;e<n;e++)ci.fromBufferAttribute(this,e),ci.applyNormalMatrix(t),this.setXYZ(e,ci.x,ci.y,ci.z);return this}transformDirection(t){for(let e=0,n=this.count;e<n;e++)ci.fromBufferAttribute(this,e),ci.transformDirection(t),this.setXYZ(e,ci.x,ci.y,ci.z);return this}getComponent(t,e){let n=this.array[t*this.data.stride+this.offset+e];return this.normalized&&(n=this._denormalize(n)),n}setComponent(t,e,n){return this.normalized&&(n=this._normalize(n)),this.data.array[t*this.data.stride+this.offset+e]=n,this}setX(t,e){return this.normalized&&(e=this._normalize(e)),this.data.array[t*this.data.stride+this.offset]=e,this}setY(t,e){return this.normalized&&(e=this._normalize(e)),this.data.array[t*this.data.stride+this.offset+1]=e,this}setZ(t,e){return this.normalized&&(e=this._normalize(e)),this.data.array[t*this.data.stride+this.offset+2]=e,this}setW(t,e){return this.normalized&&(e=this._normalize(e)),this.data.array[t*this.data.stride+this.offset+3]=e,this}getX(t){let e=this.data.array[t*this.data.stride+this.offset];return this.normalized&&(e=this._denormalize(e)),e}getY(t){let e=this.data.array[t*this.data.stride+this.offset+1];return this.normalized&&(e=this._denormalize(e)),e}getZ(t){let e=this.data.array[t*this.data.stride+this.offset+2];return this.normalized&&(e=this._denormalize(e)),e}getW(t){let e=this.data.array[t*this.data.stride+this.offset+3];return this.normalized&&(e=this._denormalize(e)),e}setXY(t,e,n){return t=t*this.data.stride+this.offset,this.normalized&&(e=this._normalize(e),n=this._normalize(n)),this.data.array[t+0]=e,this.data.array[t+1]=n,this}setXYZ(t,e,n,i){return t=t*this.data.stride+this.offset,this.normalized&&(e=this._normalize(e),n=this._normalize(n),i=this._normalize(i)),this.data.array[t+0]=e,this.data.array[t+1]=n,this.data.array[t+2]=i,this}setXYZW(t,e,n,i,r){return t=t*this.data.stride+this.offset,this.normalized&&(e=this._normalize(e),n=this._normalize(n),i=this._normalize(i),r=this._normalize(r)),this.data.array[t+0]=e,this.data.array[t+1]=n,this.data.array[t+2]=i,this.data.array[t+3]=r,this}clone(t){if(t===void 0){yl("InterleavedBufferAttribute.clone(): Cloning an interleaved buffer attribute will de-interleave buffer data.");let e=[];for(let n=0;n<this.count;n++){let i=n*this.data.stride+this.offset;for(let r=0;r<this.itemSize;r++)e.push(this.data.array[i+r])}return new Zn(new this.array.constructor(e),this.itemSize,this.normalized)}else return t.interleavedBuffers===void 0&&(t.interleavedBuffers={}),t.interleavedBuffers[this.data.uuid]===void 0&&(t.interleavedBuffers[this.data.uuid]=this.data.clone(t)),new s(t.interleavedBuffers[this.data.uuid],this.itemSize,this.offset,this.normalized)}toJSON(t){if(t===void 0){yl("InterleavedBufferAttribute.toJSON(): Serializing an interleaved buffer attribute will de-interleave buffer data.");let e=[];for(let n=0;n<this.count;n++){let i=n*this.data.stride+this.offset;for(let r=0;r<this.itemSize;r++)e.push(this.data.array[i+r])}return{itemSize:this.itemSize,type:this.array.constructor.name,array:e,normalized:this.normalized}}else return t.interleavedBuffers===void 0&&(t.interleavedBuffers={}),t.interleavedBuffers[this.data.uuid]===void 0&&(t.interleavedBuffers[this.data.uuid]=this.data.toJSON(t)),{isInterleavedBufferAttribute:!0,itemSize:this.itemSize,data:this.data.uuid,offset:this.offset,normalized:this.normalized}}_denormalize(t){let e=this._normalizationScale;return e!==void 0?Math.max(t/e,-1):rm(t,this.data.array)}_normalize(t){let e=this._normalizationScale;return e!==void 0?Math.round(t*e):om(t,this.data.array)}},lp=new O,ww=new O,Tw=new se,Di=class{constructor(t=new O(1,0,0),e=0){this.isPlane=!0,this.normal=t,this.constant=e}set(t,e){return this.normal.copy(t),this.constant=e,this}setComponents(t,e,n,i){return this.normal.set(t,e,n),this.constant=i,this}setFromNormalAndCoplanarPoint(t,e){return this.normal.copy(t),this.constant=-e.dot(this.normal),this}setFromCoplanarPoints(t,e,n){let i=lp.subVectors(n,e).cross(ww.subVectors(t,e)).normalize();return this.setFromNormalAndCoplanarPoint(i,t),this}copy(t){return this.normal.copy(t.normal),this.constant=t.constant,this}normalize(){let t=1/this.normal.length();return this.normal.multiplyScalar(t),this.constant*=t,this}negate(){return this.constant*=-1,this.normal.negate(),this}distanceToPoint(t){return this.normal.dot(t)+this.constant}distanceToSphere(t){return this.distanceToPoint(t.center)-t.radius}projectPoint(t,e){return e.copy(t).addScaledVector(this.normal,-this.distanceToPoint(t))}intersectLine(t,e,n=!0){let i=t.delta(lp),r=this.normal.dot(i);if(r===0)return this.distanceToPoint(t.start)===0?e.copy(t.start):null;let o=-(t.start.dot(this.normal)+this.constant)/r;return n===!0&&(o<0||o>1)?null:e.copy(t.start).addScaledVector(i,o)}intersectsLine(t){let e=this.distanceToPoint(t.start),n=this.distanceToPoint(t.end);return e<0&&n>0||n<0&&e>0}intersectsBox(t){return t.intersectsPlane(this)}intersectsSphere(t){return t.intersectsPlane(this)}coplanarPoint(t){return t.copy(this.normal).multiplyScalar(-this.constant)}applyMatrix4(t,e){let n=e||Tw.getNormalMatrix(t),i=this.coplanarPoint(lp).applyMatrix4(t),r=this.normal.applyMatrix3(n).normalize();return this.constant=-i.dot(r),this}translate(t){return this.constant-=t.dot(this.normal),this}equals(t){return t.normal.equals(this.normal)&&t.constant===this.constant}clone(){return new this.constructor().copy(this)}toJSON(){return{normal:this.normal.toArray(),constant:this.constant}}fromJSON(t){return this.normal.fromArray(t.normal),this.constant=t.constant,this}},Ew=0,di=class extends as{constructor(){super(),this.isMaterial=!0,Object.defineProperty(this,"id",{value:Ew++}),this.uuid=As(),this.name="",this.type="Material",this.blending=wa,this.side=Ts,this.vertexColors=!1,this.opacity=1,this.transparent=!1,this.alphaHash=!1,this.blendSrc=Up,this.blendDst=Op,this.blendEquation=uo,this.blendSrcAlpha=null,this.blendDstAlpha=null,this.blendEquationAlpha=null,this.blendColor=new Dt(0,0,0),this.blendAlpha=0,this.depthFunc=oa,this.depthTest=!0,this.depthWrite=!0,this.stencilWriteMask=255,this.stencilFunc=Y_,this.stencilRef=0,this.stencilFuncMask=255,this.stencilFail=Oh,this.stencilZFail=Oh,this.stencilZPass=Oh,this.stencilWrite=!1,this.clippingPlanes=null,this.clipIntersection=!1,this.clipShadows=!1,this.shadowSide=null,this.colorWrite=!0,this.precision=null,this.polygonOffset=!1,this.polygonOffsetFactor=0,this.polygonOffsetUnits=0,this.dithering=!1,this.alphaToCoverage=!1,this.premultipliedAlpha=!1,this.forceSinglePass=!1,this.allowOverride=!0,this.visible=!0,this.toneMapped=!0,this.userData={},this.version=0,this._alphaTest=0}get alphaTest(){return this._alphaTest}set alphaTest(t){this._alphaTest>0!=t>0&&this.version++,this._alphaTest=t}onBeforeRender(){}onBeforeCompile(){}customProgramCacheKey(){return this.onBeforeCompile.toString()}setValues(t){if(t!==void 0)for(let e in t){let n=t[e];if(n===void 0){jt(`Material: parameter '${e}' has value of undefined.`);continue}let i=this[e];if(i===void 0){jt(`Material: '${e}' is not a property of THREE.${this.type}.`);continue}i&&i.isColor?i.set(n):i&&i.isVector2&&n&&n.isVector2||i&&i.isEuler&&n&&n.isEuler||i&&i.isVector3&&n&&n.isVector3?i.copy(n):this[e]=n}}toJSON(t){let e=t===void 0||typeof t=="string";e&&(t={textures:{},images:{}});let n={metadata:{version:4.7,type:"Material",generator:"Material.toJSON"}};n.uuid=this.uuid,n.type=this.type,n.blending=this.blending,n.side=this.side,n.shadowSide=this.shadowSide,n.vertexColors=this.vertexColors,n.opacity=this.opacity,n.transparent=this.transparent,n.blendSrc=this.blendSrc,n.blendDst=this.blendDst,n.blendEquation=this.blendEquation,n.blendSrcAlpha=this.blendSrcAlpha,n.blendDstAlpha=this.blendDstAlpha,n.blendEquationAlpha=this.blendEquationAlpha,n.blendColor=this.blendColor.getHex(),n.blendAlpha=this.blendAlpha,n.depthFunc=this.depthFunc,n.depthTest=this.depthTest,n.depthWrite=this.depthWrite,n.colorWrite=this.colorWrite,n.clipIntersection=this.clipIntersection,n.clipShadows=this.clipShadows,n.stencilWriteMask=this.stencilWriteMask,n.stencilFunc=this.stencilFunc,n.stencilRef=this.stencilRef,n.stencilFuncMask=this.stencilFuncMask,n.stencilFail=this.stencilFail,n.stencilZFail=this.stencilZFail,n.stencilZPass=this.stencilZPass,n.stencilWrite=this.stencilWrite,n.polygonOffset=this.polygonOffset,n.polygonOffsetFactor=this.polygonOffsetFactor,n.polygonOffsetUnits=this.polygonOffsetUnits,n.dithering=this.dithering,n.alphaTest=this.alphaTest,n.alphaHash=this.alphaHash,n.alphaToCoverage=this.alphaToCoverage,n.premultipliedAlpha=this.premultipliedAlpha,n.forceSinglePass=this.forceSinglePass,n.allowOverride=this.allowOverride,n.visible=this.visible,n.toneMapped=this.toneMapped,n.name=this.name,this.color&&this.color.isColor&&(n.color=this.color.getHex()),this.roughness!==void 0&&(n.roughness=this.roughness),this.metalness!==void 0&&(n.metalness=this.metalness),this.sheen!==void 0&&(n.sheen=this.sheen),this.sheenColor&&this.sheenColor.isColor&&(n.sheenColor=this.sheenColor.getHex()),this.sheenRoughness!==void 0&&(n.sheenRoughness=this.sheenRoughness),this.emissive&&this.emissive.isColor&&(n.emissive=this.emissive.getHex()),this.emissiveIntensity!==void 0&&(n.emissiveIntensity=this.emissiveIntensity),this.specular&&this.specular.isColor&&(n.specular=this.specular.getHex()),this.specularIntensity!==void 0&&(n.specularIntensity=this.specularIntensity),this.specularColor&&this.specularColor.isColor&&(n.specularColor=this.specularColor.getHex()),this.shininess!==void 0&&(n.shininess=this.shininess),this.clearcoat!==void 0&&(n.clearcoat=this.clearcoat),this.clearcoatRoughness!==void 0&&(n.clearcoatRoughness=this.clearcoatRoughness),this.diffuseRoughness!==void 0&&(n.diffuseRoughness=this.diffuseRoughness),this.diffuseRoughnessMap&&this.diffuseRoughnessMap.isTexture&&(n.diffuseRoughnessMap=this.diffuseRoughnessMap.toJSON(t).uuid),this.clearcoatMap&&this.clearcoatMap.isTexture&&(n.clearcoatMap=this.clearcoatMap.toJSON(t).uuid),this.clearcoatRoughnessMap&&this.clearcoatRoughnessMap.isTexture&&(n.clearcoatRoughnessMap=this.clearcoatRoughnessMap.toJSON(t).uuid),this.clearcoatNormalMap&&this.clearcoatNormalMap.isTexture&&(n.clearcoatNormalMap=this.clearcoatNormalMap.toJSON(t).uuid,n.clearcoatNormalScale=this.clearcoatNormalScale.toArray()),this.sheenColorMap&&this.sheenColorMap.isTexture&&(n.sheenColorMap=this.sheenColorMap.toJSON(t).uuid),this.sheenRoughnessMap&&this.sheenRoughnessMap.isTexture&&(n.sheenRoughnessMap=this.sheenRoughnessMap.toJSON(t).uuid),this.dispersion!==void 0&&(n.dispersion=this.dispersion),this.retroreflectivity!==void 0&&(n.retroreflectivity=this.retroreflectivity),this.iridescence!==void 0&&(n.iridescence=this.iridescence),this.iridescenceIOR!==void 0&&(n.iridescenceIOR=this.iridescenceIOR),this.iridescenceThicknessMinimum!==void 0&&(n.iridescenceThicknessMinimum=this.iridescenceThicknessMinimum),this.iridescenceThicknessMaximum!==void 0&&(n.iridescenceThicknessMaximum=this.iridescenceThicknessMaximum),this.iridescenceMap&&this.iridescenceMap.isTexture&&(n.iridescenceMap=this.iridescenceMap.toJSON(t).uuid),this.iridescenceThicknessMap&&this.iridescenceThicknessMap.isTexture&&(n.iridescenceThicknessMap=this.iridescenceThicknessMap.toJSON(t).uuid),this.anisotropy!==void 0&&(n.anisotropy=this.anisotropy),this.anisotropyRotation!==void 0&&(n.anisotropyRotation=this.anisotropyRotation),this.anisotropyMap&&this.anisotropyMap.isTexture&&(n.anisotropyMap=this.anisotropyMap.toJSON(t).uuid),this.map&&this.map.isTexture&&(n.map=this.map.toJSON(t).uuid),this.matcap&&this.matcap.isTexture&&(n.matcap=this.matcap.toJSON(t).uuid),this.alphaMap&&this.alphaMap.isTexture&&(n.alphaMap=this.alphaMap.toJSON(t).uuid),this.lightMap&&this.lightMap.isTexture&&(n.lightMap=this.lightMap.toJSON(t).uuid,n.lightMapIntensity=this.lightMapIntensity),this.aoMap&&this.aoMap.isTexture&&(n.aoMap=this.aoMap.toJSON(t).uuid,n.aoMapIntensity=this.aoMapIntensity),this.bumpMap&&this.bumpMap.isTexture&&(n.bumpMap=this.bumpMap.toJSON(t).uuid,n.bumpScale=this.bumpScale),this.normalMap&&this.normalMap.isTexture&&(n.normalMap=this.normalMap.toJSON(t).uuid,n.normalMapType=this.normalMapType,n.normalScale=this.normalScale.toArray()),this.displacementMap&&this.displacementMap.isTexture&&(n.displacementMap=this.displacementMap.toJSON(t).uuid,n.displacementScale=this.displacementScale,n.displacementBias=this.displacementBias),this.roughnessMap&&this.roughnessMap.isTexture&&(n.roughnessMap=this.roughnessMap.toJSON(t).uuid),this.metalnessMap&&this.metalnessMap.isTexture&&(n.metalnessMap=this.metalnessMap.toJSON(t).uuid),this.emissiveMap&&this.emissiveMap.isTexture&&(n.emissiveMap=this.emissiveMap.toJSON(t).uuid),this.specularMap&&this.specularMap.isTexture&&(n.specularMap=this.specularMap.toJSON(t).uuid),this.specularIntensityMap&&this.specularIntensityMap.isTexture&&(n.specularIntensityMap=this.specularIntensityMap.toJSON(t).uuid),this.specularColorMap&&this.specularColorMap.isTexture&&(n.specularColorMap=this.specularColorMap.toJSON(t).uuid),this.envMap&&this.envMap.isTexture&&(n.envMap=this.envMap.toJSON(t).uuid,this.combine!==void 0&&(n.combine=this.combine)),this.envMapRotation!==void 0&&(n.envMapRotation=this.envMapRotation.toArray()),this.envMapIntensity!==void 0&&(n.envMapIntensity=this.envMapIntensity),this.reflectivity!==void 0&&(n.reflectivity=this.reflectivity),this.refractionRatio!==void 0&&(n.refractionRatio=this.refractionRatio),this.gradientMap&&this.gradientMap.isTexture&&(n.gradientMap=this.gradientMap.toJSON(t).uuid),this.transmission!==void 0&&(n.transmission=this.transmission),this.transmissionMap&&this.transmissionMap.isTexture&&(n.transmissionMap=this.transmissionMap.toJSON(t).uuid),this.thickness!==void 0&&(n.thickness=this.thickness),this.thicknessMap&&this.thicknessMap.isTexture&&(n.thicknessMap=this.thicknessMap.toJSON(t).uuid),this.attenuationDistance!==void 0&&(n.attenuationDistance=this.attenuationDistance),this.attenuationColor!==void 0&&(n.attenuationColor=this.attenuationColor.getHex()),this.size!==void 0&&(n.size=this.size),this.sizeAttenuation!==void 0&&(n.sizeAttenuation=this.sizeAttenuation),Array.isArray(this.clippingPlanes)&&this.clippingPlanes.length>0&&(n.clippingPlanes=this.clippingPlanes.map(r=>r.toJSON())),this.rotation!==void 0&&(n.rotation=this.rotation),this.depthPacking!==void 0&&(n.depthPacking=this.depthPacking),this.linewidth!==void 0&&(n.linewidth=this.linewidth),this.linecap!==void 0&&(n.linecap=this.linecap),this.linejoin!==void 0&&(n.linejoin=this.linejoin),this.dashSize!==void 0&&(n.dashSize=this.dashSize),this.gapSize!==void 0&&(n.gapSize=this.gapSize),this.scale!==void 0&&(n.scale=this.scale),this.wireframe!==void 0&&(n.wireframe=this.wireframe),this.wireframeLinewidth!==void 0&&(n.wireframeLinewidth=this.wireframeLinewidth),this.wireframeLinecap!==void 0&&(n.wireframeLinecap=this.wireframeLinecap),this.wireframeLinejoin!==void 0&&(n.wireframeLinejoin=this.wireframeLinejoin),this.flatShading!==void 0&&(n.flatShading=this.flatShading),this.fog!==void 0&&(n.fog=this.fog),Object.keys(this.userData).length>0&&(n.userData=this.userData);function i(r){let o=[];for(let a in r){let l=r[a];delete l.metadata,o.push(l)}return o}if(e){let r=i(t.textures),o=i(t.images);r.length>0&&(n.textures=r),o.length>0&&(n.images=o)}return n}fromJSON(t,e){if(t.uuid!==void 0&&(this.uuid=t.uuid),t.name!==void 0&&(this.name=t.name),t.color!==void 0&&this.color!==void 0&&this.color.setHex(t.color),t.roughness!==void 0&&(this.roughness=t.roughness),t.metalness!==void 0&&(this.metalness=t.metalness),t.sheen!==void 0&&(this.sheen=t.sheen),t.sheenColor!==void 0&&(this.sheenColor=new Dt().setHex(t.sheenColor)),t.sheenRoughness!==void 0&&(this.sheenRoughness=t.sheenRoughness),t.emissive!==void 0&&this.emissive!==void 0&&this.emissive.setHex(t.emissive),t.specular!==void 0&&this.specular!==void 0&&this.specular.setHex(t.specular),t.specularIntensity!==void 0&&(this.specularIntensity=t.specularIntensity),t.specularColor!==void 0&&this.specularColor!==void 0&&this.specularColor.setHex(t.specularColor),t.shininess!==void 0&&(this.shininess=t.shininess),t.clearcoat!==void 0&&(this.clearcoat=t.clearcoat),t.clearcoatRoughness!==void 0&&(this.clearcoatRoughness=t.clearcoatRoughness),t.diffuseRoughness!==void 0&&(this.diffuseRoughness=t.diffuseRoughness),t.dispersion!==void 0&&(this.dispersion=t.dispersion),t.retroreflectivity!==void 0&&(this.retroreflectivity=t.retroreflectivity),t.iridescence!==void 0&&(this.iridescence=t.iridescence),t.iridescenceIOR!==void 0&&(this.iridescenceIOR=t.iridescenceIOR),t.iridescenceThicknessMinimum!==void 0&&(this.iridescenceThicknessMinimum=t.iridescenceThicknessMinimum),t.iridescenceThicknessMaximum!==void 0&&(this.iridescenceThicknessMaximum=t.iridescenceThicknessMaximum),t.iridescenceThicknessRange!==void 0&&(this.iridescenceThicknessMinimum=t.iridescenceThicknessRange[0],this.iridescenceThicknessMaximum=t.iridescenceThicknessRange[1]),t.transmission!==void 0&&(this.transmission=t.transmission),t.thickness!==void 0&&(this.thickness=t.thickness),t.attenuationDistance!==void 0&&(this.attenuationDistance=t.attenuationDistance),t.attenuationColor!==void 0&&this.attenuationColor!==void 0&&this.attenuationColor.setHex(t.attenuationColor),t.anisotropy!==void 0&&(this.anisotropy=t.anisotropy),t.anisotropyRotation!==void 0&&(this.anisotropyRotation=t.anisotropyRotation),t.fog!==void 0&&(this.fog=t.fog),t.flatShading!==void 0&&(this.flatShading=t.flatShading),t.blending!==void 0&&(this.blending=t.blending),t.combine!==void 0&&(this.combine=t.combine),t.side!==void 0&&(this.side=t.side),t.shadowSide!==void 0&&(this.shadowSide=t.shadowSide),t.opacity!==void 0&&(this.opacity=t.opacity),t.transparent!==void 0&&(this.transparent=t.transparent),t.alphaTest!==void 0&&(this.alphaTest=t.alphaTest),t.alphaHash!==void 0&&(this.alphaHash=t.alphaHash),t.depthFunc!==void 0&&(this.depthFunc=t.depthFunc),t.depthTest!==void 0&&(this.depthTest=t.depthTest),t.depthWrite!==void 0&&(this.depthWrite=t.depthWrite),t.colorWrite!==void 0&&(this.colorWrite=t.colorWrite),t.clippingPlanes!==void 0&&(this.clippingPlanes=t.clippingPlanes.map(n=>new Di().fromJSON(n))),t.clipIntersection!==void 0&&(this.clipIntersection=t.clipIntersection),t.clipShadows!==void 0&&(this.clipShadows=t.clipShadows),t.depthPacking!==void 0&&(this.depthPacking=t.depthPacking),t.blendSrc!==void 0&&(this.blendSrc=t.blendSrc),t.blendDst!==void 0&&(this.blendDst=t.blendDst),t.blendEquation!==void 0&&(this.blendEquation=t.blendEquation),t.blendSrcAlpha!==void 0&&(this.blendSrcAlpha=t.blendSrcAlpha),t.blendDstAlpha!==void 0&&(this.blendDstAlpha=t.blendDstAlpha),t.blendEquationAlpha!==void 0&&(this.blendEquationAlpha=t.blendEquationAlpha),t.blendColor!==void 0&&this.blendColor!==void 0&&this.blendColor.setHex(t.blendColor),t.blendAlpha!==void 0&&(this.blendAlpha=t.blendAlpha),t.stencilWriteMask!==void 0&&(this.stencilWriteMask=t.stencilWriteMask),t.stencilFunc!==void 0&&(this.stencilFunc=t.stencilFunc),t.stencilRef!==void 0&&(this.stencilRef=t.stencilRef),t.stencilFuncMask!==void 0&&(this.stencilFuncMask=t.stencilFuncMask),t.stencilFail!==void 0&&(this.stencilFail=t.stencilFail),t.stencilZFail!==void 0&&(this.stencilZFail=t.stencilZFail),t.stencilZPass!==void 0&&(this.stencilZPass=t.stencilZPass),t.stencilWrite!==void 0&&(this.stencilWrite=t.stencilWrite),t.wireframe!==void 0&&(this.wireframe=t.wireframe),t.wireframeLinewidth!==void 0&&(this.wireframeLinewidth=t.wireframeLinewidth),t.wireframeLinecap!==void 0&&(this.wireframeLinecap=t.wireframeLinecap),t.wireframeLinejoin!==void 0&&(this.wireframeLinejoin=t.wireframeLinejoin),t.rotation!==void 0&&(this.rotation=t.rotation),t.linewidth!==void 0&&(this.linewidth=t.linewidth),t.linecap!==void 0&&(this.linecap=t.linecap),t.linejoin!==void 0&&(this.linejoin=t.linejoin),t.dashSize!==void 0&&(this.dashSize=t.dashSize),t.gapSize!==void 0&&(this.gapSize=t.gapSize),t.scale!==void 0&&(this.scale=t.scale),t.polygonOffset!==void 0&&(this.polygonOffset=t.polygonOffset),t.polygonOffsetFactor!==void 0&&(this.polygonOffsetFactor=t.polygonOffsetFactor),t.polygonOffsetUnits!==void 0&&(this.polygonOffsetUnits=t.polygonOffsetUnits),t.dithering!==void 0&&(this.dithering=t.dithering),t.alphaToCoverage!==void 0&&(this.alphaToCoverage=t.alphaToCoverage),t.premultipliedAlpha!==void 0&&(this.premultipliedAlpha=t.premultipliedAlpha),t.forceSinglePass!==void 0&&(this.forceSinglePass=t.forceSinglePass),t.allowOverride!==void 0&&(this.allowOverride=t.allowOverride),t.visible!==void 0&&(this.visible=t.visible),t.toneMapped!==void 0&&(this.toneMapped=t.toneMapped),t.userData!==void 0&&(this.userData=t.userData),t.vertexColors!==void 0&&(typeof t.vertexColors=="number"?this.vertexColors=t.vertexColors>0:this.vertexColors=t.vertexColors),t.size!==void 0&&(this.size=t.size),t.sizeAttenuation!==void 0&&(this.sizeAttenuation=t.sizeAttenuation),t.map!==void 0&&(this.map=e[t.map]||null),t.matcap!==void 0&&(this.matcap=e[t.matcap]||null),t.alphaMap!==void 0&&(this.alphaMap=e[t.alphaMap]||null),t.bumpMap!==void 0&&(this.bumpMap=e[t.bumpMap]||null),t.bumpScale!==void 0&&(this.bumpScale=t.bumpScale),t.normalMap!==void 0&&(this.normalMap=e[t.normalMap]||null),t.normalMapType!==void 0&&(this.normalMapType=t.normalMapType),t.normalScale!==void 0){let n=t.normalScale;Array.isArray(n)===!1&&(n=[n,n]),this.normalScale=new Xt().fromArray(n)}return t.displacementMap!==void 0&&(this.displacementMap=e[t.displacementMap]||null),t.displacementScale!==void 0&&(this.displacementScale=t.displacementScale),t.displacementBias!==void 0&&(this.displacementBias=t.displacementBias),t.roughnessMap!==void 0&&(this.roughnessMap=e[t.roughnessMap]||null),t.metalnessMap!==void 0&&(this.metalnessMap=e[t.metalnessMap]||null),t.emissiveMap!==void 0&&(this.emissiveMap=e[t.emissiveMap]||null),t.emissiveIntensity!==void 0&&(this.emissiveIntensity=t.emissiveIntensity),t.specularMap!==void 0&&(this.specularMap=e[t.specularMap]||null),t.specularIntensityMap!==void 0&&(this.specularIntensityMap=e[t.specularIntensityMap]||null),t.specularColorMap!==void 0&&(this.specularColorMap=e[t.specularColorMap]||null),t.envMap!==void 0&&(this.envMap=e[t.envMap]||null),t.envMapRotation!==void 0&&this.envMapRotation.fromArray(t.envMapRotation),t.envMapIntensity!==void 0&&(this.envMapIntensity=t.envMapIntensity),t.reflectivity!==void 0&&(this.reflectivity=t.reflectivity),t.refractionRatio!==void 0&&(this.refractionRatio=t.refractionRatio),t.lightMap!==void 0&&(this.lightMap=e[t.lightMap]||null),t.lightMapIntensity!==void 0&&(this.lightMapIntensity=t.lightMapIntensity),t.aoMap!==void 0&&(this.aoMap=e[t.aoMap]||null),t.aoMapIntensity!==void 0&&(this.aoMapIntensity=t.aoMapIntensity),t.gradientMap!==void 0&&(this.gradientMap=e[t.gradientMap]||null),t.clearcoatMap!==void 0&&(this.clearcoatMap=e[t.clearcoatMap]||null),t.clearcoatRoughnessMap!==void 0&&(this.clearcoatRoughnessMap=e[t.clearcoatRoughnessMap]||null),t.clearcoatNormalMap!==void 0&&(this.clearcoatNormalMap=e[t.clearcoatNormalMap]||null),t.clearcoatNormalScale!==void 0&&(this.clearcoatNormalScale=new Xt().fromArray(t.clearcoatNormalScale)),t.diffuseRoughnessMap!==void 0&&(this.diffuseRoughnessMap=e[t.diffuseRoughnessMap]||null),t.iridescenceMap!==void 0&&(this.iridescenceMap=e[t.iridescenceMap]||null),t.iridescenceThicknessMap!==void 0&&(this.iridescenceThicknessMap=e[t.iridescenceThicknessMap]||null),t.transmissionMap!==void 0&&(this.transmissionMap=e[t.transmissionMap]||null),t.thicknessMap!==void 0&&(this.thicknessMap=e[t.thicknessMap]||null),t.anisotropyMap!==void 0&&(this.anisotropyMap=e[t.anisotropyMap]||null),t.sheenColorMap!==void 0&&(this.sheenColorMap=e[t.sheenColorMap]||null),t.sheenRoughnessMap!==void 0&&(this.sheenRoughnessMap=e[t.sheenRoughnessMap]||null),this}clone(){return new this.constructor().copy(this)}copy(t){this.name=t.name,this.blending=t.blending,this.side=t.side,this.vertexColors=t.vertexColors,this.opacity=t.opacity,this.transparent=t.transparent,this.blendSrc=t.blendSrc,this.blendDst=t.blendDst,this.blendEquation=t.blendEquation,this.blendSrcAlpha=t.blendSrcAlpha,this.blendDstAlpha=t.blendDstAlpha,this.blendEquationAlpha=t.blendEquationAlpha,this.blendColor.copy(t.blendColor),this.blendAlpha=t.blendAlpha,this.depthFunc=t.depthFunc,this.depthTest=t.depthTest,this.depthWrite=t.depthWrite,this.stencilWriteMask=t.stencilWriteMask,this.stencilFunc=t.stencilFunc,this.stencilRef=t.stencilRef,this.stencilFuncMask=t.stencilFuncMask,this.stencilFail=t.stencilFail,this.stencilZFail=t.stencilZFail,this.stencilZPass=t.stencilZPass,this.stencilWrite=t.stencilWrite;let e=t.clippingPlanes,n=null;if(e!==null){let i=e.length;n=new Array(i);for(let r=0;r!==i;++r)n[r]=e[r].clone()}return this.clippingPlanes=n,this.clipIntersection=t.clipIntersection,this.clipShadows=t.clipShadows,this.shadowSide=t.shadowSide,this.colorWrite=t.colorWrite,this.precision=t.precision,this.polygonOffset=t.polygonOffset,this.polygonOffsetFactor=t.polygonOffsetFactor,this.polygonOffsetUnits=t.polygonOffsetUnits,this.dithering=t.dithering,this.alphaTest=t.alphaTest,this.alphaHash=t.alphaHash,this.alphaToCoverage=t.alphaToCoverage,this.premultipliedAlpha=t.premultipliedAlpha,this.forceSinglePass=t.forceSinglePass,this.allowOverride=t.allowOverride,this.visible=t.visible,this.toneMapped=t.toneMapped,this.userData=JSON.parse(JSON.stringify(t.userData)),this}dispose(){this.dispatchEvent({type:"dispose"})}set needsUpdate(t){t===!0&&this.version++}};var Ws=new O,cp=new O,dh=new O,fh=new O,vs=class{constructor(t=new O,e=new O(0,0,-1)){this.origin=t,this.direction=e}set(t,e){return this.origin.copy(t),this.direction.copy(e),this}copy(t){return this.origin.copy(t.origin),this.direction.copy(t.direction),this}at(t,e){return e.copy(this.origin).addScaledVector(this.direction,t)}lookAt(t){return this.direction.copy(t).sub(this.origin).normalize(),this}recast(t){return this.origin.copy(this.at(t,Ws)),this}closestPointToPoint(t,e){e.subVectors(t,this.origin);let n=e.dot(this.direction);return n<0?e.copy(this.origin):e.copy(this.origin).addScaledVector(this.direction,n)}distanceToPoint(t){return Math.sqrt(this.distanceSqToPoint(t))}distanceSqToPoint(t){let e=Ws.subVectors(t,this.origin).dot(this.direction);return e<0?this.origin.distanceToSquared(t):(Ws.copy(this.origin).addScaledVector(this.direction,e),Ws.distanceToSquared(t))}distanceSqToSegment(t,e,n,i){cp.copy(t).add(e).multiplyScalar(.5),dh.copy(e).sub(t).normalize(),fh.copy(this.origin).sub(cp);let r=t.distanceTo(e)*.5,o=-this.direction.dot(dh),a=fh.dot(this.direction),l=-fh.dot(dh),c=fh.lengthSq(),h=Math.abs(1-o*o),u,d,f,p;if(h>0)if(u=o*l-a,d=o*a-l,p=r*h,u>=0)if(d>=-p)if(d<=p){let y=1/h;u*=y,d*=y,f=u*(u+o*d+2*a)+d*(o*u+d+2*l)+c}else d=r,u=Math.max(0,-(o*d+a)),f=-u*u+d*(d+2*l)+c;else d=-r,u=Math.max(0,-(o*d+a)),f=-u*u+d*(d+2*l)+c;else d<=-p?(u=Math.max(0,-(-o*r+a)),d=u>0?-r:Math.min(Math.max(-r,-l),r),f=-u*u+d*(d+2*l)+c):d<=p?(u=0,d=Math.min(Math.max(-r,-l),r),f=d*(d+2*l)+c):(u=Math.max(0,-(o*r+a)),d=u>0?r:Math.min(Math.max(-r,-l),r),f=-u*u+d*(d+2*l)+c);else d=o>0?-r:r,u=Math.max(0,-(o*d+a)),f=-u*u+d*(d+2*l)+c;return n&&n.copy(this.origin).addScaledVector(this.direction,u),i&&i.copy(cp).addScaledVector(dh,d),f}intersectSphere(t,e){if(t.radius<0)return null;Ws.subVectors(t.center,this.origin);let n=Ws.dot(this.direction),i=Ws.dot(Ws)-n*n,r=t.radius*t.radius;if(i>r)return null;let o=Math.sqrt(r-i),a=n-o,l=n+o;return l<0?null:a<0?this.at(l,e):this.at(a,e)}intersectsSphere(t){return t.radius<0?!1:this.distanceSqToPoint(t.center)<=t.radius*t.radius}distanceToPlane(t){let e=t.normal.dot(this.direction);if(e===0)return t.distanceToPoint(this.origin)===0?0:null;let n=-(this.origin.dot(t.normal)+t.constant)/e;return n>=0?n:null}intersectPlane(t,e){let n=this.distanceToPlane(t);return n===null?null:this.at(n,e)}intersectsPlane(t){let e=t.distanceToPoint(this.origin);return e===0||t.normal.dot(this.direction)*e<0}intersectBox(t,e){let n,i,r,o,a,l,c=1/this.direction.x,h=1/this.direction.y,u=1/this.direction.z,d=this.origin;return c>=0?(n=(t.min.x-d.x)*c,i=(t.max.x-d.x)*c):(n=(t.max.x-d.x)*c,i=(t.min.x-d.x)*c),h>=0?(r=(t.min.y-d.y)*h,o=(t.max.y-d.y)*h):(r=(t.max.y-d.y)*h,o=(t.min.y-d.y)*h),n>o||r>i||((r>n||isNaN(n))&&(n=r),(o<i||isNaN(i))&&(i=o),u>=0?(a=(t.min.z-d.z)*u,l=(t.max.z-d.z)*u):(a=(t.max.z-d.z)*u,l=(t.min.z-d.z)*u),n>l||a>i)||((a>n||n!==n)&&(n=a),(l<i||i!==i)&&(i=l),i<0)?null:this.at(n>=0?n:i,e)}intersectsBox(t){return this.intersectBox(t,Ws)!==null}intersectTriangle(t,e,n,i,r){let o=this.origin,a=this.direction,l=a.x,c=a.y,h=a.z,u=t.x-o.x,d=t.y-o.y,f=t.z-o.z,p=e.x-o.x,y=e.y-o.y,m=e.z-o.z,g=n.x-o.x,_=n.y-o.y,w=n.z-o.z,v=Math.abs(l),E=Math.abs(c),S=Math.abs(h),x,M,L,P,C,F,B,N,W,k,H,it;if(v>=E&&v>=S?(L=l,F=u,W=p,it=g,l>=0?(x=c,M=h,P=d,C=f,B=y,N=m,k=_,H=w):(x=h,M=c,P=f,C=d,B=m,N=y,k=w,H=_)):E>=S?(L=c,F=d,W=y,it=_,c>=0?(x=h,M=l,P=f,C=u,B=m,N=p,k=w,H=g):(x=l,M=h,P=u,C=f,B=p,N=m,k=g,H=w)):(L=h,F=f,W=m,it=w,h>=0?(x=l,M=c,P=u,C=d,B=p,N=y,k=g,H=_):(x=c,M=l,P=d,C=u,B=y,N=p,k=_,H=g)),L===0)return null;let j=x/L,Z=M/L,tt=1/L,ht=P-j*F,st=C-Z*F,Y=B-j*W,rt=N-Z*W,nt=k-j*it,lt=H-Z*it,gt=nt*rt-lt*Y,Ot=ht*lt-st*nt,Zt=Y*st-rt*ht;if(i){if(gt<0||Ot<0||Zt<0)return null}else if((gt<0||Ot<0||Zt<0)&&(gt>0||Ot>0||Zt>0))return null;let zt=gt+Ot+Zt;if(zt===0)return null;let me=tt*(gt*F+Ot*W+Zt*it);return(zt>0?me<0:me>0)?null:this.at(me/zt,r)}applyMatrix4(t){return this.origin.applyMatrix4(t),this.direction.transformDirection(t),this}equals(t){return t.origin.equals(this.origin)&&t.direction.equals(this.direction)}clone(){return new this.constructor().copy(this)}},Ui=class extends di{constructor(t){super(),this.isMeshBasicMaterial=!0,this.type="MeshBasicMaterial",this.color=new Dt(16777215),this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new yi,this.combine=ql,this.reflectivity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.lightMap=t.lightMap,this.lightMapIntensity=t.lightMapIntensity,this.aoMap=t.aoMap,this.aoMapIntensity=t.aoMapIntensity,this.specularMap=t.specularMap,this.alphaMap=t.alphaMap,this.envMap=t.envMap,this.envMapRotation.copy(t.envMapRotation),this.combine=t.combine,this.reflectivity=t.reflectivity,this.refractionRatio=t.refractionRatio,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.wireframeLinecap=t.wireframeLinecap,this.wireframeLinejoin=t.wireframeLinejoin,this.fog=t.fog,this}},zy=new Nt,$r=new vs,ph=new nn,Vy=new O,mh=new O,gh=new O,yh=new O,hp=new O,_h=new O,Gy=new O,xh=new O,ue=class extends en{constructor(t=new Fe,e=new Ui){super(),this.isMesh=!0,this.type="Mesh",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.count=1,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let i=e[n[0]];if(i!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,o=i.length;r<o;r++){let a=i[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[a]=r}}}}getVertexPosition(t,e){let n=this.geometry,i=n.attributes.position,r=n.morphAttributes.position,o=n.morphTargetsRelative;e.fromBufferAttribute(i,t);let a=this.morphTargetInfluences;if(r&&a){_h.set(0,0,0);for(let l=0,c=r.length;l<c;l++){let h=a[l],u=r[l];h!==0&&(hp.fromBufferAttribute(u,t),o?_h.addScaledVector(hp,h):_h.addScaledVector(hp.sub(e),h))}e.add(_h)}return e}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,i=this.material,r=this.matrixWorld;i!==void 0&&(n.boundingSphere===null&&n.computeBoundingSphere(),ph.copy(n.boundingSphere),ph.applyMatrix4(r),$r.copy(t.ray).recast(t.near),!(ph.containsPoint($r.origin)===!1&&($r.intersectSphere(ph,Vy)===null||$r.origin.distanceToSquared(Vy)>(t.far-t.near)**2))&&(zy.copy(r).invert(),$r.copy(t.ray).applyMatrix4(zy),!(n.boundingBox!==null&&$r.intersectsBox(n.boundingBox)===!1)&&this._computeIntersections(t,e,$r)))}_computeIntersections(t,e,n){let i,r=this.geometry,o=this.material,a=r.index,l=r.attributes.position,c=r.attributes.uv,h=r.attributes.uv1,u=r.attributes.normal,d=r.groups,f=r.drawRange;if(a!==null)if(Array.isArray(o))for(let p=0,y=d.length;p<y;p++){let m=d[p],g=o[m.materialIndex],_=Math.max(m.start,f.start),w=Math.min(a.count,Math.min(m.start+m.count,f.start+f.count));for(let v=_,E=w;v<E;v+=3){let S=a.getX(v),x=a.getX(v+1),M=a.getX(v+2);i=vh(this,g,t,n,c,h,u,S,x,M),i&&(i.faceIndex=Math.floor(v/3),i.face.materialIndex=m.materialIndex,e.push(i))}}else{let p=Math.max(0,f.start),y=Math.min(a.count,f.start+f.count);for(let m=p,g=y;m<g;m+=3){let _=a.getX(m),w=a.getX(m+1),v=a.getX(m+2);i=vh(this,o,t,n,c,h,u,_,w,v),i&&(i.faceIndex=Math.floor(m/3),e.push(i))}}else if(l!==void 0)if(Array.isArray(o))for(let p=0,y=d.length;p<y;p++){let m=d[p],g=o[m.materialIndex],_=Math.max(m.start,f.start),w=Math.min(l.count,Math.min(m.start+m.count,f.start+f.count));for(let v=_,E=w;v<E;v+=3){let S=v,x=v+1,M=v+2;i=vh(this,g,t,n,c,h,u,S,x,M),i&&(i.faceIndex=Math.floor(v/3),i.face.materialIndex=m.materialIndex,e.push(i))}}else{let p=Math.max(0,f.start),y=Math.min(l.count,f.start+f.count);for(let m=p,g=y;m<g;m+=3){let _=m,w=m+1,v=m+2;i=vh(this,o,t,n,c,h,u,_,w,v),i&&(i.faceIndex=Math.floor(m/3),e.push(i))}}}};function Aw(s,t,e,n,i,r,o,a){let l;if(t.side===Wn?l=n.intersectTriangle(o,r,i,!0,a):l=n.intersectTriangle(i,r,o,t.side===Ts,a),l===null)return null;xh.copy(a),xh.applyMatrix4(s.matrixWorld);let c=e.ray.origin.distanceTo(xh);return c<e.near||c>e.far?null:{distance:c,point:xh.clone(),object:s}}function vh(s,t,e,n,i,r,o,a,l,c){s.getVertexPosition(a,mh),s.getVertexPosition(l,gh),s.getVertexPosition(c,yh);let h=Aw(s,t,e,n,mh,gh,yh,Gy);if(h){let u=new O;os.getBarycoord(Gy,mh,gh,yh,u),i&&(h.uv=os.getInterpolatedAttribute(i,a,l,c,u,new Xt)),r&&(h.uv1=os.getInterpolatedAttribute(r,a,l,c,u,new Xt)),o&&(h.normal=os.getInterpolatedAttribute(o,a,l,c,u,new O),h.normal.dot(n.direction)>0&&h.normal.multiplyScalar(-1));let d={a,b:l,c,normal:new O,materialIndex:0};os.getNormal(mh,gh,yh,d.normal),h.face=d,h.barycoord=u}return h}var ol=new be,Hy=new be,Wy=new be,Rw=new be,Xy=new Nt,bh=new O,up=new nn,qy=new Nt,dp=new vs,Sl=class extends ue{constructor(t,e){super(t,e),this.isSkinnedMesh=!0,this.type="SkinnedMesh",this.bindMode=yp,this.bindMatrix=new Nt,this.bindMatrixInverse=new Nt,this.boundingBox=null,this.boundingSphere=null}computeBoundingBox(){let t=this.geometry;this.boundingBox===null&&(this.boundingBox=new un),this.boundingBox.makeEmpty();let e=t.getAttribute("position");for(let n=0;n<e.count;n++)this.getVertexPosition(n,bh),this.boundingBox.expandByPoint(bh)}computeBoundingSphere(){let t=this.geometry;this.boundingSphere===null&&(this.boundingSphere=new nn),this.boundingSphere.makeEmpty();let e=t.getAttribute("position");for(let n=0;n<e.count;n++)this.getVertexPosition(n,bh),this.boundingSphere.expandByPoint(bh)}copy(t,e){return super.copy(t,e),this.bindMode=t.bindMode,this.bindMatrix.copy(t.bindMatrix),this.bindMatrixInverse.copy(t.bindMatrixInverse),this.skeleton=t.skeleton,this.boundingBox=t.boundingBox!==null?t.boundingBox.clone():null,this.boundingSphere=t.boundingSphere!==null?t.boundingSphere.clone():null,this}raycast(t,e){let n=this.material,i=this.matrixWorld;n!==void 0&&(this.boundingSphere===null&&this.computeBoundingSphere(),up.copy(this.boundingSphere),up.applyMatrix4(i),t.ray.intersectsSphere(up)!==!1&&(qy.copy(i).invert(),dp.copy(t.ray).applyMatrix4(qy),!(this.boundingBox!==null&&dp.intersectsBox(this.boundingBox)===!1)&&this._computeIntersections(t,e,dp)))}getVertexPosition(t,e){return super.getVertexPosition(t,e),this.applyBoneTransform(t,e),e}bind(t,e){this.skeleton=t,e===void 0&&(this.updateMatrixWorld(!0),this.skeleton.calculateInverses(),e=this.matrixWorld),this.bindMatrix.copy(e),this.bindMatrixInverse.copy(e).invert()}pose(){this.skeleton.pose()}normalizeSkinWeights(){let t=new be,e=this.geometry.attributes.skinWeight;for(let n=0,i=e.count;n<i;n++){t.fromBufferAttribute(e,n);let r=1/t.manhattanLength();r!==1/0?t.multiplyScalar(r):t.set(1,0,0,0),e.setXYZW(n,t.x,t.y,t.z,t.w)}}updateMatrixWorld(t){super.updateMatrixWorld(t),this.bindMode===yp?this.bindMatrixInverse.copy(this.matrixWorld).invert():this.bindMode===G_?this.bindMatrixInverse.copy(this.bindMatrix).invert():jt("SkinnedMesh: Unrecognized bindMode: "+this.bindMode)}applyBoneTransform(t,e){let n=this.skeleton,i=this.geometry;Hy.fromBufferAttribute(i.attributes.skinIndex,t),Wy.fromBufferAttribute(i.attributes.skinWeight,t),e.isVector4?(ol.copy(e),e.set(0,0,0,0)):(ol.set(e.x,e.y,e.z,1),e.set(0,0,0)),ol.applyMatrix4(this.bindMatrix);for(let r=0;r<4;r++){let o=Wy.getComponent(r);if(o!==0){let a=Hy.getComponent(r);Xy.multiplyMatrices(n.bones[a].matrixWorld,n.boneInverses[a]),e.addScaledVector(Rw.copy(ol).applyMatrix4(Xy),o)}}return e.isVector4&&(e.w=ol.w),e.applyMatrix4(this.bindMatrixInverse)}},fa=class extends en{constructor(){super(),this.isBone=!0,this.type="Bone"}},vr=class extends ui{constructor(t=null,e=1,n=1,i,r,o,a,l,c=Bn,h=Bn,u,d){super(null,o,a,l,c,h,i,r,u,d),this.isDataTexture=!0,this.image={data:t,width:e,height:n},this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}},Yy=new Nt,Cw=new Nt,Ml=class s{constructor(t=[],e=[]){this.uuid=As(),this.bones=t.slice(0),this.boneInverses=e,this.boneMatrices=null,this.previousBoneMatrices=null,this.boneTexture=null,this.previousBoneTexture=null,this.init()}init(){let t=this.bones,e=this.boneInverses;if(this.boneMatrices=new Float32Array(t.length*16),e.length===0)this.calculateInverses();else if(t.length!==e.length){jt("Skeleton: Number of inverse bone matrices does not match amount of bones."),this.boneInverses=[];for(let n=0,i=this.bones.length;n<i;n++)this.boneInverses.push(new Nt)}}calculateInverses(){this.boneInverses.length=0;for(let t=0,e=this.bones.length;t<e;t++){let n=new Nt;this.bones[t]&&n.copy(this.bones[t].matrixWorld).invert(),this.boneInverses.push(n)}}pose(){for(let t=0,e=this.bones.length;t<e;t++){let n=this.bones[t];n&&n.matrixWorld.copy(this.boneInverses[t]).invert()}for(let t=0,e=this.bones.length;t<e;t++){let n=this.bones[t];n&&(n.parent&&n.parent.isBone?(n.matrix.copy(n.parent.matrixWorld).invert(),n.matrix.multiply(n.matrixWorld)):n.matrix.copy(n.matrixWorld),n.matrix.decompose(n.position,n.quaternion,n.scale))}}update(){let t=this.bones,e=this.boneInverses,n=this.boneMatrices,i=this.boneTexture;for(let r=0,o=t.length;r<o;r++){let a=t[r]?t[r].matrixWorld:Cw;Yy.multiplyMatrices(a,e[r]),Yy.toArray(n,r*16)}i!==null&&(i.needsUpdate=!0)}clone(){return new s(this.bones,this.boneInverses)}computeBoneTexture(){let t=Math.sqrt(this.bones.length*4);t=Math.ceil(t/4)*4,t=Math.max(t,4);let e=new Float32Array(t*t*4);e.set(this.boneMatrices);let n=new vr(e,t,t,Yi,Bi);return n.needsUpdate=!0,this.boneMatrices=e,this.boneTexture=n,this}getBoneByName(t){for(let e=0,n=this.bones.length;e<n;e++){let i=this.bones[e];if(i.name===t)return i}}dispose(){this.boneTexture!==null&&(this.boneTexture.dispose(),this.boneTexture=null),this.previousBoneTexture!==null&&(this.previousBoneTexture.dispose(),this.previousBoneTexture=null)}fromJSON(t,e){this.uuid=t.uuid;for(let n=0,i=t.bones.length;n<i;n++){let r=t.bones[n],o=e[r];o===void 0&&(jt("Skeleton: No bone found with UUID:",r),o=new fa),this.bones.push(o),this.boneInverses.push(new Nt().fromArray(t.boneInverses[n]))}return this.init(),this}toJSON(){let t={metadata:{version:4.7,type:"Skeleton",generator:"Skeleton.toJSON"},bones:[],boneInverses:[]};t.uuid=this.uuid;let e=this.bones,n=this.boneInverses;for(let i=0,r=e.length;i<r;i++){let o=e[i];t.bones.push(o.uuid);let a=n[i];t.boneInverses.push(a.toArray())}return t}},wl=class extends Zn{constructor(t,e,n,i=1){super(t,e,n),this.isInstancedBufferAttribute=!0,this.meshPerAttribute=i}copy(t){return super.copy(t),this.meshPerAttribute=t.meshPerAttribute,this}toJSON(){let t=super.toJSON();return t.meshPerAttribute=this.meshPerAttribute,t.isInstancedBufferAttribute=!0,t}},Zo=new Nt,jy=new Nt,Sh=[],Jy=new un,Pw=new Nt,al=new ue,ll=new nn,Tl=class extends ue{constructor(t,e,n){super(t,e),this.isInstancedMesh=!0,this.instanceMatrix=new wl(new Float32Array(n*16),16),this.instanceColor=null,this.morphTexture=null,this.count=n,this.boundingBox=null,this.boundingSphere=null;for(let i=0;i<n;i++)this.setMatrixAt(i,Pw)}computeBoundingBox(){let t=this.geometry,e=this.count;this.boundingBox===null&&(this.boundingBox=new un),t.boundingBox===null&&t.computeBoundingBox(),this.boundingBox.makeEmpty();for(let n=0;n<e;n++)this.getMatrixAt(n,Zo),Jy.copy(t.boundingBox).applyMatrix4(Zo),this.boundingBox.union(Jy)}computeBoundingSphere(){let t=this.geometry,e=this.count;this.boundingSphere===null&&(this.boundingSphere=new nn),t.boundingSphere===null&&t.computeBoundingSphere(),this.boundingSphere.makeEmpty();for(let n=0;n<e;n++)this.getMatrixAt(n,Zo),ll.copy(t.boundingSphere).applyMatrix4(Zo),this.boundingSphere.union(ll)}copy(t,e){return super.copy(t,e),this.instanceMatrix.copy(t.instanceMatrix),this.morphTexture=t.morphTexture!==null?t.morphTexture.clone():null,this.instanceColor=t.instanceColor!==null?t.instanceColor.clone():null,this.count=t.count,this.boundingBox=t.boundingBox!==null?t.boundingBox.clone():null,this.boundingSphere=t.boundingSphere!==null?t.boundingSphere.clone():null,this}getColorAt(t,e){return this.instanceColor===null?e.setRGB(1,1,1):e.fromArray(this.instanceColor.array,t*3)}getMatrixAt(t,e){return e.fromArray(this.instanceMatrix.array,t*16)}getMorphAt(t,e){let n=e.morphTargetInfluences,i=this.morphTexture.source.data.data,r=n.length+1,o=t*r+1;for(let a=0;a<n.length;a++)n[a]=i[o+a]}raycast(t,e){let n=this.matrixWorld,i=this.count;if(al.geometry=this.geometry,al.material=this.material,al.material!==void 0&&(this.boundingSphere===null&&this.computeBoundingSphere(),ll.copy(this.boundingSphere),ll.applyMatrix4(n),t.ray.intersectsSphere(ll)!==!1))for(let r=0;r<i;r++){this.getMatrixAt(r,Zo),jy.multiplyMatrices(n,Zo),al.matrixWorld=jy,al.raycast(t,Sh);for(let o=0,a=Sh.length;o<a;o++){let l=Sh[o];l.instanceId=r,l.object=this,e.push(l)}Sh.length=0}}setColorAt(t,e){return this.instanceColor===null&&(this.instanceColor=new wl(new Float32Array(this.instanceMatrix.count*3).fill(1),3)),e.toArray(this.instanceColor.array,t*3),this}setMatrixAt(t,e){return e.toArray(this.instanceMatrix.array,t*16),this}setMorphAt(t,e){let n=e.morphTargetInfluences,i=n.length+1;this.morphTexture===null&&(this.morphTexture=new vr(new Float32Array(i*this.count),i,this.count,gu,Bi));let r=this.morphTexture.source.data.data,o=0;for(let c=0;c<n.length;c++)o+=n[c];let a=this.geometry.morphTargetsRelative?1:1-o,l=i*t;return r[l]=a,r.set(n,l+1),this}updateMorphTargets(){}dispose(){super.dispose(),this.instanceMatrix.dispose(),this.instanceColor!==null&&this.instanceColor.dispose(),this.morphTexture!==null&&(this.morphTexture.dispose(),this.morphTexture=null)}},Zr=new nn,Lw=new Xt(.5,.5),Mh=new O,br=class{constructor(t=new Di,e=new Di,n=new Di,i=new Di,r=new Di,o=new Di){this.planes=[t,e,n,i,r,o]}set(t,e,n,i,r,o){let a=this.planes;return a[0].copy(t),a[1].copy(e),a[2].copy(n),a[3].copy(i),a[4].copy(r),a[5].copy(o),this}copy(t){let e=this.planes;for(let n=0;n<6;n++)e[n].copy(t.planes[n]);return this}setFromProjectionMatrix(t,e=Wi,n=!1){let i=this.planes,r=t.elements,o=r[0],a=r[1],l=r[2],c=r[3],h=r[4],u=r[5],d=r[6],f=r[7],p=r[8],y=r[9],m=r[10],g=r[11],_=r[12],w=r[13],v=r[14],E=r[15];if(i[0].setComponents(c-o,f-h,g-p,E-_).normalize(),i[1].setComponents(c+o,f+h,g+p,E+_).normalize(),i[2].setComponents(c+a,f+u,g+y,E+w).normalize(),i[3].setComponents(c-a,f-u,g-y,E-w).normalize(),n)i[4].setComponents(l,d,m,v).normalize(),i[5].setComponents(c-l,f-d,g-m,E-v).normalize();else if(i[4].setComponents(c-l,f-d,g-m,E-v).normalize(),e===Wi)i[5].setComponents(c+l,f+d,g+m,E+v).normalize();else if(e===aa)i[5].setComponents(l,d,m,v).normalize();else throw new Error("THREE.Frustum.setFromProjectionMatrix(): Invalid coordinate system: "+e);return this}intersectsObject(t){if(t.boundingSphere!==void 0)t.boundingSphere===null&&t.computeBoundingSphere(),Zr.copy(t.boundingSphere).applyMatrix4(t.matrixWorld);else{let e=t.geometry;e.boundingSphere===null&&e.computeBoundingSphere(),Zr.copy(e.boundingSphere).applyMatrix4(t.matrixWorld)}return this.intersectsSphere(Zr)}intersectsSprite(t){Zr.center.set(0,0,0);let e=Lw.distanceTo(t.center);return Zr.radius=.7071067811865476+e,Zr.applyMatrix4(t.matrixWorld),this.intersectsSphere(Zr)}intersectsSphere(t){let e=this.planes,n=t.center,i=-t.radius;for(let r=0;r<6;r++)if(e[r].distanceToPoint(n)<i)return!1;return!0}intersectsBox(t){let e=this.planes;for(let n=0;n<6;n++){let i=e[n];if(Mh.x=i.normal.x>0?t.max.x:t.min.x,Mh.y=i.normal.y>0?t.max.y:t.min.y,Mh.z=i.normal.z>0?t.max.z:t.min.z,i.distanceToPoint(Mh)<0)return!1}return!0}containsPoint(t){let e=this.planes;for(let n=0;n<6;n++)if(e[n].distanceToPoint(t)<0)return!1;return!0}clone(){return new this.constructor().copy(this)}},$y=new Nt,Zh=class s{constructor(){this.coordinateSystem=Wi,this._frustums=[],this._count=0}setFromArrayCamera(t){let e=t.cameras,n=this._frustums;for(let i=0;i<e.length;i++){let r=e[i];$y.multiplyMatrices(r.projectionMatrix,r.matrixWorldInverse),n[i]===void 0&&(n[i]=new br),n[i].setFromProjectionMatrix($y,r.coordinateSystem,r.reversedDepth)}return this._count=e.length,this}getFrustum(t){return this._frustums[t]}intersectsObject(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsObject(t))return!0;return!1}intersectsSprite(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsSprite(t))return!0;return!1}intersectsSphere(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsSphere(t))return!0;return!1}intersectsBox(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsBox(t))return!0;return!1}containsPoint(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].containsPoint(t))return!0;return!1}copy(t){this.coordinateSystem=t.coordinateSystem;let e=this._frustums,n=t._frustums;for(let i=0;i<t._count;i++)e[i]===void 0&&(e[i]=new br),e[i].copy(n[i]);return this._count=t._count,this}clone(){return new s().copy(this)}};var fi=class extends di{constructor(t){super(),this.isLineBasicMaterial=!0,this.type="LineBasicMaterial",this.color=new Dt(16777215),this.map=null,this.linewidth=1,this.linecap="round",this.linejoin="round",this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.linewidth=t.linewidth,this.linecap=t.linecap,this.linejoin=t.linejoin,this.fog=t.fog,this}},Kh=new O,Qh=new O,Zy=new Nt,cl=new vs,wh=new nn,fp=new O,Ky=new O,pa=class extends en{constructor(t=new Fe,e=new fi){super(),this.isLine=!0,this.type="Line",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}computeLineDistances(){let t=this.geometry;if(t.index===null){let e=t.attributes.position,n=[0];for(let i=1,r=e.count;i<r;i++)Kh.fromBufferAttribute(e,i-1),Qh.fromBufferAttribute(e,i),n[i]=n[i-1],n[i]+=Kh.distanceTo(Qh);t.setAttribute("lineDistance",new Jt(n,1))}else jt("Line.computeLineDistances(): Computation only possible with non-indexed BufferGeometry.");return this}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,i=this.matrixWorld,r=t.params.Line.threshold,o=n.drawRange;if(n.boundingSphere===null&&n.computeBoundingSphere(),wh.copy(n.boundingSphere),wh.applyMatrix4(i),wh.radius+=r,t.ray.intersectsSphere(wh)===!1)return;Zy.copy(i).invert(),cl.copy(t.ray).applyMatrix4(Zy);let a=r/((this.scale.x+this.scale.y+this.scale.z)/3),l=a*a,c=this.isLineSegments?2:1,h=n.index,d=n.attributes.position;if(h!==null){let f=Math.max(0,o.start),p=Math.min(h.count,o.start+o.count);for(let y=f,m=p-1;y<m;y+=c){let g=h.getX(y),_=h.getX(y+1),w=Th(this,t,cl,l,g,_,y);w&&e.push(w)}if(this.isLineLoop){let y=h.getX(p-1),m=h.getX(f),g=Th(this,t,cl,l,y,m,p-1);g&&e.push(g)}}else{let f=Math.max(0,o.start),p=Math.min(d.count,o.start+o.count);for(let y=f,m=p-1;y<m;y+=c){let g=Th(this,t,cl,l,y,y+1,y);g&&e.push(g)}if(this.isLineLoop){let y=Th(this,t,cl,l,p-1,f,p-1);y&&e.push(y)}}}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let i=e[n[0]];if(i!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,o=i.length;r<o;r++){let a=i[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[a]=r}}}}};function Th(s,t,e,n,i,r,o){let a=s.geometry.attributes.position;if(Kh.fromBufferAttribute(a,i),Qh.fromBufferAttribute(a,r),e.distanceSqToSegment(Kh,Qh,fp,Ky)>n)return;fp.applyMatrix4(s.matrixWorld);let c=t.ray.origin.distanceTo(fp);if(!(c<t.near||c>t.far))return{distance:c,point:Ky.clone().applyMatrix4(s.matrixWorld),index:o,face:null,faceIndex:null,barycoord:null,object:s}}var Qy=new O,t_=new O,Oi=class extends pa{constructor(t,e){super(t,e),this.isLineSegments=!0,this.type="LineSegments"}computeLineDistances(){let t=this.geometry;if(t.index===null){let e=t.attributes.position,n=[];for(let i=0,r=e.count;i<r;i+=2)Qy.fromBufferAttribute(e,i),t_.fromBufferAttribute(e,i+1),n[i]=i===0?0:n[i-1],n[i+1]=n[i]+Qy.distanceTo(t_);t.setAttribute("lineDistance",new Jt(n,1))}else jt("LineSegments.computeLineDistances(): Computation only possible with non-indexed BufferGeometry.");return this}};var Js=class extends di{constructor(t){super(),this.isPointsMaterial=!0,this.type="PointsMaterial",this.color=new Dt(16777215),this.map=null,this.alphaMap=null,this.size=1,this.sizeAttenuation=!0,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.alphaMap=t.alphaMap,this.size=t.size,this.sizeAttenuation=t.sizeAttenuation,this.fog=t.fog,this}},e_=new Nt,bp=new vs,Eh=new nn,Ah=new O,to=class extends en{constructor(t=new Fe,e=new Js){super(),this.isPoints=!0,this.type="Points",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,i=this.matrixWorld,r=t.params.Points.threshold,o=n.drawRange;if(n.boundingSphere===null&&n.computeBoundingSphere(),Eh.copy(n.boundingSphere),Eh.applyMatrix4(i),Eh.radius+=r,t.ray.intersectsSphere(Eh)===!1)return;e_.copy(i).invert(),bp.copy(t.ray).applyMatrix4(e_);let a=r/((this.scale.x+this.scale.y+this.scale.z)/3),l=a*a,c=n.index,u=n.attributes.position;if(c!==null){let d=Math.max(0,o.start),f=Math.min(c.count,o.start+o.count);for(let p=d,y=f;p<y;p++){let m=c.getX(p);Ah.fromBufferAttribute(u,m),n_(Ah,m,l,i,t,e,this)}}else{let d=Math.max(0,o.start),f=Math.min(u.count,o.start+o.count);for(let p=d,y=f;p<y;p++)Ah.fromBufferAttribute(u,p),n_(Ah,p,l,i,t,e,this)}}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let i=e[n[0]];if(i!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,o=i.length;r<o;r++){let a=i[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[a]=r}}}}};function n_(s,t,e,n,i,r,o){let a=bp.distanceSqToPoint(s);if(a<e){let l=new O;bp.closestPointToPoint(s,l),l.applyMatrix4(n);let c=i.ray.origin.distanceTo(l);if(c<i.near||c>i.far)return;r.push({distance:c,distanceToRay:Math.sqrt(a),point:l,index:t,face:null,faceIndex:null,barycoord:null,object:o})}}var El=class extends ui{constructor(t=[],e=fo,n,i,r,o,a,l,c,h){super(t,e,n,i,r,o,a,l,c,h),this.isCubeTexture=!0,this.flipY=!1}get images(){return this.image}set images(t){this.image=t}};var $s=class extends ui{constructor(t,e,n=cs,i,r,o,a=Bn,l=Bn,c,h=js,u=1){if(h!==js&&h!==er)throw new Error("THREE.DepthTexture: format must be either THREE.DepthFormat or THREE.DepthStencilFormat");let d={width:t,height:e,depth:u};super(d,i,r,o,a,l,h,n,c),this.isDepthTexture=!0,this.flipY=!1,this.generateMipmaps=!1,this.compareFunction=null}copy(t){return super.copy(t),this.source=new ha(Object.assign({},t.image)),this.compareFunction=t.compareFunction,this}toJSON(t){let e=super.toJSON(t);return e.compareFunction=this.compareFunction,e}},Al=class extends $s{constructor(t,e=cs,n=fo,i,r,o=Bn,a=Bn,l,c=js){let h={width:t,height:t,depth:1},u=[h,h,h,h,h,h];super(t,t,e,n,i,r,o,a,l,c),this.image=u,this.isCubeDepthTexture=!0,this.isCubeTexture=!0}get images(){return this.image}set images(t){this.image=t}},Rl=class extends ui{constructor(t=null){super(),this.sourceTexture=t,this.isExternalTexture=!0}copy(t){return super.copy(t),this.sourceTexture=t.sourceTexture,this}},bs=class s extends Fe{constructor(t=1,e=1,n=1,i=1,r=1,o=1){super(),this.type="BoxGeometry",this.parameters={width:t,height:e,depth:n,widthSegments:i,heightSegments:r,depthSegments:o};let a=this;i=Math.floor(i),r=Math.floor(r),o=Math.floor(o);let l=[],c=[],h=[],u=[],d=0,f=0;p("z","y","x",-1,-1,n,e,t,o,r,0),p("z","y","x",1,-1,n,e,-t,o,r,1),p("x","z","y",1,1,t,n,e,i,o,2),p("x","z","y",1,-1,t,n,-e,i,o,3),p("x","y","z",1,-1,t,e,n,i,r,4),p("x","y","z",-1,-1,t,e,-n,i,r,5),this.setIndex(l),this.setAttribute("position",new Jt(c,3)),this.setAttribute("normal",new Jt(h,3)),this.setAttribute("uv",new Jt(u,2));function p(y,m,g,_,w,v,E,S,x,M,L){let P=v/x,C=E/M,F=v/2,B=E/2,N=S/2,W=x+1,k=M+1,H=0,it=0,j=new O;for(let Z=0;Z<k;Z++){let tt=Z*C-B;for(let ht=0;ht<W;ht++){let st=ht*P-F;j[y]=st*_,j[m]=tt*w,j[g]=N,c.push(j.x,j.y,j.z),j[y]=0,j[m]=0,j[g]=S>0?1:-1,h.push(j.x,j.y,j.z),u.push(ht/x),u.push(1-Z/M),H+=1}}for(let Z=0;Z<M;Z++)for(let tt=0;tt<x;tt++){let ht=d+tt+W*Z,st=d+tt+W*(Z+1),Y=d+(tt+1)+W*(Z+1),rt=d+(tt+1)+W*Z;l.push(ht,st,rt),l.push(st,Y,rt),it+=6}a.addGroup(f,it,L),f+=it,d+=H}}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new s(t.width,t.height,t.depth,t.widthSegments,t.heightSegments,t.depthSegments)}},Cl=class s extends Fe{constructor(t=1,e=1,n=4,i=8,r=1){super(),this.type="CapsuleGeometry",this.parameters={radius:t,height:e,capSegments:n,radialSegments:i,heightSegments:r},e=Math.max(0,e),n=Math.max(1,Math.floor(n)),i=Math.max(3,Math.floor(i)),r=Math.max(1,Math.floor(r));let o=[],a=[],l=[],c=[],h=e/2,u=Math.PI/2*t,d=e,f=2*u+d,p=n*2+r,y=i+1,m=new O,g=new O;for(let _=0;_<=p;_++){let w=0,v=0,E=0,S=0;if(_<=n){let L=_/n,P=L*Math.PI/2;v=-h-t*Math.cos(P),E=t*Math.sin(P),S=-t*Math.cos(P),w=L*u}else if(_<=n+r){let L=(_-n)/r;v=-h+L*e,E=t,S=0,w=u+L*d}else{let L=(_-n-r)/n,P=L*Math.PI/2;v=h+t*Math.sin(P),E=t*Math.cos(P),S=t*Math.sin(P),w=u+d+L*u}let x=Math.max(0,Math.min(1,w/f)),M=0;_===0?M=.5/i:_===p&&(M=-.5/i);for(let L=0;L<=i;L++){let P=L/i,C=P*Math.PI*2,F=Math.sin(C),B=Math.cos(C);g.x=-E*B,g.y=v,g.z=E*F,a.push(g.x,g.y,g.z),m.set(-E*B,S,E*F),m.normalize(),l.push(m.x,m.y,m.z),c.push(P+M,x)}if(_>0){let L=(_-1)*y;for(let P=0;P<i;P++){let C=L+P,F=L+P+1,B=_*y+P,N=_*y+P+1;o.push(C,F,B),o.push(F,N,B)}}}this.setIndex(o),this.setAttribute("position",new Jt(a,3)),this.setAttribute("normal",new Jt(l,3)),this.setAttribute("uv",new Jt(c,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new s(t.radius,t.height,t.capSegments,t.radialSegments,t.heightSegments)}},Pl=class s extends Fe{constructor(t=1,e=32,n=0,i=Math.PI*2){super(),this.type="CircleGeometry",this.parameters={radius:t,segments:e,thetaStart:n,thetaLength:i},e=Math.max(3,e);let r=[],o=[],a=[],l=[],c=new O,h=new Xt;o.push(0,0,0),a.push(0,0,1),l.push(.5,.5);for(let u=0,d=3;u<=e;u++,d+=3){let f=n+u/e*i;c.x=t*Math.cos(f),c.y=t*Math.sin(f),o.push(c.x,c.y,c.z),a.push(0,0,1),h.x=(o[d]/t+1)/2,h.y=(o[d+1]/t+1)/2,l.push(h.x,h.y)}for(let u=1;u<=e;u++)r.push(u,u+1,0);this.setIndex(r),this.setAttribute("position",new Jt(o,3)),this.setAttribute("normal",new Jt(a,3)),this.setAttribute("uv",new Jt(l,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new s(t.radius,t.segments,t.thetaStart,t.thetaLength)}},Zs=class s extends Fe{constructor(t=1,e=1,n=1,i=32,r=1,o=!1,a=0,l=Math.PI*2){super(),this.type="CylinderGeometry",this.parameters={radiusTop:t,radiusBottom:e,height:n,radialSegments:i,heightSegments:r,openEnded:o,thetaStart:a,thetaLength:l};let c=this;i=Math.floor(i),r=Math.floor(r);let h=[],u=[],d=[],f=[],p=0,y=[],m=n/2,g=0;_(),o===!1&&(t>0&&w(!0),e>0&&w(!1)),this.setIndex(h),this.setAttribute("position",new Jt(u,3)),this.setAttribute("normal",new Jt(d,3)),this.setAttribute("uv",new Jt(f,2));function _(){let v=new O,E=new O,S=0,x=(e-t)/n;for(let M=0;M<=r;M++){let L=[],P=M/r,C=P*(e-t)+t;for(let F=0;F<=i;F++){let B=F/i,N=B*l+a,W=Math.sin(N),k=Math.cos(N);E.x=C*W,E.y=-P*n+m,E.z=C*k,u.push(E.x,E.y,E.z),v.set(W,x,k).normalize(),d.push(v.x,v.y,v.z),f.push(B,1-P),L.push(p++)}y.push(L)}for(let M=0;M<i;M++)for(let L=0;L<r;L++){let P=y[L][M],C=y[L+1][M],F=y[L+1][M+1],B=y[L][M+1];(t>0||L!==0)&&(h.push(P,C,B),S+=3),(e>0||L!==r-1)&&(h.push(C,F,B),S+=3)}c.addGroup(g,S,0),g+=S}function w(v){let E=p,S=new Xt,x=new O,M=0,L=v===!0?t:e,P=v===!0?1:-1;for(let F=1;F<=i;F++)u.push(0,m*P,0),d.push(0,P,0),f.push(.5,.5),p++;let C=p;for(let F=0;F<=i;F++){let N=F/i*l+a,W=Math.cos(N),k=Math.sin(N);x.x=L*k,x.y=m*P,x.z=L*W,u.push(x.x,x.y,x.z),d.push(0,P,0),S.x=W*.5+.5,S.y=k*.5*P+.5,f.push(S.x,S.y),p++}for(let F=0;F<i;F++){let B=E+F,N=C+F;v===!0?h.push(N,N+1,B):h.push(N+1,N,B),M+=3}c.addGroup(g,M,v===!0?1:2),g+=M}}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new s(t.radiusTop,t.radiusBottom,t.height,t.radialSegments,t.heightSegments,t.openEnded,t.thetaStart,t.thetaLength)}};var Rh=new O,Ch=new O,pp=new O,Ph=new os,eo=class extends Fe{constructor(t=null,e=1){if(super(),this.type="EdgesGeometry",this.parameters={geometry:t,thresholdAngle:e},t!==null){let i=Math.pow(10,4),r=Math.cos(ia*e),o=t.getIndex(),a=t.getAttribute("position"),l=o?o.count:a.count,c=[0,0,0],h=["a","b","c"],u=new Array(3),d=new Map,f=[];for(let p=0;p<l;p+=3){o?(c[0]=o.getX(p),c[1]=o.getX(p+1),c[2]=o.getX(p+2)):(c[0]=p,c[1]=p+1,c[2]=p+2);let{a:y,b:m,c:g}=Ph;if(y.fromBufferAttribute(a,c[0]),m.fromBufferAttribute(a,c[1]),g.fromBufferAttribute(a,c[2]),Ph.getNormal(pp),u[0]=`${Math.round(y.x*i)},${Math.round(y.y*i)},${Math.round(y.z*i)}`,u[1]=`${Math.round(m.x*i)},${Math.round(m.y*i)},${Math.round(m.z*i)}`,u[2]=`${Math.round(g.x*i)},${Math.round(g.y*i)},${Math.round(g.z*i)}`,!(u[0]===u[1]||u[1]===u[2]||u[2]===u[0]))for(let _=0;_<3;_++){let w=(_+1)%3,v=u[_],E=u[w],S=Ph[h[_]],x=Ph[h[w]],M=`${v}_${E}`,L=`${E}_${v}`,P=d.get(L);P?(pp.dot(P.normal)<=r&&(f.push(S.x,S.y,S.z),f.push(x.x,x.y,x.z)),d.set(L,null)):d.has(M)||d.set(M,{index0:c[_],index1:c[w],normal:pp.clone()})}}for(let p of d.values())if(p){let{index0:y,index1:m}=p;Rh.fromBufferAttribute(a,y),Ch.fromBufferAttribute(a,m),f.push(Rh.x,Rh.y,Rh.z),f.push(Ch.x,Ch.y,Ch.z)}this.setAttribute("position",new Jt(f,3))}}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}};function Iw(s,t,e=2){let n=t&&t.length,i=n?t[0]*e:s.length,r=sx(s,0,i,e,!0),o=[];if(!r||r.next===r.prev)return o;let a,l,c;if(n&&(r=Ow(s,t,r,e)),s.length>80*e){a=s[0],l=s[1];let h=a,u=l;for(let d=e;d<i;d+=e){let f=s[d],p=s[d+1];f<a&&(a=f),p<l&&(l=p),f>h&&(h=f),p>u&&(u=p)}c=Math.max(h-a,u-l),c=c!==0?32767/c:0}return Ll(r,o,e,a,l,c,0),o}function sx(s,t,e,n,i){let r;if(i===jw(s,t,e,n)>0)for(let o=t;o<e;o+=n)r=i_(o/n|0,s[o],s[o+1],r);else for(let o=e-n;o>=t;o-=n)r=i_(o/n|0,s[o],s[o+1],r);return r&&ma(r,r.next)&&(Nl(r),r=r.next),r}function no(s,t){if(!s)return s;t||(t=s);let e=s,n;do if(n=!1,!e.steiner&&(ma(e,e.next)||tn(e.prev,e,e.next)===0)){if(Nl(e),e=t=e.prev,e===e.next)break;n=!0}else e=e.next;while(n||e!==t);return t}function Ll(s,t,e,n,i,r,o){if(!s)return;!o&&r&&Gw(s,n,i,r);let a=s;for(;s.prev!==s.next;){let l=s.prev,c=s.next;if(r?Dw(s,n,i,r):Nw(s)){t.push(l.i,s.i,c.i),Nl(s),s=c.next,a=c.next;continue}if(s=c,s===a){o?o===1?(s=Fw(no(s),t),Ll(s,t,e,n,i,r,2)):o===2&&Uw(s,t,e,n,i,r):Ll(no(s),t,e,n,i,r,1);break}}}function Nw(s){let t=s.prev,e=s,n=s.next;if(tn(t,e,n)>=0)return!1;let i=t.x,r=e.x,o=n.x,a=t.y,l=e.y,c=n.y,h=Math.min(i,r,o),u=Math.min(a,l,c),d=Math.max(i,r,o),f=Math.max(a,l,c),p=n.next;for(;p!==t;){if(p.x>=h&&p.x<=d&&p.y>=u&&p.y<=f&&hl(i,a,r,l,o,c,p.x,p.y)&&tn(p.prev,p,p.next)>=0)return!1;p=p.next}return!0}function Dw(s,t,e,n){let i=s.prev,r=s,o=s.next;if(tn(i,r,o)>=0)return!1;let a=i.x,l=r.x,c=o.x,h=i.y,u=r.y,d=o.y,f=Math.min(a,l,c),p=Math.min(h,u,d),y=Math.max(a,l,c),m=Math.max(h,u,d),g=Sp(f,p,t,e,n),_=Sp(y,m,t,e,n),w=s.prevZ,v=s.nextZ;for(;w&&w.z>=g&&v&&v.z<=_;){if(w.x>=f&&w.x<=y&&w.y>=p&&w.y<=m&&w!==i&&w!==o&&hl(a,h,l,u,c,d,w.x,w.y)&&tn(w.prev,w,w.next)>=0||(w=w.prevZ,v.x>=f&&v.x<=y&&v.y>=p&&v.y<=m&&v!==i&&v!==o&&hl(a,h,l,u,c,d,v.x,v.y)&&tn(v.prev,v,v.next)>=0))return!1;v=v.nextZ}for(;w&&w.z>=g;){if(w.x>=f&&w.x<=y&&w.y>=p&&w.y<=m&&w!==i&&w!==o&&hl(a,h,l,u,c,d,w.x,w.y)&&tn(w.prev,w,w.next)>=0)return!1;w=w.prevZ}for(;v&&v.z<=_;){if(v.x>=f&&v.x<=y&&v.y>=p&&v.y<=m&&v!==i&&v!==o&&hl(a,h,l,u,c,d,v.x,v.y)&&tn(v.prev,v,v.next)>=0)return!1;v=v.nextZ}return!0}function Fw(s,t){let e=s;do{let n=e.prev,i=e.next.next;!ma(n,i)&&ox(n,e,e.next,i)&&Il(n,i)&&Il(i,n)&&(t.push(n.i,e.i,i.i),Nl(e),Nl(e.next),e=s=i),e=e.next}while(e!==s);return no(e)}function Uw(s,t,e,n,i,r){let o=s;do{let a=o.next.next;for(;a!==o.prev;){if(o.i!==a.i&&Xw(o,a)){let l=ax(o,a);o=no(o,o.next),l=no(l,l.next),Ll(o,t,e,n,i,r,0),Ll(l,t,e,n,i,r,0);return}a=a.next}o=o.next}while(o!==s)}function Ow(s,t,e,n){let i=[];for(let r=0,o=t.length;r<o;r++){let a=t[r]*n,l=r<o-1?t[r+1]*n:s.length,c=sx(s,a,l,n,!1);c===c.next&&(c.steiner=!0),i.push(Ww(c))}i.sort(Bw);for(let r=0;r<i.length;r++)e=kw(i[r],e);return e}function Bw(s,t){let e=s.x-t.x;if(e===0&&(e=s.y-t.y,e===0)){let n=(s.next.y-s.y)/(s.next.x-s.x),i=(t.next.y-t.y)/(t.next.x-t.x);e=n-i}return e}function kw(s,t){let e=zw(s,t);if(!e)return t;let n=ax(e,s);return no(n,n.next),no(e,e.next)}function zw(s,t){let e=t,n=s.x,i=s.y,r=-1/0,o;if(ma(s,e))return e;do{if(ma(s,e.next))return e.next;if(i<=e.y&&i>=e.next.y&&e.next.y!==e.y){let u=e.x+(i-e.y)*(e.next.x-e.x)/(e.next.y-e.y);if(u<=n&&u>r&&(r=u,o=e.x<e.next.x?e:e.next,u===n))return o}e=e.next}while(e!==t);if(!o)return null;let a=o,l=o.x,c=o.y,h=1/0;e=o;do{if(n>=e.x&&e.x>=l&&n!==e.x&&rx(i<c?n:r,i,l,c,i<c?r:n,i,e.x,e.y)){let u=Math.abs(i-e.y)/(n-e.x);Il(e,s)&&(u<h||u===h&&(e.x>o.x||e.x===o.x&&Vw(o,e)))&&(o=e,h=u)}e=e.next}while(e!==a);return o}function Vw(s,t){return tn(s.prev,s,t.prev)<0&&tn(t.next,s,s.next)<0}function Gw(s,t,e,n){let i=s;do i.z===0&&(i.z=Sp(i.x,i.y,t,e,n)),i.prevZ=i.prev,i.nextZ=i.next,i=i.next;while(i!==s);i.prevZ.nextZ=null,i.prevZ=null,Hw(i)}function Hw(s){let t,e=1;do{let n=s,i;s=null;let r=null;for(t=0;n;){t++;let o=n,a=0;for(let c=0;c<e&&(a++,o=o.nextZ,!!o);c++);let l=e;for(;a>0||l>0&&o;)a!==0&&(l===0||!o||n.z<=o.z)?(i=n,n=n.nextZ,a--):(i=o,o=o.nextZ,l--),r?r.nextZ=i:s=i,i.prevZ=r,r=i;n=o}r.nextZ=null,e*=2}while(t>1);return s}function Sp(s,t,e,n,i){return s=(s-e)*i|0,t=(t-n)*i|0,s=(s|s<<8)&16711935,s=(s|s<<4)&252645135,s=(s|s<<2)&858993459,s=(s|s<<1)&1431655765,t=(t|t<<8)&16711935,t=(t|t<<4)&252645135,t=(t|t<<2)&858993459,t=(t|t<<1)&1431655765,s|t<<1}function Ww(s){let t=s,e=s;do(t.x<e.x||t.x===e.x&&t.y<e.y)&&(e=t),t=t.next;while(t!==s);return e}function rx(s,t,e,n,i,r,o,a){return(i-o)*(t-a)>=(s-o)*(r-a)&&(s-o)*(n-a)>=(e-o)*(t-a)&&(e-o)*(r-a)>=(i-o)*(n-a)}function hl(s,t,e,n,i,r,o,a){return!(s===o&&t===a)&&rx(s,t,e,n,i,r,o,a)}function Xw(s,t){return s.next.i!==t.i&&s.prev.i!==t.i&&!qw(s,t)&&(Il(s,t)&&Il(t,s)&&Yw(s,t)&&(tn(s.prev,s,t.prev)||tn(s,t.prev,t))||ma(s,t)&&tn(s.prev,s,s.next)>0&&tn(t.prev,t,t.next)>0)}function tn(s,t,e){return(t.y-s.y)*(e.x-t.x)-(t.x-s.x)*(e.y-t.y)}function ma(s,t){return s.x===t.x&&s.y===t.y}function ox(s,t,e,n){let i=Ih(tn(s,t,e)),r=Ih(tn(s,t,n)),o=Ih(tn(e,n,s)),a=Ih(tn(e,n,t));return!!(i!==r&&o!==a||i===0&&Lh(s,e,t)||r===0&&Lh(s,n,t)||o===0&&Lh(e,s,n)||a===0&&Lh(e,t,n))}function Lh(s,t,e){return t.x<=Math.max(s.x,e.x)&&t.x>=Math.min(s.x,e.x)&&t.y<=Math.max(s.y,e.y)&&t.y>=Math.min(s.y,e.y)}function Ih(s){return s>0?1:s<0?-1:0}function qw(s,t){let e=s;do{if(e.i!==s.i&&e.next.i!==s.i&&e.i!==t.i&&e.next.i!==t.i&&ox(e,e.next,s,t))return!0;e=e.next}while(e!==s);return!1}function Il(s,t){return tn(s.prev,s,s.next)<0?tn(s,t,s.next)>=0&&tn(s,s.prev,t)>=0:tn(s,t,s.prev)<0||tn(s,s.next,t)<0}function Yw(s,t){let e=s,n=!1,i=(s.x+t.x)/2,r=(s.y+t.y)/2;do e.y>r!=e.next.y>r&&e.next.y!==e.y&&i<(e.next.x-e.x)*(r-e.y)/(e.next.y-e.y)+e.x&&(n=!n),e=e.next;while(e!==s);return n}function ax(s,t){let e=Mp(s.i,s.x,s.y),n=Mp(t.i,t.x,t.y),i=s.next,r=t.prev;return s.next=t,t.prev=s,e.next=i,i.prev=e,n.next=e,e.prev=n,r.next=n,n.prev=r,n}function i_(s,t,e,n){let i=Mp(s,t,e);return n?(i.next=n.next,i.prev=n,n.next.prev=i,n.next=i):(i.prev=i,i.next=i),i}function Nl(s){s.next.prev=s.prev,s.prev.next=s.next,s.prevZ&&(s.prevZ.nextZ=s.nextZ),s.nextZ&&(s.nextZ.prevZ=s.prevZ)}function Mp(s,t,e){return{i:s,x:t,y:e,prev:null,next:null,z:0,prevZ:null,nextZ:null,steiner:!1}}function jw(s,t,e,n){let i=0;for(let r=t,o=e-n;r<e;r+=n)i+=(s[o]-s[r])*(s[r+1]+s[o+1]),o=r;return i}var wp=class{static triangulate(t,e,n=2){return Iw(t,e,n)}},ga=class s{static area(t){let e=t.length,n=0;for(let i=e-1,r=0;r<e;i=r++)n+=t[i].x*t[r].y-t[r].x*t[i].y;return n*.5}static isClockWise(t){return s.area(t)<0}static triangulateShape(t,e){let n=[],i=[],r=[];s_(t),r_(n,t);let o=t.length;e.forEach(s_);for(let l=0;l<e.length;l++)i.push(o),o+=e[l].length,r_(n,e[l]);let a=wp.triangulate(n,i);for(let l=0;l<a.length;l+=3)r.push(a.slice(l,l+3));return r}};function s_(s){let t=s.length;t>2&&s[t-1].equals(s[0])&&s.pop()}function r_(s,t){for(let e=0;e<t.length;e++)s.push(t[e].x),s.push(t[e].y)}var ls=class s extends Fe{constructor(t=1,e=1,n=1,i=1){super(),this.type="PlaneGeometry",this.parameters={width:t,height:e,widthSegments:n,heightSegments:i};let r=t/2,o=e/2,a=Math.floor(n),l=Math.floor(i),c=a+1,h=l+1,u=t/a,d=e/l,f=[],p=[],y=[],m=[];for(let g=0;g<h;g++){let _=g*d-o;for(let w=0;w<c;w++){let v=w*u-r;p.push(v,-_,0),y.push(0,0,1),m.push(w/a),m.push(1-g/l)}}for(let g=0;g<l;g++)for(let _=0;_<a;_++){let w=_+c*g,v=_+c*(g+1),E=_+1+c*(g+1),S=_+1+c*g;f.push(w,v,S),f.push(v,E,S)}this.setIndex(f),this.setAttribute("position",new Jt(p,3)),this.setAttribute("normal",new Jt(y,3)),this.setAttribute("uv",new Jt(m,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new s(t.width,t.height,t.widthSegments,t.heightSegments)}};var Ks=class s extends Fe{constructor(t=1,e=32,n=16,i=0,r=Math.PI*2,o=0,a=Math.PI){super(),this.type="SphereGeometry",this.parameters={radius:t,widthSegments:e,heightSegments:n,phiStart:i,phiLength:r,thetaStart:o,thetaLength:a},e=Math.max(3,Math.floor(e)),n=Math.max(2,Math.floor(n));let l=Math.min(o+a,Math.PI),c=0,h=[],u=new O,d=new O,f=[],p=[],y=[],m=[];for(let g=0;g<=n;g++){let _=[],w=g/n,v=o+w*a,E=t*Math.cos(v),S=Math.sqrt(t*t-E*E),x=0;g===0&&o===0?x=.5/e:g===n&&l===Math.PI&&(x=-.5/e);for(let M=0;M<=e;M++){let L=M/e,P=i+L*r;u.x=-S*Math.cos(P),u.y=E,u.z=S*Math.sin(P),p.push(u.x,u.y,u.z),d.copy(u).normalize(),y.push(d.x,d.y,d.z),m.push(L+x,1-w),_.push(c++)}h.push(_)}for(let g=0;g<n;g++)for(let _=0;_<e;_++){let w=h[g][_+1],v=h[g][_],E=h[g+1][_],S=h[g+1][_+1];(g!==0||o>0)&&f.push(w,v,S),(g!==n-1||l<Math.PI)&&f.push(v,E,S)}this.setIndex(f),this.setAttribute("position",new Jt(p,3)),this.setAttribute("normal",new Jt(y,3)),this.setAttribute("uv",new Jt(m,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new s(t.radius,t.widthSegments,t.heightSegments,t.phiStart,t.phiLength,t.thetaStart,t.thetaLength)}};var Dl=class extends Fe{constructor(t=null){if(super(),this.type="WireframeGeometry",this.parameters={geometry:t},t!==null){let e=[],n=new Set,i=new O,r=new O;if(t.index!==null){let o=t.attributes.position,a=t.index,l=t.groups;l.length===0&&(l=[{start:0,count:a.count,materialIndex:0}]);for(let c=0,h=l.length;c<h;++c){let u=l[c],d=u.start,f=u.count;for(let p=d,y=d+f;p<y;p+=3)for(let m=0;m<3;m++){let g=a.getX(p+m),_=a.getX(p+(m+1)%3);i.fromBufferAttribute(o,g),r.fromBufferAttribute(o,_),o_(i,r,n)===!0&&(e.push(i.x,i.y,i.z),e.push(r.x,r.y,r.z))}}}else{let o=t.attributes.position;for(let a=0,l=o.count/3;a<l;a++)for(let c=0;c<3;c++){let h=3*a+c,u=3*a+(c+1)%3;i.fromBufferAttribute(o,h),r.fromBufferAttribute(o,u),o_(i,r,n)===!0&&(e.push(i.x,i.y,i.z),e.push(r.x,r.y,r.z))}}this.setAttribute("position",new Jt(e,3))}}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}};function o_(s,t,e){let n=`${s.x},${s.y},${s.z}-${t.x},${t.y},${t.z}`,i=`${t.x},${t.y},${t.z}-${s.x},${s.y},${s.z}`;return e.has(n)===!0||e.has(i)===!0?!1:(e.add(n),e.add(i),!0)}var Fl=class extends di{constructor(t){super(),this.isShadowMaterial=!0,this.type="ShadowMaterial",this.color=new Dt(0),this.transparent=!0,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.fog=t.fog,this}};function go(s){let t={};for(let e in s){t[e]={};for(let n in s[e]){let i=s[e][n];if(a_(i))i.isRenderTargetTexture?(jt("UniformsUtils: Textures of render targets cannot be cloned via cloneUniforms() or mergeUniforms()."),t[e][n]=null):t[e][n]=i.clone();else if(Array.isArray(i))if(a_(i[0])){let r=[];for(let o=0,a=i.length;o<a;o++)r[o]=i[o].clone();t[e][n]=r}else t[e][n]=i.slice();else t[e][n]=i}}return t}function ei(s){let t={};for(let e=0;e<s.length;e++){let n=go(s[e]);for(let i in n)t[i]=n[i]}return t}function a_(s){return s&&(s.isColor||s.isMatrix3||s.isMatrix4||s.isVector2||s.isVector3||s.isVector4||s.isTexture||s.isQuaternion)}function Jw(s){let t=[];for(let e=0;e<s.length;e++)t.push(s[e].clone());return t}function am(s){let t=s.getRenderTarget();return t===null?s.outputColorSpace:t.isXRRenderTarget===!0?t.texture.colorSpace:he.workingColorSpace}var ec={clone:go,merge:ei},$w=`void main() {
+	gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+}`,Zw=`void main() {
+	gl_FragColor = vec4( 1.0, 0.0, 0.0, 1.0 );
+}`,_i=class extends di{constructor(t){super(),this.isShaderMaterial=!0,this.type="ShaderMaterial",this.defines={},this.uniforms={},this.uniformsGroups=[],this.vertexShader=$w,this.fragmentShader=Zw,this.linewidth=1,this.wireframe=!1,this.wireframeLinewidth=1,this.fog=!1,this.lights=!1,this.clipping=!1,this.forceSinglePass=!0,this.extensions={clipCullDistance:!1,multiDraw:!1},this.defaultAttributeValues={color:[1,1,1],uv:[0,0],uv1:[0,0]},this.index0AttributeName=void 0,this.uniformsNeedUpdate=!1,this.glslVersion=null,t!==void 0&&this.setValues(t)}copy(t){return super.copy(t),this.fragmentShader=t.fragmentShader,this.vertexShader=t.vertexShader,this.uniforms=go(t.uniforms),this.uniformsGroups=Jw(t.uniformsGroups),this.defines=Object.assign({},t.defines),this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.fog=t.fog,this.lights=t.lights,this.clipping=t.clipping,this.extensions=Object.assign({},t.extensions),this.glslVersion=t.glslVersion,this.defaultAttributeValues=Object.assign({},t.defaultAttributeValues),this.index0AttributeName=t.index0AttributeName,this.uniformsNeedUpdate=t.uniformsNeedUpdate,this}toJSON(t){let e=super.toJSON(t);e.glslVersion=this.glslVersion,e.uniforms={};for(let i in this.uniforms){let o=this.uniforms[i].value;o&&o.isTexture?e.uniforms[i]={type:"t",value:o.toJSON(t).uuid}:o&&o.isColor?e.uniforms[i]={type:"c",value:o.getHex()}:o&&o.isVector2?e.uniforms[i]={type:"v2",value:o.toArray()}:o&&o.isVector3?e.uniforms[i]={type:"v3",value:o.toArray()}:o&&o.isVector4?e.uniforms[i]={type:"v4",value:o.toArray()}:o&&o.isMatrix3?e.uniforms[i]={type:"m3",value:o.toArray()}:o&&o.isMatrix4?e.uniforms[i]={type:"m4",value:o.toArray()}:e.uniforms[i]={value:o}}Object.keys(this.defines).length>0&&(e.defines=this.defines),e.vertexShader=this.vertexShader,e.fragmentShader=this.fragmentShader,e.lights=this.lights,e.clipping=this.clipping;let n={};for(let i in this.extensions)this.extensions[i]===!0&&(n[i]=!0);return Object.keys(n).length>0&&(e.extensions=n),e}fromJSON(t,e){if(super.fromJSON(t,e),t.uniforms!==void 0)for(let n in t.uniforms){let i=t.uniforms[n];switch(this.uniforms[n]={},i.type){case"t":this.uniforms[n].value=e[i.value]||null;break;case"c":this.uniforms[n].value=new Dt().setHex(i.value);break;case"v2":this.uniforms[n].value=new Xt().fromArray(i.value);break;case"v3":this.uniforms[n].value=new O().fromArray(i.value);break;case"v4":this.uniforms[n].value=new be().fromArray(i.value);break;case"m3":this.uniforms[n].value=new se().fromArray(i.value);break;case"m4":this.uniforms[n].value=new Nt().fromArray(i.value);break;default:this.uniforms[n].value=i.value}}if(t.defines!==void 0&&(this.defines=t.defines),t.vertexShader!==void 0&&(this.vertexShader=t.vertexShader),t.fragmentShader!==void 0&&(this.fragmentShader=t.fragmentShader),t.glslVersion!==void 0&&(this.glslVersion=t.glslVersion),t.extensions!==void 0)for(let n in t.extensions)this.extensions[n]=t.extensions[n];return t.lights!==void 0&&(this.lights=t.lights),t.clipping!==void 0&&(this.clipping=t.clipping),this}},tu=class extends _i{constructor(t){super(t),this.isRawShaderMaterial=!0,this.type="RawShaderMaterial"}};var Hn=class extends di{constructor(t){super(),this.isMeshPhongMaterial=!0,this.type="MeshPhongMaterial",this.color=new Dt(16777215),this.specular=new Dt(1118481),this.shininess=30,this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.emissive=new Dt(0),this.emissiveIntensity=1,this.emissiveMap=null,this.bumpMap=null,this.bumpScale=1,this.normalMap=null,this.normalMapType=tc,this.normalScale=new Xt(1,1),this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new yi,this.combine=ql,this.reflectivity=1,this.envMapIntensity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.flatShading=!1,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.specular.copy(t.specular),this.shininess=t.shininess,this.map=t.map,this.lightMap=t.lightMap,this.lightMapIntensity=t.lightMapIntensity,this.aoMap=t.aoMap,this.aoMapIntensity=t.aoMapIntensity,this.emissive.copy(t.emissive),this.emissiveMap=t.emissiveMap,this.emissiveIntensity=t.emissiveIntensity,this.bumpMap=t.bumpMap,this.bumpScale=t.bumpScale,this.normalMap=t.normalMap,this.normalMapType=t.normalMapType,this.normalScale.copy(t.normalScale),this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this.specularMap=t.specularMap,this.alphaMap=t.alphaMap,this.envMap=t.envMap,this.envMapRotation.copy(t.envMapRotation),this.combine=t.combine,this.reflectivity=t.reflectivity,this.envMapIntensity=t.envMapIntensity,this.refractionRatio=t.refractionRatio,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.wireframeLinecap=t.wireframeLinecap,this.wireframeLinejoin=t.wireframeLinejoin,this.flatShading=t.flatShading,this.fog=t.fog,this}};var io=class extends di{constructor(t){super(),this.isMeshLambertMaterial=!0,this.type="MeshLambertMaterial",this.color=new Dt(16777215),this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.emissive=new Dt(0),this.emissiveIntensity=1,this.emissiveMap=null,this.bumpMap=null,this.bumpScale=1,this.normalMap=null,this.normalMapType=tc,this.normalScale=new Xt(1,1),this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new yi,this.combine=ql,this.reflectivity=1,this.envMapIntensity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.flatShading=!1,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.lightMap=t.lightMap,this.lightMapIntensity=t.lightMapIntensity,this.aoMap=t.aoMap,this.aoMapIntensity=t.aoMapIntensity,this.emissive.copy(t.emissive),this.emissiveMap=t.emissiveMap,this.emissiveIntensity=t.emissiveIntensity,this.bumpMap=t.bumpMap,this.bumpScale=t.bumpScale,this.normalMap=t.normalMap,this.normalMapType=t.normalMapType,this.normalScale.copy(t.normalScale),this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this.specularMap=t.specularMap,this.alphaMap=t.alphaMap,this.envMap=t.envMap,this.envMapRotation.copy(t.envMapRotation),this.combine=t.combine,this.reflectivity=t.reflectivity,this.envMapIntensity=t.envMapIntensity,this.refractionRatio=t.refractionRatio,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.wireframeLinecap=t.wireframeLinecap,this.wireframeLinejoin=t.wireframeLinejoin,this.flatShading=t.flatShading,this.fog=t.fog,this}},eu=class extends di{constructor(t){super(),this.isMeshDepthMaterial=!0,this.type="MeshDepthMaterial",this.depthPacking=X_,this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.wireframe=!1,this.wireframeLinewidth=1,this.setValues(t)}copy(t){return super.copy(t),this.depthPacking=t.depthPacking,this.map=t.map,this.alphaMap=t.alphaMap,this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this}},nu=class extends di{constructor(t){super(),this.isMeshDistanceMaterial=!0,this.type="MeshDistanceMaterial",this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.setValues(t)}copy(t){return super.copy(t),this.map=t.map,this.alphaMap=t.alphaMap,this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this}};function _r(s,t){return!s||s.constructor===t?s:typeof t.BYTES_PER_ELEMENT=="number"?new t(s):Array.prototype.slice.call(s)}function ul(s){return s!==void 0&&s.inTangents!==void 0&&s.outTangents!==void 0}function Kw(s){function t(i,r){return s[i]-s[r]}let e=s.length,n=new Array(e);for(let i=0;i!==e;++i)n[i]=i;return n.sort(t),n}function l_(s,t,e){let n=s.length,i=new s.constructor(n);for(let r=0,o=0;o!==n;++r){let a=e[r]*t;for(let l=0;l!==t;++l)i[o++]=s[a+l]}return i}function Qw(s,t,e,n){let i=1,r=s[0];for(;r!==void 0&&r[n]===void 0;)r=s[i++];if(r===void 0)return;let o=r[n];if(o!==void 0)if(Array.isArray(o))do o=r[n],o!==void 0&&(t.push(r.time),e.push(...o)),r=s[i++];while(r!==void 0);else if(o.toArray!==void 0)do o=r[n],o!==void 0&&(t.push(r.time),o.toArray(e,e.length)),r=s[i++];while(r!==void 0);else do o=r[n],o!==void 0&&(t.push(r.time),e.push(o)),r=s[i++];while(r!==void 0)}var Sr=class{constructor(t,e,n,i){this.parameterPositions=t,this._cachedIndex=0,this.resultBuffer=i!==void 0?i:new e.constructor(n),this.sampleValues=e,this.valueSize=n,this.settings=null,this.DefaultSettings_={}}evaluate(t){let e=this.parameterPositions,n=this._cachedIndex,i=e[n],r=e[n-1];n:{t:{let o;e:{i:if(!(t<i)){for(let a=n+2;;){if(i===void 0){if(t<r)break i;return n=e.length,this._cachedIndex=n,this.copySampleValue_(n-1)}if(n===a)break;if(r=i,i=e[++n],t<i)break t}o=e.length;break e}if(!(t>=r)){let a=e[1];t<a&&(n=2,r=a);for(let l=n-2;;){if(r===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(n===l)break;if(i=r,r=e[--n-1],t>=r)break t}o=n,n=0;break e}break n}for(;n<o;){let a=n+o>>>1;t<e[a]?o=a:n=a+1}if(i=e[n],r=e[n-1],r===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(i===void 0)return n=e.length,this._cachedIndex=n,this.copySampleValue_(n-1)}this._cachedIndex=n,this.intervalChanged_(n,r,i)}return this.interpolate_(n,r,t,i)}getSettings_(){return this.settings||this.DefaultSettings_}copySampleValue_(t){let e=this.resultBuffer,n=this.sampleValues,i=this.valueSize,r=t*i;for(let o=0;o!==i;++o)e[o]=n[r+o];return e}interpolate_(){throw new Error("THREE.Interpolant: Call to abstract method.")}intervalChanged_(){}},iu=class extends Sr{constructor(t,e,n,i){super(t,e,n,i),this._weightPrev=-0,this._offsetPrev=-0,this._weightNext=-0,this._offsetNext=-0,this.DefaultSettings_={endingStart:_p,endingEnd:_p}}intervalChanged_(t,e,n){let i=this.parameterPositions,r=t-2,o=t+1,a=i[r],l=i[o];if(a===void 0)switch(this.getSettings_().endingStart){case xp:r=t,a=2*e-n;break;case vp:r=i.length-2,a=e+i[r]-i[r+1];break;default:r=t,a=n}if(l===void 0)switch(this.getSettings_().endingEnd){case xp:o=t,l=2*n-e;break;case vp:o=1,l=n+i[1]-i[0];break;default:o=t-1,l=e}let c=(n-e)*.5,h=this.valueSize;this._weightPrev=c/(e-a),this._weightNext=c/(l-n),this._offsetPrev=r*h,this._offsetNext=o*h}interpolate_(t,e,n,i){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=t*a,c=l-a,h=this._offsetPrev,u=this._offsetNext,d=this._weightPrev,f=this._weightNext,p=(n-e)/(i-e),y=p*p,m=y*p,g=-d*m+2*d*y-d*p,_=(1+d)*m+(-1.5-2*d)*y+(-.5+d)*p+1,w=(-1-f)*m+(1.5+f)*y+.5*p,v=f*m-f*y;for(let E=0;E!==a;++E)r[E]=g*o[h+E]+_*o[c+E]+w*o[l+E]+v*o[u+E];return r}},su=class extends Sr{constructor(t,e,n,i){super(t,e,n,i)}interpolate_(t,e,n,i){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=t*a,c=l-a,h=(n-e)/(i-e),u=1-h;for(let d=0;d!==a;++d)r[d]=o[c+d]*u+o[l+d]*h;return r}},ru=class extends Sr{constructor(t,e,n,i){super(t,e,n,i)}interpolate_(t){return this.copySampleValue_(t-1)}},ou=class extends Sr{interpolate_(t,e,n,i){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=t*a,c=l-a,h=this.inTangents,u=this.outTangents;if(!h||!u){let p=(n-e)/(i-e),y=1-p;for(let m=0;m!==a;++m)r[m]=o[c+m]*y+o[l+m]*p;return r}let d=a*2,f=t-1;for(let p=0;p!==a;++p){let y=o[c+p],m=o[l+p],g=f*d+p*2,_=u[g],w=u[g+1],v=t*d+p*2,E=h[v],S=h[v+1],x=eT(n,e,_,E,i);r[p]=lx(x,y,w,S,m)}return r}};function lx(s,t,e,n,i){let r=1-s;return r*r*r*t+3*r*r*s*e+3*r*s*s*n+s*s*s*i}function tT(s,t,e,n,i){let r=1-s;return 3*r*r*(e-t)+6*r*s*(n-e)+3*s*s*(i-n)}function eT(s,t,e,n,i){let r=(s-t)/(i-t);for(let o=0;o<8;o++){let a=lx(r,t,e,n,i)-s;if(Math.abs(a)<1e-10)break;let l=tT(r,t,e,n,i);if(Math.abs(l)<1e-10)break;r=Math.max(0,Math.min(1,r-a/l))}return r}var xi=class{constructor(t,e,n,i){if(t===void 0)throw new Error("THREE.KeyframeTrack: track name is undefined");if(e===void 0||e.length===0)throw new Error("THREE.KeyframeTrack: no keyframes in track named "+t);this.name=t,this.times=_r(e,this.TimeBufferType),this.values=_r(n,this.ValueBufferType),this.setInterpolation(i||this.DefaultInterpolation)}static toJSON(t){let e=t.constructor,n;if(e.toJSON!==this.toJSON)n=e.toJSON(t);else{n={name:t.name,times:_r(t.times,Array),values:_r(t.values,Array)};let i=t.getInterpolation();i!==t.DefaultInterpolation&&(n.interpolation=i),ul(t.settings)&&(n.settings={inTangents:_r(t.settings.inTangents,Array),outTangents:_r(t.settings.outTangents,Array)})}return n.type=t.ValueTypeName,n}InterpolantFactoryMethodDiscrete(t){return new ru(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodLinear(t){return new su(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodSmooth(t){return new iu(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodBezier(t){let e=new ou(this.times,this.values,this.getValueSize(),t);return this.settings&&(e.inTangents=this.settings.inTangents,e.outTangents=this.settings.outTangents),e}setInterpolation(t){let e;switch(t){case Kr:e=this.InterpolantFactoryMethodDiscrete;break;case qh:e=this.InterpolantFactoryMethodLinear;break;case Uh:e=this.InterpolantFactoryMethodSmooth;break;case pl:e=this.InterpolantFactoryMethodBezier;break}if(e===void 0){let n="unsupported interpolation for "+this.ValueTypeName+" keyframe track named "+this.name;if(this.createInterpolant===void 0)if(t!==this.DefaultInterpolation)this.setInterpolation(this.DefaultInterpolation);else throw new Error(n);return jt("KeyframeTrack:",n),this}return this.createInterpolant=e,this}getInterpolation(){switch(this.createInterpolant){case this.InterpolantFactoryMethodDiscrete:return Kr;case this.InterpolantFactoryMethodLinear:return qh;case this.InterpolantFactoryMethodSmooth:return Uh;case this.InterpolantFactoryMethodBezier:return pl}}getValueSize(){return this.values.length/this.times.length}shift(t){if(t!==0){let e=this.times;for(let n=0,i=e.length;n!==i;++n)e[n]+=t;ul(this.settings)&&(c_(this.settings.inTangents,t),c_(this.settings.outTangents,t))}return this}scale(t){if(t!==1){let e=this.times;for(let n=0,i=e.length;n!==i;++n)e[n]*=t;ul(this.settings)&&(h_(this.settings.inTangents,t),h_(this.settings.outTangents,t))}return this}trim(t,e){let n=this.times,i=n.length,r=0,o=i-1;for(;r!==i&&n[r]<t;)++r;for(;o!==-1&&n[o]>e;)--o;if(++o,r!==0||o!==i){r>=o&&(o=Math.max(o,1),r=o-1);let a=this.getValueSize();this.times=n.slice(r,o),this.values=this.values.slice(r*a,o*a)}return this}validate(){let t=!0,e=this.getValueSize();e-Math.floor(e)!==0&&(te("KeyframeTrack: Invalid value size in track.",this),t=!1);let n=this.times,i=this.values,r=n.length;r===0&&(te("KeyframeTrack: Track is empty.",this),t=!1);let o=null;for(let a=0;a!==r;a++){let l=n[a];if(typeof l=="number"&&isNaN(l)){te("KeyframeTrack: Time is not a valid number.",this,a,l),t=!1;break}if(o!==null&&o>l){te("KeyframeTrack: Out of order keys.",this,a,l,o),t=!1;break}o=l}if(i!==void 0&&JM(i))for(let a=0,l=i.length;a!==l;++a){let c=i[a];if(isNaN(c)){te("KeyframeTrack: Value is not a valid number.",this,a,c),t=!1;break}}return t}optimize(){let t=this.times.slice(),e=this.values.slice(),n=this.getValueSize(),i=this.getInterpolation()===Uh,r=t.length-1,o=1;for(let a=1;a<r;++a){let l=!1,c=t[a],h=t[a+1];if(c!==h&&(a!==1||c!==t[0]))if(i)l=!0;else{let u=a*n,d=u-n,f=u+n;for(let p=0;p!==n;++p){let y=e[u+p];if(y!==e[d+p]||y!==e[f+p]){l=!0;break}}}if(l){if(a!==o){t[o]=t[a];let u=a*n,d=o*n;for(let f=0;f!==n;++f)e[d+f]=e[u+f]}++o}}if(r>0){t[o]=t[r];for(let a=r*n,l=o*n,c=0;c!==n;++c)e[l+c]=e[a+c];++o}return o!==t.length?(this.times=t.slice(0,o),this.values=e.slice(0,o*n)):(this.times=t,this.values=e),this}clone(){let t=this.times.slice(),e=this.values.slice(),n=this.constructor,i=new n(this.name,t,e);return i.createInterpolant=this.createInterpolant,ul(this.settings)&&(i.settings={inTangents:this.settings.inTangents.slice(),outTangents:this.settings.outTangents.slice()}),i}};function c_(s,t){for(let e=0,n=s.length;e!==n;e+=2)s[e]+=t}function h_(s,t){for(let e=0,n=s.length;e!==n;e+=2)s[e]*=t}xi.prototype.ValueTypeName="";xi.prototype.TimeBufferType=Float32Array;xi.prototype.ValueBufferType=Float32Array;xi.prototype.DefaultInterpolation=qh;var Qs=class extends xi{constructor(t,e,n){super(t,e,n)}};Qs.prototype.ValueTypeName="bool";Qs.prototype.ValueBufferType=Array;Qs.prototype.DefaultInterpolation=Kr;Qs.prototype.InterpolantFactoryMethodLinear=void 0;Qs.prototype.InterpolantFactoryMethodSmooth=void 0;var Ul=class extends xi{constructor(t,e,n,i){super(t,e,n,i)}};Ul.prototype.ValueTypeName="color";var ya=class extends xi{constructor(t,e,n,i){super(t,e,n,i)}};ya.prototype.ValueTypeName="number";var au=class extends Sr{constructor(t,e,n,i){super(t,e,n,i)}interpolate_(t,e,n,i){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=(n-e)/(i-e),c=t*a;for(let h=c+a;c!==h;c+=4)Ge.slerpFlat(r,0,o,c-a,o,c,l);return r}},Ss=class extends xi{constructor(t,e,n,i){super(t,e,n,i)}InterpolantFactoryMethodLinear(t){return new au(this.times,this.values,this.getValueSize(),t)}};Ss.prototype.ValueTypeName="quaternion";Ss.prototype.InterpolantFactoryMethodSmooth=void 0;var tr=class extends xi{constructor(t,e,n){super(t,e,n)}};tr.prototype.ValueTypeName="string";tr.prototype.ValueBufferType=Array;tr.prototype.DefaultInterpolation=Kr;tr.prototype.InterpolantFactoryMethodLinear=void 0;tr.prototype.InterpolantFactoryMethodSmooth=void 0;var Kn=class extends xi{constructor(t,e,n,i){super(t,e,n,i)}};Kn.prototype.ValueTypeName="vector";var _a=class{constructor(t="",e=-1,n=[],i=W_){this.name=t,this.tracks=n,this.duration=e,this.blendMode=i,this.uuid=As(),this.userData={},this.duration<0&&this.resetDuration()}static parse(t){let e=[],n=t.tracks,i=1/(t.fps||1);for(let o=0,a=n.length;o!==a;++o)e.push(iT(n[o]).scale(i));let r=new this(t.name,t.duration,e,t.blendMode);return r.uuid=t.uuid,r.userData=JSON.parse(t.userData||"{}"),r}static toJSON(t){let e=[],n=t.tracks,i={name:t.name,duration:t.duration,tracks:e,uuid:t.uuid,blendMode:t.blendMode,userData:JSON.stringify(t.userData)};for(let r=0,o=n.length;r!==o;++r)e.push(xi.toJSON(n[r]));return i}static CreateFromMorphTargetSequence(t,e,n,i){let r=e.length,o=[];for(let a=0;a<r;a++){let l=[],c=[];l.push((a+r-1)%r,a,(a+1)%r),c.push(0,1,0);let h=Kw(l);l=l_(l,1,h),c=l_(c,1,h),!i&&l[0]===0&&(l.push(r),c.push(c[0])),o.push(new ya(".morphTargetInfluences["+e[a].name+"]",l,c).scale(1/n))}return new this(t,-1,o)}static findByName(t,e){let n=t;if(!Array.isArray(t)){let i=t;n=i.geometry&&i.geometry.animations||i.animations}for(let i=0;i<n.length;i++)if(n[i].name===e)return n[i];return null}static CreateClipsFromMorphTargetSequences(t,e,n){let i={},r=/^([\w-]*?)([\d]+)$/;for(let a=0,l=t.length;a<l;a++){let c=t[a],h=c.name.match(r);if(h&&h.length>1){let u=h[1],d=i[u];d||(i[u]=d=[]),d.push(c)}}let o=[];for(let a in i)o.push(this.CreateFromMorphTargetSequence(a,i[a],e,n));return o}resetDuration(){let t=this.tracks,e=0;for(let n=0,i=t.length;n!==i;++n){let r=this.tracks[n];e=Math.max(e,r.times[r.times.length-1])}return this.duration=e,this}trim(){for(let t=0;t<this.tracks.length;t++)this.tracks[t].trim(0,this.duration);return this}validate(){let t=!0;for(let e=0;e<this.tracks.length;e++)t=t&&this.tracks[e].validate();return t}optimize(){for(let t=0;t<this.tracks.length;t++)this.tracks[t].optimize();return this}clone(){let t=[];for(let n=0;n<this.tracks.length;n++)t.push(this.tracks[n].clone());let e=new this.constructor(this.name,this.duration,t,this.blendMode);return e.userData=JSON.parse(JSON.stringify(this.userData)),e}toJSON(){return this.constructor.toJSON(this)}};function nT(s){switch(s.toLowerCase()){case"scalar":case"double":case"float":case"number":case"integer":return ya;case"vector":case"vector2":case"vector3":case"vector4":return Kn;case"color":return Ul;case"quaternion":return Ss;case"bool":case"boolean":return Qs;case"string":return tr}throw new Error("THREE.KeyframeTrack: Unsupported typeName: "+s)}function iT(s){if(s.type===void 0)throw new Error("THREE.KeyframeTrack: track type undefined, can not parse");let t=nT(s.type);if(s.times===void 0){let n=[],i=[];Qw(s.keys,n,i,"value"),s.times=n,s.values=i}let e;return t.parse!==void 0?e=t.parse(s):e=new t(s.name,s.times,s.values,s.interpolation),ul(s.settings)&&(e.settings={inTangents:_r(s.settings.inTangents,Float32Array),outTangents:_r(s.settings.outTangents,Float32Array)}),e}var ra={enabled:!1,files:{},add:function(s,t){this.enabled!==!1&&(u_(s)||(this.files[s]=t))},get:function(s){if(this.enabled!==!1&&!u_(s))return this.files[s]},remove:function(s){delete this.files[s]},clear:function(){this.files={}}};function u_(s){try{let t=s.slice(s.indexOf(":")+1);return new URL(t).protocol==="blob:"}catch{return!1}}var xa=class{constructor(t,e,n){let i=this,r=!1,o=0,a=0,l,c=[];this.onStart=void 0,this.onLoad=t,this.onProgress=e,this.onError=n,this._abortController=null,this.itemStart=function(h){a++,r===!1&&i.onStart!==void 0&&i.onStart(h,o,a),r=!0},this.itemEnd=function(h){o++,i.onProgress!==void 0&&i.onProgress(h,o,a),o===a&&(r=!1,i.onLoad!==void 0&&i.onLoad())},this.itemError=function(h){i.onError!==void 0&&i.onError(h)},this.resolveURL=function(h){return h=h.normalize("NFC"),l?l(h):h},this.setURLModifier=function(h){return l=h,this},this.addHandler=function(h,u){return c.push(h,u),this},this.removeHandler=function(h){let u=c.indexOf(h);return u!==-1&&c.splice(u,2),this},this.getHandler=function(h){for(let u=0,d=c.length;u<d;u+=2){let f=c[u],p=c[u+1];if(f.global&&(f.lastIndex=0),f.test(h))return p}return null},this.abort=function(){return this.abortController.abort(),this._abortController=null,this}}get abortController(){return this._abortController||(this._abortController=new AbortController),this._abortController}},Zu=new xa,Qn=class{constructor(t){this.manager=t!==void 0?t:Zu,this.crossOrigin="anonymous",this.withCredentials=!1,this.path="",this.resourcePath="",this.requestHeader={},this.priority="auto",this.cache="default",typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}load(){}loadAsync(t,e){let n=this;return new Promise(function(i,r){n.load(t,i,e,r)})}parse(){}setCrossOrigin(t){return this.crossOrigin=t,this}setWithCredentials(t){return this.withCredentials=t,this}setPath(t){return this.path=t,this}setResourcePath(t){return this.resourcePath=t,this}setRequestHeader(t){return this.requestHeader=t,this}setPriority(t){return this.priority=t,this}setCache(t){return this.cache=t,this}abort(){return this}};Qn.DEFAULT_MATERIAL_NAME="__DEFAULT";var Xs={},Tp=class extends Error{constructor(t,e){super(t),this.response=e}},Ms=class extends Qn{constructor(t){super(t),this.mimeType="",this.responseType="",this._abortController=new AbortController}load(t,e,n,i){t===void 0&&(t=""),this.path!==void 0&&(t=this.path+t),t=this.manager.resolveURL(t);let r=ra.get(`file:${t}`);if(r!==void 0){this.manager.itemStart(t),setTimeout(()=>{e&&e(r),this.manager.itemEnd(t)},0);return}if(Xs[t]!==void 0){Xs[t].push({onLoad:e,onProgress:n,onError:i});return}Xs[t]=[],Xs[t].push({onLoad:e,onProgress:n,onError:i});let o=new Request(t,{headers:new Headers(this.requestHeader),credentials:this.withCredentials?"include":"same-origin",priority:this.priority,cache:this.cache,signal:typeof AbortSignal.any=="function"?AbortSignal.any([this._abortController.signal,this.manager.abortController.signal]):this._abortController.signal}),a=this.mimeType,l=this.responseType;fetch(o).then(c=>{if(c.status===200||c.status===0){if(c.status===0&&jt("FileLoader: HTTP Status 0 received."),typeof ReadableStream>"u"||c.body===void 0||c.body.getReader===void 0)return c;let h=Xs[t],u=c.body.getReader(),d=c.headers.get("X-File-Size")||c.headers.get("Content-Length"),f=d?parseInt(d):0,p=f!==0,y=0,m=new ReadableStream({start(g){_();function _(){u.read().then(({done:w,value:v})=>{if(w)g.close();else{y+=v.byteLength;let E=new ProgressEvent("progress",{lengthComputable:p,loaded:y,total:f});for(let S=0,x=h.length;S<x;S++){let M=h[S];M.onProgress&&M.onProgress(E)}g.enqueue(v),_()}},w=>{g.error(w)})}}});return new Response(m)}else throw new Tp(`fetch for "${c.url}" responded with ${c.status}: ${c.statusText}`,c)}).then(c=>{switch(l){case"arraybuffer":return c.arrayBuffer();case"blob":return c.blob();case"document":return c.text().then(h=>new DOMParser().parseFromString(h,a));case"json":return c.json();default:if(a==="")return c.text();{let u=/charset="?([^;"\s]*)"?/i.exec(a),d=u&&u[1]?u[1].toLowerCase():void 0,f=new TextDecoder(d);return c.arrayBuffer().then(p=>f.decode(p))}}}).then(c=>{ra.add(`file:${t}`,c);let h=Xs[t];delete Xs[t];for(let u=0,d=h.length;u<d;u++){let f=h[u];f.onLoad&&f.onLoad(c)}}).catch(c=>{let h=Xs[t];if(h===void 0)throw this.manager.itemError(t),c;delete Xs[t];for(let u=0,d=h.length;u<d;u++){let f=h[u];f.onError&&f.onError(c)}this.manager.itemError(t)}).finally(()=>{this.manager.itemEnd(t)}),this.manager.itemStart(t)}setResponseType(t){return this.responseType=t,this}setMimeType(t){return this.mimeType=t,this}abort(){return this._abortController.abort(),this._abortController=new AbortController,this}};var Ko=new WeakMap,lu=class extends Qn{constructor(t){super(t)}load(t,e,n,i){this.path!==void 0&&(t=this.path+t),t=this.manager.resolveURL(t);let r=this,o=ra.get(`image:${t}`);if(o!==void 0){if(o.complete===!0)r.manager.itemStart(t),setTimeout(function(){e&&e(o),r.manager.itemEnd(t)},0);else{let u=Ko.get(o);u===void 0&&(u=[],Ko.set(o,u)),u.push({onLoad:e,onError:i})}return o}let a=la("img");function l(){h(),e&&e(this);let u=Ko.get(this)||[];for(let d=0;d<u.length;d++){let f=u[d];f.onLoad&&f.onLoad(this)}Ko.delete(this),r.manager.itemEnd(t)}function c(u){h(),i&&i(u),ra.remove(`image:${t}`);let d=Ko.get(this)||[];for(let f=0;f<d.length;f++){let p=d[f];p.onError&&p.onError(u)}Ko.delete(this),r.manager.itemError(t),r.manager.itemEnd(t)}function h(){a.removeEventListener("load",l,!1),a.removeEventListener("error",c,!1)}return a.addEventListener("load",l,!1),a.addEventListener("error",c,!1),t.slice(0,5)!=="data:"&&this.crossOrigin!==void 0&&(a.crossOrigin=this.crossOrigin),ra.add(`image:${t}`,a),r.manager.itemStart(t),a.fetchPriority=this.priority,a.src=t,a}};var Ol=class extends Qn{constructor(t){super(t)}load(t,e,n,i){let r=this,o=new vr,a=new Ms(this.manager);return a.setPriority(this.priority),a.setCache(this.cache),a.setResponseType("arraybuffer"),a.setRequestHeader(this.requestHeader),a.setPath(this.path),a.setWithCredentials(r.withCredentials),a.load(t,function(l){let c;try{c=r.parse(l)}catch(h){i!==void 0?i(h):te(h);return}r._applyTexData(o,c),e&&e(o,c)},n,i),o}createDataTexture(t){let e=new vr;return this._applyTexData(e,this.parse(t)),e}_applyTexData(t,e){e.image!==void 0?t.image=e.image:e.data!==void 0&&(t.image.width=e.width,t.image.height=e.height,t.image.data=e.data),t.wrapS=e.wrapS!==void 0?e.wrapS:hi,t.wrapT=e.wrapT!==void 0?e.wrapT:hi,t.magFilter=e.magFilter!==void 0?e.magFilter:On,t.minFilter=e.minFilter!==void 0?e.minFilter:On,t.anisotropy=e.anisotropy!==void 0?e.anisotropy:1,e.colorSpace!==void 0&&(t.colorSpace=e.colorSpace),e.flipY!==void 0&&(t.flipY=e.flipY),e.format!==void 0&&(t.format=e.format),e.type!==void 0&&(t.type=e.type),e.mipmaps!==void 0&&(t.mipmaps=e.mipmaps,t.minFilter=qi),e.mipmapCount===1&&(t.minFilter=On),e.generateMipmaps!==void 0&&(t.generateMipmaps=e.generateMipmaps),t.needsUpdate=!0}},so=class extends Qn{constructor(t){super(t)}load(t,e,n,i){let r=new ui,o=new lu(this.manager);return o.setPriority(this.priority),o.setCache(this.cache),o.setCrossOrigin(this.crossOrigin),o.setPath(this.path),o.load(t,function(a){r.image=a,r.needsUpdate=!0,e!==void 0&&e(r)},n,i),r}},ws=class extends en{static registerNode(t){this.prototype._lightNode=t}constructor(t,e=1){super(),this.isLight=!0,this.type="Light",this.color=new Dt(t),this.intensity=e}copy(t,e){return super.copy(t,e),this.color.copy(t.color),this.intensity=t.intensity,this}toJSON(t){let e=super.toJSON(t);return e.object.color=this.color.getHex(),e.object.intensity=this.intensity,e}},Bl=class extends ws{constructor(t,e,n){super(t,n),this.isHemisphereLight=!0,this.type="HemisphereLight",this.position.copy(en.DEFAULT_UP),this.updateMatrix(),this.groundColor=new Dt(e)}copy(t,e){return super.copy(t,e),this.groundColor.copy(t.groundColor),this}toJSON(t){let e=super.toJSON(t);return e.object.groundColor=this.groundColor.getHex(),e}},mp=new Nt,d_=new O,f_=new O,va=class{constructor(t){this.camera=t,this.intensity=1,this.bias=0,this.biasNode=null,this.normalBias=0,this.radius=1,this.blurSamples=8,this.mapSize=new Xt(512,512),this.mapType=vi,this.map=null,this.mapPass=null,this.matrix=new Nt,this.autoUpdate=!0,this.needsUpdate=!1,this._frustum=new br,this._frameExtents=new Xt(1,1),this._viewportCount=1,this._viewports=[new be(0,0,1,1)]}getViewportCount(){return this._viewportCount}getCamera(){return this.camera}getFrustum(){return this._frustum}updateMatrices(t){let e=this.camera;d_.setFromMatrixPosition(t.matrixWorld),e.position.copy(d_),f_.setFromMatrixPosition(t.target.matrixWorld),e.lookAt(f_),e.updateMatrixWorld(),this._updateMatrix(e,this.matrix,this._frustum)}_updateMatrix(t,e,n,i){mp.multiplyMatrices(t.projectionMatrix,t.matrixWorldInverse),n.setFromProjectionMatrix(mp,t.coordinateSystem,t.reversedDepth);let r=this._frameExtents,o=i?i.z/r.x:1,a=i?i.w/r.y:1,l=i?i.x/r.x:0,c=i?i.y/r.y:0;t.coordinateSystem===aa||t.reversedDepth?e.set(.5*o,0,0,.5*o+l,0,.5*a,0,.5*a+c,0,0,1,0,0,0,0,1):e.set(.5*o,0,0,.5*o+l,0,.5*a,0,.5*a+c,0,0,.5,.5,0,0,0,1),e.multiply(mp)}getViewport(t){return this._viewports[t]}getFrameExtents(){return this._frameExtents}dispose(){this.map&&this.map.dispose(),this.mapPass&&this.mapPass.dispose()}copy(t){return this.camera=t.camera.clone(),this.intensity=t.intensity,this.bias=t.bias,this.radius=t.radius,this.autoUpdate=t.autoUpdate,this.needsUpdate=t.needsUpdate,this.normalBias=t.normalBias,this.blurSamples=t.blurSamples,this.mapSize.copy(t.mapSize),this.mapType=t.mapType,this.biasNode=t.biasNode,this}clone(){return new this.constructor().copy(this)}toJSON(){let t={};return t.intensity=this.intensity,t.bias=this.bias,t.normalBias=this.normalBias,t.radius=this.radius,t.blurSamples=this.blurSamples,t.mapSize=this.mapSize.toArray(),t.mapType=this.mapType,t.camera=this.camera.toJSON(!1).object,delete t.camera.matrix,t}},Nh=new O,Dh=new Ge,xs=new O,ro=class extends en{constructor(){super(),this.isCamera=!0,this.type="Camera",this.matrixWorldInverse=new Nt,this.projectionMatrix=new Nt,this.projectionMatrixInverse=new Nt,this.coordinateSystem=Wi,this._reversedDepth=!1}get reversedDepth(){return this._reversedDepth}copy(t,e){return super.copy(t,e),this.matrixWorldInverse.copy(t.matrixWorldInverse),this.projectionMatrix.copy(t.projectionMatrix),this.projectionMatrixInverse.copy(t.projectionMatrixInverse),this.coordinateSystem=t.coordinateSystem,this}getWorldDirection(t){return super.getWorldDirection(t).negate()}updateMatrixWorld(t){super.updateMatrixWorld(t),this.matrixWorld.decompose(Nh,Dh,xs),xs.x===1&&xs.y===1&&xs.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(Nh,Dh,xs.set(1,1,1)).invert()}updateWorldMatrix(t,e,n=!1){super.updateWorldMatrix(t,e,n),this.matrixWorld.decompose(Nh,Dh,xs),xs.x===1&&xs.y===1&&xs.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(Nh,Dh,xs.set(1,1,1)).invert()}clone(){return new this.constructor().copy(this)}},yr=new O,p_=new Xt,m_=new Xt,bn=class extends ro{constructor(t=50,e=1,n=.1,i=2e3){super(),this.isPerspectiveCamera=!0,this.type="PerspectiveCamera",this.fov=t,this.zoom=1,this.near=n,this.far=i,this.focus=10,this.aspect=e,this.view=null,this.filmGauge=35,this.filmOffset=0,this.updateProjectionMatrix()}copy(t,e){return super.copy(t,e),this.fov=t.fov,this.zoom=t.zoom,this.near=t.near,this.far=t.far,this.focus=t.focus,this.aspect=t.aspect,this.view=t.view===null?null:Object.assign({},t.view),this.filmGauge=t.filmGauge,this.filmOffset=t.filmOffset,this}setFocalLength(t){let e=.5*this.getFilmHeight()/t;this.fov=Qr*2*Math.atan(e),this.updateProjectionMatrix()}getFocalLength(){let t=Math.tan(ia*.5*this.fov);return .5*this.getFilmHeight()/t}getEffectiveFOV(){return Qr*2*Math.atan(Math.tan(ia*.5*this.fov)/this.zoom)}getFilmWidth(){return this.filmGauge*Math.min(this.aspect,1)}getFilmHeight(){return this.filmGauge/Math.max(this.aspect,1)}getViewBounds(t,e,n){yr.set(-1,-1,.5).applyMatrix4(this.projectionMatrixInverse),e.set(yr.x,yr.y).multiplyScalar(-t/yr.z),yr.set(1,1,.5).applyMatrix4(this.projectionMatrixInverse),n.set(yr.x,yr.y).multiplyScalar(-t/yr.z)}getViewSize(t,e){return this.getViewBounds(t,p_,m_),e.subVectors(m_,p_)}setViewOffset(t,e,n,i,r,o){this.aspect=t/e,this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=t,this.view.fullHeight=e,this.view.offsetX=n,this.view.offsetY=i,this.view.width=r,this.view.height=o,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let t=this.near,e=t*Math.tan(ia*.5*this.fov)/this.zoom,n=2*e,i=this.aspect*n,r=-.5*i,o=this.view;if(this.view!==null&&this.view.enabled){let l=o.fullWidth,c=o.fullHeight;r+=o.offsetX*i/l,e-=o.offsetY*n/c,i*=o.width/l,n*=o.height/c}let a=this.filmOffset;a!==0&&(r+=t*a/this.getFilmWidth()),this.projectionMatrix.makePerspective(r,r+i,e,e-n,t,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(t){let e=super.toJSON(t);return e.object.fov=this.fov,e.object.zoom=this.zoom,e.object.near=this.near,e.object.far=this.far,e.object.focus=this.focus,e.object.aspect=this.aspect,this.view!==null&&(e.object.view=Object.assign({},this.view)),e.object.filmGauge=this.filmGauge,e.object.filmOffset=this.filmOffset,e}},Ep=class extends va{constructor(){super(new bn(50,1,.5,500)),this.isSpotLightShadow=!0,this.focus=1,this.aspect=1}updateMatrices(t){let e=this.camera,n=Qr*2*t.angle*this.focus,i=this.mapSize.width/this.mapSize.height*this.aspect,r=t.distance||e.far;(n!==e.fov||i!==e.aspect||r!==e.far)&&(e.fov=n,e.aspect=i,e.far=r,e.updateProjectionMatrix()),super.updateMatrices(t)}copy(t){return super.copy(t),this.focus=t.focus,this.aspect=t.aspect,this}toJSON(){let t=super.toJSON();return t.focus=this.focus,t.aspect=this.aspect,t}},kl=class extends ws{constructor(t,e,n=0,i=Math.PI/3,r=0,o=2){super(t,e),this.isSpotLight=!0,this.type="SpotLight",this.position.copy(en.DEFAULT_UP),this.updateMatrix(),this.target=new en,this.distance=n,this.angle=i,this.penumbra=r,this.decay=o,this.map=null,this.shadow=new Ep}get power(){return this.intensity*Math.PI}set power(t){this.intensity=t/Math.PI}dispose(){super.dispose(),this.shadow.dispose()}copy(t,e){return super.copy(t,e),this.distance=t.distance,this.angle=t.angle,this.penumbra=t.penumbra,this.decay=t.decay,this.target=t.target.clone(),this.map=t.map,this.shadow=t.shadow.clone(),this}toJSON(t){let e=super.toJSON(t);return e.object.distance=this.distance,e.object.angle=this.angle,e.object.decay=this.decay,e.object.penumbra=this.penumbra,e.object.target=this.target.uuid,this.map&&this.map.isTexture&&(e.object.map=this.map.toJSON(t).uuid),e.object.shadow=this.shadow.toJSON(),e}},Ap=class extends va{constructor(){super(new bn(90,1,.5,500)),this.isPointLightShadow=!0}},zl=class extends ws{constructor(t,e,n=0,i=2){super(t,e),this.isPointLight=!0,this.type="PointLight",this.distance=n,this.decay=i,this.shadow=new Ap}get power(){return this.intensity*4*Math.PI}set power(t){this.intensity=t/(4*Math.PI)}dispose(){super.dispose(),this.shadow.dispose()}copy(t,e){return super.copy(t,e),this.distance=t.distance,this.decay=t.decay,this.shadow=t.shadow.clone(),this}toJSON(t){let e=super.toJSON(t);return e.object.distance=this.distance,e.object.decay=this.decay,e.object.shadow=this.shadow.toJSON(),e}},oo=class extends ro{constructor(t=-1,e=1,n=1,i=-1,r=.1,o=2e3){super(),this.isOrthographicCamera=!0,this.type="OrthographicCamera",this.zoom=1,this.view=null,this.left=t,this.right=e,this.top=n,this.bottom=i,this.near=r,this.far=o,this.updateProjectionMatrix()}copy(t,e){return super.copy(t,e),this.left=t.left,this.right=t.right,this.top=t.top,this.bottom=t.bottom,this.near=t.near,this.far=t.far,this.zoom=t.zoom,this.view=t.view===null?null:Object.assign({},t.view),this}setViewOffset(t,e,n,i,r,o){this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=t,this.view.fullHeight=e,this.view.offsetX=n,this.view.offsetY=i,this.view.width=r,this.view.height=o,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let t=(this.right-this.left)/(2*this.zoom),e=(this.top-this.bottom)/(2*this.zoom),n=(this.right+this.left)/2,i=(this.top+this.bottom)/2,r=n-t,o=n+t,a=i+e,l=i-e;if(this.view!==null&&this.view.enabled){let c=(this.right-this.left)/this.view.fullWidth/this.zoom,h=(this.top-this.bottom)/this.view.fullHeight/this.zoom;r+=c*this.view.offsetX,o=r+c*this.view.width,a-=h*this.view.offsetY,l=a-h*this.view.height}this.projectionMatrix.makeOrthographic(r,o,a,l,this.near,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(t){let e=super.toJSON(t);return e.object.zoom=this.zoom,e.object.left=this.left,e.object.right=this.right,e.object.top=this.top,e.object.bottom=this.bottom,e.object.near=this.near,e.object.far=this.far,this.view!==null&&(e.object.view=Object.assign({},this.view)),e}},Rp=class extends va{constructor(){super(new oo(-5,5,5,-5,.5,500)),this.isDirectionalLightShadow=!0}},ao=class extends ws{constructor(t,e){super(t,e),this.isDirectionalLight=!0,this.type="DirectionalLight",this.position.copy(en.DEFAULT_UP),this.updateMatrix(),this.target=new en,this.shadow=new Rp}dispose(){super.dispose(),this.shadow.dispose()}copy(t){return super.copy(t),this.target=t.target.clone(),this.shadow=t.shadow.clone(),this}toJSON(t){let e=super.toJSON(t);return e.object.shadow=this.shadow.toJSON(),e.object.target=this.target.uuid,e}},Vl=class extends ws{constructor(t,e){super(t,e),this.isAmbientLight=!0,this.type="AmbientLight"}};var lo=class{static extractUrlBase(t){let e=t.lastIndexOf("/");return e===-1?"./":t.slice(0,e+1)}static resolveURL(t,e){return typeof t!="string"||t===""?"":(/^https?:\/\//i.test(e)&&/^\//.test(t)&&(e=e.replace(/(^https?:\/\/[^\/]+).*/i,"$1")),/^(https?:)?\/\//i.test(t)||/^data:.*,.*$/i.test(t)||/^blob:.*$/i.test(t)?t:e+t)}},Gl=class extends Fe{constructor(){super(),this.isInstancedBufferGeometry=!0,this.type="InstancedBufferGeometry",this.instanceCount=1/0}copy(t){return super.copy(t),this.instanceCount=t.instanceCount,this}toJSON(){let t=super.toJSON();return t.instanceCount=this.instanceCount,t.isInstancedBufferGeometry=!0,t}};var Qo=-90,ta=1,ba=class extends en{constructor(t,e,n){super(),this.type="CubeCamera",this.renderTarget=n,this.coordinateSystem=null,this.activeMipmapLevel=0;let i=new bn(Qo,ta,t,e);i.layers=this.layers,this.add(i);let r=new bn(Qo,ta,t,e);r.layers=this.layers,this.add(r);let o=new bn(Qo,ta,t,e);o.layers=this.layers,this.add(o);let a=new bn(Qo,ta,t,e);a.layers=this.layers,this.add(a);let l=new bn(Qo,ta,t,e);l.layers=this.layers,this.add(l);let c=new bn(Qo,ta,t,e);c.layers=this.layers,this.add(c)}updateCoordinateSystem(){let t=this.coordinateSystem,e=this.children.concat(),[n,i,r,o,a,l]=e;for(let c of e)this.remove(c);if(t===Wi)n.up.set(0,1,0),n.lookAt(1,0,0),i.up.set(0,1,0),i.lookAt(-1,0,0),r.up.set(0,0,-1),r.lookAt(0,1,0),o.up.set(0,0,1),o.lookAt(0,-1,0),a.up.set(0,1,0),a.lookAt(0,0,1),l.up.set(0,1,0),l.lookAt(0,0,-1);else if(t===aa)n.up.set(0,-1,0),n.lookAt(-1,0,0),i.up.set(0,-1,0),i.lookAt(1,0,0),r.up.set(0,0,1),r.lookAt(0,1,0),o.up.set(0,0,-1),o.lookAt(0,-1,0),a.up.set(0,-1,0),a.lookAt(0,0,1),l.up.set(0,-1,0),l.lookAt(0,0,-1);else throw new Error("THREE.CubeCamera.updateCoordinateSystem(): Invalid coordinate system: "+t);for(let c of e)this.add(c),c.updateMatrixWorld()}update(t,e){this.parent===null&&this.updateMatrixWorld();let{renderTarget:n,activeMipmapLevel:i}=this;this.coordinateSystem!==t.coordinateSystem&&(this.coordinateSystem=t.coordinateSystem,this.updateCoordinateSystem());let[r,o,a,l,c,h]=this.children,u=t.getRenderTarget(),d=t.getActiveCubeFace(),f=t.getActiveMipmapLevel(),p=t.xr.enabled;t.xr.enabled=!1;let y=n.texture.mipmapsAutoUpdate;n.texture.mipmapsAutoUpdate=!1;let m=!1;t.isWebGLRenderer===!0?m=t.state.buffers.depth.getReversed():m=t.reversedDepthBuffer,t.setRenderTarget(n,0,i),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,r),t.setRenderTarget(n,1,i),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,o),t.setRenderTarget(n,2,i),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,a),t.setRenderTarget(n,3,i),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,l),t.setRenderTarget(n,4,i),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,c),n.texture.mipmapsAutoUpdate=y,t.setRenderTarget(n,5,i),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,h),t.setRenderTarget(u,d,f),t.xr.enabled=p,n.texture.needsPMREMUpdate=!0}},cu=class extends bn{constructor(t=[]){super(),this.isArrayCamera=!0,this.isMultiViewCamera=!1,this.cameras=t,this.perCameraFrustumCulled=!1}};var lm="\\[\\]\\.:\\/",sT=new RegExp("["+lm+"]","g"),cm="[^"+lm+"]",rT="[^"+lm.replace("\\.","")+"]",oT=/((?:WC+[\/:])*)/.source.replace("WC",cm),aT=/(WCOD+)?/.source.replace("WCOD",rT),lT=/(?:\.(WC+)(?:\[(.+)\])?)?/.source.replace("WC",cm),cT=/\.(WC+)(?:\[(.+)\])?/.source.replace("WC",cm),hT=new RegExp("^"+oT+aT+lT+cT+"$"),uT=["material","materials","bones","map"],Cp=class{constructor(t,e,n){let i=n||Je.parseTrackName(e);this._targetGroup=t,this._bindings=t.subscribe_(e,i)}getValue(t,e){this.bind();let n=this._targetGroup.nCachedObjects_,i=this._bindings[n];i!==void 0&&i.getValue(t,e)}setValue(t,e){let n=this._bindings;for(let i=this._targetGroup.nCachedObjects_,r=n.length;i!==r;++i)n[i].setValue(t,e)}bind(){let t=this._bindings;for(let e=this._targetGroup.nCachedObjects_,n=t.length;e!==n;++e)t[e].bind()}unbind(){let t=this._bindings;for(let e=this._targetGroup.nCachedObjects_,n=t.length;e!==n;++e)t[e].unbind()}},Je=class s{constructor(t,e,n){this.path=e,this.parsedPath=n||s.parseTrackName(e),this.node=s.findNode(t,this.parsedPath.nodeName),this.rootNode=t,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}static create(t,e,n){return t&&t.isAnimationObjectGroup?new s.Composite(t,e,n):new s(t,e,n)}static sanitizeNodeName(t){return t.replace(/\s/g,"_").replace(sT,"")}static parseTrackName(t){let e=hT.exec(t);if(e===null)throw new Error("THREE.PropertyBinding: Cannot parse trackName: "+t);let n={nodeName:e[2],objectName:e[3],objectIndex:e[4],propertyName:e[5],propertyIndex:e[6]},i=n.nodeName&&n.nodeName.lastIndexOf(".");if(i!==void 0&&i!==-1){let r=n.nodeName.substring(i+1);uT.indexOf(r)!==-1&&(n.nodeName=n.nodeName.substring(0,i),n.objectName=r)}if(n.propertyName===null||n.propertyName.length===0)throw new Error("THREE.PropertyBinding: can not parse propertyName from trackName: "+t);return n}static findNode(t,e){if(e===void 0||e===""||e==="."||e===-1||e===t.name||e===t.uuid)return t;if(t.skeleton){let n=t.skeleton.getBoneByName(e);if(n!==void 0)return n}if(t.children){let n=function(r){for(let o=0;o<r.length;o++){let a=r[o];if(a.name===e||a.uuid===e)return a;let l=n(a.children);if(l)return l}return null},i=n(t.children);if(i)return i}return null}_getValue_unavailable(){}_setValue_unavailable(){}_getValue_direct(t,e){t[e]=this.targetObject[this.propertyName]}_getValue_array(t,e){let n=this.resolvedProperty;for(let i=0,r=n.length;i!==r;++i)t[e++]=n[i]}_getValue_arrayElement(t,e){t[e]=this.resolvedProperty[this.propertyIndex]}_getValue_toArray(t,e){this.resolvedProperty.toArray(t,e)}_setValue_direct(t,e){this.targetObject[this.propertyName]=t[e]}_setValue_direct_setNeedsUpdate(t,e){this.targetObject[this.propertyName]=t[e],this.targetObject.needsUpdate=!0}_setValue_direct_setMatrixWorldNeedsUpdate(t,e){this.targetObject[this.propertyName]=t[e],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_array(t,e){let n=this.resolvedProperty;for(let i=0,r=n.length;i!==r;++i)n[i]=t[e++]}_setValue_array_setNeedsUpdate(t,e){let n=this.resolvedProperty;for(let i=0,r=n.length;i!==r;++i)n[i]=t[e++];this.targetObject.needsUpdate=!0}_setValue_array_setMatrixWorldNeedsUpdate(t,e){let n=this.resolvedProperty;for(let i=0,r=n.length;i!==r;++i)n[i]=t[e++];this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_arrayElement(t,e){this.resolvedProperty[this.propertyIndex]=t[e]}_setValue_arrayElement_setNeedsUpdate(t,e){this.resolvedProperty[this.propertyIndex]=t[e],this.targetObject.needsUpdate=!0}_setValue_arrayElement_setMatrixWorldNeedsUpdate(t,e){this.resolvedProperty[this.propertyIndex]=t[e],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_fromArray(t,e){this.resolvedProperty.fromArray(t,e)}_setValue_fromArray_setNeedsUpdate(t,e){this.resolvedProperty.fromArray(t,e),this.targetObject.needsUpdate=!0}_setValue_fromArray_setMatrixWorldNeedsUpdate(t,e){this.resolvedProperty.fromArray(t,e),this.targetObject.matrixWorldNeedsUpdate=!0}_getValue_unbound(t,e){this.bind(),this.getValue(t,e)}_setValue_unbound(t,e){this.bind(),this.setValue(t,e)}bind(){let t=this.node,e=this.parsedPath,n=e.objectName,i=e.propertyName,r=e.propertyIndex;if(t||(t=s.findNode(this.rootNode,e.nodeName),this.node=t),this.getValue=this._getValue_unavailable,this.setValue=this._setValue_unavailable,!t){jt("PropertyBinding: No target node found for track: "+this.path+".");return}if(n){let c=e.objectIndex;switch(n){case"materials":if(!t.material){te("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!t.material.materials){te("PropertyBinding: Can not bind to material.materials as node.material does not have a materials array.",this);return}t=t.material.materials;break;case"bones":if(!t.skeleton){te("PropertyBinding: Can not bind to bones as node does not have a skeleton.",this);return}t=t.skeleton.bones;for(let h=0;h<t.length;h++)if(t[h].name===c){c=h;break}break;case"map":if("map"in t){t=t.map;break}if(!t.material){te("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!t.material.map){te("PropertyBinding: Can not bind to material.map as node.material does not have a map.",this);return}t=t.material.map;break;default:if(t[n]===void 0){te("PropertyBinding: Can not bind to objectName of node undefined.",this);return}t=t[n]}if(c!==void 0){if(t[c]===void 0){te("PropertyBinding: Trying to bind to objectIndex of objectName, but is undefined.",this,t);return}t=t[c]}}let o=t[i];if(o===void 0){let c=e.nodeName;te("PropertyBinding: Trying to update property for track: "+c+"."+i+" but it wasn't found.",t);return}let a=this.Versioning.None;this.targetObject=t,t.isMaterial===!0?a=this.Versioning.NeedsUpdate:t.isObject3D===!0&&(a=this.Versioning.MatrixWorldNeedsUpdate);let l=this.BindingType.Direct;if(r!==void 0){if(i==="morphTargetInfluences"){if(!t.geometry){te("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.",this);return}if(!t.geometry.morphAttributes){te("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.morphAttributes.",this);return}t.morphTargetDictionary[r]!==void 0&&(r=t.morphTargetDictionary[r])}l=this.BindingType.ArrayElement,this.resolvedProperty=o,this.propertyIndex=r}else o.fromArray!==void 0&&o.toArray!==void 0?(l=this.BindingType.HasFromToArray,this.resolvedProperty=o):Array.isArray(o)?(l=this.BindingType.EntireArray,this.resolvedProperty=o):this.propertyName=i;this.getValue=this.GetterByBindingType[l],this.setValue=this.SetterByBindingTypeAndVersioning[l][a]}unbind(){this.node=null,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}};Je.Composite=Cp;Je.prototype.BindingType={Direct:0,EntireArray:1,ArrayElement:2,HasFromToArray:3};Je.prototype.Versioning={None:0,NeedsUpdate:1,MatrixWorldNeedsUpdate:2};Je.prototype.GetterByBindingType=[Je.prototype._getValue_direct,Je.prototype._getValue_array,Je.prototype._getValue_arrayElement,Je.prototype._getValue_toArray];Je.prototype.SetterByBindingTypeAndVersioning=[[Je.prototype._setValue_direct,Je.prototype._setValue_direct_setNeedsUpdate,Je.prototype._setValue_direct_setMatrixWorldNeedsUpdate],[Je.prototype._setValue_array,Je.prototype._setValue_array_setNeedsUpdate,Je.prototype._setValue_array_setMatrixWorldNeedsUpdate],[Je.prototype._setValue_arrayElement,Je.prototype._setValue_arrayElement_setNeedsUpdate,Je.prototype._setValue_arrayElement_setMatrixWorldNeedsUpdate],[Je.prototype._setValue_fromArray,Je.prototype._setValue_fromArray_setNeedsUpdate,Je.prototype._setValue_fromArray_setMatrixWorldNeedsUpdate]];var hI=new Float32Array(1);var Xi=class extends $h{constructor(t,e,n=1){super(t,e),this.isInstancedInterleavedBuffer=!0,this.meshPerAttribute=n}copy(t){return super.copy(t),this.meshPerAttribute=t.meshPerAttribute,this}clone(t){let e=super.clone(t);return e.meshPerAttribute=this.meshPerAttribute,e}toJSON(t){let e=super.toJSON(t);return e.isInstancedInterleavedBuffer=!0,e.meshPerAttribute=this.meshPerAttribute,e}};var g_=new Nt,Hl=class{constructor(t,e,n=0,i=1/0){this.ray=new vs(t,e),this.near=n,this.far=i,this.camera=null,this.layers=new ua,this.params={Mesh:{},Line:{threshold:1},LOD:{},Points:{threshold:1},Sprite:{}}}set(t,e){this.ray.set(t,e)}setFromCamera(t,e){e.isPerspectiveCamera?(this.ray.origin.setFromMatrixPosition(e.matrixWorld),this.ray.direction.set(t.x,t.y,.5).unproject(e).sub(this.ray.origin).normalize(),this.camera=e):e.isOrthographicCamera?(this.ray.origin.set(t.x,t.y,e.projectionMatrix.elements[14]).unproject(e),this.ray.direction.set(0,0,-1).transformDirection(e.matrixWorld),this.camera=e):te("Raycaster: Unsupported camera type: "+e.type)}setFromXRController(t){return g_.identity().extractRotation(t.matrixWorld),this.ray.origin.setFromMatrixPosition(t.matrixWorld),this.ray.direction.set(0,0,-1).applyMatrix4(g_),this}intersectObject(t,e=!0,n=[]){return Pp(t,this,n,e),n.sort(y_),n}intersectObjects(t,e=!0,n=[]){for(let i=0,r=t.length;i<r;i++)Pp(t[i],this,n,e);return n.sort(y_),n}};function y_(s,t){return s.distance-t.distance}function Pp(s,t,e,n){let i=!0;if(s.layers.test(t.layers)&&s.raycast(t,e)===!1&&(i=!1),i===!0&&n===!0){let r=s.children;for(let o=0,a=r.length;o<a;o++)Pp(r[o],t,e,!0)}}var Sa=class{constructor(t=1,e=0,n=0){this.radius=t,this.phi=e,this.theta=n}set(t,e,n){return this.radius=t,this.phi=e,this.theta=n,this}copy(t){return this.radius=t.radius,this.phi=t.phi,this.theta=t.theta,this}makeSafe(){return this.phi=le(this.phi,1e-6,Math.PI-1e-6),this}setFromVector3(t){return this.setFromCartesianCoords(t.x,t.y,t.z)}setFromCartesianCoords(t,e,n){return this.radius=Math.sqrt(t*t+e*e+n*n),this.radius===0?(this.theta=0,this.phi=0):(this.theta=Math.atan2(t,n),this.phi=Math.acos(le(e/this.radius,-1,1))),this}clone(){return new this.constructor().copy(this)}};var Lp=class{static{this.prototype.isMatrix2=!0}constructor(t,e,n,i){this.elements=[1,0,0,1],t!==void 0&&this.set(t,e,n,i)}identity(){return this.set(1,0,0,1),this}fromArray(t,e=0){for(let n=0;n<4;n++)this.elements[n]=t[n+e];return this}set(t,e,n,i){let r=this.elements;return r[0]=t,r[2]=e,r[1]=n,r[3]=i,this}};var __=new O,Fh=new O,ea=new O,na=new O,gp=new O,dT=new O,fT=new O,Wl=class{constructor(t=new O,e=new O){this.start=t,this.end=e}set(t,e){return this.start.copy(t),this.end.copy(e),this}copy(t){return this.start.copy(t.start),this.end.copy(t.end),this}getCenter(t){return t.addVectors(this.start,this.end).multiplyScalar(.5)}delta(t){return t.subVectors(this.end,this.start)}distanceSq(){return this.start.distanceToSquared(this.end)}distance(){return this.start.distanceTo(this.end)}at(t,e){return this.delta(e).multiplyScalar(t).add(this.start)}closestPointToPointParameter(t,e){__.subVectors(t,this.start),Fh.subVectors(this.end,this.start);let n=Fh.dot(Fh);if(n===0)return 0;let r=Fh.dot(__)/n;return e&&(r=le(r,0,1)),r}closestPointToPoint(t,e,n){let i=this.closestPointToPointParameter(t,e);return this.delta(n).multiplyScalar(i).add(this.start)}distanceSqToLine3(t,e=dT,n=fT){let i=10000000000000001e-32,r,o,a=this.start,l=t.start,c=this.end,h=t.end;ea.subVectors(c,a),na.subVectors(h,l),gp.subVectors(a,l);let u=ea.dot(ea),d=na.dot(na),f=na.dot(gp);if(u<=i&&d<=i)return e.copy(a),n.copy(l),e.distanceToSquared(n);if(u<=i)r=0,o=f/d,o=le(o,0,1);else{let p=ea.dot(gp);if(d<=i)o=0,r=le(-p/u,0,1);else{let y=ea.dot(na),m=u*d-y*y;m!==0?r=le((y*f-p*d)/m,0,1):r=0,o=(y*r+f)/d,o<0?(o=0,r=le(-p/u,0,1)):o>1&&(o=1,r=le((y-p)/u,0,1))}}return e.copy(a).addScaledVector(ea,r),n.copy(l).addScaledVector(na,o),e.distanceToSquared(n)}applyMatrix4(t){return this.start.applyMatrix4(t),this.end.applyMatrix4(t),this}equals(t){return t.start.equals(this.start)&&t.end.equals(this.end)}clone(){return new this.constructor().copy(this)}};var Xl=class extends as{constructor(t,e=null){super(),this.object=t,this.domElement=e,this.enabled=!0,this.state=-1,this.keys={},this.mouseButtons={LEFT:null,MIDDLE:null,RIGHT:null},this.touches={ONE:null,TWO:null}}connect(t){this.domElement!==null&&this.disconnect(),this.domElement=t}disconnect(){}dispose(){}update(){}};function hm(s,t,e,n){let i=pT(n);switch(e){case $p:return s*t;case gu:return s*t/i.components*i.byteLength;case yu:return s*t/i.components*i.byteLength;case Tr:return s*t*2/i.components*i.byteLength;case _u:return s*t*2/i.components*i.byteLength;case Zp:return s*t*3/i.components*i.byteLength;case Yi:return s*t*4/i.components*i.byteLength;case xu:return s*t*4/i.components*i.byteLength;case jl:case Jl:return Math.floor((s+3)/4)*Math.floor((t+3)/4)*8;case $l:case Zl:return Math.floor((s+3)/4)*Math.floor((t+3)/4)*16;case bu:case Mu:return Math.max(s,16)*Math.max(t,8)/4;case vu:case Su:return Math.max(s,8)*Math.max(t,8)/2;case wu:case Tu:case Au:case Ru:return Math.floor((s+3)/4)*Math.floor((t+3)/4)*8;case Eu:case Kl:case Cu:return Math.floor((s+3)/4)*Math.floor((t+3)/4)*16;case Pu:return Math.floor((s+3)/4)*Math.floor((t+3)/4)*16;case Lu:return Math.floor((s+4)/5)*Math.floor((t+3)/4)*16;case Iu:return Math.floor((s+4)/5)*Math.floor((t+4)/5)*16;case Nu:return Math.floor((s+5)/6)*Math.floor((t+4)/5)*16;case Du:return Math.floor((s+5)/6)*Math.floor((t+5)/6)*16;case Fu:return Math.floor((s+7)/8)*Math.floor((t+4)/5)*16;case Uu:return Math.floor((s+7)/8)*Math.floor((t+5)/6)*16;case Ou:return Math.floor((s+7)/8)*Math.floor((t+7)/8)*16;case Bu:return Math.floor((s+9)/10)*Math.floor((t+4)/5)*16;case ku:return Math.floor((s+9)/10)*Math.floor((t+5)/6)*16;case zu:return Math.floor((s+9)/10)*Math.floor((t+7)/8)*16;case Vu:return Math.floor((s+9)/10)*Math.floor((t+9)/10)*16;case Gu:return Math.floor((s+11)/12)*Math.floor((t+9)/10)*16;case Hu:return Math.floor((s+11)/12)*Math.floor((t+11)/12)*16;case Wu:case Xu:case qu:return Math.ceil(s/4)*Math.ceil(t/4)*16;case Yu:case ju:return Math.ceil(s/4)*Math.ceil(t/4)*8;case Ql:case Ju:return Math.ceil(s/4)*Math.ceil(t/4)*16}throw new Error(`Unable to determine texture byte length for ${e} format.`)}function pT(s){switch(s){case vi:case qp:return{byteLength:1,components:1};case Ea:case Yp:case hs:return{byteLength:2,components:1};case pu:case mu:return{byteLength:2,components:4};case cs:case fu:case Bi:return{byteLength:4,components:1};case jp:case Jp:return{byteLength:4,components:3}}throw new Error(`THREE.TextureUtils: Unknown texture type ${s}.`)}typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("register",{detail:{revision:"187"}}));typeof window<"u"&&(window.__THREE__?jt("WARNING: Multiple instances of Three.js being imported."):window.__THREE__="187");function Px(){let s=null,t=!1,e=null,n=null;function i(r,o){n=s.requestAnimationFrame(i),e(r,o)}return{start:function(){t!==!0&&e!==null&&s!==null&&(n=s.requestAnimationFrame(i),t=!0)},stop:function(){s!==null&&s.cancelAnimationFrame(n),t=!1},setAnimationLoop:function(r){e=r},setContext:function(r){s=r}}}function gT(s){let t=new WeakMap;function e(a,l){let c=a.array,h=a.usage,u=c.byteLength,d=s.createBuffer();s.bindBuffer(l,d),s.bufferData(l,c,h),a.onUploadCallback();let f;if(c instanceof Float32Array)f=s.FLOAT;else if(typeof Float16Array<"u"&&c instanceof Float16Array)f=s.HALF_FLOAT;else if(c instanceof Uint16Array)a.isFloat16BufferAttribute?f=s.HALF_FLOAT:f=s.UNSIGNED_SHORT;else if(c instanceof Int16Array)f=s.SHORT;else if(c instanceof Uint32Array)f=s.UNSIGNED_INT;else if(c instanceof Int32Array)f=s.INT;else if(c instanceof Int8Array)f=s.BYTE;else if(c instanceof Uint8Array)f=s.UNSIGNED_BYTE;else if(c instanceof Uint8ClampedArray)f=s.UNSIGNED_BYTE;else throw new Error("THREE.WebGLAttributes: Unsupported buffer data format: "+c);return{buffer:d,type:f,bytesPerElement:c.BYTES_PER_ELEMENT,version:a.version,size:u}}function n(a,l,c){let h=l.array,u=l.updateRanges;if(s.bindBuffer(c,a),u.length===0)s.bufferSubData(c,0,h);else{u.sort((f,p)=>f.start-p.start);let d=0;for(let f=1;f<u.length;f++){let p=u[d],y=u[f];y.start<=p.start+p.count+1?p.count=Math.max(p.count,y.start+y.count-p.start):(++d,u[d]=y)}u.length=d+1;for(let f=0,p=u.length;f<p;f++){let y=u[f];s.bufferSubData(c,y.start*h.BYTES_PER_ELEMENT,h,y.start,y.count)}l.clearUpdateRanges()}l.onUploadCallback()}function i(a){return a.isInterleavedBufferAttribute&&(a=a.data),t.get(a)}function r(a){a.isInterleavedBufferAttribute&&(a=a.data);let l=t.get(a);l&&(s.deleteBuffer(l.buffer),t.delete(a))}function o(a,l){if(a.isInterleavedBufferAttribute&&(a=a.data),a.isGLBufferAttribute){let h=t.get(a);(!h||h.version<a.version)&&t.set(a,{buffer:a.buffer,type:a.type,bytesPerElement:a.elementSize,version:a.version});return}let c=t.get(a);if(c===void 0)t.set(a,e(a,l));else if(c.version<a.version){if(c.size!==a.array.byteLength)throw new Error("THREE.WebGLAttributes: The size of the buffer attribute's array buffer does not match the original size. Resizing buffer attributes is not supported.");n(c.buffer,a,l),c.version=a.version}}return{get:i,remove:r,update:o}}var yT=`#ifdef USE_ALPHAHASH
+	if ( diffuseColor.a < getAlphaHashThreshold( vPosition ) ) discard;
+#endif`,_T=`#ifdef USE_ALPHAHASH
+	const float ALPHA_HASH_SCALE = 0.05;
+	float hash2D( vec2 value ) {
+		return fract( 1.0e4 * sin( 17.0 * value.x + 0.1 * value.y ) * ( 0.1 + abs( sin( 13.0 * value.y + value.x ) ) ) );
+	}
+	float hash3D( vec3 value ) {
+		return hash2D( vec2( hash2D( value.xy ), value.z ) );
+	}
+	float getAlphaHashThreshold( vec3 position ) {
+		float maxDeriv = max(
+			length( dFdx( position.xyz ) ),
+			length( dFdy( position.xyz ) )
+		);
+		float pixScale = 1.0 / ( ALPHA_HASH_SCALE * maxDeriv );
+		vec2 pixScales = vec2(
+			exp2( floor( log2( pixScale ) ) ),
+			exp2( ceil( log2( pixScale ) ) )
+		);
+		vec2 alpha = vec2(
+			hash3D( floor( pixScales.x * position.xyz ) ),
+			hash3D( floor( pixScales.y * position.xyz ) )
+		);
+		float lerpFactor = fract( log2( pixScale ) );
+		float x = ( 1.0 - lerpFactor ) * alpha.x + lerpFactor * alpha.y;
+		float a = min( lerpFactor, 1.0 - lerpFactor );
+		vec3 cases = vec3(
+			x * x / ( 2.0 * a * ( 1.0 - a ) ),
+			( x - 0.5 * a ) / ( 1.0 - a ),
+			1.0 - ( ( 1.0 - x ) * ( 1.0 - x ) / ( 2.0 * a * ( 1.0 - a ) ) )
+		);
+		float threshold = ( x < ( 1.0 - a ) )
+			? ( ( x < a ) ? cases.x : cases.y )
+			: cases.z;
+		return clamp( threshold , 1.0e-6, 1.0 );
+	}
+#endif`,xT=`#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, vAlphaMapUv ).g;
+#endif`,vT=`#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,bT=`#ifdef USE_ALPHATEST
+	#ifdef ALPHA_TO_COVERAGE
+	diffuseColor.a = smoothstep( alphaTest, alphaTest + fwidth( diffuseColor.a ), diffuseColor.a );
+	if ( diffuseColor.a == 0.0 ) discard;
+	#else
+	if ( diffuseColor.a < alphaTest ) discard;
+	#endif
+#endif`,ST=`#ifdef USE_ALPHATEST
+	uniform float alphaTest;
+#endif`,MT=`#ifdef USE_AOMAP
+	float ambientOcclusion = ( texture2D( aoMap, vAoMapUv ).r - 1.0 ) * aoMapIntensity + 1.0;
+	reflectedLight.indirectDiffuse *= ambientOcclusion;
+	#if defined( USE_CLEARCOAT ) 
+		clearcoatSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_SHEEN ) 
+		sheenSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( STANDARD )
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		reflectedLight.indirectSpecular *= computeSpecularOcclusion( dotNV, ambientOcclusion, material.roughness );
+	#endif
+#endif`,wT=`#ifdef USE_AOMAP
+	uniform sampler2D aoMap;
+	uniform float aoMapIntensity;
+#endif`,TT=`#ifdef USE_BATCHING
+	#if ! defined( GL_ANGLE_multi_draw )
+	#define gl_DrawID _gl_DrawID
+	uniform int _gl_DrawID;
+	#endif
+	uniform highp sampler2D batchingTexture;
+	uniform highp usampler2D batchingIdTexture;
+	mat4 getBatchingMatrix( const in float i ) {
+		int size = textureSize( batchingTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( batchingTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( batchingTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( batchingTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( batchingTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+	float getIndirectIndex( const in int i ) {
+		int size = textureSize( batchingIdTexture, 0 ).x;
+		int x = i % size;
+		int y = i / size;
+		return float( texelFetch( batchingIdTexture, ivec2( x, y ), 0 ).r );
+	}
+#endif
+#ifdef USE_BATCHING_COLOR
+	uniform sampler2D batchingColorTexture;
+	vec4 getBatchingColor( const in float i ) {
+		int size = textureSize( batchingColorTexture, 0 ).x;
+		int j = int( i );
+		int x = j % size;
+		int y = j / size;
+		return texelFetch( batchingColorTexture, ivec2( x, y ), 0 );
+	}
+#endif`,ET=`#ifdef USE_BATCHING
+	mat4 batchingMatrix = getBatchingMatrix( getIndirectIndex( gl_DrawID ) );
+#endif`,AT=`vec3 transformed = vec3( position );
+#ifdef USE_ALPHAHASH
+	vPosition = vec3( position );
+#endif`,RT=`vec3 objectNormal = vec3( normal );
+#ifdef USE_TANGENT
+	vec3 objectTangent = vec3( tangent.xyz );
+#endif`,CT=`float G_BlinnPhong_Implicit( ) {
+	return 0.25;
+}
+float D_BlinnPhong( const in float shininess, const in float dotNH ) {
+	return RECIPROCAL_PI * ( shininess * 0.5 + 1.0 ) * pow( dotNH, shininess );
+}
+vec3 BRDF_BlinnPhong( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 specularColor, const in float shininess ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( specularColor, 1.0, dotVH );
+	float G = G_BlinnPhong_Implicit( );
+	float D = D_BlinnPhong( shininess, dotNH );
+	return F * ( G * D );
+} // validated`,PT=`#ifdef USE_IRIDESCENCE
+	const mat3 XYZ_TO_REC709 = mat3(
+		 3.2404542, -0.9692660,  0.0556434,
+		-1.5371385,  1.8760108, -0.2040259,
+		-0.4985314,  0.0415560,  1.0572252
+	);
+	vec3 Fresnel0ToIor( vec3 fresnel0 ) {
+		vec3 sqrtF0 = sqrt( fresnel0 );
+		return ( vec3( 1.0 ) + sqrtF0 ) / ( vec3( 1.0 ) - sqrtF0 );
+	}
+	vec3 IorToFresnel0( vec3 transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - vec3( incidentIor ) ) / ( transmittedIor + vec3( incidentIor ) ) );
+	}
+	float IorToFresnel0( float transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - incidentIor ) / ( transmittedIor + incidentIor ));
+	}
+	vec3 evalSensitivity( float OPD, vec3 shift ) {
+		float phase = 2.0 * PI * OPD * 1.0e-9;
+		vec3 val = vec3( 5.4856e-13, 4.4201e-13, 5.2481e-13 );
+		vec3 pos = vec3( 1.6810e+06, 1.7953e+06, 2.2084e+06 );
+		vec3 var = vec3( 4.3278e+09, 9.3046e+09, 6.6121e+09 );
+		vec3 xyz = val * sqrt( 2.0 * PI * var ) * cos( pos * phase + shift ) * exp( - pow2( phase ) * var );
+		xyz.x += 9.7470e-14 * sqrt( 2.0 * PI * 4.5282e+09 ) * cos( 2.2399e+06 * phase + shift[ 0 ] ) * exp( - 4.5282e+09 * pow2( phase ) );
+		xyz /= 1.0685e-7;
+		vec3 rgb = XYZ_TO_REC709 * xyz;
+		return rgb;
+	}
+	vec3 evalIridescence( float outsideIOR, float eta2, float cosTheta1, float thinFilmThickness, vec3 baseF0 ) {
+		vec3 I;
+		float iridescenceIOR = mix( outsideIOR, eta2, smoothstep( 0.0, 0.03, thinFilmThickness ) );
+		float sinTheta2Sq = pow2( outsideIOR / iridescenceIOR ) * ( 1.0 - pow2( cosTheta1 ) );
+		float cosTheta2Sq = 1.0 - sinTheta2Sq;
+		if ( cosTheta2Sq < 0.0 ) {
+			return vec3( 1.0 );
+		}
+		float cosTheta2 = sqrt( cosTheta2Sq );
+		float R0 = IorToFresnel0( iridescenceIOR, outsideIOR );
+		float R12 = F_Schlick( R0, 1.0, cosTheta1 );
+		float T121 = 1.0 - R12;
+		float phi12 = 0.0;
+		if ( iridescenceIOR < outsideIOR ) phi12 = PI;
+		float phi21 = PI - phi12;
+		vec3 baseIOR = Fresnel0ToIor( clamp( baseF0, 0.0, 0.9999 ) );		vec3 R1 = IorToFresnel0( baseIOR, iridescenceIOR );
+		vec3 R23 = F_Schlick( R1, 1.0, cosTheta2 );
+		vec3 phi23 = vec3( 0.0 );
+		if ( baseIOR[ 0 ] < iridescenceIOR ) phi23[ 0 ] = PI;
+		if ( baseIOR[ 1 ] < iridescenceIOR ) phi23[ 1 ] = PI;
+		if ( baseIOR[ 2 ] < iridescenceIOR ) phi23[ 2 ] = PI;
+		float OPD = 2.0 * iridescenceIOR * thinFilmThickness * cosTheta2;
+		vec3 phi = vec3( phi21 ) + phi23;
+		vec3 R123 = clamp( R12 * R23, 1e-5, 0.9999 );
+		vec3 r123 = sqrt( R123 );
+		vec3 Rs = pow2( T121 ) * R23 / ( vec3( 1.0 ) - R123 );
+		vec3 C0 = R12 + Rs;
+		I = C0;
+		vec3 Cm = Rs - T121;
+		for ( int m = 1; m <= 2; ++ m ) {
+			Cm *= r123;
+			vec3 Sm = 2.0 * evalSensitivity( float( m ) * OPD, float( m ) * phi );
+			I += Cm * Sm;
+		}
+		return max( I, vec3( 0.0 ) );
+	}
+#endif`,LT=`#ifdef USE_BUMPMAP
+	uniform sampler2D bumpMap;
+	uniform float bumpScale;
+	vec2 dHdxy_fwd() {
+		vec2 dSTdx = dFdx( vBumpMapUv );
+		vec2 dSTdy = dFdy( vBumpMapUv );
+		float Hll = bumpScale * texture2D( bumpMap, vBumpMapUv ).x;
+		float dBx = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdx ).x - Hll;
+		float dBy = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdy ).x - Hll;
+		return vec2( dBx, dBy );
+	}
+	vec3 perturbNormalArb( vec3 surf_pos, vec3 surf_norm, vec2 dHdxy, float faceDirection ) {
+		vec3 vSigmaX = normalize( dFdx( surf_pos.xyz ) );
+		vec3 vSigmaY = normalize( dFdy( surf_pos.xyz ) );
+		vec3 vN = surf_norm;
+		vec3 R1 = cross( vSigmaY, vN );
+		vec3 R2 = cross( vN, vSigmaX );
+		float fDet = dot( vSigmaX, R1 ) * faceDirection;
+		vec3 vGrad = sign( fDet ) * ( dHdxy.x * R1 + dHdxy.y * R2 );
+		return normalize( abs( fDet ) * surf_norm - vGrad );
+	}
+#endif`,IT=`#if NUM_CLIPPING_PLANES > 0
+	vec4 plane;
+	#ifdef ALPHA_TO_COVERAGE
+		float distanceToPlane, distanceGradient;
+		float clipOpacity = 1.0;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+			distanceGradient = fwidth( distanceToPlane ) / 2.0;
+			clipOpacity *= smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			if ( clipOpacity == 0.0 ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			float unionClipOpacity = 1.0;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+				distanceGradient = fwidth( distanceToPlane ) / 2.0;
+				unionClipOpacity *= 1.0 - smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			}
+			#pragma unroll_loop_end
+			clipOpacity *= 1.0 - unionClipOpacity;
+		#endif
+		diffuseColor.a *= clipOpacity;
+		if ( diffuseColor.a == 0.0 ) discard;
+	#else
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			if ( dot( vClipPosition, plane.xyz ) > plane.w ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			bool clipped = true;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				clipped = ( dot( vClipPosition, plane.xyz ) > plane.w ) && clipped;
+			}
+			#pragma unroll_loop_end
+			if ( clipped ) discard;
+		#endif
+	#endif
+#endif`,NT=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+	uniform vec4 clippingPlanes[ NUM_CLIPPING_PLANES ];
+#endif`,DT=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+#endif`,FT=`#if NUM_CLIPPING_PLANES > 0
+	vClipPosition = - mvPosition.xyz;
+#endif`,UT=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	diffuseColor *= vColor;
+#endif`,OT=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	varying vec4 vColor;
+#endif`,BT=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	varying vec4 vColor;
+#endif`,kT=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	vColor = vec4( 1.0 );
+#endif
+#ifdef USE_COLOR_ALPHA
+	vColor *= color;
+#elif defined( USE_COLOR )
+	vColor.rgb *= color;
+#endif
+#ifdef USE_INSTANCING_COLOR
+	vColor.rgb *= instanceColor.rgb;
+#endif
+#ifdef USE_BATCHING_COLOR
+	vColor *= getBatchingColor( getIndirectIndex( gl_DrawID ) );
+#endif`,zT=`#define PI 3.141592653589793
+#define PI2 6.283185307179586
+#define PI_HALF 1.5707963267948966
+#define RECIPROCAL_PI 0.3183098861837907
+#define RECIPROCAL_PI2 0.15915494309189535
+#define EPSILON 1e-6
+#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+#define whiteComplement( a ) ( 1.0 - saturate( a ) )
+float pow2( const in float x ) { return x*x; }
+vec3 pow2( const in vec3 x ) { return x*x; }
+float pow3( const in float x ) { return x*x*x; }
+float pow4( const in float x ) { float x2 = x*x; return x2*x2; }
+float max3( const in vec3 v ) { return max( max( v.x, v.y ), v.z ); }
+float average( const in vec3 v ) { return dot( v, vec3( 0.3333333 ) ); }
+highp float rand( const in vec2 uv ) {
+	const highp float a = 12.9898, b = 78.233, c = 43758.5453;
+	highp float dt = dot( uv.xy, vec2( a,b ) ), sn = mod( dt, PI );
+	return fract( sin( sn ) * c );
+}
+#ifdef HIGH_PRECISION
+	float precisionSafeLength( vec3 v ) { return length( v ); }
+#else
+	float precisionSafeLength( vec3 v ) {
+		float maxComponent = max3( abs( v ) );
+		return length( v / maxComponent ) * maxComponent;
+	}
+#endif
+struct IncidentLight {
+	vec3 color;
+	vec3 direction;
+	bool visible;
+};
+struct ReflectedLight {
+	vec3 directDiffuse;
+	vec3 directSpecular;
+	vec3 indirectDiffuse;
+	vec3 indirectSpecular;
+};
+#ifdef USE_ALPHAHASH
+	varying vec3 vPosition;
+#endif
+vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+	return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+}
+#define inverseTransformDirection transformDirectionByInverseViewMatrix
+vec3 transformNormalByInverseViewMatrix( in vec3 normal, in mat4 viewMatrix ) {
+	return normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );
+}
+vec3 transformDirectionByInverseViewMatrix( in vec3 dir, in mat4 viewMatrix ) {
+	return normalize( ( vec4( dir, 0.0 ) * viewMatrix ).xyz );
+}
+bool isPerspectiveMatrix( mat4 m ) {
+	return m[ 2 ][ 3 ] == - 1.0;
+}
+vec2 equirectUv( in vec3 dir ) {
+	float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;
+	float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;
+	return vec2( u, v );
+}
+vec3 BRDF_Lambert( const in vec3 diffuseColor ) {
+	return RECIPROCAL_PI * diffuseColor;
+}
+vec3 F_Schlick( const in vec3 f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+}
+float F_Schlick( const in float f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+} // validated`,VT=`vec3 transformedNormal = objectNormal;
+#ifdef USE_TANGENT
+	vec3 transformedTangent = objectTangent;
+#endif
+#ifdef USE_BATCHING
+	mat3 bm = mat3( batchingMatrix );
+	transformedNormal /= vec3( dot( bm[ 0 ], bm[ 0 ] ), dot( bm[ 1 ], bm[ 1 ] ), dot( bm[ 2 ], bm[ 2 ] ) );
+	transformedNormal = bm * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = bm * transformedTangent;
+	#endif
+#endif
+#ifdef USE_INSTANCING
+	mat3 im = mat3( instanceMatrix );
+	transformedNormal /= vec3( dot( im[ 0 ], im[ 0 ] ), dot( im[ 1 ], im[ 1 ] ), dot( im[ 2 ], im[ 2 ] ) );
+	transformedNormal = im * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = im * transformedTangent;
+	#endif
+#endif
+transformedNormal = normalMatrix * transformedNormal;
+#ifdef FLIP_SIDED
+	transformedNormal = - transformedNormal;
+#endif
+#ifdef USE_TANGENT
+	transformedTangent = ( modelViewMatrix * vec4( transformedTangent, 0.0 ) ).xyz;
+#endif`,GT=`#ifdef USE_DISPLACEMENTMAP
+	uniform sampler2D displacementMap;
+	uniform float displacementScale;
+	uniform float displacementBias;
+#endif`,HT=`#ifdef USE_DISPLACEMENTMAP
+	transformed += normalize( objectNormal ) * ( texture2D( displacementMap, vDisplacementMapUv ).x * displacementScale + displacementBias );
+#endif`,WT=`#ifdef USE_EMISSIVEMAP
+	vec4 emissiveColor = texture2D( emissiveMap, vEmissiveMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE_EMISSIVE
+		emissiveColor = sRGBTransferEOTF( emissiveColor );
+	#endif
+	totalEmissiveRadiance *= emissiveColor.rgb;
+#endif`,XT=`#ifdef USE_EMISSIVEMAP
+	uniform sampler2D emissiveMap;
+#endif`,qT="gl_FragColor = linearToOutputTexel( gl_FragColor );",YT=`vec4 LinearTransferOETF( in vec4 value ) {
+	return value;
+}
+vec4 sRGBTransferEOTF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), value.rgb * 0.0773993808, vec3( lessThanEqual( value.rgb, vec3( 0.04045 ) ) ) ), value.a );
+}
+vec4 sRGBTransferOETF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb, vec3( 0.41666 ) ) * 1.055 - vec3( 0.055 ), value.rgb * 12.92, vec3( lessThanEqual( value.rgb, vec3( 0.0031308 ) ) ) ), value.a );
+}`,jT=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vec3 cameraToFrag;
+		if ( isOrthographic ) {
+			cameraToFrag = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToFrag = normalize( vWorldPosition - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vec3 reflectVec = reflect( cameraToFrag, worldNormal );
+		#else
+			vec3 reflectVec = refract( cameraToFrag, worldNormal, refractionRatio );
+		#endif
+	#else
+		vec3 reflectVec = vReflect;
+	#endif
+	#ifdef ENVMAP_TYPE_CUBE
+		vec4 envColor = textureCube( envMap, envMapRotation * reflectVec );
+		#ifdef ENVMAP_BLENDING_MULTIPLY
+			outgoingLight = mix( outgoingLight, outgoingLight * envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_MIX )
+			outgoingLight = mix( outgoingLight, envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_ADD )
+			outgoingLight += envColor.xyz * specularStrength * reflectivity;
+		#endif
+	#endif
+#endif`,JT=`#ifdef USE_ENVMAP
+	uniform float envMapIntensity;
+	uniform mat3 envMapRotation;
+	uniform samplerCube envMap;
+	#ifdef ENVMAP_TYPE_PMREM
+		float roughnessToMip( const in float roughness ) {
+			float r = clamp( roughness, 0.0, 1.0 );
+			return ENVMAP_MAX_LOD * r * ( 2.0 - r );
+		}
+	#endif
+#endif`,$T=`#ifdef USE_ENVMAP
+	uniform float reflectivity;
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		varying vec3 vWorldPosition;
+		uniform float refractionRatio;
+	#else
+		varying vec3 vReflect;
+	#endif
+#endif`,ZT=`#ifdef USE_ENVMAP
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		
+		varying vec3 vWorldPosition;
+	#else
+		varying vec3 vReflect;
+		uniform float refractionRatio;
+	#endif
+#endif`,KT=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vWorldPosition = worldPosition.xyz;
+	#else
+		vec3 cameraToVertex;
+		if ( isOrthographic ) {
+			cameraToVertex = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToVertex = normalize( worldPosition.xyz - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vReflect = reflect( cameraToVertex, worldNormal );
+		#else
+			vReflect = refract( cameraToVertex, worldNormal, refractionRatio );
+		#endif
+	#endif
+#endif`,QT=`#ifdef USE_FOG
+	vFogDepth = - mvPosition.z;
+#endif`,tE=`#ifdef USE_FOG
+	varying float vFogDepth;
+#endif`,eE=`#ifdef USE_FOG
+	#ifdef FOG_EXP2
+		float fogFactor = 1.0 - exp( - fogDensity * fogDensity * vFogDepth * vFogDepth );
+	#else
+		float fogFactor = smoothstep( fogNear, fogFar, vFogDepth );
+	#endif
+	gl_FragColor.rgb = mix( gl_FragColor.rgb, fogColor, fogFactor );
+#endif`,nE=`#ifdef USE_FOG
+	uniform vec3 fogColor;
+	varying float vFogDepth;
+	#ifdef FOG_EXP2
+		uniform float fogDensity;
+	#else
+		uniform float fogNear;
+		uniform float fogFar;
+	#endif
+#endif`,iE=`#ifdef USE_GRADIENTMAP
+	uniform sampler2D gradientMap;
+#endif
+vec3 getGradientIrradiance( vec3 normal, vec3 lightDirection ) {
+	float dotNL = dot( normal, lightDirection );
+	vec2 coord = vec2( dotNL * 0.5 + 0.5, 0.0 );
+	#ifdef USE_GRADIENTMAP
+		return vec3( texture2D( gradientMap, coord ).r );
+	#else
+		vec2 fw = fwidth( coord ) * 0.5;
+		return mix( vec3( 0.7 ), vec3( 1.0 ), smoothstep( 0.7 - fw.x, 0.7 + fw.x, coord.x ) );
+	#endif
+}`,sE=`#ifdef USE_LIGHTMAP
+	uniform sampler2D lightMap;
+	uniform float lightMapIntensity;
+#endif`,rE=`LambertMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularStrength = specularStrength;`,oE=`varying vec3 vViewPosition;
+struct LambertMaterial {
+	vec3 diffuseColor;
+	float specularStrength;
+};
+void RE_Direct_Lambert( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Lambert( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Lambert
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Lambert`,aE=`uniform bool receiveShadow;
+uniform vec3 ambientLightColor;
+#if defined( USE_LIGHT_PROBES )
+	uniform vec3 lightProbe[ 9 ];
+#endif
+vec3 shGetIrradianceAt( in vec3 normal, in vec3 shCoefficients[ 9 ] ) {
+	float x = normal.x, y = normal.y, z = normal.z;
+	vec3 result = shCoefficients[ 0 ] * 0.886227;
+	result += shCoefficients[ 1 ] * 2.0 * 0.511664 * y;
+	result += shCoefficients[ 2 ] * 2.0 * 0.511664 * z;
+	result += shCoefficients[ 3 ] * 2.0 * 0.511664 * x;
+	result += shCoefficients[ 4 ] * 2.0 * 0.429043 * x * y;
+	result += shCoefficients[ 5 ] * 2.0 * 0.429043 * y * z;
+	result += shCoefficients[ 6 ] * ( 0.743125 * z * z - 0.247708 );
+	result += shCoefficients[ 7 ] * 2.0 * 0.429043 * x * z;
+	result += shCoefficients[ 8 ] * 0.429043 * ( x * x - y * y );
+	return result;
+}
+vec3 getLightProbeIrradiance( const in vec3 lightProbe[ 9 ], const in vec3 normal ) {
+	vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec3 irradiance = shGetIrradianceAt( worldNormal, lightProbe );
+	return irradiance;
+}
+vec3 getAmbientLightIrradiance( const in vec3 ambientLightColor ) {
+	vec3 irradiance = ambientLightColor;
+	return irradiance;
+}
+float getDistanceAttenuation( const in float lightDistance, const in float cutoffDistance, const in float decayExponent ) {
+	float distanceFalloff = 1.0 / max( pow( lightDistance, decayExponent ), 0.01 );
+	if ( cutoffDistance > 0.0 ) {
+		distanceFalloff *= pow2( saturate( 1.0 - pow4( lightDistance / cutoffDistance ) ) );
+	}
+	return distanceFalloff;
+}
+float getSpotAttenuation( const in float coneCosine, const in float penumbraCosine, const in float angleCosine ) {
+	return smoothstep( coneCosine, penumbraCosine, angleCosine );
+}
+#if NUM_SUN_LIGHTS > 0
+	struct SunLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform SunLight sunLights[ NUM_SUN_LIGHTS ];
+	void getSunLightInfo( const in SunLight sunLight, out IncidentLight light ) {
+		light.color = sunLight.color;
+		light.direction = sunLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_DIR_LIGHTS > 0
+	struct DirectionalLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform DirectionalLight directionalLights[ NUM_DIR_LIGHTS ];
+	void getDirectionalLightInfo( const in DirectionalLight directionalLight, out IncidentLight light ) {
+		light.color = directionalLight.color;
+		light.direction = directionalLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_POINT_LIGHTS > 0
+	struct PointLight {
+		vec3 position;
+		vec3 color;
+		float distance;
+		float decay;
+	};
+	uniform PointLight pointLights[ NUM_POINT_LIGHTS ];
+	void getPointLightInfo( const in PointLight pointLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = pointLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float lightDistance = length( lVector );
+		light.color = pointLight.color;
+		light.color *= getDistanceAttenuation( lightDistance, pointLight.distance, pointLight.decay );
+		light.visible = ( light.color != vec3( 0.0 ) );
+	}
+#endif
+#if NUM_SPOT_LIGHTS > 0
+	struct SpotLight {
+		vec3 position;
+		vec3 direction;
+		vec3 color;
+		float distance;
+		float decay;
+		float coneCos;
+		float penumbraCos;
+	};
+	uniform SpotLight spotLights[ NUM_SPOT_LIGHTS ];
+	void getSpotLightInfo( const in SpotLight spotLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = spotLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float angleCos = dot( light.direction, spotLight.direction );
+		float spotAttenuation = getSpotAttenuation( spotLight.coneCos, spotLight.penumbraCos, angleCos );
+		if ( spotAttenuation > 0.0 ) {
+			float lightDistance = length( lVector );
+			light.color = spotLight.color * spotAttenuation;
+			light.color *= getDistanceAttenuation( lightDistance, spotLight.distance, spotLight.decay );
+			light.visible = ( light.color != vec3( 0.0 ) );
+		} else {
+			light.color = vec3( 0.0 );
+			light.visible = false;
+		}
+	}
+#endif
+#if NUM_RECT_AREA_LIGHTS > 0
+	struct RectAreaLight {
+		vec3 color;
+		vec3 position;
+		vec3 halfWidth;
+		vec3 halfHeight;
+	};
+	uniform sampler2D ltc_1;	uniform sampler2D ltc_2;
+	uniform RectAreaLight rectAreaLights[ NUM_RECT_AREA_LIGHTS ];
+#endif
+#if NUM_HEMI_LIGHTS > 0
+	struct HemisphereLight {
+		vec3 direction;
+		vec3 skyColor;
+		vec3 groundColor;
+	};
+	uniform HemisphereLight hemisphereLights[ NUM_HEMI_LIGHTS ];
+	vec3 getHemisphereLightIrradiance( const in HemisphereLight hemiLight, const in vec3 normal ) {
+		float dotNL = dot( normal, hemiLight.direction );
+		float hemiDiffuseWeight = 0.5 * dotNL + 0.5;
+		vec3 irradiance = mix( hemiLight.groundColor, hemiLight.skyColor, hemiDiffuseWeight );
+		return irradiance;
+	}
+#endif
+#include <lightprobes_pars_fragment>`,lE=`#ifdef USE_ENVMAP
+	vec3 getIBLIrradiance( const in vec3 normal ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * worldNormal, ENVMAP_MAX_LOD );
+			return PI * envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	vec3 getIBLRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 reflectVec = reflect( - viewDir, normal );
+			reflectVec = normalize( mix( reflectVec, normal, pow4( roughness ) ) );
+			reflectVec = transformDirectionByInverseViewMatrix( reflectVec, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * reflectVec, roughnessToMip( roughness ) );
+			return envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	#ifdef USE_RETROREFLECTION
+		vec3 getIBLRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 retroVec = normalize( mix( viewDir, normal, pow4( roughness ) ) );
+				retroVec = transformDirectionByInverseViewMatrix( retroVec, viewMatrix );
+				vec4 envMapColor = textureLod( envMap, envMapRotation * retroVec, roughnessToMip( roughness ) );
+				return envMapColor.rgb * envMapIntensity;
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+	#endif
+	#ifdef USE_ANISOTROPY
+		vec3 getIBLAnisotropyRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 bentNormal = cross( bitangent, viewDir );
+				bentNormal = normalize( cross( bentNormal, bitangent ) );
+				bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+				return getIBLRadiance( viewDir, bentNormal, roughness );
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+		#ifdef USE_RETROREFLECTION
+			vec3 getIBLAnisotropyRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+				#ifdef ENVMAP_TYPE_PMREM
+					vec3 bentNormal = cross( bitangent, viewDir );
+					bentNormal = normalize( cross( bentNormal, bitangent ) );
+					bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+					return getIBLRetroRadiance( viewDir, bentNormal, roughness );
+				#else
+					return vec3( 0.0 );
+				#endif
+			}
+		#endif
+	#endif
+#endif`,cE=`ToonMaterial material;
+material.diffuseColor = diffuseColor.rgb;`,hE=`varying vec3 vViewPosition;
+struct ToonMaterial {
+	vec3 diffuseColor;
+};
+void RE_Direct_Toon( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 irradiance = getGradientIrradiance( geometryNormal, directLight.direction ) * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Toon( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Toon
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Toon`,uE=`BlinnPhongMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularColor = specular;
+material.specularShininess = shininess;
+material.specularStrength = specularStrength;`,dE=`varying vec3 vViewPosition;
+struct BlinnPhongMaterial {
+	vec3 diffuseColor;
+	vec3 specularColor;
+	float specularShininess;
+	float specularStrength;
+};
+void RE_Direct_BlinnPhong( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+	reflectedLight.directSpecular += irradiance * BRDF_BlinnPhong( directLight.direction, geometryViewDir, geometryNormal, material.specularColor, material.specularShininess ) * material.specularStrength;
+}
+void RE_IndirectDiffuse_BlinnPhong( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_BlinnPhong
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_BlinnPhong`,fE=`PhysicalMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.diffuseContribution = diffuseColor.rgb * ( 1.0 - metalnessFactor );
+material.metalness = metalnessFactor;
+vec3 dxy = max( abs( dFdx( nonPerturbedNormal ) ), abs( dFdy( nonPerturbedNormal ) ) );
+float geometryRoughness = max( max( dxy.x, dxy.y ), dxy.z );
+material.roughness = max( roughnessFactor, 0.045 );
+material.roughness += geometryRoughness;
+material.roughness = min( material.roughness, 1.0 );
+#ifdef USE_DIFFUSE_ROUGHNESS
+	float diffuseRoughnessFactor = diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		diffuseRoughnessFactor *= texture2D( diffuseRoughnessMap, vDiffuseRoughnessMapUv ).r;
+	#endif
+	material.diffuseRoughness = saturate( diffuseRoughnessFactor );
+#endif
+#ifdef IOR
+	material.ior = ior;
+	#ifdef USE_SPECULAR
+		float specularIntensityFactor = specularIntensity;
+		vec3 specularColorFactor = specularColor;
+		#ifdef USE_SPECULAR_COLORMAP
+			specularColorFactor *= texture2D( specularColorMap, vSpecularColorMapUv ).rgb;
+		#endif
+		#ifdef USE_SPECULAR_INTENSITYMAP
+			specularIntensityFactor *= texture2D( specularIntensityMap, vSpecularIntensityMapUv ).a;
+		#endif
+		material.specularF90 = mix( specularIntensityFactor, 1.0, metalnessFactor );
+	#else
+		float specularIntensityFactor = 1.0;
+		vec3 specularColorFactor = vec3( 1.0 );
+		material.specularF90 = 1.0;
+	#endif
+	material.specularColor = min( pow2( ( material.ior - 1.0 ) / ( material.ior + 1.0 ) ) * specularColorFactor, vec3( 1.0 ) ) * specularIntensityFactor;
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+#else
+	material.specularColor = vec3( 0.04 );
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+	material.specularF90 = 1.0;
+#endif
+#ifdef USE_CLEARCOAT
+	material.clearcoat = clearcoat;
+	material.clearcoatRoughness = clearcoatRoughness;
+	material.clearcoatF0 = vec3( 0.04 );
+	material.clearcoatF90 = 1.0;
+	#ifdef USE_CLEARCOATMAP
+		material.clearcoat *= texture2D( clearcoatMap, vClearcoatMapUv ).x;
+	#endif
+	#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+		material.clearcoatRoughness *= texture2D( clearcoatRoughnessMap, vClearcoatRoughnessMapUv ).y;
+	#endif
+	material.clearcoat = saturate( material.clearcoat );	material.clearcoatRoughness = max( material.clearcoatRoughness, 0.045 );
+	material.clearcoatRoughness += geometryRoughness;
+	material.clearcoatRoughness = min( material.clearcoatRoughness, 1.0 );
+#endif
+#ifdef USE_DISPERSION
+	material.dispersion = dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	material.retroreflectivity = retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	material.iridescence = iridescence;
+	material.iridescenceIOR = iridescenceIOR;
+	#ifdef USE_IRIDESCENCEMAP
+		material.iridescence *= texture2D( iridescenceMap, vIridescenceMapUv ).r;
+	#endif
+	#ifdef USE_IRIDESCENCE_THICKNESSMAP
+		material.iridescenceThickness = (iridescenceThicknessMaximum - iridescenceThicknessMinimum) * texture2D( iridescenceThicknessMap, vIridescenceThicknessMapUv ).g + iridescenceThicknessMinimum;
+	#else
+		material.iridescenceThickness = iridescenceThicknessMaximum;
+	#endif
+#endif
+#ifdef USE_SHEEN
+	material.sheenColor = sheenColor;
+	#ifdef USE_SHEEN_COLORMAP
+		material.sheenColor *= texture2D( sheenColorMap, vSheenColorMapUv ).rgb;
+	#endif
+	material.sheenRoughness = clamp( sheenRoughness, 0.0001, 1.0 );
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		material.sheenRoughness *= texture2D( sheenRoughnessMap, vSheenRoughnessMapUv ).a;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	#ifdef USE_ANISOTROPYMAP
+		mat2 anisotropyMat = mat2( anisotropyVector.x, anisotropyVector.y, - anisotropyVector.y, anisotropyVector.x );
+		vec3 anisotropyPolar = texture2D( anisotropyMap, vAnisotropyMapUv ).rgb;
+		vec2 anisotropyV = anisotropyMat * normalize( 2.0 * anisotropyPolar.rg - vec2( 1.0 ) ) * anisotropyPolar.b;
+	#else
+		vec2 anisotropyV = anisotropyVector;
+	#endif
+	material.anisotropy = length( anisotropyV );
+	if( material.anisotropy == 0.0 ) {
+		anisotropyV = vec2( 1.0, 0.0 );
+	} else {
+		anisotropyV /= material.anisotropy;
+		material.anisotropy = saturate( material.anisotropy );
+	}
+	material.alphaT = mix( pow2( material.roughness ), 1.0, pow2( material.anisotropy ) );
+	material.anisotropyT = tbn[ 0 ] * anisotropyV.x + tbn[ 1 ] * anisotropyV.y;
+	material.anisotropyB = tbn[ 1 ] * anisotropyV.x - tbn[ 0 ] * anisotropyV.y;
+#endif`,pE=`uniform sampler2D dfgLUT;
+struct PhysicalMaterial {
+	vec3 diffuseColor;
+	vec3 diffuseContribution;
+	vec3 specularColor;
+	vec3 specularColorBlended;
+	float roughness;
+	float metalness;
+	float specularF90;
+	float dispersion;
+	vec2 dfg;
+	vec3 multiScatteringCompensation;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float diffuseRoughness;
+	#endif
+	#ifdef USE_RETROREFLECTION
+		float retroreflectivity;
+	#endif
+	#ifdef USE_CLEARCOAT
+		float clearcoat;
+		float clearcoatRoughness;
+		vec3 clearcoatF0;
+		float clearcoatF90;
+	#endif
+	#ifdef USE_IRIDESCENCE
+		float iridescence;
+		float iridescenceIOR;
+		float iridescenceThickness;
+		vec3 iridescenceFresnel;
+		vec3 iridescenceF0Dielectric;
+		vec3 iridescenceF0Metallic;
+	#endif
+	#ifdef USE_SHEEN
+		vec3 sheenColor;
+		float sheenRoughness;
+	#endif
+	#ifdef IOR
+		float ior;
+	#endif
+	#ifdef USE_TRANSMISSION
+		float transmission;
+		float transmissionAlpha;
+		float thickness;
+		float attenuationDistance;
+		vec3 attenuationColor;
+	#endif
+	#ifdef USE_ANISOTROPY
+		float anisotropy;
+		float alphaT;
+		vec3 anisotropyT;
+		vec3 anisotropyB;
+	#endif
+};
+vec3 clearcoatSpecularDirect = vec3( 0.0 );
+vec3 clearcoatSpecularIndirect = vec3( 0.0 );
+vec3 sheenSpecularDirect = vec3( 0.0 );
+vec3 sheenSpecularIndirect = vec3(0.0 );
+vec3 Schlick_to_F0( const in vec3 f, const in float f90, const in float dotVH ) {
+    float x = clamp( 1.0 - dotVH, 0.0, 1.0 );
+    float x2 = x * x;
+    float x5 = clamp( x * x2 * x2, 0.0, 0.9999 );
+    return ( f - vec3( f90 ) * x5 ) / ( 1.0 - x5 );
+}
+#ifdef USE_DIFFUSE_ROUGHNESS
+	const float EON_EPSILON = 1e-7;
+	float FON_DirectionalAlbedo( const in float mu, const in float roughness, const in float A ) {
+		float muComp = 1.0 - mu;
+		float gOverPi = muComp * ( 0.0571085289 + muComp * ( 0.491881867 + muComp * ( - 0.332181442 + muComp * 0.0714429953 ) ) );
+		return A * ( 1.0 + roughness * gOverPi );
+	}
+	vec3 BRDF_EON( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 diffuseColor, const in float roughness ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return BRDF_Lambert( rho );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float s = dot( lightDir, viewDir ) - dotNL * dotNV;
+		float sOverT = ( s > 0.0 ) ? s / max( max( dotNL, dotNV ), EON_EPSILON ) : s;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		vec3 singleScatter = rho * RECIPROCAL_PI * A * ( 1.0 + roughness * sOverT );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		float albedoV = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float albedoL = FON_DirectionalAlbedo( dotNL, roughness, A );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		vec3 multiScatter = rhoMultiScatter * RECIPROCAL_PI
+			* max( EON_EPSILON, 1.0 - albedoV )
+			* max( EON_EPSILON, 1.0 - albedoL )
+			/ max( EON_EPSILON, 1.0 - averageAlbedo );
+		return singleScatter + multiScatter;
+	}
+	vec3 EON_DirectionalAlbedo( const in vec3 diffuseColor, const in float roughness, const in float dotNV ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return rho;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		float directionalAlbedo = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		return rho * directionalAlbedo + rhoMultiScatter * ( 1.0 - directionalAlbedo );
+	}
+#endif
+float V_GGX_SmithCorrelated( const in float alpha, const in float dotNL, const in float dotNV ) {
+	float a2 = pow2( alpha );
+	float gv = dotNL * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNV ) );
+	float gl = dotNV * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNL ) );
+	return 0.5 / max( gv + gl, EPSILON );
+}
+float D_GGX( const in float alpha, const in float dotNH ) {
+	float a2 = pow2( alpha );
+	float denom = pow2( dotNH ) * ( a2 - 1.0 ) + 1.0;
+	return RECIPROCAL_PI * a2 / pow2( denom );
+}
+#ifdef USE_ANISOTROPY
+	float V_GGX_SmithCorrelated_Anisotropic( const in float alphaT, const in float alphaB, const in float dotTV, const in float dotBV, const in float dotTL, const in float dotBL, const in float dotNV, const in float dotNL ) {
+		float gv = dotNL * length( vec3( alphaT * dotTV, alphaB * dotBV, dotNV ) );
+		float gl = dotNV * length( vec3( alphaT * dotTL, alphaB * dotBL, dotNL ) );
+		return 0.5 / max( gv + gl, EPSILON );
+	}
+	float D_GGX_Anisotropic( const in float alphaT, const in float alphaB, const in float dotNH, const in float dotTH, const in float dotBH ) {
+		float a2 = alphaT * alphaB;
+		highp vec3 v = vec3( alphaB * dotTH, alphaT * dotBH, a2 * dotNH );
+		highp float v2 = dot( v, v );
+		float w2 = a2 / v2;
+		return RECIPROCAL_PI * a2 * pow2 ( w2 );
+	}
+#endif
+#ifdef USE_CLEARCOAT
+	vec3 BRDF_GGX_Clearcoat( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material) {
+		vec3 f0 = material.clearcoatF0;
+		float f90 = material.clearcoatF90;
+		float roughness = max( material.clearcoatRoughness, 0.045 );
+		float alpha = pow2( roughness );
+		vec3 halfDir = normalize( lightDir + viewDir );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float dotNH = saturate( dot( normal, halfDir ) );
+		float dotVH = saturate( dot( viewDir, halfDir ) );
+		vec3 F = F_Schlick( f0, f90, dotVH );
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+		return F * ( V * D );
+	}
+#endif
+vec3 BRDF_GGX( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material ) {
+	vec3 f0 = material.specularColorBlended;
+	float f90 = material.specularF90;
+	float roughness = max( material.roughness, 0.045 );
+	float alpha = pow2( roughness );
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( f0, f90, dotVH );
+	#ifdef USE_IRIDESCENCE
+		F = mix( F, material.iridescenceFresnel, material.iridescence );
+	#endif
+	#ifdef USE_ANISOTROPY
+		float dotTL = dot( material.anisotropyT, lightDir );
+		float dotTV = dot( material.anisotropyT, viewDir );
+		float dotTH = dot( material.anisotropyT, halfDir );
+		float dotBL = dot( material.anisotropyB, lightDir );
+		float dotBV = dot( material.anisotropyB, viewDir );
+		float dotBH = dot( material.anisotropyB, halfDir );
+		float alphaT = max( material.alphaT, alpha );
+		float V = V_GGX_SmithCorrelated_Anisotropic( alphaT, alpha, dotTV, dotBV, dotTL, dotBL, dotNV, dotNL );
+		float D = D_GGX_Anisotropic( alphaT, alpha, dotNH, dotTH, dotBH );
+	#else
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+	#endif
+	return F * ( V * D );
+}
+vec2 LTC_Uv( const in vec3 N, const in vec3 V, const in float roughness ) {
+	const float LUT_SIZE = 64.0;
+	const float LUT_SCALE = ( LUT_SIZE - 1.0 ) / LUT_SIZE;
+	const float LUT_BIAS = 0.5 / LUT_SIZE;
+	float dotNV = saturate( dot( N, V ) );
+	vec2 uv = vec2( roughness, sqrt( 1.0 - dotNV ) );
+	uv = uv * LUT_SCALE + LUT_BIAS;
+	return uv;
+}
+float LTC_ClippedSphereFormFactor( const in vec3 f ) {
+	float l = length( f );
+	return max( ( l * l + f.z ) / ( l + 1.0 ), 0.0 );
+}
+vec3 LTC_EdgeVectorFormFactor( const in vec3 v1, const in vec3 v2 ) {
+	float x = dot( v1, v2 );
+	float y = abs( x );
+	float a = 0.8543985 + ( 0.4965155 + 0.0145206 * y ) * y;
+	float b = 3.4175940 + ( 4.1616724 + y ) * y;
+	float v = a / b;
+	float theta_sintheta = ( x > 0.0 ) ? v : 0.5 * inversesqrt( max( 1.0 - x * x, 1e-7 ) ) - v;
+	return cross( v1, v2 ) * theta_sintheta;
+}
+vec3 LTC_Evaluate( const in vec3 N, const in vec3 V, const in vec3 P, const in mat3 mInv, const in vec3 rectCoords[ 4 ] ) {
+	vec3 v1 = rectCoords[ 1 ] - rectCoords[ 0 ];
+	vec3 v2 = rectCoords[ 3 ] - rectCoords[ 0 ];
+	vec3 lightNormal = cross( v1, v2 );
+	if( dot( lightNormal, P - rectCoords[ 0 ] ) < 0.0 ) return vec3( 0.0 );
+	vec3 T1, T2;
+	T1 = normalize( V - N * dot( V, N ) );
+	T2 = - cross( N, T1 );
+	mat3 mat = mInv * transpose( mat3( T1, T2, N ) );
+	vec3 coords[ 4 ];
+	coords[ 0 ] = mat * ( rectCoords[ 0 ] - P );
+	coords[ 1 ] = mat * ( rectCoords[ 1 ] - P );
+	coords[ 2 ] = mat * ( rectCoords[ 2 ] - P );
+	coords[ 3 ] = mat * ( rectCoords[ 3 ] - P );
+	coords[ 0 ] = normalize( coords[ 0 ] );
+	coords[ 1 ] = normalize( coords[ 1 ] );
+	coords[ 2 ] = normalize( coords[ 2 ] );
+	coords[ 3 ] = normalize( coords[ 3 ] );
+	vec3 vectorFormFactor = vec3( 0.0 );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 0 ], coords[ 1 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 1 ], coords[ 2 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 2 ], coords[ 3 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 3 ], coords[ 0 ] );
+	float result = LTC_ClippedSphereFormFactor( vectorFormFactor );
+	return vec3( result );
+}
+#if defined( USE_SHEEN )
+float D_Charlie( float roughness, float dotNH ) {
+	float alpha = pow2( roughness );
+	float invAlpha = 1.0 / alpha;
+	float cos2h = dotNH * dotNH;
+	float sin2h = max( 1.0 - cos2h, 0.0078125 );
+	return ( 2.0 + invAlpha ) * pow( sin2h, invAlpha * 0.5 ) / ( 2.0 * PI );
+}
+float V_Neubelt( float dotNV, float dotNL ) {
+	return saturate( 1.0 / ( 4.0 * ( dotNL + dotNV - dotNL * dotNV ) ) );
+}
+vec3 BRDF_Sheen( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, vec3 sheenColor, const in float sheenRoughness ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float D = D_Charlie( sheenRoughness, dotNH );
+	float V = V_Neubelt( dotNV, dotNL );
+	return sheenColor * ( D * V );
+}
+#endif
+float IBLSheenBRDF( const in vec3 normal, const in vec3 viewDir, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float r2 = roughness * roughness;
+	float rInv = 1.0 / ( roughness + 0.1 );
+	float a = -1.9362 + 1.0678 * roughness + 0.4573 * r2 - 0.8469 * rInv;
+	float b = -0.6014 + 0.5538 * roughness - 0.4670 * r2 - 0.1255 * rInv;
+	float DG = exp( a * dotNV + b );
+	return saturate( DG );
+}
+vec3 EnvironmentBRDF( const in vec3 normal, const in vec3 viewDir, const in vec3 specularColor, const in float specularF90, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	vec2 fab = texture2D( dfgLUT, vec2( roughness, dotNV ) ).rg;
+	return specularColor * fab.x + specularF90 * fab.y;
+}
+#ifdef USE_IRIDESCENCE
+void computeMultiscatteringIridescence( const in vec2 fab, const in vec3 specularColor, const in float specularF90, const in float iridescence, const in vec3 iridescenceF0, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#else
+void computeMultiscattering( const in vec2 fab, const in vec3 specularColor, const in float specularF90, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#endif
+	#ifdef USE_IRIDESCENCE
+		vec3 Fr = mix( specularColor, iridescenceF0, iridescence );
+	#else
+		vec3 Fr = specularColor;
+	#endif
+	vec3 FssEss = Fr * fab.x + specularF90 * fab.y;
+	float Ess = fab.x + fab.y;
+	float Ems = 1.0 - Ess;
+	vec3 Favg = Fr + ( 1.0 - Fr ) * 0.047619;	vec3 Fms = FssEss * Favg / ( 1.0 - Ems * Favg );
+	singleScatter += FssEss;
+	multiScatter += Fms * Ems;
+}
+#if NUM_RECT_AREA_LIGHTS > 0
+	void RE_Direct_RectArea_Physical( const in RectAreaLight rectAreaLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+		vec3 normal = geometryNormal;
+		vec3 viewDir = geometryViewDir;
+		vec3 position = geometryPosition;
+		vec3 lightPos = rectAreaLight.position;
+		vec3 halfWidth = rectAreaLight.halfWidth;
+		vec3 halfHeight = rectAreaLight.halfHeight;
+		vec3 lightColor = rectAreaLight.color;
+		float roughness = material.roughness;
+		vec3 rectCoords[ 4 ];
+		rectCoords[ 0 ] = lightPos + halfWidth - halfHeight;		rectCoords[ 1 ] = lightPos - halfWidth - halfHeight;
+		rectCoords[ 2 ] = lightPos - halfWidth + halfHeight;
+		rectCoords[ 3 ] = lightPos + halfWidth + halfHeight;
+		vec2 uv = LTC_Uv( normal, viewDir, roughness );
+		vec4 t1 = texture2D( ltc_1, uv );
+		vec4 t2 = texture2D( ltc_2, uv );
+		mat3 mInv = mat3(
+			vec3( t1.x, 0, t1.y ),
+			vec3(    0, 1,    0 ),
+			vec3( t1.z, 0, t1.w )
+		);
+		vec3 fresnel = ( material.specularColorBlended * t2.x + ( material.specularF90 - material.specularColorBlended ) * t2.y );
+		reflectedLight.directSpecular += lightColor * fresnel * LTC_Evaluate( normal, viewDir, position, mInv, rectCoords );
+		reflectedLight.directDiffuse += lightColor * material.diffuseContribution * LTC_Evaluate( normal, viewDir, position, mat3( 1.0 ), rectCoords );
+		#ifdef USE_CLEARCOAT
+			vec3 Ncc = geometryClearcoatNormal;
+			vec2 uvClearcoat = LTC_Uv( Ncc, viewDir, material.clearcoatRoughness );
+			vec4 t1Clearcoat = texture2D( ltc_1, uvClearcoat );
+			vec4 t2Clearcoat = texture2D( ltc_2, uvClearcoat );
+			mat3 mInvClearcoat = mat3(
+				vec3( t1Clearcoat.x, 0, t1Clearcoat.y ),
+				vec3(             0, 1,             0 ),
+				vec3( t1Clearcoat.z, 0, t1Clearcoat.w )
+			);
+			vec3 fresnelClearcoat = material.clearcoatF0 * t2Clearcoat.x + ( material.clearcoatF90 - material.clearcoatF0 ) * t2Clearcoat.y;
+			clearcoatSpecularDirect += lightColor * fresnelClearcoat * LTC_Evaluate( Ncc, viewDir, position, mInvClearcoat, rectCoords );
+		#endif
+	}
+#endif
+void RE_Direct_Physical( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	#ifdef USE_CLEARCOAT
+		float dotNLcc = saturate( dot( geometryClearcoatNormal, directLight.direction ) );
+		vec3 ccIrradiance = dotNLcc * directLight.color;
+		clearcoatSpecularDirect += ccIrradiance * BRDF_GGX_Clearcoat( directLight.direction, geometryViewDir, geometryClearcoatNormal, material );
+	#endif
+	#ifdef USE_SHEEN
+ 
+ 		sheenSpecularDirect += irradiance * BRDF_Sheen( directLight.direction, geometryViewDir, geometryNormal, material.sheenColor, material.sheenRoughness );
+ 
+ 		float sheenAlbedoV = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+ 		float sheenAlbedoL = IBLSheenBRDF( geometryNormal, directLight.direction, material.sheenRoughness );
+ 
+ 		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * max( sheenAlbedoV, sheenAlbedoL );
+ 
+ 		irradiance *= sheenEnergyComp;
+ 
+ 	#endif
+	vec3 specularBRDF = BRDF_GGX( directLight.direction, geometryViewDir, geometryNormal, material );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroViewDir = reflect( - geometryViewDir, geometryNormal );
+		vec3 retroSpecularBRDF = BRDF_GGX( directLight.direction, retroViewDir, geometryNormal, material );
+		specularBRDF = mix( specularBRDF, retroSpecularBRDF, saturate( material.retroreflectivity ) );
+	#endif
+	reflectedLight.directSpecular += irradiance * specularBRDF * material.multiScatteringCompensation;
+	vec3 halfDir = normalize( directLight.direction + geometryViewDir );
+	float dotVH = saturate( dot( geometryViewDir, halfDir ) );
+	vec3 F = F_Schlick( material.specularColor, material.specularF90, dotVH );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroHalfDir = normalize( directLight.direction + retroViewDir );
+		float dotRetroVH = saturate( dot( retroViewDir, retroHalfDir ) );
+		vec3 retroF = F_Schlick( material.specularColor, material.specularF90, dotRetroVH );
+		F = mix( F, retroF, saturate( material.retroreflectivity ) );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		vec3 diffuseBRDF = BRDF_EON( directLight.direction, geometryViewDir, geometryNormal, material.diffuseColor, material.diffuseRoughness ) * ( 1.0 - material.metalness );
+	#else
+		vec3 diffuseBRDF = BRDF_Lambert( material.diffuseContribution );
+	#endif
+	reflectedLight.directDiffuse += irradiance * diffuseBRDF * ( 1.0 - F );
+}
+void RE_IndirectDiffuse_Physical( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 singleScattering = vec3( 0.0 );
+	vec3 multiScattering = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScattering, multiScattering );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScattering, multiScattering );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuseAlbedo = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness );
+		vec3 diffuse = irradiance * RECIPROCAL_PI * diffuseAlbedo * ( 1.0 - singleScattering - multiScattering );
+	#else
+		vec3 diffuse = irradiance * BRDF_Lambert( material.diffuseContribution ) * ( 1.0 - singleScattering - multiScattering );
+	#endif
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		sheenSpecularIndirect += irradiance * material.sheenColor * sheenAlbedo * RECIPROCAL_PI;
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		diffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectDiffuse += diffuse;
+}
+void RE_IndirectSpecular_Physical( const in vec3 radiance, const in vec3 irradiance, const in vec3 clearcoatRadiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+	#ifdef USE_CLEARCOAT
+		clearcoatSpecularIndirect += clearcoatRadiance * EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, material.clearcoatF0, material.clearcoatF90, material.clearcoatRoughness );
+	#endif
+	#ifdef USE_SHEEN
+		sheenSpecularIndirect += irradiance * material.sheenColor * IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness ) * RECIPROCAL_PI;
+ 	#endif
+	vec3 singleScatteringDielectric = vec3( 0.0 );
+	vec3 multiScatteringDielectric = vec3( 0.0 );
+	vec3 singleScatteringMetallic = vec3( 0.0 );
+	vec3 multiScatteringMetallic = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscatteringIridescence( material.dfg, material.diffuseColor, material.specularF90, material.iridescence, material.iridescenceF0Metallic, singleScatteringMetallic, multiScatteringMetallic );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscattering( material.dfg, material.diffuseColor, material.specularF90, singleScatteringMetallic, multiScatteringMetallic );
+	#endif
+	vec3 singleScattering = mix( singleScatteringDielectric, singleScatteringMetallic, material.metalness );
+	vec3 multiScattering = mix( multiScatteringDielectric, multiScatteringMetallic, material.metalness );
+	vec3 totalScatteringDielectric = singleScatteringDielectric + multiScatteringDielectric;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuse = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness ) * ( 1.0 - totalScatteringDielectric );
+	#else
+		vec3 diffuse = material.diffuseContribution * ( 1.0 - totalScatteringDielectric );
+	#endif
+	vec3 cosineWeightedIrradiance = irradiance * RECIPROCAL_PI;
+	vec3 indirectSpecular = radiance * singleScattering;
+	indirectSpecular += multiScattering * cosineWeightedIrradiance;
+	vec3 indirectDiffuse = diffuse * cosineWeightedIrradiance;
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		indirectSpecular *= sheenEnergyComp;
+		indirectDiffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectSpecular += indirectSpecular;
+	reflectedLight.indirectDiffuse += indirectDiffuse;
+}
+#define RE_Direct				RE_Direct_Physical
+#define RE_Direct_RectArea		RE_Direct_RectArea_Physical
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Physical
+#define RE_IndirectSpecular		RE_IndirectSpecular_Physical
+float computeSpecularOcclusion( const in float dotNV, const in float ambientOcclusion, const in float roughness ) {
+	return saturate( pow( dotNV + ambientOcclusion, exp2( - 16.0 * roughness - 1.0 ) ) - 1.0 + ambientOcclusion );
+}`,mE=`
+vec3 geometryPosition = - vViewPosition;
+vec3 geometryNormal = normal;
+vec3 geometryViewDir = ( isOrthographic ) ? vec3( 0, 0, 1 ) : normalize( vViewPosition );
+vec3 geometryClearcoatNormal = vec3( 0.0 );
+#ifdef USE_CLEARCOAT
+	geometryClearcoatNormal = clearcoatNormal;
+#endif
+#ifdef USE_IRIDESCENCE
+	float dotNVi = saturate( dot( normal, geometryViewDir ) );
+	if ( material.iridescenceThickness == 0.0 ) {
+		material.iridescence = 0.0;
+	} else {
+		material.iridescence = saturate( material.iridescence );
+	}
+	if ( material.iridescence > 0.0 ) {
+		vec3 iridescenceFresnelDielectric = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.specularColor );
+		vec3 iridescenceFresnelMetallic = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.diffuseColor );
+		material.iridescenceFresnel = mix( iridescenceFresnelDielectric, iridescenceFresnelMetallic, material.metalness );
+		material.iridescenceF0Dielectric = Schlick_to_F0( iridescenceFresnelDielectric, 1.0, dotNVi );
+		material.iridescenceF0Metallic = Schlick_to_F0( iridescenceFresnelMetallic, 1.0, dotNVi );
+	}
+#endif
+#ifdef STANDARD
+	float dotNVms = saturate( dot( geometryNormal, geometryViewDir ) );
+	material.dfg = texture2D( dfgLUT, vec2( material.roughness, dotNVms ) ).rg;
+	#if ( NUM_SUN_LIGHTS > 0 || NUM_DIR_LIGHTS > 0 || NUM_POINT_LIGHTS > 0 || NUM_SPOT_LIGHTS > 0 )
+		float EssMs = material.dfg.x + material.dfg.y;
+		material.multiScatteringCompensation = 1.0 + material.specularColorBlended * ( 1.0 / EssMs - 1.0 );
+	#endif
+#endif
+IncidentLight directLight;
+#if ( NUM_POINT_LIGHTS > 0 ) && defined( RE_Direct )
+	PointLight pointLight;
+	#if defined( USE_SHADOWMAP ) && NUM_POINT_LIGHT_SHADOWS > 0
+	PointLightShadow pointLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHTS; i ++ ) {
+		pointLight = pointLights[ i ];
+		getPointLightInfo( pointLight, geometryPosition, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_POINT_LIGHT_SHADOWS ) && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+		pointLightShadow = pointLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getPointShadow( pointShadowMap[ i ], pointLightShadow.shadowMapSize, pointLightShadow.shadowIntensity, pointLightShadow.shadowBias, pointLightShadow.shadowRadius, vPointShadowCoord[ i ], pointLightShadow.shadowCameraNear, pointLightShadow.shadowCameraFar ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SPOT_LIGHTS > 0 ) && defined( RE_Direct )
+	SpotLight spotLight;
+	vec4 spotColor;
+	vec3 spotLightCoord;
+	bool inSpotLightMap;
+	#if defined( USE_SHADOWMAP ) && NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHTS; i ++ ) {
+		spotLight = spotLights[ i ];
+		getSpotLightInfo( spotLight, geometryPosition, directLight );
+		#if ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#define SPOT_LIGHT_MAP_INDEX UNROLLED_LOOP_INDEX
+		#elif ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		#define SPOT_LIGHT_MAP_INDEX NUM_SPOT_LIGHT_MAPS
+		#else
+		#define SPOT_LIGHT_MAP_INDEX ( UNROLLED_LOOP_INDEX - NUM_SPOT_LIGHT_SHADOWS + NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#endif
+		#if ( SPOT_LIGHT_MAP_INDEX < NUM_SPOT_LIGHT_MAPS )
+			spotLightCoord = vSpotLightCoord[ i ].xyz / vSpotLightCoord[ i ].w;
+			inSpotLightMap = all( lessThan( abs( spotLightCoord * 2. - 1. ), vec3( 1.0 ) ) );
+			spotColor = texture2D( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], spotLightCoord.xy );
+			directLight.color = inSpotLightMap ? directLight.color * spotColor.rgb : directLight.color;
+		#endif
+		#undef SPOT_LIGHT_MAP_INDEX
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		spotLightShadow = spotLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( spotShadowMap[ i ], spotLightShadow.shadowMapSize, spotLightShadow.shadowIntensity, spotLightShadow.shadowBias, spotLightShadow.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SUN_LIGHTS > 0 ) && defined( RE_Direct )
+	SunLight sunLight;
+	#if defined( USE_SHADOWMAP ) && NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHTS; i ++ ) {
+		sunLight = sunLights[ i ];
+		getSunLightInfo( sunLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SUN_LIGHT_SHADOWS )
+		sunLightShadow = sunLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getSunShadow( sunShadowMap[ i ], sunLightShadow, UNROLLED_LOOP_INDEX ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_DIR_LIGHTS > 0 ) && defined( RE_Direct )
+	DirectionalLight directionalLight;
+	#if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHTS; i ++ ) {
+		directionalLight = directionalLights[ i ];
+		getDirectionalLightInfo( directionalLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS )
+		directionalLightShadow = directionalLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( directionalShadowMap[ i ], directionalLightShadow.shadowMapSize, directionalLightShadow.shadowIntensity, directionalLightShadow.shadowBias, directionalLightShadow.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_RECT_AREA_LIGHTS > 0 ) && defined( RE_Direct_RectArea )
+	RectAreaLight rectAreaLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_RECT_AREA_LIGHTS; i ++ ) {
+		rectAreaLight = rectAreaLights[ i ];
+		RE_Direct_RectArea( rectAreaLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if defined( RE_IndirectDiffuse )
+	vec3 iblIrradiance = vec3( 0.0 );
+	vec3 irradiance = getAmbientLightIrradiance( ambientLightColor );
+	#if defined( USE_LIGHT_PROBES )
+		irradiance += getLightProbeIrradiance( lightProbe, geometryNormal );
+	#endif
+	#if ( NUM_HEMI_LIGHTS > 0 )
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_HEMI_LIGHTS; i ++ ) {
+			irradiance += getHemisphereLightIrradiance( hemisphereLights[ i ], geometryNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_LIGHT_PROBE_GRIDS > 0
+		vec3 probeWorldPos = ( ( vec4( geometryPosition, 1.0 ) - viewMatrix[ 3 ] ) * viewMatrix ).xyz;
+		vec3 probeWorldNormal = transformNormalByInverseViewMatrix( geometryNormal, viewMatrix );
+		int probeGrid = - 1;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( isInsideLightProbeGrid( probeWorldPos, probeWorldNormal, probesMin[ i ], probesMax[ i ], probesResolution[ i ] ) ) probeGrid = UNROLLED_LOOP_INDEX;
+		}
+		#pragma unroll_loop_end
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( probeGrid == UNROLLED_LOOP_INDEX ) irradiance += getLightProbeGridIrradiance( probesSH[ i ], probesMin[ i ], probesMax[ i ], probesResolution[ i ], probeWorldPos, probeWorldNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if defined( RE_IndirectSpecular )
+	vec3 radiance = vec3( 0.0 );
+	vec3 clearcoatRadiance = vec3( 0.0 );
+#endif`,gE=`#if defined( RE_IndirectDiffuse )
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		vec3 lightMapIrradiance = lightMapTexel.rgb * lightMapIntensity;
+		irradiance += lightMapIrradiance;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( ENVMAP_TYPE_PMREM )
+		#if defined( STANDARD ) || defined( LAMBERT ) || defined( PHONG )
+			iblIrradiance += getIBLIrradiance( geometryNormal );
+		#endif
+	#endif
+#endif
+#if defined( USE_ENVMAP ) && defined( RE_IndirectSpecular )
+	#ifdef USE_ANISOTROPY
+		vec3 iblRadiance = getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+	#else
+		vec3 iblRadiance = getIBLRadiance( geometryViewDir, geometryNormal, material.roughness );
+	#endif
+	#ifdef USE_RETROREFLECTION
+		#ifdef USE_ANISOTROPY
+			vec3 retroIBLRadiance = getIBLAnisotropyRetroRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+		#else
+			vec3 retroIBLRadiance = getIBLRetroRadiance( geometryViewDir, geometryNormal, material.roughness );
+		#endif
+		iblRadiance = mix( iblRadiance, retroIBLRadiance, saturate( material.retroreflectivity ) );
+	#endif
+	radiance += iblRadiance;
+	#ifdef USE_CLEARCOAT
+		clearcoatRadiance += getIBLRadiance( geometryViewDir, geometryClearcoatNormal, material.clearcoatRoughness );
+	#endif
+#endif`,yE=`#if defined( RE_IndirectDiffuse )
+	#if defined( LAMBERT ) || defined( PHONG )
+		irradiance += iblIrradiance;
+	#endif
+	RE_IndirectDiffuse( irradiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif
+#if defined( RE_IndirectSpecular )
+	RE_IndirectSpecular( radiance, iblIrradiance, clearcoatRadiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif`,_E=`#if NUM_LIGHT_PROBE_GRIDS > 0
+uniform highp sampler3D probesSH[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMin[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMax[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesResolution[ NUM_LIGHT_PROBE_GRIDS ];
+bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
+	vec3 spacing = ( probesMax - probesMin ) / probesResolution;
+	vec3 samplePos = worldPos + worldNormal * spacing * 0.5;
+	vec3 margin = spacing * 0.01;
+	return all( greaterThanEqual( samplePos, probesMin - margin ) ) && all( lessThanEqual( samplePos, probesMax + margin ) );
+}
+vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+	vec3 res = probesResolution;
+	vec3 gridRange = probesMax - probesMin;
+	vec3 probeSpacing = gridRange / res;
+	vec3 samplePos = worldPos + worldNormal * probeSpacing * 0.5;
+	vec3 uvw = clamp( ( samplePos - probesMin ) / gridRange, 0.5 / res, 1.0 - 0.5 / res );
+	float nz          = res.z;
+	float paddedSlices = nz + 2.0;
+	float atlasDepth  = 7.0 * paddedSlices;
+	float uvZBase     = uvw.z * nz + 1.0;
+	vec4 s0 = texture( probesSH, vec3( uvw.xy, ( uvZBase                       ) / atlasDepth ) );
+	vec4 s1 = texture( probesSH, vec3( uvw.xy, ( uvZBase +       paddedSlices   ) / atlasDepth ) );
+	vec4 s2 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 2.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s3 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 3.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s4 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 4.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s5 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 5.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s6 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 6.0 * paddedSlices   ) / atlasDepth ) );
+	vec3 c0 = s0.xyz;
+	vec3 c1 = vec3( s0.w, s1.xy );
+	vec3 c2 = vec3( s1.zw, s2.x );
+	vec3 c3 = s2.yzw;
+	vec3 c4 = s3.xyz;
+	vec3 c5 = vec3( s3.w, s4.xy );
+	vec3 c6 = vec3( s4.zw, s5.x );
+	vec3 c7 = s5.yzw;
+	vec3 c8 = s6.xyz;
+	float x = worldNormal.x, y = worldNormal.y, z = worldNormal.z;
+	vec3 result = c0 * 0.886227;
+	result += c1 * 2.0 * 0.511664 * y;
+	result += c2 * 2.0 * 0.511664 * z;
+	result += c3 * 2.0 * 0.511664 * x;
+	result += c4 * 2.0 * 0.429043 * x * y;
+	result += c5 * 2.0 * 0.429043 * y * z;
+	result += c6 * ( 0.743125 * z * z - 0.247708 );
+	result += c7 * 2.0 * 0.429043 * x * z;
+	result += c8 * 0.429043 * ( x * x - y * y );
+	return max( result, vec3( 0.0 ) );
+}
+#endif`,xE=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	gl_FragDepth = vIsPerspective == 0.0 ? gl_FragCoord.z : log2( vFragDepth ) * logDepthBufFC * 0.5;
+#endif`,vE=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	uniform float logDepthBufFC;
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,bE=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,SE=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	vFragDepth = 1.0 + gl_Position.w;
+	vIsPerspective = float( isPerspectiveMatrix( projectionMatrix ) );
+#endif`,ME=`#ifdef USE_MAP
+	vec4 sampledDiffuseColor = texture2D( map, vMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		sampledDiffuseColor = sRGBTransferEOTF( sampledDiffuseColor );
+	#endif
+	diffuseColor *= sampledDiffuseColor;
+#endif`,wE=`#ifdef USE_MAP
+	uniform sampler2D map;
+#endif`,TE=`#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+	#if defined( USE_POINTS_UV )
+		vec2 uv = vUv;
+	#else
+		vec2 uv = ( uvTransform * vec3( gl_PointCoord.x, 1.0 - gl_PointCoord.y, 1 ) ).xy;
+	#endif
+#endif
+#ifdef USE_MAP
+	diffuseColor *= texture2D( map, uv );
+#endif
+#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, uv ).g;
+#endif`,EE=`#if defined( USE_POINTS_UV )
+	varying vec2 vUv;
+#else
+	#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+		uniform mat3 uvTransform;
+	#endif
+#endif
+#ifdef USE_MAP
+	uniform sampler2D map;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,AE=`float metalnessFactor = metalness;
+#ifdef USE_METALNESSMAP
+	vec4 texelMetalness = texture2D( metalnessMap, vMetalnessMapUv );
+	metalnessFactor *= texelMetalness.b;
+#endif`,RE=`#ifdef USE_METALNESSMAP
+	uniform sampler2D metalnessMap;
+#endif`,CE=`#ifdef USE_INSTANCING_MORPH
+	float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	float morphTargetBaseInfluence = texelFetch( morphTexture, ivec2( 0, gl_InstanceID ), 0 ).r;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		morphTargetInfluences[i] =  texelFetch( morphTexture, ivec2( i + 1, gl_InstanceID ), 0 ).r;
+	}
+#endif`,PE=`#if defined( USE_MORPHCOLORS )
+	#if defined( USE_COLOR_ALPHA )
+		vColor *= morphTargetBaseInfluence;
+	#elif defined( USE_COLOR )
+		vColor.rgb *= morphTargetBaseInfluence;
+	#endif
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		#if defined( USE_COLOR_ALPHA )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor += getMorph( gl_VertexID, i, 2 ) * morphTargetInfluences[ i ];
+		#elif defined( USE_COLOR )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor.rgb += getMorph( gl_VertexID, i, 2 ).rgb * morphTargetInfluences[ i ];
+		#endif
+	}
+#endif`,LE=`#ifdef USE_MORPHNORMALS
+	objectNormal *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) objectNormal += getMorph( gl_VertexID, i, 1 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,IE=`#ifdef USE_MORPHTARGETS
+	#ifndef USE_INSTANCING_MORPH
+		uniform float morphTargetBaseInfluence;
+		uniform float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	#endif
+	uniform sampler2DArray morphTargetsTexture;
+	uniform ivec2 morphTargetsTextureSize;
+	vec4 getMorph( const in int vertexIndex, const in int morphTargetIndex, const in int offset ) {
+		int texelIndex = vertexIndex * MORPHTARGETS_TEXTURE_STRIDE + offset;
+		int y = texelIndex / morphTargetsTextureSize.x;
+		int x = texelIndex - y * morphTargetsTextureSize.x;
+		ivec3 morphUV = ivec3( x, y, morphTargetIndex );
+		return texelFetch( morphTargetsTexture, morphUV, 0 );
+	}
+#endif`,NE=`#ifdef USE_MORPHTARGETS
+	transformed *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) transformed += getMorph( gl_VertexID, i, 0 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,DE=`float faceDirection = gl_FrontFacing ? 1.0 : - 1.0;
+#ifdef FLAT_SHADED
+	vec3 fdx = dFdx( vViewPosition );
+	vec3 fdy = dFdy( vViewPosition );
+	vec3 normal = normalize( cross( fdx, fdy ) );
+#else
+	vec3 normal = normalize( vNormal );
+	#ifdef DOUBLE_SIDED
+		normal *= faceDirection;
+	#endif
+#endif
+#if defined( USE_NORMALMAP_TANGENTSPACE ) || defined( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY )
+	#ifdef USE_TANGENT
+		mat3 tbn = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn = getTangentFrame( - vViewPosition, normal,
+		#if defined( USE_NORMALMAP )
+			vNormalMapUv
+		#elif defined( USE_CLEARCOAT_NORMALMAP )
+			vClearcoatNormalMapUv
+		#else
+			vUv
+		#endif
+		);
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn[0] *= faceDirection;
+		tbn[1] *= faceDirection;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	#ifdef USE_TANGENT
+		mat3 tbn2 = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn2 = getTangentFrame( - vViewPosition, normal, vClearcoatNormalMapUv );
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn2[0] *= faceDirection;
+		tbn2[1] *= faceDirection;
+	#endif
+#endif
+vec3 nonPerturbedNormal = normal;`,FE=`#ifdef USE_NORMALMAP_OBJECTSPACE
+	normal = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#ifdef FLIP_SIDED
+		normal = - normal;
+	#endif
+	#ifdef DOUBLE_SIDED
+		normal = normal * faceDirection;
+	#endif
+	normal = normalize( normalMatrix * normal );
+#elif defined( USE_NORMALMAP_TANGENTSPACE )
+	vec3 mapN = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#if defined( USE_PACKED_NORMALMAP )
+		mapN = vec3( mapN.xy, sqrt( saturate( 1.0 - dot( mapN.xy, mapN.xy ) ) ) );
+	#endif
+	mapN.xy *= normalScale;
+	normal = normalize( tbn * mapN );
+#elif defined( USE_BUMPMAP )
+	normal = perturbNormalArb( - vViewPosition, normal, dHdxy_fwd(), faceDirection );
+#endif`,UE=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,OE=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,BE=`#ifndef FLAT_SHADED
+	vNormal = normalize( transformedNormal );
+	#ifdef USE_TANGENT
+		vTangent = normalize( transformedTangent );
+		vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );
+		#ifdef FLIP_SIDED
+			vBitangent = - vBitangent;
+		#endif
+	#endif
+#endif`,kE=`#ifdef USE_NORMALMAP
+	uniform sampler2D normalMap;
+	uniform vec2 normalScale;
+#endif
+#ifdef USE_NORMALMAP_OBJECTSPACE
+	uniform mat3 normalMatrix;
+#endif
+#if ! defined ( USE_TANGENT ) && ( defined ( USE_NORMALMAP_TANGENTSPACE ) || defined ( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY ) )
+	mat3 getTangentFrame( vec3 eye_pos, vec3 surf_norm, vec2 uv ) {
+		vec3 q0 = dFdx( eye_pos.xyz );
+		vec3 q1 = dFdy( eye_pos.xyz );
+		vec2 st0 = dFdx( uv.st );
+		vec2 st1 = dFdy( uv.st );
+		vec3 N = surf_norm;
+		vec3 q1perp = cross( q1, N );
+		vec3 q0perp = cross( N, q0 );
+		vec3 T = q1perp * st0.x + q0perp * st1.x;
+		vec3 B = q1perp * st0.y + q0perp * st1.y;
+		float det = max( dot( T, T ), dot( B, B ) );
+		float scale = ( det == 0.0 ) ? 0.0 : inversesqrt( det );
+		return mat3( T * scale, B * scale, N );
+	}
+#endif`,zE=`#ifdef USE_CLEARCOAT
+	vec3 clearcoatNormal = nonPerturbedNormal;
+#endif`,VE=`#ifdef USE_CLEARCOAT_NORMALMAP
+	vec3 clearcoatMapN = texture2D( clearcoatNormalMap, vClearcoatNormalMapUv ).xyz * 2.0 - 1.0;
+	clearcoatMapN.xy *= clearcoatNormalScale;
+	clearcoatNormal = normalize( tbn2 * clearcoatMapN );
+#endif`,GE=`#ifdef USE_CLEARCOATMAP
+	uniform sampler2D clearcoatMap;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform sampler2D clearcoatNormalMap;
+	uniform vec2 clearcoatNormalScale;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform sampler2D clearcoatRoughnessMap;
+#endif`,HE=`#ifdef USE_IRIDESCENCEMAP
+	uniform sampler2D iridescenceMap;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform sampler2D iridescenceThicknessMap;
+#endif`,WE=`#ifdef OPAQUE
+diffuseColor.a = 1.0;
+#endif
+#ifdef USE_TRANSMISSION
+diffuseColor.a *= material.transmissionAlpha;
+#endif
+gl_FragColor = vec4( outgoingLight, diffuseColor.a );`,XE=`vec3 packNormalToRGB( const in vec3 normal ) {
+	return normalize( normal ) * 0.5 + 0.5;
+}
+vec3 unpackRGBToNormal( const in vec3 rgb ) {
+	return 2.0 * rgb.xyz - 1.0;
+}
+const float PackUpscale = 256. / 255.;const float UnpackDownscale = 255. / 256.;const float ShiftRight8 = 1. / 256.;
+const float Inv255 = 1. / 255.;
+const vec4 PackFactors = vec4( 1.0, 256.0, 256.0 * 256.0, 256.0 * 256.0 * 256.0 );
+const vec2 UnpackFactors2 = vec2( UnpackDownscale, 1.0 / PackFactors.g );
+const vec3 UnpackFactors3 = vec3( UnpackDownscale / PackFactors.rg, 1.0 / PackFactors.b );
+const vec4 UnpackFactors4 = vec4( UnpackDownscale / PackFactors.rgb, 1.0 / PackFactors.a );
+vec4 packDepthToRGBA( const in float v ) {
+	if( v <= 0.0 )
+		return vec4( 0., 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec4( 1., 1., 1., 1. );
+	float vuf;
+	float af = modf( v * PackFactors.a, vuf );
+	float bf = modf( vuf * ShiftRight8, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec4( vuf * Inv255, gf * PackUpscale, bf * PackUpscale, af );
+}
+vec3 packDepthToRGB( const in float v ) {
+	if( v <= 0.0 )
+		return vec3( 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec3( 1., 1., 1. );
+	float vuf;
+	float bf = modf( v * PackFactors.b, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec3( vuf * Inv255, gf * PackUpscale, bf );
+}
+vec2 packDepthToRG( const in float v ) {
+	if( v <= 0.0 )
+		return vec2( 0., 0. );
+	if( v >= 1.0 )
+		return vec2( 1., 1. );
+	float vuf;
+	float gf = modf( v * 256., vuf );
+	return vec2( vuf * Inv255, gf );
+}
+float unpackRGBAToDepth( const in vec4 v ) {
+	return dot( v, UnpackFactors4 );
+}
+float unpackRGBToDepth( const in vec3 v ) {
+	return dot( v, UnpackFactors3 );
+}
+float unpackRGToDepth( const in vec2 v ) {
+	return v.r * UnpackFactors2.r + v.g * UnpackFactors2.g;
+}
+vec4 pack2HalfToRGBA( const in vec2 v ) {
+	vec4 r = vec4( v.x, fract( v.x * 255.0 ), v.y, fract( v.y * 255.0 ) );
+	return vec4( r.x - r.y / 255.0, r.y, r.z - r.w / 255.0, r.w );
+}
+vec2 unpackRGBATo2Half( const in vec4 v ) {
+	return vec2( v.x + ( v.y / 255.0 ), v.z + ( v.w / 255.0 ) );
+}
+float viewZToOrthographicDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( viewZ + near ) / ( near - far );
+}
+float orthographicDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+	
+		return depth * ( far - near ) - far;
+	#else
+		return depth * ( near - far ) - near;
+	#endif
+}
+float viewZToPerspectiveDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( ( near + viewZ ) * far ) / ( ( far - near ) * viewZ );
+}
+float perspectiveDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		return ( near * far ) / ( ( near - far ) * depth - near );
+	#else
+		return ( near * far ) / ( ( far - near ) * depth - far );
+	#endif
+}`,qE=`#ifdef PREMULTIPLIED_ALPHA
+	gl_FragColor.rgb *= gl_FragColor.a;
+#endif`,YE=`vec4 mvPosition = vec4( transformed, 1.0 );
+#ifdef USE_BATCHING
+	mvPosition = batchingMatrix * mvPosition;
+#endif
+#ifdef USE_INSTANCING
+	mvPosition = instanceMatrix * mvPosition;
+#endif
+mvPosition = modelViewMatrix * mvPosition;
+gl_Position = projectionMatrix * mvPosition;`,jE=`#ifdef DITHERING
+	gl_FragColor.rgb = dithering( gl_FragColor.rgb );
+#endif`,JE=`#ifdef DITHERING
+	vec3 dithering( vec3 color ) {
+		float grid_position = rand( gl_FragCoord.xy );
+		vec3 dither_shift_RGB = vec3( 0.25 / 255.0, -0.25 / 255.0, 0.25 / 255.0 );
+		dither_shift_RGB = mix( 2.0 * dither_shift_RGB, -2.0 * dither_shift_RGB, grid_position );
+		return color + dither_shift_RGB;
+	}
+#endif`,$E=`float roughnessFactor = roughness;
+#ifdef USE_ROUGHNESSMAP
+	vec4 texelRoughness = texture2D( roughnessMap, vRoughnessMapUv );
+	roughnessFactor *= texelRoughness.g;
+#endif`,ZE=`#ifdef USE_ROUGHNESSMAP
+	uniform sampler2D roughnessMap;
+#endif`,KE=`#if NUM_SPOT_LIGHT_COORDS > 0
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#if NUM_SPOT_LIGHT_MAPS > 0
+	uniform sampler2D spotLightMap[ NUM_SPOT_LIGHT_MAPS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		#define SUN_LIGHT_CASCADES 2
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#endif
+		uniform mat4 sunShadowMatrix[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		uniform vec4 sunShadowCascade[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+		struct SunLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SunLightShadow sunLightShadows[ NUM_SUN_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#endif
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform samplerCubeShadow pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#elif defined( SHADOWMAP_TYPE_BASIC )
+			uniform samplerCube pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float interleavedGradientNoise( vec2 position ) {
+			return fract( 52.9829189 * fract( dot( position, vec2( 0.06711056, 0.00583715 ) ) ) );
+		}
+		vec2 vogelDiskSample( int sampleIndex, int samplesCount, float phi ) {
+			const float goldenAngle = 2.399963229728653;
+			float r = sqrt( ( float( sampleIndex ) + 0.5 ) / float( samplesCount ) );
+			float theta = float( sampleIndex ) * goldenAngle + phi;
+			return vec2( cos( theta ), sin( theta ) ) * r;
+		}
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float getShadow( sampler2DShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 texelSize = vec2( 1.0 ) / shadowMapSize;
+				vec2 radius = shadowRadius * texelSize;
+				float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+				shadow = (
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 0, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 1, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 2, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 3, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 4, 5, phi ) * radius, shadowCoord.z ) )
+				) * 0.2;
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#elif defined( SHADOWMAP_TYPE_VSM )
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 distribution = texture2D( shadowMap, shadowCoord.xy ).rg;
+				float mean = distribution.x;
+				float variance = distribution.y * distribution.y;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					float hard_shadow = step( mean, shadowCoord.z );
+				#else
+					float hard_shadow = step( shadowCoord.z, mean );
+				#endif
+				
+				if ( hard_shadow == 1.0 ) {
+					shadow = 1.0;
+				} else {
+					variance = max( variance, 0.0000001 );
+					float d = shadowCoord.z - mean;
+					float p_max = variance / ( variance + d * d );
+					p_max = clamp( ( p_max - 0.3 ) / 0.65, 0.0, 1.0 );
+					shadow = max( hard_shadow, p_max );
+				}
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#else
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				float depth = texture2D( shadowMap, shadowCoord.xy ).r;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					shadow = step( depth, shadowCoord.z );
+				#else
+					shadow = step( shadowCoord.z, depth );
+				#endif
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#endif
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		float getSunShadow(
+			#if defined( SHADOWMAP_TYPE_PCF )
+				sampler2DShadow shadowMap,
+			#else
+				sampler2D shadowMap,
+			#endif
+			SunLightShadow sunLightShadow,
+			int shadowIndex
+		) {
+			vec4 shadowWorldPosition = vec4( vSunShadowWorldPosition.xyz + vSunShadowWorldNormal * sunLightShadow.shadowNormalBias, 1.0 );
+			float viewDepth = vSunShadowWorldPosition.w;
+			int cascadeOffset = shadowIndex * SUN_LIGHT_CASCADES;
+			float shadow = 1.0;
+			for ( int i = SUN_LIGHT_CASCADES - 1; i >= 0; i -- ) {
+				vec4 cascade = sunShadowCascade[ cascadeOffset + i ];
+				if ( viewDepth >= cascade.x && viewDepth < cascade.y ) {
+					float cascadeShadow = getShadow(
+						shadowMap,
+						sunLightShadow.shadowMapSize,
+						sunLightShadow.shadowIntensity,
+						sunLightShadow.shadowBias,
+						sunLightShadow.shadowRadius,
+						sunShadowMatrix[ cascadeOffset + i ] * shadowWorldPosition
+					);
+					shadow = mix( cascadeShadow, shadow, smoothstep( cascade.z, cascade.y, viewDepth ) );
+				}
+			}
+			return shadow;
+		}
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+	#if defined( SHADOWMAP_TYPE_PCF )
+	float getPointShadow( samplerCubeShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 bd3D = normalize( lightToPosition );
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float lightDistance = length( lightToPosition );
+			float depthRange = shadowCameraFar - shadowCameraNear;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				float depthA = - shadowCameraNear / depthRange - shadowBias;
+				float depthB = shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#else
+				float depthA = shadowCameraFar / depthRange + shadowBias;
+				float depthB = - shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#endif
+			float texelSize = shadowRadius / shadowMapSize.x;
+			vec3 absDir = abs( bd3D );
+			vec3 tangent = absDir.x > absDir.z ? vec3( 0.0, 1.0, 0.0 ) : vec3( 1.0, 0.0, 0.0 );
+			tangent = normalize( cross( bd3D, tangent ) );
+			vec3 bitangent = cross( bd3D, tangent );
+			float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+			shadow = 0.0;
+			for ( int i = 0; i < 5; i ++ ) {
+				vec2 offset = vogelDiskSample( i, 5, phi );
+				vec3 direction = bd3D + ( tangent * offset.x + bitangent * offset.y ) * texelSize;
+				vec3 absDirection = abs( direction );
+				float dp = depthA + depthB / max( max( absDirection.x, absDirection.y ), absDirection.z );
+				shadow += texture( shadowMap, vec4( direction, dp ) );
+			}
+			shadow *= 0.2;
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#elif defined( SHADOWMAP_TYPE_BASIC )
+	float getPointShadow( samplerCube shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float dp = ( shadowCameraFar * ( viewSpaceZ - shadowCameraNear ) ) / ( viewSpaceZ * ( shadowCameraFar - shadowCameraNear ) );
+			dp += shadowBias;
+			vec3 bd3D = normalize( lightToPosition );
+			float depth = textureCube( shadowMap, bd3D ).r;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				depth = 1.0 - depth;
+			#endif
+			shadow = step( dp, depth );
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#endif
+	#endif
+#endif`,QE=`#if NUM_SPOT_LIGHT_COORDS > 0
+	uniform mat4 spotLightMatrix[ NUM_SPOT_LIGHT_COORDS ];
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		uniform mat4 directionalShadowMatrix[ NUM_DIR_LIGHT_SHADOWS ];
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		uniform mat4 pointShadowMatrix[ NUM_POINT_LIGHT_SHADOWS ];
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+#endif`,tA=`#if ( defined( USE_SHADOWMAP ) && ( NUM_DIR_LIGHT_SHADOWS > 0 || NUM_SUN_LIGHT_SHADOWS > 0 || NUM_POINT_LIGHT_SHADOWS > 0 ) ) || ( NUM_SPOT_LIGHT_COORDS > 0 )
+	#ifdef HAS_NORMAL
+		vec3 shadowWorldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+	#else
+		vec3 shadowWorldNormal = vec3( 0.0 );
+	#endif
+	vec4 shadowWorldPosition;
+#endif
+#if defined( USE_SHADOWMAP )
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		vSunShadowWorldPosition = vec4( worldPosition.xyz, - mvPosition.z );
+		vSunShadowWorldNormal = shadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * directionalLightShadows[ i ].shadowNormalBias, 0 );
+			vDirectionalShadowCoord[ i ] = directionalShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * pointLightShadows[ i ].shadowNormalBias, 0 );
+			vPointShadowCoord[ i ] = pointShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if NUM_SPOT_LIGHT_COORDS > 0
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_COORDS; i ++ ) {
+		shadowWorldPosition = worldPosition;
+		#if ( defined( USE_SHADOWMAP ) && UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+			shadowWorldPosition.xyz += shadowWorldNormal * spotLightShadows[ i ].shadowNormalBias;
+		#endif
+		vSpotLightCoord[ i ] = spotLightMatrix[ i ] * shadowWorldPosition;
+	}
+	#pragma unroll_loop_end
+#endif`,eA=`float getShadowMask() {
+	float shadow = 1.0;
+	#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHT_SHADOWS; i ++ ) {
+		sunLight = sunLightShadows[ i ];
+		shadow *= receiveShadow ? getSunShadow( sunShadowMap[ i ], sunLight, UNROLLED_LOOP_INDEX ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+		directionalLight = directionalLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( directionalShadowMap[ i ], directionalLight.shadowMapSize, directionalLight.shadowIntensity, directionalLight.shadowBias, directionalLight.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_SHADOWS; i ++ ) {
+		spotLight = spotLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( spotShadowMap[ i ], spotLight.shadowMapSize, spotLight.shadowIntensity, spotLight.shadowBias, spotLight.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0 && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+	PointLightShadow pointLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+		pointLight = pointLightShadows[ i ];
+		shadow *= receiveShadow ? getPointShadow( pointShadowMap[ i ], pointLight.shadowMapSize, pointLight.shadowIntensity, pointLight.shadowBias, pointLight.shadowRadius, vPointShadowCoord[ i ], pointLight.shadowCameraNear, pointLight.shadowCameraFar ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#endif
+	return shadow;
+}`,nA=`#ifdef USE_SKINNING
+	mat4 boneMatX = getBoneMatrix( skinIndex.x );
+	mat4 boneMatY = getBoneMatrix( skinIndex.y );
+	mat4 boneMatZ = getBoneMatrix( skinIndex.z );
+	mat4 boneMatW = getBoneMatrix( skinIndex.w );
+#endif`,iA=`#ifdef USE_SKINNING
+	uniform mat4 bindMatrix;
+	uniform mat4 bindMatrixInverse;
+	uniform highp sampler2D boneTexture;
+	mat4 getBoneMatrix( const in float i ) {
+		int size = textureSize( boneTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( boneTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( boneTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( boneTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( boneTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+#endif`,sA=`#ifdef USE_SKINNING
+	vec4 skinVertex = bindMatrix * vec4( transformed, 1.0 );
+	vec4 skinned = vec4( 0.0 );
+	skinned += boneMatX * skinVertex * skinWeight.x;
+	skinned += boneMatY * skinVertex * skinWeight.y;
+	skinned += boneMatZ * skinVertex * skinWeight.z;
+	skinned += boneMatW * skinVertex * skinWeight.w;
+	transformed = ( bindMatrixInverse * skinned ).xyz;
+#endif`,rA=`#ifdef USE_SKINNING
+	mat4 skinMatrix = mat4( 0.0 );
+	skinMatrix += skinWeight.x * boneMatX;
+	skinMatrix += skinWeight.y * boneMatY;
+	skinMatrix += skinWeight.z * boneMatZ;
+	skinMatrix += skinWeight.w * boneMatW;
+	skinMatrix = bindMatrixInverse * skinMatrix * bindMatrix;
+	objectNormal = vec4( skinMatrix * vec4( objectNormal, 0.0 ) ).xyz;
+	#ifdef USE_TANGENT
+		objectTangent = vec4( skinMatrix * vec4( objectTangent, 0.0 ) ).xyz;
+	#endif
+#endif`,oA=`float specularStrength;
+#ifdef USE_SPECULARMAP
+	vec4 texelSpecular = texture2D( specularMap, vSpecularMapUv );
+	specularStrength = texelSpecular.r;
+#else
+	specularStrength = 1.0;
+#endif`,aA=`#ifdef USE_SPECULARMAP
+	uniform sampler2D specularMap;
+#endif`,lA=`#if defined( TONE_MAPPING )
+	gl_FragColor.rgb = toneMapping( gl_FragColor.rgb );
+#endif`,cA=`#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+uniform float toneMappingExposure;
+vec3 LinearToneMapping( vec3 color ) {
+	return saturate( toneMappingExposure * color );
+}
+vec3 ReinhardToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	return saturate( color / ( vec3( 1.0 ) + color ) );
+}
+vec3 CineonToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	color = max( vec3( 0.0 ), color - 0.004 );
+	return pow( ( color * ( 6.2 * color + 0.5 ) ) / ( color * ( 6.2 * color + 1.7 ) + 0.06 ), vec3( 2.2 ) );
+}
+vec3 RRTAndODTFit( vec3 v ) {
+	vec3 a = v * ( v + 0.0245786 ) - 0.000090537;
+	vec3 b = v * ( 0.983729 * v + 0.4329510 ) + 0.238081;
+	return a / b;
+}
+vec3 ACESFilmicToneMapping( vec3 color ) {
+	const mat3 ACESInputMat = mat3(
+		vec3( 0.59719, 0.07600, 0.02840 ),		vec3( 0.35458, 0.90834, 0.13383 ),
+		vec3( 0.04823, 0.01566, 0.83777 )
+	);
+	const mat3 ACESOutputMat = mat3(
+		vec3(  1.60475, -0.10208, -0.00327 ),		vec3( -0.53108,  1.10813, -0.07276 ),
+		vec3( -0.07367, -0.00605,  1.07602 )
+	);
+	color *= toneMappingExposure / 0.6;
+	color = ACESInputMat * color;
+	color = RRTAndODTFit( color );
+	color = ACESOutputMat * color;
+	return saturate( color );
+}
+const mat3 LINEAR_REC2020_TO_LINEAR_SRGB = mat3(
+	vec3( 1.6605, - 0.1246, - 0.0182 ),
+	vec3( - 0.5876, 1.1329, - 0.1006 ),
+	vec3( - 0.0728, - 0.0083, 1.1187 )
+);
+const mat3 LINEAR_SRGB_TO_LINEAR_REC2020 = mat3(
+	vec3( 0.6274, 0.0691, 0.0164 ),
+	vec3( 0.3293, 0.9195, 0.0880 ),
+	vec3( 0.0433, 0.0113, 0.8956 )
+);
+vec3 agxDefaultContrastApprox( vec3 x ) {
+	vec3 x2 = x * x;
+	vec3 x4 = x2 * x2;
+	return + 15.5 * x4 * x2
+		- 40.14 * x4 * x
+		+ 31.96 * x4
+		- 6.868 * x2 * x
+		+ 0.4298 * x2
+		+ 0.1191 * x
+		- 0.00232;
+}
+vec3 AgXToneMapping( vec3 color ) {
+	const mat3 AgXInsetMatrix = mat3(
+		vec3( 0.856627153315983, 0.137318972929847, 0.11189821299995 ),
+		vec3( 0.0951212405381588, 0.761241990602591, 0.0767994186031903 ),
+		vec3( 0.0482516061458583, 0.101439036467562, 0.811302368396859 )
+	);
+	const mat3 AgXOutsetMatrix = mat3(
+		vec3( 1.1271005818144368, - 0.1413297634984383, - 0.14132976349843826 ),
+		vec3( - 0.11060664309660323, 1.157823702216272, - 0.11060664309660294 ),
+		vec3( - 0.016493938717834573, - 0.016493938717834257, 1.2519364065950405 )
+	);
+	const float AgxMinEv = - 12.47393;	const float AgxMaxEv = 4.026069;
+	color *= toneMappingExposure;
+	color = LINEAR_SRGB_TO_LINEAR_REC2020 * color;
+	color = AgXInsetMatrix * color;
+	color = max( color, 1e-10 );	color = log2( color );
+	color = ( color - AgxMinEv ) / ( AgxMaxEv - AgxMinEv );
+	color = clamp( color, 0.0, 1.0 );
+	color = agxDefaultContrastApprox( color );
+	color = AgXOutsetMatrix * color;
+	color = pow( max( vec3( 0.0 ), color ), vec3( 2.2 ) );
+	color = LINEAR_REC2020_TO_LINEAR_SRGB * color;
+	color = clamp( color, 0.0, 1.0 );
+	return color;
+}
+vec3 NeutralToneMapping( vec3 color ) {
+	const float StartCompression = 0.8 - 0.04;
+	const float Desaturation = 0.15;
+	color *= toneMappingExposure;
+	float x = min( color.r, min( color.g, color.b ) );
+	float offset = x < 0.08 ? x - 6.25 * x * x : 0.04;
+	color -= offset;
+	float peak = max( color.r, max( color.g, color.b ) );
+	if ( peak < StartCompression ) return color;
+	float d = 1. - StartCompression;
+	float newPeak = 1. - d * d / ( peak + d - StartCompression );
+	color *= newPeak / peak;
+	float g = 1. - 1. / ( Desaturation * ( peak - newPeak ) + 1. );
+	return mix( color, vec3( newPeak ), g );
+}
+vec3 CustomToneMapping( vec3 color ) { return color; }`,hA=`#ifdef USE_TRANSMISSION
+	material.transmission = transmission;
+	material.transmissionAlpha = 1.0;
+	material.thickness = thickness;
+	material.attenuationDistance = attenuationDistance;
+	material.attenuationColor = attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		material.transmission *= texture2D( transmissionMap, vTransmissionMapUv ).r;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		material.thickness *= texture2D( thicknessMap, vThicknessMapUv ).g;
+	#endif
+	vec3 pos = vWorldPosition;
+	vec3 v = normalize( cameraPosition - pos );
+	vec3 n = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec4 transmitted = getIBLVolumeRefraction(
+		n, v, material.roughness, material.diffuseContribution, material.specularColorBlended, material.specularF90,
+		pos, modelMatrix, viewMatrix, projectionMatrix, material.dispersion, material.ior, material.thickness,
+		material.attenuationColor, material.attenuationDistance );
+	material.transmissionAlpha = mix( material.transmissionAlpha, transmitted.a, material.transmission );
+	totalDiffuse = mix( totalDiffuse, transmitted.rgb, material.transmission );
+#endif`,uA=`#ifdef USE_TRANSMISSION
+	uniform float transmission;
+	uniform float thickness;
+	uniform float attenuationDistance;
+	uniform vec3 attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		uniform sampler2D transmissionMap;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		uniform sampler2D thicknessMap;
+	#endif
+	uniform vec2 transmissionSamplerSize;
+	uniform sampler2D transmissionSamplerMap;
+	uniform mat4 modelMatrix;
+	uniform mat4 projectionMatrix;
+	varying vec3 vWorldPosition;
+	float w0( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - a + 3.0 ) - 3.0 ) + 1.0 );
+	}
+	float w1( float a ) {
+		return ( 1.0 / 6.0 ) * ( a *  a * ( 3.0 * a - 6.0 ) + 4.0 );
+	}
+	float w2( float a ){
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - 3.0 * a + 3.0 ) + 3.0 ) + 1.0 );
+	}
+	float w3( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * a * a );
+	}
+	float g0( float a ) {
+		return w0( a ) + w1( a );
+	}
+	float g1( float a ) {
+		return w2( a ) + w3( a );
+	}
+	float h0( float a ) {
+		return - 1.0 + w1( a ) / ( w0( a ) + w1( a ) );
+	}
+	float h1( float a ) {
+		return 1.0 + w3( a ) / ( w2( a ) + w3( a ) );
+	}
+	vec4 bicubic( sampler2D tex, vec2 uv, vec4 texelSize, float lod ) {
+		uv = uv * texelSize.zw + 0.5;
+		vec2 iuv = floor( uv );
+		vec2 fuv = fract( uv );
+		float g0x = g0( fuv.x );
+		float g1x = g1( fuv.x );
+		float h0x = h0( fuv.x );
+		float h1x = h1( fuv.x );
+		float h0y = h0( fuv.y );
+		float h1y = h1( fuv.y );
+		vec2 p0 = ( vec2( iuv.x + h0x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p1 = ( vec2( iuv.x + h1x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p2 = ( vec2( iuv.x + h0x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		vec2 p3 = ( vec2( iuv.x + h1x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		return g0( fuv.y ) * ( g0x * textureLod( tex, p0, lod ) + g1x * textureLod( tex, p1, lod ) ) +
+			g1( fuv.y ) * ( g0x * textureLod( tex, p2, lod ) + g1x * textureLod( tex, p3, lod ) );
+	}
+	vec4 textureBicubic( sampler2D sampler, vec2 uv, float lod ) {
+		vec2 fLodSize = vec2( textureSize( sampler, int( lod ) ) );
+		vec2 cLodSize = vec2( textureSize( sampler, int( lod + 1.0 ) ) );
+		vec2 fLodSizeInv = 1.0 / fLodSize;
+		vec2 cLodSizeInv = 1.0 / cLodSize;
+		vec4 fSample = bicubic( sampler, uv, vec4( fLodSizeInv, fLodSize ), floor( lod ) );
+		vec4 cSample = bicubic( sampler, uv, vec4( cLodSizeInv, cLodSize ), ceil( lod ) );
+		return mix( fSample, cSample, fract( lod ) );
+	}
+	vec3 getVolumeTransmissionRay( const in vec3 n, const in vec3 v, const in float thickness, const in float ior, const in mat4 modelMatrix ) {
+		vec3 refractionVector = refract( - v, normalize( n ), 1.0 / ior );
+		vec3 modelScale;
+		modelScale.x = length( vec3( modelMatrix[ 0 ].xyz ) );
+		modelScale.y = length( vec3( modelMatrix[ 1 ].xyz ) );
+		modelScale.z = length( vec3( modelMatrix[ 2 ].xyz ) );
+		return normalize( refractionVector ) * thickness * modelScale;
+	}
+	float applyIorToRoughness( const in float roughness, const in float ior ) {
+		return roughness * clamp( ior * 2.0 - 2.0, 0.0, 1.0 );
+	}
+	vec4 getTransmissionSample( const in vec2 fragCoord, const in float roughness, const in float ior ) {
+		float lod = log2( transmissionSamplerSize.x ) * applyIorToRoughness( roughness, ior );
+		return textureBicubic( transmissionSamplerMap, fragCoord.xy, lod );
+	}
+	vec3 volumeAttenuation( const in float transmissionDistance, const in vec3 attenuationColor, const in float attenuationDistance ) {
+		if ( isinf( attenuationDistance ) ) {
+			return vec3( 1.0 );
+		} else {
+			vec3 attenuationCoefficient = -log( attenuationColor ) / attenuationDistance;
+			vec3 transmittance = exp( - attenuationCoefficient * transmissionDistance );			return transmittance;
+		}
+	}
+	vec4 getIBLVolumeRefraction( const in vec3 n, const in vec3 v, const in float roughness, const in vec3 diffuseColor,
+		const in vec3 specularColor, const in float specularF90, const in vec3 position, const in mat4 modelMatrix,
+		const in mat4 viewMatrix, const in mat4 projMatrix, const in float dispersion, const in float ior, const in float thickness,
+		const in vec3 attenuationColor, const in float attenuationDistance ) {
+		vec4 transmittedLight;
+		vec3 transmittance;
+		#ifdef USE_DISPERSION
+			float halfSpread = ( ior - 1.0 ) * 0.025 * dispersion;
+			vec3 iors = vec3( ior - halfSpread, ior, ior + halfSpread );
+			for ( int i = 0; i < 3; i ++ ) {
+				vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, iors[ i ], modelMatrix );
+				vec3 refractedRayExit = position + transmissionRay;
+				vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+				vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+				refractionCoords += 1.0;
+				refractionCoords /= 2.0;
+				vec4 transmissionSample = getTransmissionSample( refractionCoords, roughness, iors[ i ] );
+				transmittedLight[ i ] = transmissionSample[ i ];
+				transmittedLight.a += transmissionSample.a;
+				transmittance[ i ] = diffuseColor[ i ] * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance )[ i ];
+			}
+			transmittedLight.a /= 3.0;
+		#else
+			vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, ior, modelMatrix );
+			vec3 refractedRayExit = position + transmissionRay;
+			vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+			vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+			refractionCoords += 1.0;
+			refractionCoords /= 2.0;
+			transmittedLight = getTransmissionSample( refractionCoords, roughness, ior );
+			transmittance = diffuseColor * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance );
+		#endif
+		vec3 attenuatedColor = transmittance * transmittedLight.rgb;
+		vec3 F = EnvironmentBRDF( n, v, specularColor, specularF90, roughness );
+		float transmittanceFactor = ( transmittance.r + transmittance.g + transmittance.b ) / 3.0;
+		return vec4( ( 1.0 - F ) * attenuatedColor, 1.0 - ( 1.0 - transmittedLight.a ) * transmittanceFactor );
+	}
+#endif`,dA=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,fA=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	uniform mat3 mapTransform;
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform mat3 alphaMapTransform;
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	uniform mat3 lightMapTransform;
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	uniform mat3 aoMapTransform;
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	uniform mat3 bumpMapTransform;
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	uniform mat3 normalMapTransform;
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	uniform mat3 displacementMapTransform;
+	varying vec2 vDisplacementMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	uniform mat3 emissiveMapTransform;
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	uniform mat3 metalnessMapTransform;
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	uniform mat3 roughnessMapTransform;
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	uniform mat3 diffuseRoughnessMapTransform;
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	uniform mat3 anisotropyMapTransform;
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	uniform mat3 clearcoatMapTransform;
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform mat3 clearcoatNormalMapTransform;
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform mat3 clearcoatRoughnessMapTransform;
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	uniform mat3 sheenColorMapTransform;
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	uniform mat3 sheenRoughnessMapTransform;
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	uniform mat3 iridescenceMapTransform;
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform mat3 iridescenceThicknessMapTransform;
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	uniform mat3 specularMapTransform;
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	uniform mat3 specularColorMapTransform;
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	uniform mat3 specularIntensityMapTransform;
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,pA=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	vUv = vec3( uv, 1 ).xy;
+#endif
+#ifdef USE_MAP
+	vMapUv = ( mapTransform * vec3( MAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ALPHAMAP
+	vAlphaMapUv = ( alphaMapTransform * vec3( ALPHAMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_LIGHTMAP
+	vLightMapUv = ( lightMapTransform * vec3( LIGHTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_AOMAP
+	vAoMapUv = ( aoMapTransform * vec3( AOMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_BUMPMAP
+	vBumpMapUv = ( bumpMapTransform * vec3( BUMPMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_NORMALMAP
+	vNormalMapUv = ( normalMapTransform * vec3( NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	vDisplacementMapUv = ( displacementMapTransform * vec3( DISPLACEMENTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_EMISSIVEMAP
+	vEmissiveMapUv = ( emissiveMapTransform * vec3( EMISSIVEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_METALNESSMAP
+	vMetalnessMapUv = ( metalnessMapTransform * vec3( METALNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	vRoughnessMapUv = ( roughnessMapTransform * vec3( ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	vDiffuseRoughnessMapUv = ( diffuseRoughnessMapTransform * vec3( DIFFUSE_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	vAnisotropyMapUv = ( anisotropyMapTransform * vec3( ANISOTROPYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOATMAP
+	vClearcoatMapUv = ( clearcoatMapTransform * vec3( CLEARCOATMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	vClearcoatNormalMapUv = ( clearcoatNormalMapTransform * vec3( CLEARCOAT_NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	vClearcoatRoughnessMapUv = ( clearcoatRoughnessMapTransform * vec3( CLEARCOAT_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	vIridescenceMapUv = ( iridescenceMapTransform * vec3( IRIDESCENCEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	vIridescenceThicknessMapUv = ( iridescenceThicknessMapTransform * vec3( IRIDESCENCE_THICKNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	vSheenColorMapUv = ( sheenColorMapTransform * vec3( SHEEN_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	vSheenRoughnessMapUv = ( sheenRoughnessMapTransform * vec3( SHEEN_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULARMAP
+	vSpecularMapUv = ( specularMapTransform * vec3( SPECULARMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	vSpecularColorMapUv = ( specularColorMapTransform * vec3( SPECULAR_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	vSpecularIntensityMapUv = ( specularIntensityMapTransform * vec3( SPECULAR_INTENSITYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	vTransmissionMapUv = ( transmissionMapTransform * vec3( TRANSMISSIONMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_THICKNESSMAP
+	vThicknessMapUv = ( thicknessMapTransform * vec3( THICKNESSMAP_UV, 1 ) ).xy;
+#endif`,mA=`#if defined( USE_ENVMAP ) || defined( DISTANCE ) || defined ( USE_SHADOWMAP ) || defined ( USE_TRANSMISSION ) || NUM_SPOT_LIGHT_COORDS > 0
+	vec4 worldPosition = vec4( transformed, 1.0 );
+	#ifdef USE_BATCHING
+		worldPosition = batchingMatrix * worldPosition;
+	#endif
+	#ifdef USE_INSTANCING
+		worldPosition = instanceMatrix * worldPosition;
+	#endif
+	worldPosition = modelMatrix * worldPosition;
+#endif`,gA=`varying vec2 vUv;
+uniform mat3 uvTransform;
+void main() {
+	vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	gl_Position = vec4( position.xy, 1.0, 1.0 );
+}`,yA=`uniform sampler2D t2D;
+uniform float backgroundIntensity;
+varying vec2 vUv;
+void main() {
+	vec4 texColor = texture2D( t2D, vUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		texColor = vec4( mix( pow( texColor.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), texColor.rgb * 0.0773993808, vec3( lessThanEqual( texColor.rgb, vec3( 0.04045 ) ) ) ), texColor.w );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,_A=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,xA=`uniform float backgroundBlurriness;
+uniform float backgroundIntensity;
+uniform mat3 backgroundRotation;
+varying vec3 vWorldDirection;
+#include <envmap_common_pars_fragment>
+void main() {
+	#ifdef ENVMAP_TYPE_PMREM
+		vec4 texColor = textureLod( envMap, backgroundRotation * vWorldDirection, roughnessToMip( backgroundBlurriness ) );
+	#else
+		vec4 texColor = textureCube( envMap, backgroundRotation * vWorldDirection );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,vA=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,bA=`uniform samplerCube tCube;
+uniform float tFlip;
+uniform float opacity;
+varying vec3 vWorldDirection;
+void main() {
+	vec4 texColor = textureCube( tCube, vec3( tFlip * vWorldDirection.x, vWorldDirection.yz ) );
+	gl_FragColor = texColor;
+	gl_FragColor.a *= opacity;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,SA=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+varying vec2 vHighPrecisionZW;
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vHighPrecisionZW = gl_Position.zw;
+}`,MA=`#if DEPTH_PACKING == 3200
+	uniform float opacity;
+#endif
+#include <common>
+#include <packing>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+varying vec2 vHighPrecisionZW;
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#if DEPTH_PACKING == 3200
+		diffuseColor.a = opacity;
+	#endif
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <logdepthbuf_fragment>
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		float fragCoordZ = vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ];
+	#else
+		float fragCoordZ = 0.5 * vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ] + 0.5;
+	#endif
+	#if DEPTH_PACKING == 3200
+		gl_FragColor = vec4( vec3( 1.0 - fragCoordZ ), opacity );
+	#elif DEPTH_PACKING == 3201
+		gl_FragColor = packDepthToRGBA( fragCoordZ );
+	#elif DEPTH_PACKING == 3202
+		gl_FragColor = vec4( packDepthToRGB( fragCoordZ ), 1.0 );
+	#elif DEPTH_PACKING == 3203
+		gl_FragColor = vec4( packDepthToRG( fragCoordZ ), 0.0, 1.0 );
+	#endif
+}`,wA=`#define DISTANCE
+varying vec3 vWorldPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <worldpos_vertex>
+	#include <clipping_planes_vertex>
+	vWorldPosition = worldPosition.xyz;
+}`,TA=`#define DISTANCE
+uniform vec3 referencePosition;
+uniform float nearDistance;
+uniform float farDistance;
+varying vec3 vWorldPosition;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	float dist = length( vWorldPosition - referencePosition );
+	dist = ( dist - nearDistance ) / ( farDistance - nearDistance );
+	dist = saturate( dist );
+	gl_FragColor = vec4( dist, 0.0, 0.0, 1.0 );
+}`,EA=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+}`,AA=`uniform sampler2D tEquirect;
+varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vec3 direction = normalize( vWorldDirection );
+	vec2 sampleUV = equirectUv( direction );
+	gl_FragColor = texture2D( tEquirect, sampleUV );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,RA=`uniform float scale;
+attribute float lineDistance;
+varying float vLineDistance;
+#include <common>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	vLineDistance = scale * lineDistance;
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,CA=`uniform vec3 diffuse;
+uniform float opacity;
+uniform float dashSize;
+uniform float totalSize;
+varying float vLineDistance;
+#include <common>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	if ( mod( vLineDistance, totalSize ) > dashSize ) {
+		discard;
+	}
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,PA=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinbase_vertex>
+		#include <skinnormal_vertex>
+		#include <defaultnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <fog_vertex>
+}`,LA=`uniform vec3 diffuse;
+uniform float opacity;
+#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+#endif
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		reflectedLight.indirectDiffuse += lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;
+	#else
+		reflectedLight.indirectDiffuse += vec3( 1.0 );
+	#endif
+	#include <aomap_fragment>
+	reflectedLight.indirectDiffuse *= diffuseColor.rgb;
+	vec3 outgoingLight = reflectedLight.indirectDiffuse;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,IA=`#define LAMBERT
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,NA=`#define LAMBERT
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_lambert_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_lambert_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,DA=`#define MATCAP
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+	vViewPosition = - mvPosition.xyz;
+}`,FA=`#define MATCAP
+uniform vec3 diffuse;
+uniform float opacity;
+uniform sampler2D matcap;
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	vec3 viewDir = normalize( vViewPosition );
+	vec3 x = normalize( vec3( viewDir.z, 0.0, - viewDir.x ) );
+	vec3 y = cross( viewDir, x );
+	vec2 uv = vec2( dot( x, normal ), dot( y, normal ) ) * 0.495 + 0.5;
+	#ifdef USE_MATCAP
+		vec4 matcapColor = texture2D( matcap, uv );
+	#else
+		vec4 matcapColor = vec4( vec3( mix( 0.2, 0.8, uv.y ) ), 1.0 );
+	#endif
+	vec3 outgoingLight = diffuseColor.rgb * matcapColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,UA=`#define NORMAL
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	vViewPosition = - mvPosition.xyz;
+#endif
+}`,OA=`#define NORMAL
+uniform float opacity;
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <uv_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 0.0, 0.0, 0.0, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	gl_FragColor = vec4( normalize( normal ) * 0.5 + 0.5, diffuseColor.a );
+	#ifdef OPAQUE
+		gl_FragColor.a = 1.0;
+	#endif
+}`,BA=`#define PHONG
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,kA=`#define PHONG
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform vec3 specular;
+uniform float shininess;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_phong_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_phong_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + reflectedLight.directSpecular + reflectedLight.indirectSpecular + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,zA=`#define STANDARD
+varying vec3 vViewPosition;
+#ifdef USE_TRANSMISSION
+	varying vec3 vWorldPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+#ifdef USE_TRANSMISSION
+	vWorldPosition = worldPosition.xyz;
+#endif
+}`,VA=`#define STANDARD
+#ifdef PHYSICAL
+	#define IOR
+	#define USE_SPECULAR
+#endif
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float roughness;
+uniform float metalness;
+uniform float opacity;
+#ifdef IOR
+	uniform float ior;
+#endif
+#ifdef USE_SPECULAR
+	uniform float specularIntensity;
+	uniform vec3 specularColor;
+	#ifdef USE_SPECULAR_COLORMAP
+		uniform sampler2D specularColorMap;
+	#endif
+	#ifdef USE_SPECULAR_INTENSITYMAP
+		uniform sampler2D specularIntensityMap;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT
+	uniform float clearcoat;
+	uniform float clearcoatRoughness;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESS
+	uniform float diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		uniform sampler2D diffuseRoughnessMap;
+	#endif
+#endif
+#ifdef USE_DISPERSION
+	uniform float dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	uniform float retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	uniform float iridescence;
+	uniform float iridescenceIOR;
+	uniform float iridescenceThicknessMinimum;
+	uniform float iridescenceThicknessMaximum;
+#endif
+#ifdef USE_SHEEN
+	uniform vec3 sheenColor;
+	uniform float sheenRoughness;
+	#ifdef USE_SHEEN_COLORMAP
+		uniform sampler2D sheenColorMap;
+	#endif
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		uniform sampler2D sheenRoughnessMap;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	uniform vec2 anisotropyVector;
+	#ifdef USE_ANISOTROPYMAP
+		uniform sampler2D anisotropyMap;
+	#endif
+#endif
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <iridescence_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_physical_pars_fragment>
+#include <transmission_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <clearcoat_pars_fragment>
+#include <iridescence_pars_fragment>
+#include <roughnessmap_pars_fragment>
+#include <metalnessmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <roughnessmap_fragment>
+	#include <metalnessmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <clearcoat_normal_fragment_begin>
+	#include <clearcoat_normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_physical_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 totalDiffuse = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse;
+	vec3 totalSpecular = reflectedLight.directSpecular + reflectedLight.indirectSpecular;
+	#include <transmission_fragment>
+	vec3 outgoingLight = totalDiffuse + totalSpecular + totalEmissiveRadiance;
+	#ifdef USE_SHEEN
+ 
+		outgoingLight = outgoingLight + sheenSpecularDirect + sheenSpecularIndirect;
+ 
+ 	#endif
+	#ifdef USE_CLEARCOAT
+		float dotNVcc = saturate( dot( geometryClearcoatNormal, geometryViewDir ) );
+		vec3 Fcc = F_Schlick( material.clearcoatF0, material.clearcoatF90, dotNVcc );
+		outgoingLight = outgoingLight * ( 1.0 - material.clearcoat * Fcc ) + ( clearcoatSpecularDirect + clearcoatSpecularIndirect ) * material.clearcoat;
+	#endif
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,GA=`#define TOON
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,HA=`#define TOON
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <gradientmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_toon_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_toon_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,WA=`uniform float size;
+uniform float scale;
+#include <common>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+#ifdef USE_POINTS_UV
+	varying vec2 vUv;
+	uniform mat3 uvTransform;
+#endif
+void main() {
+	#ifdef USE_POINTS_UV
+		vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	#endif
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	gl_PointSize = size;
+	#ifdef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) gl_PointSize *= ( scale / - mvPosition.z );
+	#endif
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <fog_vertex>
+}`,XA=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <color_pars_fragment>
+#include <map_particle_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_particle_fragment>
+	#include <color_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,qA=`#include <common>
+#include <batching_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <shadowmap_pars_vertex>
+void main() {
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,YA=`uniform vec3 color;
+uniform float opacity;
+#include <common>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <logdepthbuf_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <shadowmask_pars_fragment>
+void main() {
+	#include <logdepthbuf_fragment>
+	gl_FragColor = vec4( color, opacity * ( 1.0 - getShadowMask() ) );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,jA=`uniform float rotation;
+uniform vec2 center;
+#include <common>
+#include <uv_pars_vertex>
+#include <fog_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	vec4 mvPosition = modelViewMatrix[ 3 ];
+	vec2 scale = vec2( length( modelMatrix[ 0 ].xyz ), length( modelMatrix[ 1 ].xyz ) );
+	#ifndef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) scale *= - mvPosition.z;
+	#endif
+	vec2 alignedPosition = ( position.xy - ( center - vec2( 0.5 ) ) ) * scale;
+	vec2 rotatedPosition;
+	rotatedPosition.x = cos( rotation ) * alignedPosition.x - sin( rotation ) * alignedPosition.y;
+	rotatedPosition.y = sin( rotation ) * alignedPosition.x + cos( rotation ) * alignedPosition.y;
+	mvPosition.xy += rotatedPosition;
+	gl_Position = projectionMatrix * mvPosition;
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,JA=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+}`,pe={alphahash_fragment:yT,alphahash_pars_fragment:_T,alphamap_fragment:xT,alphamap_pars_fragment:vT,alphatest_fragment:bT,alphatest_pars_fragment:ST,aomap_fragment:MT,aomap_pars_fragment:wT,batching_pars_vertex:TT,batching_vertex:ET,begin_vertex:AT,beginnormal_vertex:RT,bsdfs:CT,iridescence_fragment:PT,bumpmap_pars_fragment:LT,clipping_planes_fragment:IT,clipping_planes_pars_fragment:NT,clipping_planes_pars_vertex:DT,clipping_planes_vertex:FT,color_fragment:UT,color_pars_fragment:OT,color_pars_vertex:BT,color_vertex:kT,common:zT,defaultnormal_vertex:VT,displacementmap_pars_vertex:GT,displacementmap_vertex:HT,emissivemap_fragment:WT,emissivemap_pars_fragment:XT,colorspace_fragment:qT,colorspace_pars_fragment:YT,envmap_fragment:jT,envmap_common_pars_fragment:JT,envmap_pars_fragment:$T,envmap_pars_vertex:ZT,envmap_physical_pars_fragment:lE,envmap_vertex:KT,fog_vertex:QT,fog_pars_vertex:tE,fog_fragment:eE,fog_pars_fragment:nE,gradientmap_pars_fragment:iE,lightmap_pars_fragment:sE,lights_lambert_fragment:rE,lights_lambert_pars_fragment:oE,lights_pars_begin:aE,lights_toon_fragment:cE,lights_toon_pars_fragment:hE,lights_phong_fragment:uE,lights_phong_pars_fragment:dE,lights_physical_fragment:fE,lights_physical_pars_fragment:pE,lights_fragment_begin:mE,lights_fragment_maps:gE,lights_fragment_end:yE,lightprobes_pars_fragment:_E,logdepthbuf_fragment:xE,logdepthbuf_pars_fragment:vE,logdepthbuf_pars_vertex:bE,logdepthbuf_vertex:SE,map_fragment:ME,map_pars_fragment:wE,map_particle_fragment:TE,map_particle_pars_fragment:EE,metalnessmap_fragment:AE,metalnessmap_pars_fragment:RE,morphinstance_vertex:CE,morphcolor_vertex:PE,morphnormal_vertex:LE,morphtarget_pars_vertex:IE,morphtarget_vertex:NE,normal_fragment_begin:DE,normal_fragment_maps:FE,normal_pars_fragment:UE,normal_pars_vertex:OE,normal_vertex:BE,normalmap_pars_fragment:kE,clearcoat_normal_fragment_begin:zE,clearcoat_normal_fragment_maps:VE,clearcoat_pars_fragment:GE,iridescence_pars_fragment:HE,opaque_fragment:WE,packing:XE,premultiplied_alpha_fragment:qE,project_vertex:YE,dithering_fragment:jE,dithering_pars_fragment:JE,roughnessmap_fragment:$E,roughnessmap_pars_fragment:ZE,shadowmap_pars_fragment:KE,shadowmap_pars_vertex:QE,shadowmap_vertex:tA,shadowmask_pars_fragment:eA,skinbase_vertex:nA,skinning_pars_vertex:iA,skinning_vertex:sA,skinnormal_vertex:rA,specularmap_fragment:oA,specularmap_pars_fragment:aA,tonemapping_fragment:lA,tonemapping_pars_fragment:cA,transmission_fragment:hA,transmission_pars_fragment:uA,uv_pars_fragment:dA,uv_pars_vertex:fA,uv_vertex:pA,worldpos_vertex:mA,background_vert:gA,background_frag:yA,backgroundCube_vert:_A,backgroundCube_frag:xA,cube_vert:vA,cube_frag:bA,depth_vert:SA,depth_frag:MA,distance_vert:wA,distance_frag:TA,equirect_vert:EA,equirect_frag:AA,linedashed_vert:RA,linedashed_frag:CA,meshbasic_vert:PA,meshbasic_frag:LA,meshlambert_vert:IA,meshlambert_frag:NA,meshmatcap_vert:DA,meshmatcap_frag:FA,meshnormal_vert:UA,meshnormal_frag:OA,meshphong_vert:BA,meshphong_frag:kA,meshphysical_vert:zA,meshphysical_frag:VA,meshtoon_vert:GA,meshtoon_frag:HA,points_vert:WA,points_frag:XA,shadow_vert:qA,shadow_frag:YA,sprite_vert:jA,sprite_frag:JA},Pt={common:{diffuse:{value:new Dt(16777215)},opacity:{value:1},map:{value:null},mapTransform:{value:new se},alphaMap:{value:null},alphaMapTransform:{value:new se},alphaTest:{value:0}},specularmap:{specularMap:{value:null},specularMapTransform:{value:new se}},envmap:{envMap:{value:null},envMapRotation:{value:new se},reflectivity:{value:1},ior:{value:1.5},refractionRatio:{value:.98},dfgLUT:{value:null}},aomap:{aoMap:{value:null},aoMapIntensity:{value:1},aoMapTransform:{value:new se}},lightmap:{lightMap:{value:null},lightMapIntensity:{value:1},lightMapTransform:{value:new se}},bumpmap:{bumpMap:{value:null},bumpMapTransform:{value:new se},bumpScale:{value:1}},normalmap:{normalMap:{value:null},normalMapTransform:{value:new se},normalScale:{value:new Xt(1,1)}},displacementmap:{displacementMap:{value:null},displacementMapTransform:{value:new se},displacementScale:{value:1},displacementBias:{value:0}},emissivemap:{emissiveMap:{value:null},emissiveMapTransform:{value:new se}},metalnessmap:{metalnessMap:{value:null},metalnessMapTransform:{value:new se}},roughnessmap:{roughnessMap:{value:null},roughnessMapTransform:{value:new se}},gradientmap:{gradientMap:{value:null}},fog:{fogDensity:{value:25e-5},fogNear:{value:1},fogFar:{value:2e3},fogColor:{value:new Dt(16777215)}},lights:{ambientLightColor:{value:[]},lightProbe:{value:[]},sunLights:{value:[],properties:{direction:{},color:{}}},sunLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},sunShadowMatrix:{value:[]},sunShadowCascade:{value:[]},directionalLights:{value:[],properties:{direction:{},color:{}}},directionalLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},directionalShadowMatrix:{value:[]},spotLights:{value:[],properties:{color:{},position:{},direction:{},distance:{},coneCos:{},penumbraCos:{},decay:{}}},spotLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},spotLightMap:{value:[]},spotLightMatrix:{value:[]},pointLights:{value:[],properties:{color:{},position:{},decay:{},distance:{}}},pointLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{},shadowCameraNear:{},shadowCameraFar:{}}},pointShadowMatrix:{value:[]},hemisphereLights:{value:[],properties:{direction:{},skyColor:{},groundColor:{}}},rectAreaLights:{value:[],properties:{color:{},position:{},width:{},height:{}}},ltc_1:{value:null},ltc_2:{value:null},probesSH:{value:[]},probesMin:{value:[]},probesMax:{value:[]},probesResolution:{value:[]}},points:{diffuse:{value:new Dt(16777215)},opacity:{value:1},size:{value:1},scale:{value:1},map:{value:null},alphaMap:{value:null},alphaMapTransform:{value:new se},alphaTest:{value:0},uvTransform:{value:new se}},sprite:{diffuse:{value:new Dt(16777215)},opacity:{value:1},center:{value:new Xt(.5,.5)},rotation:{value:0},map:{value:null},mapTransform:{value:new se},alphaMap:{value:null},alphaMapTransform:{value:new se},alphaTest:{value:0}}},mi={basic:{uniforms:ei([Pt.common,Pt.specularmap,Pt.envmap,Pt.aomap,Pt.lightmap,Pt.fog]),vertexShader:pe.meshbasic_vert,fragmentShader:pe.meshbasic_frag},lambert:{uniforms:ei([Pt.common,Pt.specularmap,Pt.envmap,Pt.aomap,Pt.lightmap,Pt.emissivemap,Pt.bumpmap,Pt.normalmap,Pt.displacementmap,Pt.fog,Pt.lights,{emissive:{value:new Dt(0)},envMapIntensity:{value:1}}]),vertexShader:pe.meshlambert_vert,fragmentShader:pe.meshlambert_frag},phong:{uniforms:ei([Pt.common,Pt.specularmap,Pt.envmap,Pt.aomap,Pt.lightmap,Pt.emissivemap,Pt.bumpmap,Pt.normalmap,Pt.displacementmap,Pt.fog,Pt.lights,{emissive:{value:new Dt(0)},specular:{value:new Dt(1118481)},shininess:{value:30},envMapIntensity:{value:1}}]),vertexShader:pe.meshphong_vert,fragmentShader:pe.meshphong_frag},standard:{uniforms:ei([Pt.common,Pt.envmap,Pt.aomap,Pt.lightmap,Pt.emissivemap,Pt.bumpmap,Pt.normalmap,Pt.displacementmap,Pt.roughnessmap,Pt.metalnessmap,Pt.fog,Pt.lights,{emissive:{value:new Dt(0)},roughness:{value:1},metalness:{value:0},envMapIntensity:{value:1}}]),vertexShader:pe.meshphysical_vert,fragmentShader:pe.meshphysical_frag},toon:{uniforms:ei([Pt.common,Pt.aomap,Pt.lightmap,Pt.emissivemap,Pt.bumpmap,Pt.normalmap,Pt.displacementmap,Pt.gradientmap,Pt.fog,Pt.lights,{emissive:{value:new Dt(0)}}]),vertexShader:pe.meshtoon_vert,fragmentShader:pe.meshtoon_frag},matcap:{uniforms:ei([Pt.common,Pt.bumpmap,Pt.normalmap,Pt.displacementmap,Pt.fog,{matcap:{value:null}}]),vertexShader:pe.meshmatcap_vert,fragmentShader:pe.meshmatcap_frag},points:{uniforms:ei([Pt.points,Pt.fog]),vertexShader:pe.points_vert,fragmentShader:pe.points_frag},dashed:{uniforms:ei([Pt.common,Pt.fog,{scale:{value:1},dashSize:{value:1},totalSize:{value:2}}]),vertexShader:pe.linedashed_vert,fragmentShader:pe.linedashed_frag},depth:{uniforms:ei([Pt.common,Pt.displacementmap]),vertexShader:pe.depth_vert,fragmentShader:pe.depth_frag},normal:{uniforms:ei([Pt.common,Pt.bumpmap,Pt.normalmap,Pt.displacementmap,{opacity:{value:1}}]),vertexShader:pe.meshnormal_vert,fragmentShader:pe.meshnormal_frag},sprite:{uniforms:ei([Pt.sprite,Pt.fog]),vertexShader:pe.sprite_vert,fragmentShader:pe.sprite_frag},background:{uniforms:{uvTransform:{value:new se},t2D:{value:null},backgroundIntensity:{value:1}},vertexShader:pe.background_vert,fragmentShader:pe.background_frag},backgroundCube:{uniforms:{envMap:{value:null},backgroundBlurriness:{value:0},backgroundIntensity:{value:1},backgroundRotation:{value:new se}},vertexShader:pe.backgroundCube_vert,fragmentShader:pe.backgroundCube_frag},cube:{uniforms:{tCube:{value:null},tFlip:{value:-1},opacity:{value:1}},vertexShader:pe.cube_vert,fragmentShader:pe.cube_frag},equirect:{uniforms:{tEquirect:{value:null}},vertexShader:pe.equirect_vert,fragmentShader:pe.equirect_frag},distance:{uniforms:ei([Pt.common,Pt.displacementmap,{referencePosition:{value:new O},nearDistance:{value:1},farDistance:{value:1e3}}]),vertexShader:pe.distance_vert,fragmentShader:pe.distance_frag},shadow:{uniforms:ei([Pt.lights,Pt.fog,{color:{value:new Dt(0)},opacity:{value:1}}]),vertexShader:pe.shadow_vert,fragmentShader:pe.shadow_frag}};mi.physical={uniforms:ei([mi.standard.uniforms,{clearcoat:{value:0},clearcoatMap:{value:null},clearcoatMapTransform:{value:new se},clearcoatNormalMap:{value:null},clearcoatNormalMapTransform:{value:new se},clearcoatNormalScale:{value:new Xt(1,1)},clearcoatRoughness:{value:0},clearcoatRoughnessMap:{value:null},clearcoatRoughnessMapTransform:{value:new se},diffuseRoughness:{value:0},diffuseRoughnessMap:{value:null},diffuseRoughnessMapTransform:{value:new se},dispersion:{value:0},retroreflectivity:{value:0},iridescence:{value:0},iridescenceMap:{value:null},iridescenceMapTransform:{value:new se},iridescenceIOR:{value:1.3},iridescenceThicknessMinimum:{value:100},iridescenceThicknessMaximum:{value:400},iridescenceThicknessMap:{value:null},iridescenceThicknessMapTransform:{value:new se},sheen:{value:0},sheenColor:{value:new Dt(0)},sheenColorMap:{value:null},sheenColorMapTransform:{value:new se},sheenRoughness:{value:1},sheenRoughnessMap:{value:null},sheenRoughnessMapTransform:{value:new se},transmission:{value:0},transmissionMap:{value:null},transmissionMapTransform:{value:new se},transmissionSamplerSize:{value:new Xt},transmissionSamplerMap:{value:null},thickness:{value:0},thicknessMap:{value:null},thicknessMapTransform:{value:new se},attenuationDistance:{value:0},attenuationColor:{value:new Dt(0)},specularColor:{value:new Dt(1,1,1)},specularColorMap:{value:null},specularColorMapTransform:{value:new se},specularIntensity:{value:1},specularIntensityMap:{value:null},specularIntensityMapTransform:{value:new se},anisotropyVector:{value:new Xt},anisotropyMap:{value:null},anisotropyMapTransform:{value:new se}}]),vertexShader:pe.meshphysical_vert,fragmentShader:pe.meshphysical_frag};var Ku={r:0,b:0,g:0},$A=new Nt,Lx=new se;Lx.set(-1,0,0,0,1,0,0,0,1);function ZA(s,t,e,n,i,r){let o=new Dt(0),a=i===!0?0:1,l,c,h=null,u=0,d=null;function f(_){let w=_.isScene===!0?_.background:null;if(w&&w.isTexture){let v=_.backgroundBlurriness>0;w=t.get(w,v)}return w}function p(_){let w=!1,v=f(_);v===null?m(o,a):v&&v.isColor&&(m(v,1),w=!0);let E=s.xr.getEnvironmentBlendMode();E==="additive"?e.buffers.color.setClear(0,0,0,1,r):E==="alpha-blend"&&e.buffers.color.setClear(0,0,0,0,r),(s.autoClear||w)&&(e.buffers.depth.setTest(!0),e.buffers.depth.setMask(!0),e.buffers.color.setMask(!0),s.clear(s.autoClearColor,s.autoClearDepth,s.autoClearStencil))}function y(_,w){let v=f(w);v&&v.isCubeTexture?(c===void 0&&(c=new ue(new bs(1,1,1),new _i({name:"BackgroundCubeMaterial",uniforms:go(mi.backgroundCube.uniforms),vertexShader:mi.backgroundCube.vertexShader,fragmentShader:mi.backgroundCube.fragmentShader,side:Wn,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),c.geometry.deleteAttribute("normal"),c.geometry.deleteAttribute("uv"),c.onBeforeRender=function(E,S,x){this.matrixWorld.copyPosition(x.matrixWorld)},Object.defineProperty(c.material,"envMap",{get:function(){return this.uniforms.envMap.value}}),n.update(c)),c.material.uniforms.envMap.value=v,c.material.uniforms.backgroundBlurriness.value=w.backgroundBlurriness,c.material.uniforms.backgroundIntensity.value=w.backgroundIntensity,c.material.uniforms.backgroundRotation.value.setFromMatrix4($A.makeRotationFromEuler(w.backgroundRotation)).transpose(),v.isRenderTargetTexture===!1&&c.material.uniforms.backgroundRotation.value.premultiply(Lx),c.material.toneMapped=he.getTransfer(v.colorSpace)!==Le,(h!==v||u!==v.version||d!==s.toneMapping)&&(c.material.needsUpdate=!0,h=v,u=v.version,d=s.toneMapping),c.layers.enableAll(),_.unshift(c,c.geometry,c.material,0,0,null)):v&&v.isTexture&&(l===void 0&&(l=new ue(new ls(2,2),new _i({name:"BackgroundMaterial",uniforms:go(mi.background.uniforms),vertexShader:mi.background.vertexShader,fragmentShader:mi.background.fragmentShader,side:Ts,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),l.geometry.deleteAttribute("normal"),Object.defineProperty(l.material,"map",{get:function(){return this.uniforms.t2D.value}}),n.update(l)),l.material.uniforms.t2D.value=v,l.material.uniforms.backgroundIntensity.value=w.backgroundIntensity,l.material.toneMapped=he.getTransfer(v.colorSpace)!==Le,v.matrixAutoUpdate===!0&&v.updateMatrix(),l.material.uniforms.uvTransform.value.copy(v.matrix),(h!==v||u!==v.version||d!==s.toneMapping)&&(l.material.needsUpdate=!0,h=v,u=v.version,d=s.toneMapping),l.layers.enableAll(),_.unshift(l,l.geometry,l.material,0,0,null))}function m(_,w){_.getRGB(Ku,am(s)),e.buffers.color.setClear(Ku.r,Ku.g,Ku.b,w,r)}function g(){c!==void 0&&(c.geometry.dispose(),c.material.dispose(),c=void 0),l!==void 0&&(l.geometry.dispose(),l.material.dispose(),l=void 0)}return{getClearColor:function(){return o},setClearColor:function(_,w=1){o.set(_),a=w,m(o,a)},getClearAlpha:function(){return a},setClearAlpha:function(_){a=_,m(o,a)},render:p,addToRenderList:y,dispose:g}}function KA(s,t){let e=s.getParameter(s.MAX_VERTEX_ATTRIBS),n={},i=d(null),r=i,o=!1;function a(C,F,B,N,W){let k=!1,H=u(C,N,B,F);r!==H&&(r=H,c(r.object)),k=f(C,N,B,W),k&&p(C,N,B,W),W!==null&&t.update(W,s.ELEMENT_ARRAY_BUFFER),(k||o)&&(o=!1,v(C,F,B,N),W!==null&&s.bindBuffer(s.ELEMENT_ARRAY_BUFFER,t.get(W).buffer))}function l(){return s.createVertexArray()}function c(C){return s.bindVertexArray(C)}function h(C){return s.deleteVertexArray(C)}function u(C,F,B,N){let W=N.wireframe===!0,k=n[F.id];k===void 0&&(k={},n[F.id]=k);let H=C.isInstancedMesh===!0?C.id:0,it=k[H];it===void 0&&(it={},k[H]=it);let j=it[B.id];j===void 0&&(j={},it[B.id]=j);let Z=j[W];return Z===void 0&&(Z=d(l()),j[W]=Z),Z}function d(C){let F=[],B=[],N=[];for(let W=0;W<e;W++)F[W]=0,B[W]=0,N[W]=0;return{geometry:null,program:null,wireframe:!1,newAttributes:F,enabledAttributes:B,attributeDivisors:N,object:C,attributes:{},index:null}}function f(C,F,B,N){let W=r.attributes,k=F.attributes,H=0,it=B.getAttributes();for(let j in it)if(it[j].location>=0){let tt=W[j],ht=k[j];if(ht===void 0&&(j==="instanceMatrix"&&C.instanceMatrix&&(ht=C.instanceMatrix),j==="instanceColor"&&C.instanceColor&&(ht=C.instanceColor)),tt===void 0||tt.attribute!==ht||ht&&tt.data!==ht.data)return!0;H++}return r.attributesNum!==H||r.index!==N}function p(C,F,B,N){let W={},k=F.attributes,H=0,it=B.getAttributes();for(let j in it)if(it[j].location>=0){let tt=k[j];tt===void 0&&(j==="instanceMatrix"&&C.instanceMatrix&&(tt=C.instanceMatrix),j==="instanceColor"&&C.instanceColor&&(tt=C.instanceColor));let ht={};ht.attribute=tt,tt&&tt.data&&(ht.data=tt.data),W[j]=ht,H++}r.attributes=W,r.attributesNum=H,r.index=N}function y(){let C=r.newAttributes;for(let F=0,B=C.length;F<B;F++)C[F]=0}function m(C){g(C,0)}function g(C,F){let B=r.newAttributes,N=r.enabledAttributes,W=r.attributeDivisors;B[C]=1,N[C]===0&&(s.enableVertexAttribArray(C),N[C]=1),W[C]!==F&&(s.vertexAttribDivisor(C,F),W[C]=F)}function _(){let C=r.newAttributes,F=r.enabledAttributes;for(let B=0,N=F.length;B<N;B++)F[B]!==C[B]&&(s.disableVertexAttribArray(B),F[B]=0)}function w(C,F,B,N,W,k,H){H===!0?s.vertexAttribIPointer(C,F,B,W,k):s.vertexAttribPointer(C,F,B,N,W,k)}function v(C,F,B,N){y();let W=N.attributes,k=B.getAttributes(),H=F.defaultAttributeValues;for(let it in k){let j=k[it];if(j.location>=0){let Z=W[it];if(Z===void 0&&(it==="instanceMatrix"&&C.instanceMatrix&&(Z=C.instanceMatrix),it==="instanceColor"&&C.instanceColor&&(Z=C.instanceColor)),Z!==void 0){let tt=Z.normalized,ht=Z.itemSize,st=t.get(Z);if(st===void 0)continue;let Y=st.buffer,rt=st.type,nt=st.bytesPerElement,lt=rt===s.INT||rt===s.UNSIGNED_INT||Z.gpuType===fu;if(Z.isInterleavedBufferAttribute){let gt=Z.data,Ot=gt.isInterleavedBuffer===!0?gt.stride:gt.itemSize,Zt=Z.offset;if(gt.isInstancedInterleavedBuffer||gt.isInstancedBufferAttribute){for(let zt=0;zt<j.locationSize;zt++)g(j.location+zt,gt.meshPerAttribute);C.isInstancedMesh!==!0&&N._maxInstanceCount===void 0&&(N._maxInstanceCount=gt.meshPerAttribute*gt.count)}else for(let zt=0;zt<j.locationSize;zt++)m(j.location+zt);s.bindBuffer(s.ARRAY_BUFFER,Y);for(let zt=0;zt<j.locationSize;zt++)w(j.location+zt,ht/j.locationSize,rt,tt,Ot*nt,(Zt+ht/j.locationSize*zt)*nt,lt)}else{if(Z.isInstancedBufferAttribute){for(let gt=0;gt<j.locationSize;gt++)g(j.location+gt,Z.meshPerAttribute);C.isInstancedMesh!==!0&&N._maxInstanceCount===void 0&&(N._maxInstanceCount=Z.meshPerAttribute*Z.count)}else for(let gt=0;gt<j.locationSize;gt++)m(j.location+gt);s.bindBuffer(s.ARRAY_BUFFER,Y);for(let gt=0;gt<j.locationSize;gt++)w(j.location+gt,ht/j.locationSize,rt,tt,ht*nt,ht/j.locationSize*gt*nt,lt)}}else if(H!==void 0){let tt=H[it];if(tt!==void 0)switch(tt.length){case 2:s.vertexAttrib2fv(j.location,tt);break;case 3:s.vertexAttrib3fv(j.location,tt);break;case 4:s.vertexAttrib4fv(j.location,tt);break;default:s.vertexAttrib1fv(j.location,tt)}}}}_()}function E(){L();for(let C in n){let F=n[C];for(let B in F){let N=F[B];for(let W in N){let k=N[W];for(let H in k)h(k[H].object),delete k[H];delete N[W]}}delete n[C]}}function S(C){if(n[C.id]===void 0)return;let F=n[C.id];for(let B in F){let N=F[B];for(let W in N){let k=N[W];for(let H in k)h(k[H].object),delete k[H];delete N[W]}}delete n[C.id]}function x(C){for(let F in n){let B=n[F];for(let N in B){let W=B[N];if(W[C.id]===void 0)continue;let k=W[C.id];for(let H in k)h(k[H].object),delete k[H];delete W[C.id]}}}function M(C){for(let F in n){let B=n[F],N=C.isInstancedMesh===!0?C.id:0,W=B[N];if(W!==void 0){for(let k in W){let H=W[k];for(let it in H)h(H[it].object),delete H[it];delete W[k]}delete B[N],Object.keys(B).length===0&&delete n[F]}}}function L(){P(),o=!0,r!==i&&(r=i,c(r.object))}function P(){i.geometry=null,i.program=null,i.wireframe=!1}return{setup:a,reset:L,resetDefaultState:P,dispose:E,releaseStatesOfGeometry:S,releaseStatesOfObject:M,releaseStatesOfProgram:x,initAttributes:y,enableAttribute:m,disableUnusedAttributes:_}}function QA(s,t,e){let n;function i(l){n=l}function r(l,c){s.drawArrays(n,l,c),e.update(c,n,1)}function o(l,c,h){h!==0&&(s.drawArraysInstanced(n,l,c,h),e.update(c,n,h))}function a(l,c,h){if(h===0)return;t.get("WEBGL_multi_draw").multiDrawArraysWEBGL(n,l,0,c,0,h);let d=0;for(let f=0;f<h;f++)d+=c[f];e.update(d,n,1)}this.setMode=i,this.render=r,this.renderInstances=o,this.renderMultiDraw=a}function t1(s,t,e,n){let i;function r(){if(i!==void 0)return i;if(t.has("EXT_texture_filter_anisotropic")===!0){let x=t.get("EXT_texture_filter_anisotropic");i=s.getParameter(x.MAX_TEXTURE_MAX_ANISOTROPY_EXT)}else i=0;return i}function o(x){return!(x!==Yi&&n.convert(x)!==s.getParameter(s.IMPLEMENTATION_COLOR_READ_FORMAT))}function a(x){let M=x===hs&&(t.has("EXT_color_buffer_half_float")||t.has("EXT_color_buffer_float"));return!(x!==vi&&x!==Bi&&!M&&n.convert(x)!==s.getParameter(s.IMPLEMENTATION_COLOR_READ_TYPE))}function l(x){if(x==="highp"){if(s.getShaderPrecisionFormat(s.VERTEX_SHADER,s.HIGH_FLOAT).precision>0&&s.getShaderPrecisionFormat(s.FRAGMENT_SHADER,s.HIGH_FLOAT).precision>0)return"highp";x="mediump"}return x==="mediump"&&s.getShaderPrecisionFormat(s.VERTEX_SHADER,s.MEDIUM_FLOAT).precision>0&&s.getShaderPrecisionFormat(s.FRAGMENT_SHADER,s.MEDIUM_FLOAT).precision>0?"mediump":"lowp"}let c=e.precision!==void 0?e.precision:"highp",h=l(c);h!==c&&(jt("WebGLRenderer:",c,"not supported, using",h,"instead."),c=h);let u=e.reversedDepthBuffer===!0&&t.has("EXT_clip_control"),d=e.logarithmicDepthBuffer===!0&&u===!1;e.reversedDepthBuffer===!0&&u===!1&&jt("WebGLRenderer: Unable to use reversed depth buffer due to missing EXT_clip_control extension. Fallback to default depth buffer."),e.logarithmicDepthBuffer===!0&&u===!0&&jt("WebGLRenderer: Logarithmic depth buffer is ignored when reversed depth buffer is enabled.");let f=s.getParameter(s.MAX_TEXTURE_IMAGE_UNITS),p=s.getParameter(s.MAX_VERTEX_TEXTURE_IMAGE_UNITS),y=s.getParameter(s.MAX_TEXTURE_SIZE),m=s.getParameter(s.MAX_CUBE_MAP_TEXTURE_SIZE),g=s.getParameter(s.MAX_VERTEX_ATTRIBS),_=s.getParameter(s.MAX_VERTEX_UNIFORM_VECTORS),w=s.getParameter(s.MAX_VARYING_VECTORS),v=s.getParameter(s.MAX_FRAGMENT_UNIFORM_VECTORS),E=s.getParameter(s.MAX_SAMPLES),S=s.getParameter(s.SAMPLES);return{isWebGL2:!0,getMaxAnisotropy:r,getMaxPrecision:l,textureFormatReadable:o,textureTypeReadable:a,precision:c,logarithmicDepthBuffer:d,reversedDepthBuffer:u,maxTextures:f,maxVertexTextures:p,maxTextureSize:y,maxCubemapSize:m,maxAttributes:g,maxVertexUniforms:_,maxVaryings:w,maxFragmentUniforms:v,maxSamples:E,samples:S}}function e1(s){let t=this,e=null,n=0,i=!1,r=!1,o=new Di,a=new se,l={value:null,needsUpdate:!1};this.uniform=l,this.numPlanes=0,this.numIntersection=0,this.init=function(u,d){let f=u.length!==0||d||n!==0||i;return i=d,n=u.length,f},this.beginShadows=function(){r=!0,h(null)},this.endShadows=function(){r=!1},this.setGlobalState=function(u,d){e=h(u,d,0)},this.setState=function(u,d,f){let p=u.clippingPlanes,y=u.clipIntersection,m=u.clipShadows,g=s.get(u);if(!i||p===null||p.length===0||r&&!m)r?h(null):c();else{let _=r?0:n,w=_*4,v=g.clippingState||null;l.value=v,v=h(p,d,w,f);for(let E=0;E!==w;++E)v[E]=e[E];g.clippingState=v,this.numIntersection=y?this.numPlanes:0,this.numPlanes+=_}};function c(){l.value!==e&&(l.value=e,l.needsUpdate=n>0),t.numPlanes=n,t.numIntersection=0}function h(u,d,f,p){let y=u!==null?u.length:0,m=null;if(y!==0){if(m=l.value,p!==!0||m===null){let g=f+y*4,_=d.matrixWorldInverse;a.getNormalMatrix(_),(m===null||m.length<g)&&(m=new Float32Array(g));for(let w=0,v=f;w!==y;++w,v+=4)o.copy(u[w]).applyMatrix4(_,a),o.normal.toArray(m,v),m[v+3]=o.constant}l.value=m,l.needsUpdate=!0}return t.numPlanes=y,t.numIntersection=0,m}}var sc=class extends Fi{constructor(t=1,e={}){super(t,t,e),this.isWebGLCubeRenderTarget=!0;let n={width:t,height:t,depth:1},i=[n,n,n,n,n,n];this.texture=new El(i),this._setTextureOptions(e),this.texture.isRenderTargetTexture=!0}fromEquirectangularTexture(t,e){this.texture.type=e.type,this.texture.colorSpace=e.colorSpace,this.texture.generateMipmaps=e.generateMipmaps,this.texture.minFilter=e.minFilter,this.texture.magFilter=e.magFilter;let n={uniforms:{tEquirect:{value:null}},vertexShader:`
+
+				varying vec3 vWorldDirection;
+
+				vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+
+					return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+
+				}
+
+				void main() {
+
+					vWorldDirection = transformDirection( position, modelMatrix );
+
+					#include <begin_vertex>
+					#include <project_vertex>
+
+				}
+			`,fragmentShader:`
+
+				uniform sampler2D tEquirect;
+
+				varying vec3 vWorldDirection;
+
+				#include <common>
+
+				void main() {
+
+					vec3 direction = normalize( vWorldDirection );
+
+					vec2 sampleUV = equirectUv( direction );
+
+					gl_FragColor = texture2D( tEquirect, sampleUV );
+
+				}
+			`},i=new bs(5,5,5),r=new _i({name:"CubemapFromEquirect",uniforms:go(n.uniforms),vertexShader:n.vertexShader,fragmentShader:n.fragmentShader,side:Wn,blending:ho});r.uniforms.tEquirect.value=e;let o=new ue(i,r),a=e.minFilter;return e.minFilter===qi&&(e.minFilter=On),new ba(1,10,this).update(t,o),e.minFilter=a,o.geometry.dispose(),o.material.dispose(),this}clear(t,e=!0,n=!0,i=!0){let r=t.getRenderTarget();for(let o=0;o<6;o++)t.setRenderTarget(this,o),t.clear(e,n,i);t.setRenderTarget(r)}},cx=256,n1=3,i1=20,Ix=256,Nx=16,s1=3,r1=new O,o1=new Dt,td=class s{constructor(t){this._renderer=t,this._cubeSize=0,this._sourceTarget=null,this._cubeCamera=new ba(1,10,null),this._boxMesh=new ue(new bs(5,5,5),null),this._cubemapMaterial=null,this._equirectMaterial=null,this._blurMaterial=null,this._ggxMaterial=null,this._integrationMaterial=null}fromScene(t,e=0,n=.1,i=100,r={}){let{size:o=256,position:a=r1}=r,l=this._renderer;this._setSize(o);let c=this._allocateTarget(),h=this._getSourceTarget(!0);e>0&&(h.texture.mipmapsAutoUpdate=!1);let u=l.autoClear,d=l.autoClearColor,f=l.autoClearDepth,p=l.autoClearStencil,y=t.background;l.autoClear=!0,l.autoClearColor=!0,l.autoClearDepth=!0,l.autoClearStencil=!0,y===null&&(t.background=l.getClearColor(o1));let m=new ba(n,i,h);return m.position.copy(a),m.update(l,t),l.autoClear=u,l.autoClearColor=d,l.autoClearDepth=f,l.autoClearStencil=p,t.background=y,e>0&&(h.texture.mipmapsAutoUpdate=!0,this._blur(c,e)),this._applyPMREM(c),c}fromEquirectangular(t,e=null){return this._fromTexture(t,e)}fromCubemap(t,e=null){return this._fromTexture(t,e)}compileCubemapShader(){this._cubemapMaterial===null&&(this._cubemapMaterial=dx(),this._compileMaterial(this._cubemapMaterial))}compileEquirectangularShader(){this._equirectMaterial===null&&(this._equirectMaterial=ux(),this._compileMaterial(this._equirectMaterial))}dispose(){this._sourceTarget!==null&&this._sourceTarget.dispose(),this._cubemapMaterial!==null&&this._cubemapMaterial.dispose(),this._equirectMaterial!==null&&this._equirectMaterial.dispose(),this._blurMaterial!==null&&this._blurMaterial.dispose(),this._ggxMaterial!==null&&this._ggxMaterial.dispose(),this._integrationMaterial!==null&&this._integrationMaterial.dispose(),this._boxMesh.geometry.dispose()}static lodToRoughness(t,e){return e>0?1-Math.sqrt(1-t/e):0}_setSize(t){this._cubeSize=Math.max(cx,sm(t))}_fromTexture(t,e){t.mapping===fo||t.mapping===Ta?this._setSize(t.image.length===0?cx:t.image[0].width||t.image[0].image.width):this._setSize(t.image.width/4);let n=e||this._allocateTarget();return this._textureToCubemap(t),this._applyPMREM(n),n}_allocateTarget(){let t=this._cubeSize,e=hx(t,!1,!1),n=Math.log2(t)-n1;for(let i=0;i<=n;i++)e.texture.mipmaps.push({width:t>>i,height:t>>i});return e.texture.name="PMREM",e.texture.isPMREMTexture=!0,e}_getSourceTarget(t=!1){let e=this._cubeSize,n=this._sourceTarget;return(n===null||n.width!==e||t&&n.depthBuffer===!1)&&(n!==null&&n.dispose(),this._sourceTarget=hx(e,!0,t)),this._sourceTarget}_compileMaterial(t){this._boxMesh.material=t,this._renderer.compile(this._boxMesh,this._cubeCamera.children[0])}_renderCube(t,e,n){let i=this._boxMesh,r=this._cubeCamera;i.material=n,r.renderTarget=t,r.activeMipmapLevel=e;let o=t.width>>e;t.viewport.set(0,0,o,o),r.update(this._renderer,i),t.viewport.set(0,0,t.width,t.height)}_textureToCubemap(t){let e;t.mapping===fo||t.mapping===Ta?(this._cubemapMaterial===null&&(this._cubemapMaterial=dx()),e=this._cubemapMaterial,e.uniforms.flipEnvMap.value=t.isRenderTargetTexture===!1?-1:1):(this._equirectMaterial===null&&(this._equirectMaterial=ux()),e=this._equirectMaterial),e.uniforms.envMap.value=t,this._renderCube(this._getSourceTarget(),0,e)}_applyPMREM(t){this._ggxMaterial===null&&(this._ggxMaterial=a1(),this._integrationMaterial=l1());let e=this._cubeSize,n=t.texture.mipmaps.length-1,i=this._ggxMaterial.uniforms;i.envMap.value=this._sourceTarget.texture;let r=this._integrationMaterial.uniforms;r.envMap.value=this._sourceTarget.texture,r.sourceLod.value=Math.log2(e/Nx);for(let o=0;o<=n;o++){let a=s.lodToRoughness(o,n);if(o>n-s1)r.roughness.value=a,this._renderCube(t,o,this._integrationMaterial);else{let l=a>0?Math.log2(e)+.5*Math.log2(6/(Ix*Math.pow(a,4)))+.5:0;i.roughness.value=a,i.lodBias.value=l,this._renderCube(t,o,this._ggxMaterial)}}}_blur(t,e){this._blurMaterial===null&&(this._blurMaterial=c1());let n=this._blurMaterial,i=n.uniforms,r=this._sourceTarget;i.sigma.value=Math.min(e,Math.PI)/Math.SQRT2,i.envMap.value=r.texture,this._renderCube(t,0,n),i.envMap.value=t.texture,this._renderCube(r,0,n)}};function hx(s,t,e){return new sc(s,{minFilter:qi,generateMipmaps:t,type:hs,colorSpace:ml,depthBuffer:e})}function rc(s,t,e){return new _i({name:s,uniforms:t,vertexShader:pe.cube_vert,fragmentShader:e,side:Wn,blending:ho,depthTest:!1,depthWrite:!1})}function a1(){return rc("PMREMGGXConvolution",{envMap:{value:null},roughness:{value:0},lodBias:{value:0}},`
+
+		#define GGX_SAMPLES ${Ix}u
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float lodBias;
+
+		#include <common>
+
+		// Van der Corput radical inverse
+		float radicalInverse_VdC( uint bits ) {
+
+			bits = ( bits << 16u ) | ( bits >> 16u );
+			bits = ( ( bits & 0x55555555u ) << 1u ) | ( ( bits & 0xAAAAAAAAu ) >> 1u );
+			bits = ( ( bits & 0x33333333u ) << 2u ) | ( ( bits & 0xCCCCCCCCu ) >> 2u );
+			bits = ( ( bits & 0x0F0F0F0Fu ) << 4u ) | ( ( bits & 0xF0F0F0F0u ) >> 4u );
+			bits = ( ( bits & 0x00FF00FFu ) << 8u ) | ( ( bits & 0xFF00FF00u ) >> 8u );
+			return float( bits ) * 2.3283064365386963e-10; // / 0x100000000
+
+		}
+
+		// Hammersley sequence
+		vec2 hammersley( uint i, uint N ) {
+
+			return vec2( float( i ) / float( N ), radicalInverse_VdC( i ) );
+
+		}
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			// For very low roughness, just sample the environment directly
+			if ( roughness < 0.001 ) {
+
+				gl_FragColor = vec4( textureLod( envMap, N, 0.0 ).rgb, 1.0 );
+				return;
+
+			}
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			// Tangent space basis for VNDF sampling
+			vec3 up = abs( N.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, N ) );
+			vec3 bitangent = cross( N, tangent );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			for ( uint i = 0u; i < GGX_SAMPLES; i ++ ) {
+
+				vec2 Xi = hammersley( i, GGX_SAMPLES );
+
+				// With V = N, sample the reflected direction directly.
+				float invQ = 1.0 / ( 1.0 - Xi.x + alpha2 * Xi.x );
+				float NdotL = ( 1.0 - Xi.x - alpha2 * Xi.x ) * invQ;
+
+				if ( NdotL > 0.0 ) {
+
+					float phi = 2.0 * PI * Xi.y;
+					float sinTheta = 2.0 * alpha * sqrt( Xi.x * ( 1.0 - Xi.x ) ) * invQ;
+					vec3 L = N * NdotL + ( tangent * cos( phi ) + bitangent * sin( phi ) ) * sinTheta;
+
+					// Match the source mip to the sample's solid angle. The terms
+					// independent of the sample are precomputed in lodBias.
+					float d = alpha2 * invQ;
+					float lod = max( log2( d ) + lodBias, 0.0 );
+
+					// Weight by NdotL for the split-sum approximation
+					prefilteredColor += textureLod( envMap, L, lod ).rgb * NdotL;
+					totalWeight += NdotL;
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function l1(){return rc("PMREMGGXIntegration",{envMap:{value:null},roughness:{value:0},sourceLod:{value:0},sourceSize:{value:Nx}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float sourceLod;
+		uniform int sourceSize;
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			float texelSize = 2.0 / float( sourceSize );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			// Pair opposite texels: only the one in N's hemisphere contributes.
+			for ( int face = 0; face < 3; face ++ ) {
+
+				for ( int y = 0; y < sourceSize; y ++ ) {
+
+					for ( int x = 0; x < sourceSize; x ++ ) {
+
+						vec2 uv = ( vec2( x, y ) + 0.5 ) * texelSize - 1.0;
+						vec3 texelDirection = face == 0 ? vec3( 1.0, uv ) : ( face == 1 ? vec3( uv.x, 1.0, uv.y ) : vec3( uv, 1.0 ) );
+
+						float invDistance = inversesqrt( 1.0 + dot( uv, uv ) );
+						float NdotL = dot( N, texelDirection );
+						texelDirection *= NdotL < 0.0 ? - 1.0 : 1.0;
+						NdotL = abs( NdotL ) * invDistance;
+
+						// With V = N, NdotH squared is ( 1 + NdotL ) / 2. Common factors
+						// in the GGX distribution and texel solid angle cancel when normalized.
+						float d = 1.0 + alpha2 + ( alpha2 - 1.0 ) * NdotL;
+						float weight = NdotL * invDistance * invDistance * invDistance / ( d * d );
+
+						prefilteredColor += textureLod( envMap, texelDirection, sourceLod ).rgb * weight;
+						totalWeight += weight;
+
+					}
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function c1(){return rc("PMREMSphericalGaussianBlur",{envMap:{value:null},sigma:{value:0}},`
+
+		#define SAMPLES ${i1}
+		#define GOLDEN_ANGLE 2.39996322973
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float sigma;
+
+		#include <common>
+
+		void main() {
+
+			vec3 outputDirection = normalize( vWorldDirection );
+
+			vec3 up = abs( outputDirection.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, outputDirection ) );
+			vec3 bitangent = cross( outputDirection, tangent );
+
+			// Truncate the kernel at three standard deviations or at the antipode.
+			float thetaMax = min( 3.0 * sigma, PI );
+			float truncation = 1.0 - exp( - 0.5 * thetaMax * thetaMax / ( sigma * sigma ) );
+
+			vec3 accumColor = vec3( 0.0 );
+			float accumWeight = 0.0;
+
+			for ( int i = 0; i < SAMPLES; i ++ ) {
+
+				// Stratified inverse-CDF sampling of the Gaussian, placed on a golden-angle spiral.
+				float stratum = ( float( i ) + 0.5 ) / float( SAMPLES );
+				float theta = sigma * sqrt( - 2.0 * log( 1.0 - stratum * truncation ) );
+				float phi = float( i ) * GOLDEN_ANGLE;
+
+				vec3 offset = cos( phi ) * tangent + sin( phi ) * bitangent;
+				vec3 sampleDirection = cos( theta ) * outputDirection + sin( theta ) * offset;
+
+				// Correct the planar sample density to solid angle.
+				float weight = sin( theta ) / theta;
+
+				accumColor += weight * textureLod( envMap, sampleDirection, 0.0 ).rgb;
+				accumWeight += weight;
+
+			}
+
+			gl_FragColor = vec4( accumColor / accumWeight, 1.0 );
+
+		}
+	`)}function ux(){return rc("PMREMEquirectangularToCubemap",{envMap:{value:null}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform sampler2D envMap;
+
+		#include <common>
+
+		void main() {
+
+			// Average four subpixel samples to preserve small, bright features.
+			vec3 direction = normalize( vWorldDirection );
+			vec3 dx = dFdx( direction ) * 0.25;
+			vec3 dy = dFdy( direction ) * 0.25;
+
+			vec3 color = textureLod( envMap, equirectUv( normalize( direction - dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction - dx + dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx + dy ) ), 0.0 ).rgb;
+			gl_FragColor = vec4( color * 0.25, 1.0 );
+
+		}
+	`)}function dx(){return rc("PMREMCubemapToCubemap",{envMap:{value:null},flipEnvMap:{value:-1}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float flipEnvMap;
+
+		void main() {
+
+			gl_FragColor = vec4( textureCube( envMap, vec3( flipEnvMap * vWorldDirection.x, vWorldDirection.yz ) ).rgb, 1.0 );
+
+		}
+	`)}function h1(s){let t=new WeakMap,e=new WeakMap,n=null;function i(d,f=!1){return d==null?null:f?o(d):r(d)}function r(d){if(d&&d.isTexture){let f=d.mapping;if(f===hu||f===uu)if(t.has(d)){let p=t.get(d).texture;return a(p,d.mapping)}else{let p=d.image;if(p&&p.height>0){let y=new sc(p.height);return y.fromEquirectangularTexture(s,d),t.set(d,y),d.addEventListener("dispose",c),a(y.texture,d.mapping)}else return null}}return d}function o(d){if(d&&d.isTexture&&d.isPMREMTexture!==!0){let f=d.mapping,p=f===hu||f===uu,y=f===fo||f===Ta;if(p||y){let m=e.get(d),g=m!==void 0?m.texture.pmremVersion:0;if(d.isRenderTargetTexture&&d.pmremVersion!==g)return n===null&&(n=new td(s)),m=p?n.fromEquirectangular(d,m):n.fromCubemap(d,m),m.texture.pmremVersion=d.pmremVersion,e.set(d,m),m.texture;if(m!==void 0)return m.texture;{let _=d.image;return p&&_&&_.height>0||y&&_&&l(_)?(n===null&&(n=new td(s)),m=p?n.fromEquirectangular(d):n.fromCubemap(d),m.texture.pmremVersion=d.pmremVersion,e.set(d,m),d.addEventListener("dispose",h),m.texture):null}}}return d}function a(d,f){return f===hu?d.mapping=fo:f===uu&&(d.mapping=Ta),d}function l(d){let f=0,p=6;for(let y=0;y<p;y++)d[y]!==void 0&&f++;return f===p}function c(d){let f=d.target;f.removeEventListener("dispose",c);let p=t.get(f);p!==void 0&&(t.delete(f),p.dispose())}function h(d){let f=d.target;f.removeEventListener("dispose",h);let p=e.get(f);p!==void 0&&(e.delete(f),p.dispose())}function u(){t=new WeakMap,e=new WeakMap,n!==null&&(n.dispose(),n=null)}return{get:i,dispose:u}}function u1(s){let t={};function e(n){if(t[n]!==void 0)return t[n];let i=s.getExtension(n);return t[n]=i,i}return{has:function(n){return e(n)!==null},init:function(){e("EXT_color_buffer_float"),e("WEBGL_clip_cull_distance"),e("OES_texture_float_linear"),e("EXT_color_buffer_half_float"),e("WEBGL_multisampled_render_to_texture"),e("WEBGL_render_shared_exponent")},get:function(n){let i=e(n);return i===null&&dl("WebGLRenderer: "+n+" extension not supported."),i}}}function d1(s,t,e,n){let i={},r=new WeakMap,o=new FinalizationRegistry(p=>delete i[p]);function a(p){l(p.target)}function l(p){p.index!==null&&t.remove(p.index);for(let m in p.attributes)t.remove(p.attributes[m]);p.removeEventListener("dispose",a),delete i[p.id],o.unregister(p);let y=r.get(p);y&&(t.remove(y),r.delete(p)),n.releaseStatesOfGeometry(p),p.isInstancedBufferGeometry===!0&&delete p._maxInstanceCount,e.memory.geometries--}function c(p,y){return i[y.id]!==void 0||(y.addEventListener("dispose",a),i[y.id]=new WeakRef(y),o.register(y,y.id,y),e.memory.geometries++),y}function h(p){let y=p.attributes;for(let m in y)t.update(y[m],s.ARRAY_BUFFER)}function u(p){let y=p.index,m=p.attributes.position,g=0;if(m===void 0)return;let _=y!==null?y.array.length:m.array.length/3-1,w=m.count>=65535?bl:vl,v=new w(Math.ceil(_/3)*6,1),E=v.array;if(y!==null){let x=y.array;g=y.version;for(let M=0,L=0;M<_;M+=3){let P=x[M+0],C=x[M+1],F=x[M+2];E[L++]=P,E[L++]=C,E[L++]=C,E[L++]=F,E[L++]=F,E[L++]=P}}else{g=m.version;for(let x=0,M=0;x<_;x+=3){let L=x+0,P=x+1,C=x+2;E[M++]=L,E[M++]=P,E[M++]=P,E[M++]=C,E[M++]=C,E[M++]=L}}v.version=g;let S=r.get(p);S&&t.remove(S),r.set(p,v)}function d(p){let y=r.get(p);if(y){let m=p.index;m!==null&&y.version<m.version&&u(p)}else u(p);return r.get(p)}function f(){for(let p in i){let y=i[p].deref();y!==void 0&&l(y)}}return{get:c,update:h,getWireframeAttribute:d,dispose:f}}function f1(s,t,e){let n;function i(u){n=u}let r,o;function a(u){r=u.type,o=u.bytesPerElement}function l(u,d){s.drawElements(n,d,r,u*o),e.update(d,n,1)}function c(u,d,f){f!==0&&(s.drawElementsInstanced(n,d,r,u*o,f),e.update(d,n,f))}function h(u,d,f){if(f===0)return;t.get("WEBGL_multi_draw").multiDrawElementsWEBGL(n,d,0,r,u,0,f);let y=0;for(let m=0;m<f;m++)y+=d[m];e.update(y,n,1)}this.setMode=i,this.setIndex=a,this.render=l,this.renderInstances=c,this.renderMultiDraw=h}function p1(s){let t={geometries:0,textures:0},e={frame:0,calls:0,triangles:0,points:0,lines:0};function n(r,o,a){switch(e.calls++,o){case s.TRIANGLES:e.triangles+=a*(r/3);break;case s.LINES:e.lines+=a*(r/2);break;case s.LINE_STRIP:e.lines+=a*(r-1);break;case s.LINE_LOOP:e.lines+=a*r;break;case s.POINTS:e.points+=a*r;break;default:te("WebGLInfo: Unknown draw mode:",o);break}}function i(){e.calls=0,e.triangles=0,e.points=0,e.lines=0}return{memory:t,render:e,programs:null,autoReset:!0,reset:i,update:n}}function m1(s,t,e){let n=new WeakMap,i=new be;function r(o,a,l){let c=o.morphTargetInfluences,h=a.morphAttributes.position||a.morphAttributes.normal||a.morphAttributes.color,u=h!==void 0?h.length:0,d=n.get(a);if(d===void 0||d.count!==u){let L=function(){x.dispose(),n.delete(a),a.removeEventListener("dispose",L)};d!==void 0&&d.texture.dispose();let f=a.morphAttributes.position!==void 0,p=a.morphAttributes.normal!==void 0,y=a.morphAttributes.color!==void 0,m=a.morphAttributes.position||[],g=a.morphAttributes.normal||[],_=a.morphAttributes.color||[],w=0;f===!0&&(w=1),p===!0&&(w=2),y===!0&&(w=3);let v=a.attributes.position.count*w,E=1;v>t.maxTextureSize&&(E=Math.ceil(v/t.maxTextureSize),v=t.maxTextureSize);let S=new Float32Array(v*E*4*u),x=new _l(S,v,E,u);x.type=Bi,x.needsUpdate=!0;let M=w*4;for(let P=0;P<u;P++){let C=m[P],F=g[P],B=_[P],N=v*E*4*P;for(let W=0;W<C.count;W++){let k=W*M;f===!0&&(i.fromBufferAttribute(C,W),S[N+k+0]=i.x,S[N+k+1]=i.y,S[N+k+2]=i.z,S[N+k+3]=0),p===!0&&(i.fromBufferAttribute(F,W),S[N+k+4]=i.x,S[N+k+5]=i.y,S[N+k+6]=i.z,S[N+k+7]=0),y===!0&&(i.fromBufferAttribute(B,W),S[N+k+8]=i.x,S[N+k+9]=i.y,S[N+k+10]=i.z,S[N+k+11]=B.itemSize===4?i.w:1)}}d={count:u,texture:x,size:new Xt(v,E)},n.set(a,d),a.addEventListener("dispose",L)}if(o.isInstancedMesh===!0&&o.morphTexture!==null)l.getUniforms().setValue(s,"morphTexture",o.morphTexture,e);else{let f=0;for(let y=0;y<c.length;y++)f+=c[y];let p=a.morphTargetsRelative?1:1-f;l.getUniforms().setValue(s,"morphTargetBaseInfluence",p),l.getUniforms().setValue(s,"morphTargetInfluences",c)}l.getUniforms().setValue(s,"morphTargetsTexture",d.texture,e),l.getUniforms().setValue(s,"morphTargetsTextureSize",d.size)}return{update:r}}function g1(s,t,e,n,i){let r=new WeakMap;function o(c){let h=i.render.frame,u=c.geometry,d=t.get(c,u);if(r.get(d)!==h&&(t.update(d),r.set(d,h)),c.isInstancedMesh&&(c.hasEventListener("dispose",l)===!1&&c.addEventListener("dispose",l),r.get(c)!==h&&(e.update(c.instanceMatrix,s.ARRAY_BUFFER),c.instanceColor!==null&&e.update(c.instanceColor,s.ARRAY_BUFFER),r.set(c,h))),c.isSkinnedMesh){let f=c.skeleton;r.get(f)!==h&&(f.update(),r.set(f,h))}return d}function a(){r=new WeakMap}function l(c){let h=c.target;h.removeEventListener("dispose",l),n.releaseStatesOfObject(h),e.remove(h.instanceMatrix),h.instanceColor!==null&&e.remove(h.instanceColor)}return{update:o,dispose:a}}var y1={[Bp]:"LINEAR_TONE_MAPPING",[kp]:"REINHARD_TONE_MAPPING",[zp]:"CINEON_TONE_MAPPING",[Vp]:"ACES_FILMIC_TONE_MAPPING",[Hp]:"AGX_TONE_MAPPING",[Wp]:"NEUTRAL_TONE_MAPPING",[Gp]:"CUSTOM_TONE_MAPPING"};function _1(s,t,e,n,i,r){let o=new Fi(t,e,{type:s,depthBuffer:i,stencilBuffer:r,samples:n?4:0,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,resolveDepthBuffer:!1,resolveStencilBuffer:!1}),a=null,l=null,c=null,h=new Fe;h.setAttribute("position",new Jt([-1,3,0,-1,-1,0,3,-1,0],3)),h.setAttribute("uv",new Jt([0,2,0,0,2,0],2));let u=new tu({uniforms:{tDiffuse:{value:null}},vertexShader:`
+			precision highp float;
+
+			uniform mat4 modelViewMatrix;
+			uniform mat4 projectionMatrix;
+
+			attribute vec3 position;
+			attribute vec2 uv;
+
+			varying vec2 vUv;
+
+			void main() {
+				vUv = uv;
+				gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+			}`,fragmentShader:`
+			precision highp float;
+
+			uniform sampler2D tDiffuse;
+
+			varying vec2 vUv;
+
+			#include <tonemapping_pars_fragment>
+			#include <colorspace_pars_fragment>
+
+			void main() {
+				gl_FragColor = texture2D( tDiffuse, vUv );
+
+				#ifdef LINEAR_TONE_MAPPING
+					gl_FragColor.rgb = LinearToneMapping( gl_FragColor.rgb );
+				#elif defined( REINHARD_TONE_MAPPING )
+					gl_FragColor.rgb = ReinhardToneMapping( gl_FragColor.rgb );
+				#elif defined( CINEON_TONE_MAPPING )
+					gl_FragColor.rgb = CineonToneMapping( gl_FragColor.rgb );
+				#elif defined( ACES_FILMIC_TONE_MAPPING )
+					gl_FragColor.rgb = ACESFilmicToneMapping( gl_FragColor.rgb );
+				#elif defined( AGX_TONE_MAPPING )
+					gl_FragColor.rgb = AgXToneMapping( gl_FragColor.rgb );
+				#elif defined( NEUTRAL_TONE_MAPPING )
+					gl_FragColor.rgb = NeutralToneMapping( gl_FragColor.rgb );
+				#elif defined( CUSTOM_TONE_MAPPING )
+					gl_FragColor.rgb = CustomToneMapping( gl_FragColor.rgb );
+				#endif
+
+				#ifdef SRGB_TRANSFER
+					gl_FragColor = sRGBTransferOETF( gl_FragColor );
+				#endif
+			}`,depthTest:!1,depthWrite:!1}),d=new ue(h,u),f=new oo(-1,1,1,-1,0,1),p=null,y=null,m=!1,g,_=null,w=[],v=!1;this.setSize=function(E,S){o.setSize(E,S),a!==null&&a.setSize(E,S),l!==null&&l.setSize(E,S);for(let x=0;x<w.length;x++){let M=w[x];M.setSize&&M.setSize(E,S)}},this.setEffects=function(E){w=E,v=w.length>0&&w[0].isRenderPass===!0;let S=o.width,x=o.height;w.length>0&&a===null&&(a=new Fi(S,x,{type:hs,depthBuffer:!1,stencilBuffer:!1}),l=new Fi(S,x,{type:hs,depthBuffer:!1,stencilBuffer:!1}));let M=i===!0&&w.some(L=>L.needsDepthTexture===!0);M!==(o.depthTexture!==null)&&(M===!0&&c===null&&(c=new $s(S,x),r===!0&&(c.format=er,c.type=po)),o.dispose(),o.depthTexture=M?c:null,o.resolveDepthBuffer=M,o.storeMultisampledDepthBuffer=M);for(let L=0;L<w.length;L++){let P=w[L];P.setSize&&P.setSize(S,x),M&&P.needsDepthTexture===!0&&P.setDepthTexture&&P.setDepthTexture(c)}},this.begin=function(E,S){if(m||E.toneMapping===Es&&w.length===0)return!1;if(_=S,S!==null){let x=S.width,M=S.height;(o.width!==x||o.height!==M)&&this.setSize(x,M)}return v===!1&&E.setRenderTarget(o),g=E.toneMapping,E.toneMapping=Es,!0},this.hasRenderPass=function(){return v},this.end=function(E,S){E.toneMapping=g,m=!0;let x=o,M=a;for(let L=0;L<w.length;L++){let P=w[L];P.enabled!==!1&&(P.render(E,M,x,S),P.needsSwap!==!1&&(x=M,M=M===a?l:a))}if(p!==E.outputColorSpace||y!==E.toneMapping){p=E.outputColorSpace,y=E.toneMapping,u.defines={},he.getTransfer(p)===Le&&(u.defines.SRGB_TRANSFER="");let L=y1[y];L&&(u.defines[L]=""),u.needsUpdate=!0}u.uniforms.tDiffuse.value=x.texture,E.setRenderTarget(_),E.render(d,f),_=null,m=!1},this.isCompositing=function(){return m},this.dispose=function(){o.dispose(),a!==null&&a.dispose(),l!==null&&l.dispose(),h.dispose(),u.dispose()}}var Dx=new ui,Fx=new $s(1,1),Ux=new Al(1),Ox=new _l,Bx=new Jh,kx=new El,fx=[],px=[],mx=new Float32Array(16),gx=new Float32Array(9),yx=new Float32Array(4);function Ra(s,t,e){let n=s[0];if(n<=0||n>0)return s;let i=t*e,r=fx[i];if(r===void 0&&(r=new Float32Array(i),fx[i]=r),t!==0){n.toArray(r,0);for(let o=1,a=0;o!==t;++o)a+=e,s[o].toArray(r,a)}return r}function An(s,t){if(s.length!==t.length)return!1;for(let e=0,n=s.length;e<n;e++)if(s[e]!==t[e])return!1;return!0}function Rn(s,t){for(let e=0,n=t.length;e<n;e++)s[e]=t[e]}function nd(s,t){let e=px[t];e===void 0&&(e=new Int32Array(t),px[t]=e);for(let n=0;n!==t;++n)e[n]=s.allocateTextureUnit();return e}function x1(s,t){let e=this.cache;e[0]!==t&&(s.uniform1f(this.addr,t),e[0]=t)}function v1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(s.uniform2f(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(An(e,t))return;s.uniform2fv(this.addr,t),Rn(e,t)}}function b1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(s.uniform3f(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else if(t.r!==void 0)(e[0]!==t.r||e[1]!==t.g||e[2]!==t.b)&&(s.uniform3f(this.addr,t.r,t.g,t.b),e[0]=t.r,e[1]=t.g,e[2]=t.b);else{if(An(e,t))return;s.uniform3fv(this.addr,t),Rn(e,t)}}function S1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(s.uniform4f(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(An(e,t))return;s.uniform4fv(this.addr,t),Rn(e,t)}}function M1(s,t){let e=this.cache,n=t.elements;if(n===void 0){if(An(e,t))return;s.uniformMatrix2fv(this.addr,!1,t),Rn(e,t)}else{if(An(e,n))return;yx.set(n),s.uniformMatrix2fv(this.addr,!1,yx),Rn(e,n)}}function w1(s,t){let e=this.cache,n=t.elements;if(n===void 0){if(An(e,t))return;s.uniformMatrix3fv(this.addr,!1,t),Rn(e,t)}else{if(An(e,n))return;gx.set(n),s.uniformMatrix3fv(this.addr,!1,gx),Rn(e,n)}}function T1(s,t){let e=this.cache,n=t.elements;if(n===void 0){if(An(e,t))return;s.uniformMatrix4fv(this.addr,!1,t),Rn(e,t)}else{if(An(e,n))return;mx.set(n),s.uniformMatrix4fv(this.addr,!1,mx),Rn(e,n)}}function E1(s,t){let e=this.cache;e[0]!==t&&(s.uniform1i(this.addr,t),e[0]=t)}function A1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(s.uniform2i(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(An(e,t))return;s.uniform2iv(this.addr,t),Rn(e,t)}}function R1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(s.uniform3i(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else{if(An(e,t))return;s.uniform3iv(this.addr,t),Rn(e,t)}}function C1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(s.uniform4i(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(An(e,t))return;s.uniform4iv(this.addr,t),Rn(e,t)}}function P1(s,t){let e=this.cache;e[0]!==t&&(s.uniform1ui(this.addr,t),e[0]=t)}function L1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(s.uniform2ui(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(An(e,t))return;s.uniform2uiv(this.addr,t),Rn(e,t)}}function I1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(s.uniform3ui(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else{if(An(e,t))return;s.uniform3uiv(this.addr,t),Rn(e,t)}}function N1(s,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(s.uniform4ui(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(An(e,t))return;s.uniform4uiv(this.addr,t),Rn(e,t)}}function id(s){return s.version===0&&(s.compareFunction=tm,s.needsUpdate=!0),s}function D1(s,t,e){let n=this.cache,i=e.allocateTextureUnit();n[0]!==i&&(s.uniform1i(this.addr,i),n[0]=i);let r;this.type===s.SAMPLER_2D_SHADOW?r=id(Fx):r=Dx,e.setTexture2D(t||r,i)}function F1(s,t,e){let n=this.cache,i=e.allocateTextureUnit();n[0]!==i&&(s.uniform1i(this.addr,i),n[0]=i),e.setTexture3D(t||Bx,i)}function U1(s,t,e){let n=this.cache,i=e.allocateTextureUnit();n[0]!==i&&(s.uniform1i(this.addr,i),n[0]=i);let r;this.type===s.SAMPLER_CUBE_SHADOW?r=id(Ux):r=kx,e.setTextureCube(t||r,i)}function O1(s,t,e){let n=this.cache,i=e.allocateTextureUnit();n[0]!==i&&(s.uniform1i(this.addr,i),n[0]=i),e.setTexture2DArray(t||Ox,i)}function B1(s){switch(s){case 5126:return x1;case 35664:return v1;case 35665:return b1;case 35666:return S1;case 35674:return M1;case 35675:return w1;case 35676:return T1;case 5124:case 35670:return E1;case 35667:case 35671:return A1;case 35668:case 35672:return R1;case 35669:case 35673:return C1;case 5125:return P1;case 36294:return L1;case 36295:return I1;case 36296:return N1;case 35678:case 36198:case 36298:case 36306:case 35682:return D1;case 35679:case 36299:case 36307:return F1;case 35680:case 36300:case 36308:case 36293:return U1;case 36289:case 36303:case 36311:case 36292:return O1}}function k1(s,t){s.uniform1fv(this.addr,t)}function z1(s,t){let e=Ra(t,this.size,2);s.uniform2fv(this.addr,e)}function V1(s,t){let e=Ra(t,this.size,3);s.uniform3fv(this.addr,e)}function G1(s,t){let e=Ra(t,this.size,4);s.uniform4fv(this.addr,e)}function H1(s,t){let e=Ra(t,this.size,4);s.uniformMatrix2fv(this.addr,!1,e)}function W1(s,t){let e=Ra(t,this.size,9);s.uniformMatrix3fv(this.addr,!1,e)}function X1(s,t){let e=Ra(t,this.size,16);s.uniformMatrix4fv(this.addr,!1,e)}function q1(s,t){s.uniform1iv(this.addr,t)}function Y1(s,t){s.uniform2iv(this.addr,t)}function j1(s,t){s.uniform3iv(this.addr,t)}function J1(s,t){s.uniform4iv(this.addr,t)}function $1(s,t){s.uniform1uiv(this.addr,t)}function Z1(s,t){s.uniform2uiv(this.addr,t)}function K1(s,t){s.uniform3uiv(this.addr,t)}function Q1(s,t){s.uniform4uiv(this.addr,t)}function tR(s,t,e){let n=this.cache,i=t.length,r=nd(e,i);An(n,r)||(s.uniform1iv(this.addr,r),Rn(n,r));let o;this.type===s.SAMPLER_2D_SHADOW?o=id(Fx):o=Dx;for(let a=0;a!==i;++a)e.setTexture2D(t[a]||o,r[a])}function eR(s,t,e){let n=this.cache,i=t.length,r=nd(e,i);An(n,r)||(s.uniform1iv(this.addr,r),Rn(n,r));for(let o=0;o!==i;++o)e.setTexture3D(t[o]||Bx,r[o])}function nR(s,t,e){let n=this.cache,i=t.length,r=nd(e,i);An(n,r)||(s.uniform1iv(this.addr,r),Rn(n,r));let o;this.type===s.SAMPLER_CUBE_SHADOW?o=id(Ux):o=kx;for(let a=0;a!==i;++a)e.setTextureCube(t[a]||o,r[a])}function iR(s,t,e){let n=this.cache,i=t.length,r=nd(e,i);An(n,r)||(s.uniform1iv(this.addr,r),Rn(n,r));for(let o=0;o!==i;++o)e.setTexture2DArray(t[o]||Ox,r[o])}function sR(s){switch(s){case 5126:return k1;case 35664:return z1;case 35665:return V1;case 35666:return G1;case 35674:return H1;case 35675:return W1;case 35676:return X1;case 5124:case 35670:return q1;case 35667:case 35671:return Y1;case 35668:case 35672:return j1;case 35669:case 35673:return J1;case 5125:return $1;case 36294:return Z1;case 36295:return K1;case 36296:return Q1;case 35678:case 36198:case 36298:case 36306:case 35682:return tR;case 35679:case 36299:case 36307:return eR;case 35680:case 36300:case 36308:case 36293:return nR;case 36289:case 36303:case 36311:case 36292:return iR}}var fm=class{constructor(t,e,n){this.id=t,this.addr=n,this.cache=[],this.type=e.type,this.setValue=B1(e.type)}},pm=class{constructor(t,e,n){this.id=t,this.addr=n,this.cache=[],this.type=e.type,this.size=e.size,this.setValue=sR(e.type)}},mm=class{constructor(t){this.id=t,this.seq=[],this.map={}}setValue(t,e,n){let i=this.seq;for(let r=0,o=i.length;r!==o;++r){let a=i[r];a.setValue(t,e[a.id],n)}}},um=/(\w+)(\])?(\[|\.)?/g;function _x(s,t){s.seq.push(t),s.map[t.id]=t}function rR(s,t,e){let n=s.name,i=n.length;for(um.lastIndex=0;;){let r=um.exec(n),o=um.lastIndex,a=r[1],l=r[2]==="]",c=r[3];if(l&&(a=a|0),c===void 0||c==="["&&o+2===i){_x(e,c===void 0?new fm(a,s,t):new pm(a,s,t));break}else{let u=e.map[a];u===void 0&&(u=new mm(a),_x(e,u)),e=u}}}var Aa=class{constructor(t,e){this.seq=[],this.map={};let n=t.getProgramParameter(e,t.ACTIVE_UNIFORMS);for(let o=0;o<n;++o){let a=t.getActiveUniform(e,o),l=t.getUniformLocation(e,a.name);rR(a,l,this)}let i=[],r=[];for(let o of this.seq)o.type===t.SAMPLER_2D_SHADOW||o.type===t.SAMPLER_CUBE_SHADOW||o.type===t.SAMPLER_2D_ARRAY_SHADOW?i.push(o):r.push(o);i.length>0&&(this.seq=i.concat(r))}setValue(t,e,n,i){let r=this.map[e];r!==void 0&&r.setValue(t,n,i)}setOptional(t,e,n){let i=e[n];i!==void 0&&this.setValue(t,n,i)}static upload(t,e,n,i){for(let r=0,o=e.length;r!==o;++r){let a=e[r],l=n[a.id];l.needsUpdate!==!1&&a.setValue(t,l.value,i)}}static seqWithValue(t,e){let n=[];for(let i=0,r=t.length;i!==r;++i){let o=t[i];o.id in e&&n.push(o)}return n}};function xx(s,t,e){let n=s.createShader(t);return s.shaderSource(n,e),s.compileShader(n),n}var oR=37297,aR=0;function lR(s,t){let e=s.split(`
+`),n=[],i=Math.max(t-6,0),r=Math.min(t+6,e.length);for(let o=i;o<r;o++){let a=o+1;n.push(`${a===t?">":" "} ${a}: ${e[o]}`)}return n.join(`
+`)}var vx=new se;function cR(s){he._getMatrix(vx,he.workingColorSpace,s);let t=`mat3( ${vx.elements.map(e=>e.toFixed(4))} )`;switch(he.getTransfer(s)){case gl:return[t,"LinearTransferOETF"];case Le:return[t,"sRGBTransferOETF"];default:return jt("WebGLProgram: Unsupported color space: ",s),[t,"LinearTransferOETF"]}}function bx(s,t,e){let n=s.getShaderParameter(t,s.COMPILE_STATUS),r=(s.getShaderInfoLog(t)||"").trim();if(n&&r==="")return"";let o=/ERROR: 0:(\d+)/.exec(r);if(o){let a=parseInt(o[1]);return e.toUpperCase()+`
+
+`+r+`
+
+`+lR(s.getShaderSource(t),a)}else return r}function hR(s,t){let e=cR(t);return[`vec4 ${s}( vec4 value ) {`,`	return ${e[1]}( vec4( ${e[0]} * value.rgb, value.a ) );`,"}"].join(`
+`)}var uR={[Bp]:"Linear",[kp]:"Reinhard",[zp]:"Cineon",[Vp]:"ACESFilmic",[Hp]:"AgX",[Wp]:"Neutral",[Gp]:"Custom"};function dR(s,t){let e=uR[t];return e===void 0?(jt("WebGLProgram: Unsupported toneMapping:",t),"vec3 "+s+"( vec3 color ) { return LinearToneMapping( color ); }"):"vec3 "+s+"( vec3 color ) { return "+e+"ToneMapping( color ); }"}var Qu=new O;function fR(){he.getLuminanceCoefficients(Qu);let s=Qu.x.toFixed(4),t=Qu.y.toFixed(4),e=Qu.z.toFixed(4);return["float luminance( const in vec3 rgb ) {",`	const vec3 weights = vec3( ${s}, ${t}, ${e} );`,"	return dot( weights, rgb );","}"].join(`
+`)}function pR(s){return[s.extensionClipCullDistance?"#extension GL_ANGLE_clip_cull_distance : require":"",s.extensionMultiDraw?"#extension GL_ANGLE_multi_draw : require":""].filter(ic).join(`
+`)}function mR(s){let t=[];for(let e in s){let n=s[e];n!==!1&&t.push("#define "+e+" "+n)}return t.join(`
+`)}function gR(s,t){let e={},n=s.getProgramParameter(t,s.ACTIVE_ATTRIBUTES);for(let i=0;i<n;i++){let r=s.getActiveAttrib(t,i),o=r.name,a=1;r.type===s.FLOAT_MAT2&&(a=2),r.type===s.FLOAT_MAT3&&(a=3),r.type===s.FLOAT_MAT4&&(a=4),e[o]={type:r.type,location:s.getAttribLocation(t,o),locationSize:a}}return e}function ic(s){return s!==""}function Sx(s,t){let e=t.numSpotLightShadows+t.numSpotLightMaps-t.numSpotLightShadowsWithMaps;return s.replace(/NUM_SUN_LIGHTS/g,t.numSunLights).replace(/NUM_DIR_LIGHTS/g,t.numDirLights).replace(/NUM_SPOT_LIGHTS/g,t.numSpotLights).replace(/NUM_SPOT_LIGHT_MAPS/g,t.numSpotLightMaps).replace(/NUM_SPOT_LIGHT_COORDS/g,e).replace(/NUM_RECT_AREA_LIGHTS/g,t.numRectAreaLights).replace(/NUM_POINT_LIGHTS/g,t.numPointLights).replace(/NUM_HEMI_LIGHTS/g,t.numHemiLights).replace(/NUM_SUN_LIGHT_SHADOWS/g,t.numSunLightShadows).replace(/NUM_DIR_LIGHT_SHADOWS/g,t.numDirLightShadows).replace(/NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS/g,t.numSpotLightShadowsWithMaps).replace(/NUM_SPOT_LIGHT_SHADOWS/g,t.numSpotLightShadows).replace(/NUM_POINT_LIGHT_SHADOWS/g,t.numPointLightShadows).replace(/NUM_LIGHT_PROBE_GRIDS/g,t.numLightProbeGrids)}function Mx(s,t){return s.replace(/NUM_CLIPPING_PLANES/g,t.numClippingPlanes).replace(/UNION_CLIPPING_PLANES/g,t.numClippingPlanes-t.numClipIntersection)}var yR=/^[ \t]*#include +<([\w\d./]+)>/gm;function gm(s){return s.replace(yR,_R)}function _R(s,t){let e=pe[t];if(e===void 0)throw new Error("THREE.WebGLProgram: Can not resolve #include <"+t+">");return gm(e)}var xR=/#pragma unroll_loop_start\s+for\s*\(\s*int\s+i\s*=\s*(\d+)\s*;\s*i\s*<\s*(\d+)\s*;\s*i\s*\+\+\s*\)\s*{([\s\S]+?)}\s+#pragma unroll_loop_end/g;function wx(s){return s.replace(xR,vR)}function vR(s,t,e,n){let i="";for(let r=parseInt(t);r<parseInt(e);r++)i+=n.replace(/\[\s*i\s*\]/g,"[ "+r+" ]").replace(/UNROLLED_LOOP_INDEX/g,r);return i}function Tx(s){let t=`precision ${s.precision} float;
+	precision ${s.precision} int;
+	precision ${s.precision} sampler2D;
+	precision ${s.precision} samplerCube;
+	precision ${s.precision} sampler3D;
+	precision ${s.precision} sampler2DArray;
+	precision ${s.precision} sampler2DShadow;
+	precision ${s.precision} samplerCubeShadow;
+	precision ${s.precision} sampler2DArrayShadow;
+	precision ${s.precision} isampler2D;
+	precision ${s.precision} isampler3D;
+	precision ${s.precision} isamplerCube;
+	precision ${s.precision} isampler2DArray;
+	precision ${s.precision} usampler2D;
+	precision ${s.precision} usampler3D;
+	precision ${s.precision} usamplerCube;
+	precision ${s.precision} usampler2DArray;
+	`;return s.precision==="highp"?t+=`
+#define HIGH_PRECISION`:s.precision==="mediump"?t+=`
+#define MEDIUM_PRECISION`:s.precision==="lowp"&&(t+=`
+#define LOW_PRECISION`),t}var bR={[co]:"SHADOWMAP_TYPE_PCF",[Ma]:"SHADOWMAP_TYPE_VSM"};function SR(s){return bR[s.shadowMapType]||"SHADOWMAP_TYPE_BASIC"}var MR={[Ta]:"ENVMAP_MODE_REFRACTION"};function wR(s){return s.envMap===!1?"ENVMAP_MODE_REFLECTION":MR[s.envMapMode]||"ENVMAP_MODE_REFLECTION"}var TR={[ql]:"ENVMAP_BLENDING_MULTIPLY",[z_]:"ENVMAP_BLENDING_MIX",[V_]:"ENVMAP_BLENDING_ADD"};function ER(s){return s.envMap===!1?"ENVMAP_BLENDING_NONE":TR[s.combine]||"ENVMAP_BLENDING_NONE"}function AR(s,t,e,n){let i=s.getContext(),r=e.defines,o=e.vertexShader,a=e.fragmentShader,l=SR(e),c=e.envMapPMREM===!0?"ENVMAP_TYPE_PMREM":"ENVMAP_TYPE_CUBE",h=wR(e),u=ER(e),d=pR(e),f=mR(r),p=i.createProgram(),y,m,g=e.glslVersion?"#version "+e.glslVersion+`
+`:"";e.isRawShaderMaterial?(y=["#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f].filter(ic).join(`
+`),y.length>0&&(y+=`
+`),m=["#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f].filter(ic).join(`
+`),m.length>0&&(m+=`
+`)):(y=[Tx(e),"#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f,e.extensionClipCullDistance?"#define USE_CLIP_DISTANCE":"",e.batching?"#define USE_BATCHING":"",e.batchingColor?"#define USE_BATCHING_COLOR":"",e.instancing?"#define USE_INSTANCING":"",e.instancingColor?"#define USE_INSTANCING_COLOR":"",e.instancingMorph?"#define USE_INSTANCING_MORPH":"",e.useFog&&e.fog?"#define USE_FOG":"",e.useFog&&e.fogExp2?"#define FOG_EXP2":"",e.map?"#define USE_MAP":"",e.envMap?"#define USE_ENVMAP":"",e.envMap?"#define "+h:"",e.lightMap?"#define USE_LIGHTMAP":"",e.aoMap?"#define USE_AOMAP":"",e.bumpMap?"#define USE_BUMPMAP":"",e.normalMap?"#define USE_NORMALMAP":"",e.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",e.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",e.displacementMap?"#define USE_DISPLACEMENTMAP":"",e.emissiveMap?"#define USE_EMISSIVEMAP":"",e.anisotropy?"#define USE_ANISOTROPY":"",e.anisotropyMap?"#define USE_ANISOTROPYMAP":"",e.clearcoatMap?"#define USE_CLEARCOATMAP":"",e.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",e.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",e.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",e.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",e.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",e.specularMap?"#define USE_SPECULARMAP":"",e.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",e.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",e.roughnessMap?"#define USE_ROUGHNESSMAP":"",e.metalnessMap?"#define USE_METALNESSMAP":"",e.alphaMap?"#define USE_ALPHAMAP":"",e.alphaHash?"#define USE_ALPHAHASH":"",e.transmission?"#define USE_TRANSMISSION":"",e.transmissionMap?"#define USE_TRANSMISSIONMAP":"",e.thicknessMap?"#define USE_THICKNESSMAP":"",e.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",e.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",e.mapUv?"#define MAP_UV "+e.mapUv:"",e.alphaMapUv?"#define ALPHAMAP_UV "+e.alphaMapUv:"",e.lightMapUv?"#define LIGHTMAP_UV "+e.lightMapUv:"",e.aoMapUv?"#define AOMAP_UV "+e.aoMapUv:"",e.emissiveMapUv?"#define EMISSIVEMAP_UV "+e.emissiveMapUv:"",e.bumpMapUv?"#define BUMPMAP_UV "+e.bumpMapUv:"",e.normalMapUv?"#define NORMALMAP_UV "+e.normalMapUv:"",e.displacementMapUv?"#define DISPLACEMENTMAP_UV "+e.displacementMapUv:"",e.metalnessMapUv?"#define METALNESSMAP_UV "+e.metalnessMapUv:"",e.roughnessMapUv?"#define ROUGHNESSMAP_UV "+e.roughnessMapUv:"",e.anisotropyMapUv?"#define ANISOTROPYMAP_UV "+e.anisotropyMapUv:"",e.clearcoatMapUv?"#define CLEARCOATMAP_UV "+e.clearcoatMapUv:"",e.clearcoatNormalMapUv?"#define CLEARCOAT_NORMALMAP_UV "+e.clearcoatNormalMapUv:"",e.clearcoatRoughnessMapUv?"#define CLEARCOAT_ROUGHNESSMAP_UV "+e.clearcoatRoughnessMapUv:"",e.diffuseRoughnessMapUv?"#define DIFFUSE_ROUGHNESSMAP_UV "+e.diffuseRoughnessMapUv:"",e.iridescenceMapUv?"#define IRIDESCENCEMAP_UV "+e.iridescenceMapUv:"",e.iridescenceThicknessMapUv?"#define IRIDESCENCE_THICKNESSMAP_UV "+e.iridescenceThicknessMapUv:"",e.sheenColorMapUv?"#define SHEEN_COLORMAP_UV "+e.sheenColorMapUv:"",e.sheenRoughnessMapUv?"#define SHEEN_ROUGHNESSMAP_UV "+e.sheenRoughnessMapUv:"",e.specularMapUv?"#define SPECULARMAP_UV "+e.specularMapUv:"",e.specularColorMapUv?"#define SPECULAR_COLORMAP_UV "+e.specularColorMapUv:"",e.specularIntensityMapUv?"#define SPECULAR_INTENSITYMAP_UV "+e.specularIntensityMapUv:"",e.transmissionMapUv?"#define TRANSMISSIONMAP_UV "+e.transmissionMapUv:"",e.thicknessMapUv?"#define THICKNESSMAP_UV "+e.thicknessMapUv:"",e.vertexTangents&&e.flatShading===!1?"#define USE_TANGENT":"",e.vertexNormals?"#define HAS_NORMAL":"",e.vertexColors?"#define USE_COLOR":"",e.vertexAlphas?"#define USE_COLOR_ALPHA":"",e.vertexUv1s?"#define USE_UV1":"",e.vertexUv2s?"#define USE_UV2":"",e.vertexUv3s?"#define USE_UV3":"",e.pointsUvs?"#define USE_POINTS_UV":"",e.flatShading?"#define FLAT_SHADED":"",e.skinning?"#define USE_SKINNING":"",e.morphTargets?"#define USE_MORPHTARGETS":"",e.morphNormals&&e.flatShading===!1?"#define USE_MORPHNORMALS":"",e.morphColors?"#define USE_MORPHCOLORS":"",e.morphTargetsCount>0?"#define MORPHTARGETS_TEXTURE_STRIDE "+e.morphTextureStride:"",e.morphTargetsCount>0?"#define MORPHTARGETS_COUNT "+e.morphTargetsCount:"",e.doubleSided?"#define DOUBLE_SIDED":"",e.flipSided?"#define FLIP_SIDED":"",e.shadowMapEnabled?"#define USE_SHADOWMAP":"",e.shadowMapEnabled?"#define "+l:"",e.sizeAttenuation?"#define USE_SIZEATTENUATION":"",e.numLightProbes>0?"#define USE_LIGHT_PROBES":"",e.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",e.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 modelMatrix;","uniform mat4 modelViewMatrix;","uniform mat4 projectionMatrix;","uniform mat4 viewMatrix;","uniform mat3 normalMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;","#ifdef USE_INSTANCING","	attribute mat4 instanceMatrix;","#endif","#ifdef USE_INSTANCING_COLOR","	attribute vec3 instanceColor;","#endif","#ifdef USE_INSTANCING_MORPH","	uniform sampler2D morphTexture;","#endif","attribute vec3 position;","attribute vec3 normal;","attribute vec2 uv;","#ifdef USE_UV1","	attribute vec2 uv1;","#endif","#ifdef USE_UV2","	attribute vec2 uv2;","#endif","#ifdef USE_UV3","	attribute vec2 uv3;","#endif","#ifdef USE_TANGENT","	attribute vec4 tangent;","#endif","#if defined( USE_COLOR_ALPHA )","	attribute vec4 color;","#elif defined( USE_COLOR )","	attribute vec3 color;","#endif","#ifdef USE_SKINNING","	attribute vec4 skinIndex;","	attribute vec4 skinWeight;","#endif",`
+`].filter(ic).join(`
+`),m=[Tx(e),"#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f,e.useFog&&e.fog?"#define USE_FOG":"",e.useFog&&e.fogExp2?"#define FOG_EXP2":"",e.alphaToCoverage?"#define ALPHA_TO_COVERAGE":"",e.map?"#define USE_MAP":"",e.matcap?"#define USE_MATCAP":"",e.envMap?"#define USE_ENVMAP":"",e.envMap?"#define "+c:"",e.envMap?"#define "+h:"",e.envMap?"#define "+u:"",e.envMapPMREM?"#define ENVMAP_MAX_LOD "+e.envMapMaxLod+".0":"",e.envMapPMREM?"#define ENVMAP_SIZE "+e.envMapSize+".0":"",e.lightMap?"#define USE_LIGHTMAP":"",e.aoMap?"#define USE_AOMAP":"",e.bumpMap?"#define USE_BUMPMAP":"",e.normalMap?"#define USE_NORMALMAP":"",e.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",e.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",e.packedNormalMap?"#define USE_PACKED_NORMALMAP":"",e.emissiveMap?"#define USE_EMISSIVEMAP":"",e.anisotropy?"#define USE_ANISOTROPY":"",e.anisotropyMap?"#define USE_ANISOTROPYMAP":"",e.clearcoat?"#define USE_CLEARCOAT":"",e.clearcoatMap?"#define USE_CLEARCOATMAP":"",e.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",e.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",e.diffuseRoughness?"#define USE_DIFFUSE_ROUGHNESS":"",e.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",e.dispersion?"#define USE_DISPERSION":"",e.retroreflection?"#define USE_RETROREFLECTION":"",e.iridescence?"#define USE_IRIDESCENCE":"",e.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",e.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",e.specularMap?"#define USE_SPECULARMAP":"",e.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",e.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",e.roughnessMap?"#define USE_ROUGHNESSMAP":"",e.metalnessMap?"#define USE_METALNESSMAP":"",e.alphaMap?"#define USE_ALPHAMAP":"",e.alphaTest?"#define USE_ALPHATEST":"",e.alphaHash?"#define USE_ALPHAHASH":"",e.sheen?"#define USE_SHEEN":"",e.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",e.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",e.transmission?"#define USE_TRANSMISSION":"",e.transmissionMap?"#define USE_TRANSMISSIONMAP":"",e.thicknessMap?"#define USE_THICKNESSMAP":"",e.vertexTangents&&e.flatShading===!1?"#define USE_TANGENT":"",e.vertexColors||e.instancingColor?"#define USE_COLOR":"",e.vertexAlphas||e.batchingColor?"#define USE_COLOR_ALPHA":"",e.vertexUv1s?"#define USE_UV1":"",e.vertexUv2s?"#define USE_UV2":"",e.vertexUv3s?"#define USE_UV3":"",e.pointsUvs?"#define USE_POINTS_UV":"",e.gradientMap?"#define USE_GRADIENTMAP":"",e.flatShading?"#define FLAT_SHADED":"",e.doubleSided?"#define DOUBLE_SIDED":"",e.flipSided?"#define FLIP_SIDED":"",e.shadowMapEnabled?"#define USE_SHADOWMAP":"",e.shadowMapEnabled?"#define "+l:"",e.premultipliedAlpha?"#define PREMULTIPLIED_ALPHA":"",e.numLightProbes>0?"#define USE_LIGHT_PROBES":"",e.decodeVideoTexture?"#define DECODE_VIDEO_TEXTURE":"",e.decodeVideoTextureEmissive?"#define DECODE_VIDEO_TEXTURE_EMISSIVE":"",e.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",e.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 viewMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;",e.toneMapping!==Es?"#define TONE_MAPPING":"",e.toneMapping!==Es?pe.tonemapping_pars_fragment:"",e.toneMapping!==Es?dR("toneMapping",e.toneMapping):"",e.dithering?"#define DITHERING":"",e.opaque?"#define OPAQUE":"",pe.colorspace_pars_fragment,hR("linearToOutputTexel",e.outputColorSpace),fR(),e.useDepthPacking?"#define DEPTH_PACKING "+e.depthPacking:"",`
+`].filter(ic).join(`
+`)),o=gm(o),o=Sx(o,e),o=Mx(o,e),a=gm(a),a=Sx(a,e),a=Mx(a,e),o=wx(o),a=wx(a),e.isRawShaderMaterial!==!0&&(g=`#version 300 es
+`,y=[d,"#define attribute in","#define varying out","#define texture2D texture"].join(`
+`)+`
+`+y,m=["#define varying in",e.glslVersion===nm?"":"layout(location = 0) out highp vec4 pc_fragColor;",e.glslVersion===nm?"":"#define gl_FragColor pc_fragColor","#define gl_FragDepthEXT gl_FragDepth","#define texture2D texture","#define textureCube texture","#define texture2DProj textureProj","#define texture2DLodEXT textureLod","#define texture2DProjLodEXT textureProjLod","#define textureCubeLodEXT textureLod","#define texture2DGradEXT textureGrad","#define texture2DProjGradEXT textureProjGrad","#define textureCubeGradEXT textureGrad"].join(`
+`)+`
+`+m);let _=g+y+o,w=g+m+a,v=xx(i,i.VERTEX_SHADER,_),E=xx(i,i.FRAGMENT_SHADER,w);i.attachShader(p,v),i.attachShader(p,E),e.index0AttributeName!==void 0?i.bindAttribLocation(p,0,e.index0AttributeName):e.hasPositionAttribute===!0&&i.bindAttribLocation(p,0,"position"),i.linkProgram(p);function S(P){if(s.debug.checkShaderErrors){let C=i.getProgramInfoLog(p)||"",F=i.getShaderInfoLog(v)||"",B=i.getShaderInfoLog(E)||"",N=C.trim(),W=F.trim(),k=B.trim(),H=!0,it=!0;if(i.getProgramParameter(p,i.LINK_STATUS)===!1)if(H=!1,typeof s.debug.onShaderError=="function")s.debug.onShaderError(i,p,v,E);else{let j=bx(i,v,"vertex"),Z=bx(i,E,"fragment");te("WebGLProgram: Shader Error "+i.getError()+" - VALIDATE_STATUS "+i.getProgramParameter(p,i.VALIDATE_STATUS)+`
+
+Material Name: `+P.name+`
+Material Type: `+P.type+`
+
+Program Info Log: `+N+`
+`+j+`
+`+Z)}else N!==""?jt("WebGLProgram: Program Info Log:",N):(W===""||k==="")&&(it=!1);it&&(P.diagnostics={runnable:H,programLog:N,vertexShader:{log:W,prefix:y},fragmentShader:{log:k,prefix:m}})}i.deleteShader(v),i.deleteShader(E),x=new Aa(i,p),M=gR(i,p)}let x;this.getUniforms=function(){return x===void 0&&S(this),x};let M;this.getAttributes=function(){return M===void 0&&S(this),M};let L=e.rendererExtensionParallelShaderCompile===!1;return this.isReady=function(){return L===!1&&(L=i.getProgramParameter(p,oR)),L},this.destroy=function(){n.releaseStatesOfProgram(this),i.deleteProgram(p),this.program=void 0},this.type=e.shaderType,this.name=e.shaderName,this.id=aR++,this.cacheKey=t,this.usedTimes=1,this.program=p,this.vertexShader=v,this.fragmentShader=E,this}var RR=0,ym=class{constructor(){this.shaderCache=new Map,this.materialCache=new Map}update(t,e,n){let i=this._getShaderCacheForMaterial(t);return i.has(e)===!1&&(i.add(e),e.usedTimes++),i.has(n)===!1&&(i.add(n),n.usedTimes++),this}remove(t){let e=this.materialCache.get(t);for(let n of e)n.usedTimes--,n.usedTimes===0&&this.shaderCache.delete(n.code);return this.materialCache.delete(t),this}getVertexShaderStage(t){return this._getShaderStage(t.vertexShader)}getFragmentShaderStage(t){return this._getShaderStage(t.fragmentShader)}dispose(){this.shaderCache.clear(),this.materialCache.clear()}_getShaderCacheForMaterial(t){let e=this.materialCache,n=e.get(t);return n===void 0&&(n=new Set,e.set(t,n)),n}_getShaderStage(t){let e=this.shaderCache,n=e.get(t);return n===void 0&&(n=new _m(t),e.set(t,n)),n}},_m=class{constructor(t){this.id=RR++,this.code=t,this.usedTimes=0}};function CR(s){return s===Tr||s===Kl||s===Ql}function PR(s,t,e,n,i,r){let o=new ua,a=new ym,l=new Set,c=[],h=new Map,u=n.logarithmicDepthBuffer,d={MeshDepthMaterial:"depth",MeshDistanceMaterial:"distance",MeshNormalMaterial:"normal",MeshBasicMaterial:"basic",MeshLambertMaterial:"lambert",MeshPhongMaterial:"phong",MeshToonMaterial:"toon",MeshStandardMaterial:"physical",MeshPhysicalMaterial:"physical",MeshMatcapMaterial:"matcap",LineBasicMaterial:"basic",LineDashedMaterial:"dashed",PointsMaterial:"points",ShadowMaterial:"shadow",SpriteMaterial:"sprite"};function f(x){return l.add(x),x===0?"uv":`uv${x}`}function p(x,M,L,P,C,F){let B=P.fog,N=C.geometry,W=x.isMeshStandardMaterial||x.isMeshLambertMaterial||x.isMeshPhongMaterial?P.environment:null,k=x.isMeshStandardMaterial||x.isMeshLambertMaterial&&!x.envMap||x.isMeshPhongMaterial&&!x.envMap,H=t.get(x.envMap||W,k),it=d[x.type],j=n.precision;x.precision!==null&&(j=n.getMaxPrecision(x.precision),j!==x.precision&&jt("WebGLProgram.getParameters:",x.precision,"not supported, using",j,"instead."));let Z=N.morphAttributes.position||N.morphAttributes.normal||N.morphAttributes.color,tt=Z!==void 0?Z.length:0,ht=0;N.morphAttributes.position!==void 0&&(ht=1),N.morphAttributes.normal!==void 0&&(ht=2),N.morphAttributes.color!==void 0&&(ht=3);let st,Y,rt,nt;if(it){let Rt=mi[it];st=Rt.vertexShader,Y=Rt.fragmentShader}else{st=x.vertexShader,Y=x.fragmentShader;let Rt=a.getVertexShaderStage(x),ce=a.getFragmentShaderStage(x);a.update(x,Rt,ce),rt=Rt.id,nt=ce.id}let lt=s.getRenderTarget(),gt=s.state.buffers.depth.getReversed(),Ot=C.isInstancedMesh===!0,Zt=C.isBatchedMesh===!0,zt=!!x.map,me=!!x.matcap,de=!!H,re=de&&H.isPMREMTexture===!0,$e=!!x.aoMap,Ve=!!x.lightMap,dn=!!x.bumpMap&&x.wireframe===!1,Ue=!!x.normalMap,Pn=!!x.displacementMap,Se=!!x.emissiveMap,Sn=!!x.metalnessMap,sn=!!x.roughnessMap,fn=x.anisotropy>0,G=x.clearcoat>0,Ct=x.diffuseRoughness>0,Kt=x.dispersion>0,ae=x.retroreflectivity>0,wt=x.iridescence>0,Be=x.sheen>0,Wt=x.transmission>0,$t=fn&&!!x.anisotropyMap,I=G&&!!x.clearcoatMap,T=G&&!!x.clearcoatNormalMap,J=G&&!!x.clearcoatRoughnessMap,mt=Ct&&!!x.diffuseRoughnessMap,dt=wt&&!!x.iridescenceMap,vt=wt&&!!x.iridescenceThicknessMap,bt=Be&&!!x.sheenColorMap,ot=Be&&!!x.sheenRoughnessMap,ct=!!x.specularMap,_t=!!x.specularColorMap,V=!!x.specularIntensityMap,ut=Wt&&!!x.transmissionMap,at=Wt&&!!x.thicknessMap,Tt=!!x.gradientMap,xt=!!x.alphaMap,Mt=x.alphaTest>0,qt=!!x.alphaHash,ee=!!x.extensions,pt=Es;x.toneMapped&&(lt===null||lt.isXRRenderTarget===!0)&&(pt=s.toneMapping);let Vt=re?H.isCompressedCubeTexture?H.image[0].mipmaps:H.mipmaps:null,ne={shaderID:it,shaderType:x.type,shaderName:x.name,vertexShader:st,fragmentShader:Y,defines:x.defines,customVertexShaderID:rt,customFragmentShaderID:nt,isRawShaderMaterial:x.isRawShaderMaterial===!0,glslVersion:x.glslVersion,precision:j,batching:Zt,batchingColor:Zt&&C._colorsTexture!==null,instancing:Ot,instancingColor:Ot&&C.instanceColor!==null,instancingMorph:Ot&&C.morphTexture!==null,outputColorSpace:lt===null?s.outputColorSpace:lt.isXRRenderTarget===!0?lt.texture.colorSpace:he.workingColorSpace,alphaToCoverage:!!x.alphaToCoverage,map:zt,matcap:me,envMap:de,envMapMode:de&&H.mapping,envMapPMREM:re,envMapMaxLod:re?Vt.length-1:null,envMapSize:re?Vt[0].width:null,aoMap:$e,lightMap:Ve,bumpMap:dn,normalMap:Ue,displacementMap:Pn,emissiveMap:Se,normalMapObjectSpace:Ue&&x.normalMapType===q_,normalMapTangentSpace:Ue&&x.normalMapType===tc,packedNormalMap:Ue&&x.normalMapType===tc&&CR(x.normalMap.format),metalnessMap:Sn,roughnessMap:sn,anisotropy:fn,anisotropyMap:$t,clearcoat:G,clearcoatMap:I,clearcoatNormalMap:T,clearcoatRoughnessMap:J,diffuseRoughness:Ct,diffuseRoughnessMap:mt,dispersion:Kt,retroreflection:ae,iridescence:wt,iridescenceMap:dt,iridescenceThicknessMap:vt,sheen:Be,sheenColorMap:bt,sheenRoughnessMap:ot,specularMap:ct,specularColorMap:_t,specularIntensityMap:V,transmission:Wt,transmissionMap:ut,thicknessMap:at,gradientMap:Tt,opaque:x.transparent===!1&&x.blending===wa&&x.alphaToCoverage===!1,alphaMap:xt,alphaTest:Mt,alphaHash:qt,combine:x.combine,mapUv:zt&&f(x.map.channel),aoMapUv:$e&&f(x.aoMap.channel),lightMapUv:Ve&&f(x.lightMap.channel),bumpMapUv:dn&&f(x.bumpMap.channel),normalMapUv:Ue&&f(x.normalMap.channel),displacementMapUv:Pn&&f(x.displacementMap.channel),emissiveMapUv:Se&&f(x.emissiveMap.channel),metalnessMapUv:Sn&&f(x.metalnessMap.channel),roughnessMapUv:sn&&f(x.roughnessMap.channel),anisotropyMapUv:$t&&f(x.anisotropyMap.channel),clearcoatMapUv:I&&f(x.clearcoatMap.channel),clearcoatNormalMapUv:T&&f(x.clearcoatNormalMap.channel),clearcoatRoughnessMapUv:J&&f(x.clearcoatRoughnessMap.channel),diffuseRoughnessMapUv:mt&&f(x.diffuseRoughnessMap.channel),iridescenceMapUv:dt&&f(x.iridescenceMap.channel),iridescenceThicknessMapUv:vt&&f(x.iridescenceThicknessMap.channel),sheenColorMapUv:bt&&f(x.sheenColorMap.channel),sheenRoughnessMapUv:ot&&f(x.sheenRoughnessMap.channel),specularMapUv:ct&&f(x.specularMap.channel),specularColorMapUv:_t&&f(x.specularColorMap.channel),specularIntensityMapUv:V&&f(x.specularIntensityMap.channel),transmissionMapUv:ut&&f(x.transmissionMap.channel),thicknessMapUv:at&&f(x.thicknessMap.channel),alphaMapUv:xt&&f(x.alphaMap.channel),vertexTangents:!!N.attributes.tangent&&(Ue||fn),vertexNormals:!!N.attributes.normal,vertexColors:x.vertexColors,vertexAlphas:x.vertexColors===!0&&!!N.attributes.color&&N.attributes.color.itemSize===4,pointsUvs:C.isPoints===!0&&!!N.attributes.uv&&(zt||xt),fog:!!B,useFog:x.fog===!0,fogExp2:!!B&&B.isFogExp2,flatShading:x.wireframe===!1&&(x.flatShading===!0||N.attributes.normal===void 0&&Ue===!1&&(x.isMeshLambertMaterial||x.isMeshPhongMaterial||x.isMeshStandardMaterial||x.isMeshPhysicalMaterial)),sizeAttenuation:x.sizeAttenuation===!0,logarithmicDepthBuffer:u,reversedDepthBuffer:gt,skinning:C.isSkinnedMesh===!0,hasPositionAttribute:N.attributes.position!==void 0,morphTargets:N.morphAttributes.position!==void 0,morphNormals:N.morphAttributes.normal!==void 0,morphColors:N.morphAttributes.color!==void 0,morphTargetsCount:tt,morphTextureStride:ht,numSunLights:M.sun.length,numDirLights:M.directional.length,numPointLights:M.point.length,numSpotLights:M.spot.length,numSpotLightMaps:M.spotLightMap.length,numRectAreaLights:M.rectArea.length,numHemiLights:M.hemi.length,numSunLightShadows:M.sunShadowMap.length,numDirLightShadows:M.directionalShadowMap.length,numPointLightShadows:M.pointShadowMap.length,numSpotLightShadows:M.spotShadowMap.length,numSpotLightShadowsWithMaps:M.numSpotLightShadowsWithMaps,numLightProbes:M.numLightProbes,numLightProbeGrids:F.filter(Rt=>Rt.texture!==null).length,numClippingPlanes:r.numPlanes,numClipIntersection:r.numIntersection,dithering:x.dithering,shadowMapEnabled:s.shadowMap.enabled&&L.length>0,shadowMapType:s.shadowMap.type,toneMapping:pt,decodeVideoTexture:zt&&x.map.isVideoTexture===!0&&he.getTransfer(x.map.colorSpace)===Le,decodeVideoTextureEmissive:Se&&x.emissiveMap.isVideoTexture===!0&&he.getTransfer(x.emissiveMap.colorSpace)===Le,premultipliedAlpha:x.premultipliedAlpha,doubleSided:x.side===pi,flipSided:x.side===Wn,useDepthPacking:x.depthPacking>=0,depthPacking:x.depthPacking||0,index0AttributeName:x.index0AttributeName,extensionClipCullDistance:ee&&x.extensions.clipCullDistance===!0&&e.has("WEBGL_clip_cull_distance"),extensionMultiDraw:(ee&&x.extensions.multiDraw===!0||Zt)&&e.has("WEBGL_multi_draw"),rendererExtensionParallelShaderCompile:e.has("KHR_parallel_shader_compile"),customProgramCacheKey:x.customProgramCacheKey()};return ne.vertexUv1s=l.has(1),ne.vertexUv2s=l.has(2),ne.vertexUv3s=l.has(3),l.clear(),ne}function y(x){let M=[];if(x.shaderID?M.push(x.shaderID):(M.push(x.customVertexShaderID),M.push(x.customFragmentShaderID)),x.defines!==void 0)for(let L in x.defines)M.push(L),M.push(x.defines[L]);return x.isRawShaderMaterial===!1&&(m(M,x),g(M,x),M.push(s.outputColorSpace)),M.push(x.customProgramCacheKey),M.join()}function m(x,M){x.push(M.precision),x.push(M.outputColorSpace),x.push(M.envMapMode),x.push(M.envMapPMREM),x.push(M.envMapMaxLod),x.push(M.envMapSize),x.push(M.mapUv),x.push(M.alphaMapUv),x.push(M.lightMapUv),x.push(M.aoMapUv),x.push(M.bumpMapUv),x.push(M.normalMapUv),x.push(M.displacementMapUv),x.push(M.emissiveMapUv),x.push(M.metalnessMapUv),x.push(M.roughnessMapUv),x.push(M.anisotropyMapUv),x.push(M.clearcoatMapUv),x.push(M.clearcoatNormalMapUv),x.push(M.clearcoatRoughnessMapUv),x.push(M.diffuseRoughnessMapUv),x.push(M.iridescenceMapUv),x.push(M.iridescenceThicknessMapUv),x.push(M.sheenColorMapUv),x.push(M.sheenRoughnessMapUv),x.push(M.specularMapUv),x.push(M.specularColorMapUv),x.push(M.specularIntensityMapUv),x.push(M.transmissionMapUv),x.push(M.thicknessMapUv),x.push(M.combine),x.push(M.fogExp2),x.push(M.sizeAttenuation),x.push(M.morphTargetsCount),x.push(M.numSunLights),x.push(M.numDirLights),x.push(M.numPointLights),x.push(M.numSpotLights),x.push(M.numSpotLightMaps),x.push(M.numHemiLights),x.push(M.numRectAreaLights),x.push(M.numSunLightShadows),x.push(M.numDirLightShadows),x.push(M.numPointLightShadows),x.push(M.numSpotLightShadows),x.push(M.numSpotLightShadowsWithMaps),x.push(M.numLightProbes),x.push(M.numLightProbeGrids),x.push(M.shadowMapType),x.push(M.toneMapping),x.push(M.numClippingPlanes),x.push(M.numClipIntersection),x.push(M.depthPacking)}function g(x,M){o.disableAll(),M.instancing&&o.enable(0),M.instancingColor&&o.enable(1),M.instancingMorph&&o.enable(2),M.matcap&&o.enable(3),M.envMap&&o.enable(4),M.normalMapObjectSpace&&o.enable(5),M.normalMapTangentSpace&&o.enable(6),M.clearcoat&&o.enable(7),M.iridescence&&o.enable(8),M.alphaTest&&o.enable(9),M.vertexColors&&o.enable(10),M.vertexAlphas&&o.enable(11),M.vertexUv1s&&o.enable(12),M.vertexUv2s&&o.enable(13),M.vertexUv3s&&o.enable(14),M.vertexTangents&&o.enable(15),M.anisotropy&&o.enable(16),M.alphaHash&&o.enable(17),M.batching&&o.enable(18),M.dispersion&&o.enable(19),M.retroreflection&&o.enable(24),M.diffuseRoughness&&o.enable(25),M.batchingColor&&o.enable(20),M.gradientMap&&o.enable(21),M.packedNormalMap&&o.enable(22),M.vertexNormals&&o.enable(23),x.push(o.mask),o.disableAll(),M.fog&&o.enable(0),M.useFog&&o.enable(1),M.flatShading&&o.enable(2),M.logarithmicDepthBuffer&&o.enable(3),M.reversedDepthBuffer&&o.enable(4),M.skinning&&o.enable(5),M.morphTargets&&o.enable(6),M.morphNormals&&o.enable(7),M.morphColors&&o.enable(8),M.premultipliedAlpha&&o.enable(9),M.shadowMapEnabled&&o.enable(10),M.doubleSided&&o.enable(11),M.flipSided&&o.enable(12),M.useDepthPacking&&o.enable(13),M.dithering&&o.enable(14),M.transmission&&o.enable(15),M.sheen&&o.enable(16),M.opaque&&o.enable(17),M.pointsUvs&&o.enable(18),M.decodeVideoTexture&&o.enable(19),M.decodeVideoTextureEmissive&&o.enable(20),M.alphaToCoverage&&o.enable(21),M.numLightProbeGrids>0&&o.enable(22),M.hasPositionAttribute&&o.enable(23),x.push(o.mask)}function _(x){let M=d[x.type],L;if(M){let P=mi[M];L=ec.clone(P.uniforms)}else L=x.uniforms;return L}function w(x,M){let L=h.get(M);return L!==void 0?++L.usedTimes:(L=new AR(s,M,x,i),c.push(L),h.set(M,L)),L}function v(x){if(--x.usedTimes===0){let M=c.indexOf(x);c[M]=c[c.length-1],c.pop(),h.delete(x.cacheKey),x.destroy()}}function E(x){a.remove(x)}function S(){a.dispose()}return{getParameters:p,getProgramCacheKey:y,getUniforms:_,acquireProgram:w,releaseProgram:v,releaseShaderCache:E,programs:c,dispose:S}}function LR(){let s=new WeakMap;function t(o){return s.has(o)}function e(o){let a=s.get(o);return a===void 0&&(a={},s.set(o,a)),a}function n(o){s.delete(o)}function i(o,a,l){s.get(o)[a]=l}function r(){s=new WeakMap}return{has:t,get:e,remove:n,update:i,dispose:r}}function IR(s,t){return s.groupOrder!==t.groupOrder?s.groupOrder-t.groupOrder:s.renderOrder!==t.renderOrder?s.renderOrder-t.renderOrder:s.material.id!==t.material.id?s.material.id-t.material.id:s.materialVariant!==t.materialVariant?s.materialVariant-t.materialVariant:s.z!==t.z?s.z-t.z:s.id-t.id}function Ex(s,t){return s.groupOrder!==t.groupOrder?s.groupOrder-t.groupOrder:s.renderOrder!==t.renderOrder?s.renderOrder-t.renderOrder:s.z!==t.z?t.z-s.z:s.id-t.id}function Ax(){let s=[],t=0,e=[],n=[],i=[];function r(){t=0,e.length=0,n.length=0,i.length=0}function o(d){let f=0;return d.isInstancedMesh&&(f+=2),d.isSkinnedMesh&&(f+=1),f}function a(d,f,p,y,m,g){let _=s[t];return _===void 0?(_={id:d.id,object:d,geometry:f,material:p,materialVariant:o(d),groupOrder:y,renderOrder:d.renderOrder,z:m,group:g},s[t]=_):(_.id=d.id,_.object=d,_.geometry=f,_.material=p,_.materialVariant=o(d),_.groupOrder=y,_.renderOrder=d.renderOrder,_.z=m,_.group=g),t++,_}function l(d,f,p,y,m,g,_){_.reversedDepth===!0&&(m=-m);let w=a(d,f,p,y,m,g);p.transmission>0?n.push(w):p.transparent===!0?i.push(w):e.push(w)}function c(d,f,p,y,m,g){let _=a(d,f,p,y,m,g);p.transmission>0?n.unshift(_):p.transparent===!0?i.unshift(_):e.unshift(_)}function h(d,f){e.length>1&&e.sort(d||IR),n.length>1&&n.sort(f||Ex),i.length>1&&i.sort(f||Ex)}function u(){for(let d=t,f=s.length;d<f;d++){let p=s[d];if(p.id===null)break;p.id=null,p.object=null,p.geometry=null,p.material=null,p.group=null}}return{opaque:e,transmissive:n,transparent:i,init:r,push:l,unshift:c,finish:u,sort:h}}function NR(){let s=new WeakMap;function t(n,i){let r=s.get(n),o;return r===void 0?(o=new Ax,s.set(n,[o])):i>=r.length?(o=new Ax,r.push(o)):o=r[i],o}function e(){s=new WeakMap}return{get:t,dispose:e}}function DR(){let s={};return{get:function(t){if(s[t.id]!==void 0)return s[t.id];let e;switch(t.type){case"SunLight":case"DirectionalLight":e={direction:new O,color:new Dt};break;case"SpotLight":e={position:new O,direction:new O,color:new Dt,distance:0,coneCos:0,penumbraCos:0,decay:0};break;case"PointLight":e={position:new O,color:new Dt,distance:0,decay:0};break;case"HemisphereLight":e={direction:new O,skyColor:new Dt,groundColor:new Dt};break;case"RectAreaLight":e={color:new Dt,position:new O,halfWidth:new O,halfHeight:new O};break}return s[t.id]=e,e}}}function FR(){let s={};return{get:function(t){if(s[t.id]!==void 0)return s[t.id];let e;switch(t.type){case"SunLight":case"DirectionalLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new Xt};break;case"SpotLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new Xt};break;case"PointLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new Xt,shadowCameraNear:1,shadowCameraFar:1e3};break}return s[t.id]=e,e}}}var UR=0;function OR(s,t){return(t.castShadow?2:0)-(s.castShadow?2:0)+(t.map?1:0)-(s.map?1:0)}function BR(s){let t=new DR,e=FR(),n={version:0,hash:{sunLength:-1,directionalLength:-1,pointLength:-1,spotLength:-1,rectAreaLength:-1,hemiLength:-1,numSunShadows:-1,numDirectionalShadows:-1,numPointShadows:-1,numSpotShadows:-1,numSpotMaps:-1,numLightProbes:-1},ambient:[0,0,0],probe:[],sun:[],sunShadow:[],sunShadowMap:[],sunShadowMatrix:[],sunShadowCascade:[],directional:[],directionalShadow:[],directionalShadowMap:[],directionalShadowMatrix:[],spot:[],spotLightMap:[],spotShadow:[],spotShadowMap:[],spotLightMatrix:[],rectArea:[],rectAreaLTC1:null,rectAreaLTC2:null,point:[],pointShadow:[],pointShadowMap:[],pointShadowMatrix:[],hemi:[],numSpotLightShadowsWithMaps:0,numLightProbes:0};for(let c=0;c<9;c++)n.probe.push(new O);let i=new O,r=new Nt,o=new Nt;function a(c){let h=0,u=0,d=0;for(let F=0;F<9;F++)n.probe[F].set(0,0,0);let f=0,p=0,y=0,m=0,g=0,_=0,w=0,v=0,E=0,S=0,x=0,M=0,L=0,P=0;c.sort(OR);for(let F=0,B=c.length;F<B;F++){let N=c[F],W=N.color,k=N.intensity,H=N.distance,it=null;if(N.shadow&&N.shadow.map&&(N.shadow.map.texture.format===Tr?it=N.shadow.map.texture:it=N.shadow.map.depthTexture||N.shadow.map.texture),N.isAmbientLight)h+=W.r*k,u+=W.g*k,d+=W.b*k;else if(N.isLightProbe){for(let j=0;j<9;j++)n.probe[j].addScaledVector(N.sh.coefficients[j],k);P++}else if(N.isSunLight){let j=t.get(N);if(j.color.copy(N.color).multiplyScalar(N.intensity),N.castShadow){let Z=N.shadow,tt=e.get(N);tt.shadowIntensity=Z.intensity,tt.shadowBias=Z.bias,tt.shadowNormalBias=Z.normalBias,tt.shadowRadius=Z.radius,tt.shadowMapSize.copy(Z.mapSize).multiply(Z.getFrameExtents()),n.sunShadow[p]=tt,n.sunShadowMap[p]=it;let ht=Z.getViewportCount();for(let st=0;st<ht;st++)n.sunShadowMatrix[y+st]=Z.getMatrix(st),n.sunShadowCascade[y+st]=Z._cascadeData[st];y+=ht,p++}n.sun[f]=j,f++}else if(N.isDirectionalLight){let j=t.get(N);if(j.color.copy(N.color).multiplyScalar(N.intensity),N.castShadow){let Z=N.shadow,tt=e.get(N);tt.shadowIntensity=Z.intensity,tt.shadowBias=Z.bias,tt.shadowNormalBias=Z.normalBias,tt.shadowRadius=Z.radius,tt.shadowMapSize=Z.mapSize,n.directionalShadow[m]=tt,n.directionalShadowMap[m]=it,n.directionalShadowMatrix[m]=N.shadow.matrix,E++}n.directional[m]=j,m++}else if(N.isSpotLight){let j=t.get(N);j.position.setFromMatrixPosition(N.matrixWorld),j.color.copy(W).multiplyScalar(k),j.distance=H,j.coneCos=Math.cos(N.angle),j.penumbraCos=Math.cos(N.angle*(1-N.penumbra)),j.decay=N.decay,n.spot[_]=j;let Z=N.shadow;if(N.map&&(n.spotLightMap[M]=N.map,M++,Z.updateMatrices(N),N.castShadow&&L++),n.spotLightMatrix[_]=Z.matrix,N.castShadow){let tt=e.get(N);tt.shadowIntensity=Z.intensity,tt.shadowBias=Z.bias,tt.shadowNormalBias=Z.normalBias,tt.shadowRadius=Z.radius,tt.shadowMapSize=Z.mapSize,n.spotShadow[_]=tt,n.spotShadowMap[_]=it,x++}_++}else if(N.isRectAreaLight){let j=t.get(N);j.color.copy(W).multiplyScalar(k),j.halfWidth.set(N.width*.5,0,0),j.halfHeight.set(0,N.height*.5,0),n.rectArea[w]=j,w++}else if(N.isPointLight){let j=t.get(N);if(j.color.copy(N.color).multiplyScalar(N.intensity),j.distance=N.distance,j.decay=N.decay,N.castShadow){let Z=N.shadow,tt=e.get(N);tt.shadowIntensity=Z.intensity,tt.shadowBias=Z.bias,tt.shadowNormalBias=Z.normalBias,tt.shadowRadius=Z.radius,tt.shadowMapSize=Z.mapSize,tt.shadowCameraNear=Z.camera.near,tt.shadowCameraFar=Z.camera.far,n.pointShadow[g]=tt,n.pointShadowMap[g]=it,n.pointShadowMatrix[g]=N.shadow.matrix,S++}n.point[g]=j,g++}else if(N.isHemisphereLight){let j=t.get(N);j.skyColor.copy(N.color).multiplyScalar(k),j.groundColor.copy(N.groundColor).multiplyScalar(k),n.hemi[v]=j,v++}}w>0&&(s.has("OES_texture_float_linear")===!0?(n.rectAreaLTC1=Pt.LTC_FLOAT_1,n.rectAreaLTC2=Pt.LTC_FLOAT_2):(n.rectAreaLTC1=Pt.LTC_HALF_1,n.rectAreaLTC2=Pt.LTC_HALF_2)),n.ambient[0]=h,n.ambient[1]=u,n.ambient[2]=d;let C=n.hash;(C.sunLength!==f||C.directionalLength!==m||C.pointLength!==g||C.spotLength!==_||C.rectAreaLength!==w||C.hemiLength!==v||C.numSunShadows!==p||C.numDirectionalShadows!==E||C.numPointShadows!==S||C.numSpotShadows!==x||C.numSpotMaps!==M||C.numLightProbes!==P)&&(n.sun.length=f,n.directional.length=m,n.spot.length=_,n.rectArea.length=w,n.point.length=g,n.hemi.length=v,n.sunShadow.length=p,n.sunShadowMap.length=p,n.sunShadowMatrix.length=y,n.sunShadowCascade.length=y,n.directionalShadow.length=E,n.directionalShadowMap.length=E,n.directionalShadowMatrix.length=E,n.pointShadow.length=S,n.pointShadowMap.length=S,n.pointShadowMatrix.length=S,n.spotShadow.length=x,n.spotShadowMap.length=x,n.spotLightMatrix.length=x+M-L,n.spotLightMap.length=M,n.numSpotLightShadowsWithMaps=L,n.numLightProbes=P,C.sunLength=f,C.directionalLength=m,C.pointLength=g,C.spotLength=_,C.rectAreaLength=w,C.hemiLength=v,C.numSunShadows=p,C.numDirectionalShadows=E,C.numPointShadows=S,C.numSpotShadows=x,C.numSpotMaps=M,C.numLightProbes=P,n.version=UR++)}function l(c,h){let u=0,d=0,f=0,p=0,y=0,m=0,g=h.matrixWorldInverse;for(let _=0,w=c.length;_<w;_++){let v=c[_];if(v.isSunLight){let E=n.sun[u];E.direction.setFromMatrixPosition(v.matrixWorld),E.direction.transformDirection(g),u++}else if(v.isDirectionalLight){let E=n.directional[d];E.direction.setFromMatrixPosition(v.matrixWorld),i.setFromMatrixPosition(v.target.matrixWorld),E.direction.sub(i),E.direction.transformDirection(g),d++}else if(v.isSpotLight){let E=n.spot[p];E.position.setFromMatrixPosition(v.matrixWorld),E.position.applyMatrix4(g),E.direction.setFromMatrixPosition(v.matrixWorld),i.setFromMatrixPosition(v.target.matrixWorld),E.direction.sub(i),E.direction.transformDirection(g),p++}else if(v.isRectAreaLight){let E=n.rectArea[y];E.position.setFromMatrixPosition(v.matrixWorld),E.position.applyMatrix4(g),o.identity(),r.copy(v.matrixWorld),r.premultiply(g),o.extractRotation(r),E.halfWidth.set(v.width*.5,0,0),E.halfHeight.set(0,v.height*.5,0),E.halfWidth.applyMatrix4(o),E.halfHeight.applyMatrix4(o),y++}else if(v.isPointLight){let E=n.point[f];E.position.setFromMatrixPosition(v.matrixWorld),E.position.applyMatrix4(g),f++}else if(v.isHemisphereLight){let E=n.hemi[m];E.direction.setFromMatrixPosition(v.matrixWorld),E.direction.transformDirection(g),m++}}}return{setup:a,setupView:l,state:n}}function Rx(s){let t=new BR(s),e=[],n=[],i=[];function r(u){h.camera=u,e.length=0,n.length=0,i.length=0}function o(u){u.isLightProbeGrid?i.push(u):e.push(u)}function a(u){n.push(u)}function l(){t.setup(e),i.sort((u,d)=>u.priority-d.priority||u.id-d.id)}function c(u){t.setupView(e,u)}let h={lightsArray:e,shadowsArray:n,lightProbeGridArray:i,camera:null,lights:t,transmissionRenderTarget:{},textureUnits:0};return{init:r,state:h,setupLights:l,setupLightsView:c,pushLight:o,pushShadow:a}}function kR(s){let t=new WeakMap;function e(i,r=0){let o=t.get(i),a;return o===void 0?(a=new Rx(s),t.set(i,[a])):r>=o.length?(a=new Rx(s),o.push(a)):a=o[r],a}function n(){t=new WeakMap}return{get:e,dispose:n}}var zR=`void main() {
+	gl_Position = vec4( position, 1.0 );
+}`,VR=`uniform sampler2D shadow_pass;
+uniform vec2 resolution;
+uniform float radius;
+void main() {
+	const float samples = float( VSM_SAMPLES );
+	float mean = 0.0;
+	float squared_mean = 0.0;
+	float uvStride = samples <= 1.0 ? 0.0 : 2.0 / ( samples - 1.0 );
+	float uvStart = samples <= 1.0 ? 0.0 : - 1.0;
+	for ( float i = 0.0; i < samples; i ++ ) {
+		float uvOffset = uvStart + i * uvStride;
+		#ifdef HORIZONTAL_PASS
+			vec2 distribution = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( uvOffset, 0.0 ) * radius ) / resolution ).rg;
+			mean += distribution.x;
+			squared_mean += distribution.y * distribution.y + distribution.x * distribution.x;
+		#else
+			float depth = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( 0.0, uvOffset ) * radius ) / resolution ).r;
+			mean += depth;
+			squared_mean += depth * depth;
+		#endif
+	}
+	mean = mean / samples;
+	squared_mean = squared_mean / samples;
+	float std_dev = sqrt( max( 0.0, squared_mean - mean * mean ) );
+	gl_FragColor = vec4( mean, std_dev, 0.0, 1.0 );
+}`,GR=[new O(1,0,0),new O(-1,0,0),new O(0,1,0),new O(0,-1,0),new O(0,0,1),new O(0,0,-1)],HR=[new O(0,-1,0),new O(0,-1,0),new O(0,0,1),new O(0,0,-1),new O(0,-1,0),new O(0,-1,0)],Cx=new Nt,nc=new O,dm=new O;function WR(s,t,e){let n=new br,i=new Xt,r=new Xt,o=new be,a=new eu,l=new nu,c={},h=e.maxTextureSize,u={[Ts]:Wn,[Wn]:Ts,[pi]:pi},d=new _i({defines:{VSM_SAMPLES:8},uniforms:{shadow_pass:{value:null},resolution:{value:new Xt},radius:{value:4}},vertexShader:zR,fragmentShader:VR}),f=d.clone();f.defines.HORIZONTAL_PASS=1;let p=new Fe;p.setAttribute("position",new Zn(new Float32Array([-1,-1,.5,3,-1,.5,-1,3,.5]),3));let y=new ue(p,d),m=this;this.enabled=!1,this.autoUpdate=!0,this.needsUpdate=!1,this.type=co;let g=this.type;this.render=function(S,x,M){if(m.enabled===!1||m.autoUpdate===!1&&m.needsUpdate===!1||S.length===0)return;this.type===b_&&(jt("WebGLShadowMap: PCFSoftShadowMap has been removed. Using PCFShadowMap instead."),this.type=co);let L=s.getRenderTarget(),P=s.getActiveCubeFace(),C=s.getActiveMipmapLevel(),F=s.state;F.setBlending(ho),F.buffers.depth.getReversed()===!0?F.buffers.color.setClear(0,0,0,0):F.buffers.color.setClear(1,1,1,1),F.buffers.depth.setTest(!0),F.setScissorTest(!1);let B=g!==this.type;B&&x.traverse(function(N){N.material&&(Array.isArray(N.material)?N.material.forEach(W=>W.needsUpdate=!0):N.material.needsUpdate=!0)});for(let N=0,W=S.length;N<W;N++){let k=S[N],H=k.shadow;if(H===void 0){jt("WebGLShadowMap:",k,"has no shadow.");continue}if(H.autoUpdate===!1&&H.needsUpdate===!1)continue;i.copy(H.mapSize);let it=H.getFrameExtents();i.multiply(it),r.copy(H.mapSize),(i.x>h||i.y>h)&&(i.x>h&&(r.x=Math.floor(h/it.x),i.x=r.x*it.x,H.mapSize.x=r.x),i.y>h&&(r.y=Math.floor(h/it.y),i.y=r.y*it.y,H.mapSize.y=r.y));let j=s.state.buffers.depth.getReversed();if(H.camera._reversedDepth=j,H.map===null||B===!0){if(H.map!==null&&(H.map.depthTexture!==null&&(H.map.depthTexture.dispose(),H.map.depthTexture=null),H.map.dispose()),this.type===Ma){if(k.isPointLight){jt("WebGLShadowMap: VSM shadow maps are not supported for PointLights. Use PCF or BasicShadowMap instead.");continue}H.map=new Fi(i.x,i.y,{format:Tr,type:hs,minFilter:On,magFilter:On,generateMipmaps:!1}),H.map.texture.name=k.name+".shadowMap",H.map.depthTexture=new $s(i.x,i.y,Bi),H.map.depthTexture.name=k.name+".shadowMapDepth",H.map.depthTexture.format=js,H.map.depthTexture.compareFunction=null,H.map.depthTexture.minFilter=Bn,H.map.depthTexture.magFilter=Bn}else k.isPointLight?(H.map=new sc(i.x),H.map.depthTexture=new Al(i.x,cs)):(H.map=new Fi(i.x,i.y),H.map.depthTexture=new $s(i.x,i.y,cs)),H.map.depthTexture.name=k.name+".shadowMap",H.map.depthTexture.format=js,this.type===co?(H.map.depthTexture.compareFunction=j?Qp:Kp,H.map.depthTexture.minFilter=On,H.map.depthTexture.magFilter=On):(H.map.depthTexture.compareFunction=null,H.map.depthTexture.minFilter=Bn,H.map.depthTexture.magFilter=Bn);H.camera.updateProjectionMatrix()}H.map.isWebGLCubeRenderTarget!==!0&&(H.map.width!==i.x||H.map.height!==i.y)&&H.map.setSize(i.x,i.y);let Z=H.map.isWebGLCubeRenderTarget?6:H.getViewportCount();k.isPointLight!==!0&&H.updateMatrices(k,M);let tt=(H.camera.layers.mask&4294967294)!==0?H.camera.layers:M.layers;for(let ht=0;ht<Z;ht++){let st=H.getCamera(ht);if(k.isPointLight){let Y=H.camera,rt=H.matrix,nt=k.distance||Y.far;nt!==Y.far&&(Y.far=nt,Y.updateProjectionMatrix()),nc.setFromMatrixPosition(k.matrixWorld),Y.position.copy(nc),dm.copy(Y.position),dm.add(GR[ht]),Y.up.copy(HR[ht]),Y.lookAt(dm),Y.updateMatrixWorld(),rt.makeTranslation(-nc.x,-nc.y,-nc.z),Cx.multiplyMatrices(Y.projectionMatrix,Y.matrixWorldInverse),H._frustum.setFromProjectionMatrix(Cx,Y.coordinateSystem,Y.reversedDepth)}if(H.map.isWebGLCubeRenderTarget)s.setRenderTarget(H.map,ht),s.clear();else{ht===0&&(s.setRenderTarget(H.map),s.clear());let Y=H.getViewport(ht);o.set(r.x*Y.x,r.y*Y.y,r.x*Y.z,r.y*Y.w),F.viewport(o)}n=H.getFrustum(ht),v(x,M,st,k,tt,this.type)}H.isPointLightShadow!==!0&&this.type===Ma&&_(H,M),H.needsUpdate=!1}g=this.type,m.needsUpdate=!1,s.setRenderTarget(L,P,C)};function _(S,x){let M=t.update(y);d.defines.VSM_SAMPLES!==S.blurSamples&&(d.defines.VSM_SAMPLES=S.blurSamples,f.defines.VSM_SAMPLES=S.blurSamples,d.needsUpdate=!0,f.needsUpdate=!0),S.mapPass===null?S.mapPass=new Fi(i.x,i.y,{format:Tr,type:hs}):(S.mapPass.width!==S.map.width||S.mapPass.height!==S.map.height)&&S.mapPass.setSize(S.map.width,S.map.height),d.uniforms.shadow_pass.value=S.map.depthTexture,d.uniforms.resolution.value.set(S.map.width,S.map.height),d.uniforms.radius.value=S.radius,s.setRenderTarget(S.mapPass),s.clear(),s.renderBufferDirect(x,null,M,d,y,null),f.uniforms.shadow_pass.value=S.mapPass.texture,f.uniforms.resolution.value.set(S.map.width,S.map.height),f.uniforms.radius.value=S.radius,s.setRenderTarget(S.map),s.clear(),s.renderBufferDirect(x,null,M,f,y,null)}function w(S,x,M,L){let P=null,C=M.isPointLight===!0?S.customDistanceMaterial:S.customDepthMaterial;if(C!==void 0)P=C;else if(P=M.isPointLight===!0?l:a,s.localClippingEnabled&&x.clipShadows===!0&&Array.isArray(x.clippingPlanes)&&x.clippingPlanes.length!==0||x.displacementMap&&x.displacementScale!==0||x.alphaMap&&x.alphaTest>0||x.map&&x.alphaTest>0||x.alphaToCoverage===!0){let F=P.uuid,B=x.uuid,N=c[F];N===void 0&&(N={},c[F]=N);let W=N[B];W===void 0&&(W=P.clone(),N[B]=W,x.addEventListener("dispose",E)),P=W}if(P.visible=x.visible,P.wireframe=x.wireframe,L===Ma?P.side=x.shadowSide!==null?x.shadowSide:x.side:P.side=x.shadowSide!==null?x.shadowSide:u[x.side],P.alphaMap=x.alphaMap,P.alphaTest=x.alphaToCoverage===!0?.5:x.alphaTest,P.map=x.map,P.clipShadows=x.clipShadows,P.clippingPlanes=x.clippingPlanes,P.clipIntersection=x.clipIntersection,P.displacementMap=x.displacementMap,P.displacementScale=x.displacementScale,P.displacementBias=x.displacementBias,P.wireframeLinewidth=x.wireframeLinewidth,P.linewidth=x.linewidth,M.isPointLight===!0&&P.isMeshDistanceMaterial===!0){let F=s.properties.get(P);F.light=M}return P}function v(S,x,M,L,P,C){if(S.visible===!1)return;if(S.layers.test(P)&&(S.isMesh||S.isLine||S.isPoints)&&(S.castShadow||S.receiveShadow&&C===Ma)&&(!S.frustumCulled||S.intersectsFrustum(n))){S.modelViewMatrix.multiplyMatrices(M.matrixWorldInverse,S.matrixWorld);let N=t.update(S),W=S.material;if(Array.isArray(W)){let k=N.groups;for(let H=0,it=k.length;H<it;H++){let j=k[H],Z=W[j.materialIndex];if(Z&&Z.visible){let tt=w(S,Z,L,C);S.onBeforeShadow(s,S,x,M,N,tt,j),s.renderBufferDirect(M,null,N,tt,S,j),S.onAfterShadow(s,S,x,M,N,tt,j)}}}else if(W.visible){let k=w(S,W,L,C);S.onBeforeShadow(s,S,x,M,N,k,null),s.renderBufferDirect(M,null,N,k,S,null),S.onAfterShadow(s,S,x,M,N,k,null)}}let B=S.children;for(let N=0,W=B.length;N<W;N++)v(B[N],x,M,L,P,C)}function E(S){S.target.removeEventListener("dispose",E);for(let M in c){let L=c[M],P=S.target.uuid;P in L&&(L[P].dispose(),delete L[P])}}}function XR(s,t){function e(){let V=!1,ut=new be,at=null,Tt=new be(0,0,0,0);return{setMask:function(xt){at!==xt&&!V&&(s.colorMask(xt,xt,xt,xt),at=xt)},setLocked:function(xt){V=xt},setClear:function(xt,Mt,qt,ee,pt){pt===!0&&(xt*=ee,Mt*=ee,qt*=ee),ut.set(xt,Mt,qt,ee),Tt.equals(ut)===!1&&(s.clearColor(xt,Mt,qt,ee),Tt.copy(ut))},reset:function(){V=!1,at=null,Tt.set(-1,0,0,0)}}}function n(){let V=!1,ut=!1,at=null,Tt=null,xt=null;return{setReversed:function(Mt){if(ut!==Mt){let qt=t.get("EXT_clip_control");Mt?qt.clipControlEXT(qt.LOWER_LEFT_EXT,qt.ZERO_TO_ONE_EXT):qt.clipControlEXT(qt.LOWER_LEFT_EXT,qt.NEGATIVE_ONE_TO_ONE_EXT),ut=Mt;let ee=xt;xt=null,this.setClear(ee)}},getReversed:function(){return ut},setTest:function(Mt){Mt?gt(s.DEPTH_TEST):Ot(s.DEPTH_TEST)},setMask:function(Mt){at!==Mt&&!V&&(s.depthMask(Mt),at=Mt)},setFunc:function(Mt){if(ut&&(Mt=nx[Mt]),Tt!==Mt){switch(Mt){case Bh:s.depthFunc(s.NEVER);break;case kh:s.depthFunc(s.ALWAYS);break;case zh:s.depthFunc(s.LESS);break;case oa:s.depthFunc(s.LEQUAL);break;case Vh:s.depthFunc(s.EQUAL);break;case Gh:s.depthFunc(s.GEQUAL);break;case Hh:s.depthFunc(s.GREATER);break;case Wh:s.depthFunc(s.NOTEQUAL);break;default:s.depthFunc(s.LEQUAL)}Tt=Mt}},setLocked:function(Mt){V=Mt},setClear:function(Mt){xt!==Mt&&(xt=Mt,ut&&(Mt=1-Mt),s.clearDepth(Mt))},reset:function(){V=!1,at=null,Tt=null,xt=null,ut=!1}}}function i(){let V=!1,ut=null,at=null,Tt=null,xt=null,Mt=null,qt=null,ee=null,pt=null;return{setTest:function(Vt){V||(Vt?gt(s.STENCIL_TEST):Ot(s.STENCIL_TEST))},setMask:function(Vt){ut!==Vt&&!V&&(s.stencilMask(Vt),ut=Vt)},setFunc:function(Vt,ne,Rt){(at!==Vt||Tt!==ne||xt!==Rt)&&(s.stencilFunc(Vt,ne,Rt),at=Vt,Tt=ne,xt=Rt)},setOp:function(Vt,ne,Rt){(Mt!==Vt||qt!==ne||ee!==Rt)&&(s.stencilOp(Vt,ne,Rt),Mt=Vt,qt=ne,ee=Rt)},setLocked:function(Vt){V=Vt},setClear:function(Vt){pt!==Vt&&(s.clearStencil(Vt),pt=Vt)},reset:function(){V=!1,ut=null,at=null,Tt=null,xt=null,Mt=null,qt=null,ee=null,pt=null}}}let r=new e,o=new n,a=new i,l={},c=new WeakMap,h={},u={},d={},f=new WeakMap,p=[],y=null,m=!1,g=null,_=null,w=null,v=null,E=null,S=null,x=null,M=new Dt(0,0,0),L=0,P=!1,C=null,F=null,B=null,N=null,W=null,k=s.getParameter(s.MAX_COMBINED_TEXTURE_IMAGE_UNITS),H=!1,it=0,j=s.getParameter(s.VERSION);j.indexOf("WebGL")!==-1?(it=parseFloat(/^WebGL (\d)/.exec(j)[1]),H=it>=1):j.indexOf("OpenGL ES")!==-1&&(it=parseFloat(/^OpenGL ES (\d)/.exec(j)[1]),H=it>=2);let Z=null,tt={},ht=s.getParameter(s.SCISSOR_BOX),st=s.getParameter(s.VIEWPORT),Y=new be().fromArray(ht),rt=new be().fromArray(st);function nt(V,ut,at,Tt){let xt=new Uint8Array(4),Mt=s.createTexture();s.bindTexture(V,Mt),s.texParameteri(V,s.TEXTURE_MIN_FILTER,s.NEAREST),s.texParameteri(V,s.TEXTURE_MAG_FILTER,s.NEAREST);for(let qt=0;qt<at;qt++)V===s.TEXTURE_3D||V===s.TEXTURE_2D_ARRAY?s.texImage3D(ut,0,s.RGBA,1,1,Tt,0,s.RGBA,s.UNSIGNED_BYTE,xt):s.texImage2D(ut+qt,0,s.RGBA,1,1,0,s.RGBA,s.UNSIGNED_BYTE,xt);return Mt}let lt={};lt[s.TEXTURE_2D]=nt(s.TEXTURE_2D,s.TEXTURE_2D,1),lt[s.TEXTURE_CUBE_MAP]=nt(s.TEXTURE_CUBE_MAP,s.TEXTURE_CUBE_MAP_POSITIVE_X,6),lt[s.TEXTURE_2D_ARRAY]=nt(s.TEXTURE_2D_ARRAY,s.TEXTURE_2D_ARRAY,1,1),lt[s.TEXTURE_3D]=nt(s.TEXTURE_3D,s.TEXTURE_3D,1,1),r.setClear(0,0,0,1),o.setClear(1),a.setClear(0),gt(s.DEPTH_TEST),o.setFunc(oa),dn(!1),Ue(Ip),gt(s.CULL_FACE),$e(ho);function gt(V){h[V]!==!0&&(s.enable(V),h[V]=!0)}function Ot(V){h[V]!==!1&&(s.disable(V),h[V]=!1)}function Zt(V,ut){return d[V]!==ut?(s.bindFramebuffer(V,ut),d[V]=ut,V===s.DRAW_FRAMEBUFFER&&(d[s.FRAMEBUFFER]=ut),V===s.FRAMEBUFFER&&(d[s.DRAW_FRAMEBUFFER]=ut),!0):!1}function zt(V,ut){let at=p,Tt=!1;if(V){at=f.get(ut),at===void 0&&(at=[],f.set(ut,at));let xt=V.textures;if(at.length!==xt.length||at[0]!==s.COLOR_ATTACHMENT0){for(let Mt=0,qt=xt.length;Mt<qt;Mt++)at[Mt]=s.COLOR_ATTACHMENT0+Mt;at.length=xt.length,Tt=!0}}else at[0]!==s.BACK&&(at[0]=s.BACK,Tt=!0);Tt&&s.drawBuffers(at)}function me(V){return y!==V?(s.useProgram(V),y=V,!0):!1}let de={[uo]:s.FUNC_ADD,[M_]:s.FUNC_SUBTRACT,[w_]:s.FUNC_REVERSE_SUBTRACT};de[T_]=s.MIN,de[E_]=s.MAX;let re={[A_]:s.ZERO,[R_]:s.ONE,[C_]:s.SRC_COLOR,[Up]:s.SRC_ALPHA,[F_]:s.SRC_ALPHA_SATURATE,[N_]:s.DST_COLOR,[L_]:s.DST_ALPHA,[P_]:s.ONE_MINUS_SRC_COLOR,[Op]:s.ONE_MINUS_SRC_ALPHA,[D_]:s.ONE_MINUS_DST_COLOR,[I_]:s.ONE_MINUS_DST_ALPHA,[U_]:s.CONSTANT_COLOR,[O_]:s.ONE_MINUS_CONSTANT_COLOR,[B_]:s.CONSTANT_ALPHA,[k_]:s.ONE_MINUS_CONSTANT_ALPHA};function $e(V,ut,at,Tt,xt,Mt,qt,ee,pt,Vt){if(V===ho){m===!0&&(Ot(s.BLEND),m=!1);return}if(m===!1&&(gt(s.BLEND),m=!0),V!==S_){if(V!==g||Vt!==P){if((_!==uo||E!==uo)&&(s.blendEquation(s.FUNC_ADD),_=uo,E=uo),Vt)switch(V){case wa:s.blendFuncSeparate(s.ONE,s.ONE_MINUS_SRC_ALPHA,s.ONE,s.ONE_MINUS_SRC_ALPHA);break;case Np:s.blendFunc(s.ONE,s.ONE);break;case Dp:s.blendFuncSeparate(s.ZERO,s.ONE_MINUS_SRC_COLOR,s.ZERO,s.ONE);break;case Fp:s.blendFuncSeparate(s.DST_COLOR,s.ONE_MINUS_SRC_ALPHA,s.ZERO,s.ONE);break;default:te("WebGLState: Invalid blending: ",V);break}else switch(V){case wa:s.blendFuncSeparate(s.SRC_ALPHA,s.ONE_MINUS_SRC_ALPHA,s.ONE,s.ONE_MINUS_SRC_ALPHA);break;case Np:s.blendFuncSeparate(s.SRC_ALPHA,s.ONE,s.ONE,s.ONE);break;case Dp:te("WebGLState: SubtractiveBlending requires material.premultipliedAlpha = true");break;case Fp:te("WebGLState: MultiplyBlending requires material.premultipliedAlpha = true");break;default:te("WebGLState: Invalid blending: ",V);break}w=null,v=null,S=null,x=null,M.set(0,0,0),L=0,g=V,P=Vt}return}xt=xt||ut,Mt=Mt||at,qt=qt||Tt,(ut!==_||xt!==E)&&(s.blendEquationSeparate(de[ut],de[xt]),_=ut,E=xt),(at!==w||Tt!==v||Mt!==S||qt!==x)&&(s.blendFuncSeparate(re[at],re[Tt],re[Mt],re[qt]),w=at,v=Tt,S=Mt,x=qt),(ee.equals(M)===!1||pt!==L)&&(s.blendColor(ee.r,ee.g,ee.b,pt),M.copy(ee),L=pt),g=V,P=!1}function Ve(V,ut){V.side===pi?Ot(s.CULL_FACE):gt(s.CULL_FACE);let at=V.side===Wn;ut&&(at=!at),dn(at),V.blending===wa&&V.transparent===!1?$e(ho):$e(V.blending,V.blendEquation,V.blendSrc,V.blendDst,V.blendEquationAlpha,V.blendSrcAlpha,V.blendDstAlpha,V.blendColor,V.blendAlpha,V.premultipliedAlpha),o.setFunc(V.depthFunc),o.setTest(V.depthTest),o.setMask(V.depthWrite),r.setMask(V.colorWrite);let Tt=V.stencilWrite;a.setTest(Tt),Tt&&(a.setMask(V.stencilWriteMask),a.setFunc(V.stencilFunc,V.stencilRef,V.stencilFuncMask),a.setOp(V.stencilFail,V.stencilZFail,V.stencilZPass)),Se(V.polygonOffset,V.polygonOffsetFactor,V.polygonOffsetUnits),V.alphaToCoverage===!0?gt(s.SAMPLE_ALPHA_TO_COVERAGE):Ot(s.SAMPLE_ALPHA_TO_COVERAGE)}function dn(V){C!==V&&(V?s.frontFace(s.CW):s.frontFace(s.CCW),C=V)}function Ue(V){V!==x_?(gt(s.CULL_FACE),V!==F&&(V===Ip?s.cullFace(s.BACK):V===v_?s.cullFace(s.FRONT):s.cullFace(s.FRONT_AND_BACK))):Ot(s.CULL_FACE),F=V}function Pn(V){V!==B&&(H&&s.lineWidth(V),B=V)}function Se(V,ut,at){V?(gt(s.POLYGON_OFFSET_FILL),(N!==ut||W!==at)&&(N=ut,W=at,o.getReversed()&&(ut=-ut,at=-at),s.polygonOffset(ut,at))):Ot(s.POLYGON_OFFSET_FILL)}function Sn(V){V?gt(s.SCISSOR_TEST):Ot(s.SCISSOR_TEST)}function sn(V){V===void 0&&(V=s.TEXTURE0+k-1),Z!==V&&(s.activeTexture(V),Z=V)}function fn(V,ut,at){at===void 0&&(Z===null?at=s.TEXTURE0+k-1:at=Z);let Tt=tt[at];Tt===void 0&&(Tt={type:void 0,texture:void 0},tt[at]=Tt),(Tt.type!==V||Tt.texture!==ut)&&(Z!==at&&(s.activeTexture(at),Z=at),s.bindTexture(V,ut||lt[V]),Tt.type=V,Tt.texture=ut)}function G(){let V=tt[Z];V!==void 0&&V.type!==void 0&&(s.bindTexture(V.type,null),V.type=void 0,V.texture=void 0)}function Ct(){try{s.compressedTexImage2D(...arguments)}catch(V){te("WebGLState:",V)}}function Kt(){try{s.compressedTexImage3D(...arguments)}catch(V){te("WebGLState:",V)}}function ae(){try{s.texSubImage2D(...arguments)}catch(V){te("WebGLState:",V)}}function wt(){try{s.texSubImage3D(...arguments)}catch(V){te("WebGLState:",V)}}function Be(){try{s.compressedTexSubImage2D(...arguments)}catch(V){te("WebGLState:",V)}}function Wt(){try{s.compressedTexSubImage3D(...arguments)}catch(V){te("WebGLState:",V)}}function $t(){try{s.texStorage2D(...arguments)}catch(V){te("WebGLState:",V)}}function I(){try{s.texStorage3D(...arguments)}catch(V){te("WebGLState:",V)}}function T(){try{s.texImage2D(...arguments)}catch(V){te("WebGLState:",V)}}function J(){try{s.texImage3D(...arguments)}catch(V){te("WebGLState:",V)}}function mt(V){return u[V]!==void 0?u[V]:s.getParameter(V)}function dt(V,ut){u[V]!==ut&&(s.pixelStorei(V,ut),u[V]=ut)}function vt(V){Y.equals(V)===!1&&(s.scissor(V.x,V.y,V.z,V.w),Y.copy(V))}function bt(V){rt.equals(V)===!1&&(s.viewport(V.x,V.y,V.z,V.w),rt.copy(V))}function ot(V,ut){let at=c.get(ut);at===void 0&&(at=new WeakMap,c.set(ut,at));let Tt=at.get(V);Tt===void 0&&(Tt=s.getUniformBlockIndex(ut,V.name),s.uniformBlockBinding(ut,Tt,Tt),at.set(V,Tt))}function ct(V,ut,at){let xt=c.get(ut).get(V);l[xt]!==at&&(s.bindBufferBase(s.UNIFORM_BUFFER,xt,at),l[xt]=at)}function _t(){s.disable(s.BLEND),s.disable(s.CULL_FACE),s.disable(s.DEPTH_TEST),s.disable(s.POLYGON_OFFSET_FILL),s.disable(s.SCISSOR_TEST),s.disable(s.STENCIL_TEST),s.disable(s.SAMPLE_ALPHA_TO_COVERAGE),s.blendEquation(s.FUNC_ADD),s.blendFunc(s.ONE,s.ZERO),s.blendFuncSeparate(s.ONE,s.ZERO,s.ONE,s.ZERO),s.blendColor(0,0,0,0),s.colorMask(!0,!0,!0,!0),s.clearColor(0,0,0,0),s.depthMask(!0),s.depthFunc(s.LESS),o.setReversed(!1),s.clearDepth(1),s.stencilMask(4294967295),s.stencilFunc(s.ALWAYS,0,4294967295),s.stencilOp(s.KEEP,s.KEEP,s.KEEP),s.clearStencil(0),s.cullFace(s.BACK),s.frontFace(s.CCW),s.polygonOffset(0,0),s.activeTexture(s.TEXTURE0),s.bindFramebuffer(s.FRAMEBUFFER,null),s.bindFramebuffer(s.DRAW_FRAMEBUFFER,null),s.bindFramebuffer(s.READ_FRAMEBUFFER,null),s.useProgram(null),s.lineWidth(1),s.scissor(0,0,s.canvas.width,s.canvas.height),s.viewport(0,0,s.canvas.width,s.canvas.height),s.pixelStorei(s.PACK_ALIGNMENT,4),s.pixelStorei(s.UNPACK_ALIGNMENT,4),s.pixelStorei(s.UNPACK_FLIP_Y_WEBGL,!1),s.pixelStorei(s.UNPACK_PREMULTIPLY_ALPHA_WEBGL,!1),s.pixelStorei(s.UNPACK_COLORSPACE_CONVERSION_WEBGL,s.BROWSER_DEFAULT_WEBGL),s.pixelStorei(s.PACK_ROW_LENGTH,0),s.pixelStorei(s.PACK_SKIP_PIXELS,0),s.pixelStorei(s.PACK_SKIP_ROWS,0),s.pixelStorei(s.UNPACK_ROW_LENGTH,0),s.pixelStorei(s.UNPACK_IMAGE_HEIGHT,0),s.pixelStorei(s.UNPACK_SKIP_PIXELS,0),s.pixelStorei(s.UNPACK_SKIP_ROWS,0),s.pixelStorei(s.UNPACK_SKIP_IMAGES,0),h={},u={},Z=null,tt={},d={},l={},f=new WeakMap,p=[],y=null,m=!1,g=null,_=null,w=null,v=null,E=null,S=null,x=null,M=new Dt(0,0,0),L=0,P=!1,C=null,F=null,B=null,N=null,W=null,Y.set(0,0,s.canvas.width,s.canvas.height),rt.set(0,0,s.canvas.width,s.canvas.height),r.reset(),o.reset(),a.reset()}return{buffers:{color:r,depth:o,stencil:a},enable:gt,disable:Ot,bindFramebuffer:Zt,drawBuffers:zt,useProgram:me,setBlending:$e,setMaterial:Ve,setFlipSided:dn,setCullFace:Ue,setLineWidth:Pn,setPolygonOffset:Se,setScissorTest:Sn,activeTexture:sn,bindTexture:fn,unbindTexture:G,compressedTexImage2D:Ct,compressedTexImage3D:Kt,texImage2D:T,texImage3D:J,pixelStorei:dt,getParameter:mt,updateUBOMapping:ot,uniformBlockBinding:ct,texStorage2D:$t,texStorage3D:I,texSubImage2D:ae,texSubImage3D:wt,compressedTexSubImage2D:Be,compressedTexSubImage3D:Wt,scissor:vt,viewport:bt,reset:_t}}function qR(s,t,e,n,i,r,o){let a=t.has("WEBGL_multisampled_render_to_texture")?t.get("WEBGL_multisampled_render_to_texture"):null,l=typeof navigator>"u"?!1:/OculusBrowser/g.test(navigator.userAgent),c=new Xt,h=new WeakMap,u=new Set,d,f=new WeakMap,p=new Set,y=new FinalizationRegistry(I=>p.delete(I)),m=!1;try{m=typeof OffscreenCanvas<"u"&&new OffscreenCanvas(1,1).getContext("2d")!==null}catch{}function g(I,T){return m?new OffscreenCanvas(I,T):la("canvas")}function _(I,T,J){let mt=1,dt=$t(I);if((dt.width>J||dt.height>J)&&(mt=J/Math.max(dt.width,dt.height)),mt<1)if(typeof HTMLImageElement<"u"&&I instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&I instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&I instanceof ImageBitmap||typeof VideoFrame<"u"&&I instanceof VideoFrame){let vt=Math.floor(mt*dt.width),bt=Math.floor(mt*dt.height);d===void 0&&(d=g(vt,bt));let ot=T?g(vt,bt):d;return ot.width=vt,ot.height=bt,ot.getContext("2d").drawImage(I,0,0,vt,bt),jt("WebGLRenderer: Texture has been resized from ("+dt.width+"x"+dt.height+") to ("+vt+"x"+bt+")."),ot}else return"data"in I&&jt("WebGLRenderer: Image in DataTexture is too big ("+dt.width+"x"+dt.height+")."),I;return I}function w(I){return I.generateMipmaps}function v(I){s.generateMipmap(I)}function E(I){return I.isWebGLCubeRenderTarget?s.TEXTURE_CUBE_MAP:I.isWebGL3DRenderTarget?s.TEXTURE_3D:I.isWebGLArrayRenderTarget||I.isCompressedArrayTexture?s.TEXTURE_2D_ARRAY:s.TEXTURE_2D}function S(I,T,J,mt,dt,vt=!1){if(I!==null){if(s[I]!==void 0)return s[I];jt("WebGLRenderer: Attempt to use non-existing WebGL internal format '"+I+"'")}let bt;mt&&(bt=t.get("EXT_texture_norm16"),bt||jt("WebGLRenderer: Unable to use normalized textures without EXT_texture_norm16 extension"));let ot=T;if(T===s.RED&&(J===s.FLOAT&&(ot=s.R32F),J===s.HALF_FLOAT&&(ot=s.R16F),J===s.UNSIGNED_BYTE&&(ot=s.R8),J===s.UNSIGNED_SHORT&&bt&&(ot=bt.R16_EXT),J===s.SHORT&&bt&&(ot=bt.R16_SNORM_EXT)),T===s.RED_INTEGER&&(J===s.UNSIGNED_BYTE&&(ot=s.R8UI),J===s.UNSIGNED_SHORT&&(ot=s.R16UI),J===s.UNSIGNED_INT&&(ot=s.R32UI),J===s.BYTE&&(ot=s.R8I),J===s.SHORT&&(ot=s.R16I),J===s.INT&&(ot=s.R32I)),T===s.RG&&(J===s.FLOAT&&(ot=s.RG32F),J===s.HALF_FLOAT&&(ot=s.RG16F),J===s.UNSIGNED_BYTE&&(ot=s.RG8),J===s.UNSIGNED_SHORT&&bt&&(ot=bt.RG16_EXT),J===s.SHORT&&bt&&(ot=bt.RG16_SNORM_EXT)),T===s.RG_INTEGER&&(J===s.UNSIGNED_BYTE&&(ot=s.RG8UI),J===s.UNSIGNED_SHORT&&(ot=s.RG16UI),J===s.UNSIGNED_INT&&(ot=s.RG32UI),J===s.BYTE&&(ot=s.RG8I),J===s.SHORT&&(ot=s.RG16I),J===s.INT&&(ot=s.RG32I)),T===s.RGB_INTEGER&&(J===s.UNSIGNED_BYTE&&(ot=s.RGB8UI),J===s.UNSIGNED_SHORT&&(ot=s.RGB16UI),J===s.UNSIGNED_INT&&(ot=s.RGB32UI),J===s.BYTE&&(ot=s.RGB8I),J===s.SHORT&&(ot=s.RGB16I),J===s.INT&&(ot=s.RGB32I)),T===s.RGBA_INTEGER&&(J===s.UNSIGNED_BYTE&&(ot=s.RGBA8UI),J===s.UNSIGNED_SHORT&&(ot=s.RGBA16UI),J===s.UNSIGNED_INT&&(ot=s.RGBA32UI),J===s.BYTE&&(ot=s.RGBA8I),J===s.SHORT&&(ot=s.RGBA16I),J===s.INT&&(ot=s.RGBA32I)),T===s.RGB&&(J===s.UNSIGNED_SHORT&&bt&&(ot=bt.RGB16_EXT),J===s.SHORT&&bt&&(ot=bt.RGB16_SNORM_EXT),J===s.UNSIGNED_INT_5_9_9_9_REV&&(ot=s.RGB9_E5),J===s.UNSIGNED_INT_10F_11F_11F_REV&&(ot=s.R11F_G11F_B10F)),T===s.RGBA){let ct=vt?gl:he.getTransfer(dt);J===s.FLOAT&&(ot=s.RGBA32F),J===s.HALF_FLOAT&&(ot=s.RGBA16F),J===s.UNSIGNED_BYTE&&(ot=ct===Le?s.SRGB8_ALPHA8:s.RGBA8),J===s.UNSIGNED_SHORT&&bt&&(ot=bt.RGBA16_EXT),J===s.SHORT&&bt&&(ot=bt.RGBA16_SNORM_EXT),J===s.UNSIGNED_SHORT_4_4_4_4&&(ot=s.RGBA4),J===s.UNSIGNED_SHORT_5_5_5_1&&(ot=s.RGB5_A1)}return(ot===s.R16F||ot===s.R32F||ot===s.RG16F||ot===s.RG32F||ot===s.RGBA16F||ot===s.RGBA32F)&&t.get("EXT_color_buffer_float"),ot}function x(I,T){let J;return I?T===null||T===cs||T===po?J=s.DEPTH24_STENCIL8:T===Bi?J=s.DEPTH32F_STENCIL8:T===Ea&&(J=s.DEPTH24_STENCIL8,jt("DepthTexture: 16 bit depth attachment is not supported with stencil. Using 24-bit attachment.")):T===null||T===cs||T===po?J=s.DEPTH_COMPONENT24:T===Bi?J=s.DEPTH_COMPONENT32F:T===Ea&&(J=s.DEPTH_COMPONENT16),J}function M(I,T){return w(I)===!0||I.isFramebufferTexture&&I.minFilter!==Bn&&I.minFilter!==On?Math.log2(Math.max(T.width,T.height))+1:I.mipmaps.length>0?I.mipmaps.length:I.isCompressedTexture&&Array.isArray(I.image)?T.mipmaps.length:1}function L(I){let T=new WeakRef(I);n.get(I).__ref=T,p.add(T),y.register(I,T,T)}function P(I){let T=n.get(I).__ref;T!==void 0&&(p.delete(T),y.unregister(T))}function C(I){B(I.target)}function F(I){N(I.target)}function B(I){I.removeEventListener("dispose",C),P(I),k(I),I.isVideoTexture&&h.delete(I),I.isHTMLTexture&&u.delete(I)}function N(I){I.removeEventListener("dispose",F),P(I),it(I)}function W(){for(let I of p){let T=I.deref();T!==void 0&&(T.isRenderTarget===!0?N(T):B(T))}p.clear(),u.clear()}function k(I){let T=n.get(I);if(T.__webglInit===void 0)return;let J=I.source,mt=f.get(J);if(mt){let dt=mt[T.__cacheKey];dt.usedTimes--,dt.usedTimes===0&&H(I),Object.keys(mt).length===0&&f.delete(J)}n.remove(I)}function H(I){let T=n.get(I);s.deleteTexture(T.__webglTexture);let J=I.source,mt=f.get(J);delete mt[T.__cacheKey],o.memory.textures--}function it(I){let T=n.get(I);T.__depthDisposeCallback&&T.__depthDisposeCallback();let J=I.depthTexture;if(J&&J.renderTarget===I&&B(J),I.isWebGLCubeRenderTarget)for(let dt=0;dt<6;dt++){if(Array.isArray(T.__webglFramebuffer[dt]))for(let vt=0;vt<T.__webglFramebuffer[dt].length;vt++)s.deleteFramebuffer(T.__webglFramebuffer[dt][vt]);else s.deleteFramebuffer(T.__webglFramebuffer[dt]);T.__webglDepthbuffer&&s.deleteRenderbuffer(T.__webglDepthbuffer[dt])}else{if(Array.isArray(T.__webglFramebuffer))for(let dt=0;dt<T.__webglFramebuffer.length;dt++)s.deleteFramebuffer(T.__webglFramebuffer[dt]);else s.deleteFramebuffer(T.__webglFramebuffer);if(T.__webglDepthbuffer&&s.deleteRenderbuffer(T.__webglDepthbuffer),T.__webglMultisampledFramebuffer&&s.deleteFramebuffer(T.__webglMultisampledFramebuffer),T.__webglColorRenderbuffer)for(let dt=0;dt<T.__webglColorRenderbuffer.length;dt++)T.__webglColorRenderbuffer[dt]&&s.deleteRenderbuffer(T.__webglColorRenderbuffer[dt]);T.__webglDepthRenderbuffer&&s.deleteRenderbuffer(T.__webglDepthRenderbuffer)}let mt=I.textures;for(let dt=0,vt=mt.length;dt<vt;dt++){let bt=n.get(mt[dt]);bt.__webglTexture&&(s.deleteTexture(bt.__webglTexture),o.memory.textures--),n.remove(mt[dt])}n.remove(I)}let j=0;function Z(){j=0}function tt(){return j}function ht(I){j=I}function st(){let I=j;return I>=i.maxTextures&&jt("WebGLTextures: Trying to use "+(I+1)+" texture units while this GPU supports only "+i.maxTextures),j+=1,I}function Y(I){let T=[];return T.push(I.wrapS),T.push(I.wrapT),T.push(I.wrapR||0),T.push(I.magFilter),T.push(I.minFilter),T.push(I.anisotropy),T.push(I.internalFormat),T.push(I.format),T.push(I.type),T.push(I.generateMipmaps),T.push(I.mipmapsAutoUpdate),T.push(I.premultiplyAlpha),T.push(I.flipY),T.push(I.unpackAlignment),T.push(I.colorSpace),T.join()}function rt(I,T){let J=n.get(I);if(I.isVideoTexture&&Be(I),I.isRenderTargetTexture===!1&&I.isExternalTexture!==!0&&I.version>0&&J.__version!==I.version){let mt=I.image;if(mt===null)jt("WebGLRenderer: Texture marked for update but no image data found.");else if(mt.complete===!1)jt("WebGLRenderer: Texture marked for update but image is incomplete");else{Ve(J,I,T);return}}else I.isExternalTexture&&(J.__webglTexture=I.sourceTexture?I.sourceTexture:null);e.bindTexture(s.TEXTURE_2D,J.__webglTexture,s.TEXTURE0+T)}function nt(I,T){let J=n.get(I);if(I.isRenderTargetTexture===!1&&I.version>0&&J.__version!==I.version){Ve(J,I,T);return}else I.isExternalTexture&&(J.__webglTexture=I.sourceTexture?I.sourceTexture:null);e.bindTexture(s.TEXTURE_2D_ARRAY,J.__webglTexture,s.TEXTURE0+T)}function lt(I,T){let J=n.get(I);if(I.isRenderTargetTexture===!1&&I.version>0&&J.__version!==I.version){Ve(J,I,T);return}e.bindTexture(s.TEXTURE_3D,J.__webglTexture,s.TEXTURE0+T)}function gt(I,T){let J=n.get(I);if(I.version>0&&J.__version!==I.version){dn(J,I,T);return}e.bindTexture(s.TEXTURE_CUBE_MAP,J.__webglTexture,s.TEXTURE0+T)}let Ot={[Ys]:s.REPEAT,[hi]:s.CLAMP_TO_EDGE,[Xh]:s.MIRRORED_REPEAT},Zt={[Bn]:s.NEAREST,[H_]:s.NEAREST_MIPMAP_NEAREST,[Yl]:s.NEAREST_MIPMAP_LINEAR,[On]:s.LINEAR,[du]:s.LINEAR_MIPMAP_NEAREST,[qi]:s.LINEAR_MIPMAP_LINEAR},zt={[j_]:s.NEVER,[tm]:s.ALWAYS,[J_]:s.LESS,[Kp]:s.LEQUAL,[$_]:s.EQUAL,[Qp]:s.GEQUAL,[Z_]:s.GREATER,[K_]:s.NOTEQUAL};function me(I,T){if(T.type===Bi&&t.has("OES_texture_float_linear")===!1&&(T.magFilter===On||T.magFilter===du||T.magFilter===Yl||T.magFilter===qi||T.minFilter===On||T.minFilter===du||T.minFilter===Yl||T.minFilter===qi)&&jt("WebGLRenderer: Unable to use linear filtering with floating point textures. OES_texture_float_linear not supported on this device."),s.texParameteri(I,s.TEXTURE_WRAP_S,Ot[T.wrapS]),s.texParameteri(I,s.TEXTURE_WRAP_T,Ot[T.wrapT]),(I===s.TEXTURE_3D||I===s.TEXTURE_2D_ARRAY)&&s.texParameteri(I,s.TEXTURE_WRAP_R,Ot[T.wrapR]),s.texParameteri(I,s.TEXTURE_MAG_FILTER,Zt[T.magFilter]),s.texParameteri(I,s.TEXTURE_MIN_FILTER,Zt[T.minFilter]),T.compareFunction&&(s.texParameteri(I,s.TEXTURE_COMPARE_MODE,s.COMPARE_REF_TO_TEXTURE),s.texParameteri(I,s.TEXTURE_COMPARE_FUNC,zt[T.compareFunction])),t.has("EXT_texture_filter_anisotropic")===!0){if(T.magFilter===Bn||T.minFilter!==Yl&&T.minFilter!==qi||T.type===Bi&&t.has("OES_texture_float_linear")===!1)return;if(T.anisotropy>1||n.get(T).__currentAnisotropy){let J=t.get("EXT_texture_filter_anisotropic");s.texParameterf(I,J.TEXTURE_MAX_ANISOTROPY_EXT,Math.min(T.anisotropy,i.getMaxAnisotropy())),n.get(T).__currentAnisotropy=T.anisotropy}}}function de(I,T){let J=!1;I.__webglInit===void 0&&(I.__webglInit=!0,T.addEventListener("dispose",C),L(T));let mt=T.source,dt=f.get(mt);dt===void 0&&(dt={},f.set(mt,dt));let vt=Y(T);if(vt!==I.__cacheKey){dt[vt]===void 0&&(dt[vt]={texture:s.createTexture(),usedTimes:0},o.memory.textures++,J=!0),dt[vt].usedTimes++;let bt=dt[I.__cacheKey];bt!==void 0&&(dt[I.__cacheKey].usedTimes--,bt.usedTimes===0&&H(T)),I.__cacheKey=vt,I.__webglTexture=dt[vt].texture}return J}function re(I,T,J){return Math.floor(Math.floor(I/J)/T)}function $e(I,T,J,mt){let vt=I.updateRanges;if(vt.length===0)e.texSubImage2D(s.TEXTURE_2D,0,0,0,T.width,T.height,J,mt,T.data);else{vt.sort((V,ut)=>V.start-ut.start);let bt=0;for(let V=1;V<vt.length;V++){let ut=vt[bt],at=vt[V],Tt=ut.start+ut.count,xt=re(at.start,T.width,4),Mt=re(ut.start,T.width,4);at.start<=Tt+1&&xt===Mt&&re(at.start+at.count-1,T.width,4)===xt?ut.count=Math.max(ut.count,at.start+at.count-ut.start):(++bt,vt[bt]=at)}vt.length=bt+1;let ot=e.getParameter(s.UNPACK_ROW_LENGTH),ct=e.getParameter(s.UNPACK_SKIP_PIXELS),_t=e.getParameter(s.UNPACK_SKIP_ROWS);e.pixelStorei(s.UNPACK_ROW_LENGTH,T.width);for(let V=0,ut=vt.length;V<ut;V++){let at=vt[V],Tt=Math.floor(at.start/4),xt=Math.ceil(at.count/4),Mt=Tt%T.width,qt=Math.floor(Tt/T.width),ee=xt,pt=1;e.pixelStorei(s.UNPACK_SKIP_PIXELS,Mt),e.pixelStorei(s.UNPACK_SKIP_ROWS,qt),e.texSubImage2D(s.TEXTURE_2D,0,Mt,qt,ee,pt,J,mt,T.data)}I.clearUpdateRanges(),e.pixelStorei(s.UNPACK_ROW_LENGTH,ot),e.pixelStorei(s.UNPACK_SKIP_PIXELS,ct),e.pixelStorei(s.UNPACK_SKIP_ROWS,_t)}}function Ve(I,T,J){let mt=s.TEXTURE_2D;(T.isDataArrayTexture||T.isCompressedArrayTexture)&&(mt=s.TEXTURE_2D_ARRAY),T.isData3DTexture&&(mt=s.TEXTURE_3D);let dt=de(I,T),vt=T.source;e.bindTexture(mt,I.__webglTexture,s.TEXTURE0+J);let bt=n.get(vt);if(vt.version!==bt.__version||dt===!0){if(e.activeTexture(s.TEXTURE0+J),(typeof ImageBitmap<"u"&&T.image instanceof ImageBitmap)===!1){let pt=he.getPrimaries(he.workingColorSpace),Vt=T.colorSpace===nr?null:he.getPrimaries(T.colorSpace),ne=T.colorSpace===nr||pt===Vt?s.NONE:s.BROWSER_DEFAULT_WEBGL;e.pixelStorei(s.UNPACK_FLIP_Y_WEBGL,T.flipY),e.pixelStorei(s.UNPACK_PREMULTIPLY_ALPHA_WEBGL,T.premultiplyAlpha),e.pixelStorei(s.UNPACK_COLORSPACE_CONVERSION_WEBGL,ne)}e.pixelStorei(s.UNPACK_ALIGNMENT,T.unpackAlignment);let ct=_(T.image,!1,i.maxTextureSize);ct=Wt(T,ct);let _t=r.convert(T.format,T.colorSpace),V=r.convert(T.type),ut=S(T.internalFormat,_t,V,T.normalized,T.colorSpace,T.isVideoTexture);me(mt,T);let at,Tt=T.mipmaps,xt=T.isVideoTexture!==!0,Mt=bt.__version===void 0||dt===!0,qt=vt.dataReady,ee=M(T,ct);if(T.isDepthTexture)ut=x(T.format===er,T.type),Mt&&(xt?e.texStorage2D(s.TEXTURE_2D,1,ut,ct.width,ct.height):e.texImage2D(s.TEXTURE_2D,0,ut,ct.width,ct.height,0,_t,V,null));else if(T.isDataTexture)if(Tt.length>0){xt&&Mt&&e.texStorage2D(s.TEXTURE_2D,ee,ut,Tt[0].width,Tt[0].height);for(let pt=0,Vt=Tt.length;pt<Vt;pt++)at=Tt[pt],xt?qt&&e.texSubImage2D(s.TEXTURE_2D,pt,0,0,at.width,at.height,_t,V,at.data):e.texImage2D(s.TEXTURE_2D,pt,ut,at.width,at.height,0,_t,V,at.data);T.generateMipmaps=!1}else xt?(Mt&&e.texStorage2D(s.TEXTURE_2D,ee,ut,ct.width,ct.height),qt&&$e(T,ct,_t,V)):e.texImage2D(s.TEXTURE_2D,0,ut,ct.width,ct.height,0,_t,V,ct.data);else if(T.isCompressedTexture)if(T.isCompressedArrayTexture){xt&&Mt&&e.texStorage3D(s.TEXTURE_2D_ARRAY,ee,ut,Tt[0].width,Tt[0].height,ct.depth);for(let pt=0,Vt=Tt.length;pt<Vt;pt++)if(at=Tt[pt],T.format!==Yi)if(_t!==null)if(xt){if(qt)if(T.layerUpdates.size>0){let ne=hm(at.width,at.height,T.format,T.type);for(let Rt of T.layerUpdates){let ce=at.data.subarray(Rt*ne/at.data.BYTES_PER_ELEMENT,(Rt+1)*ne/at.data.BYTES_PER_ELEMENT);e.compressedTexSubImage3D(s.TEXTURE_2D_ARRAY,pt,0,0,Rt,at.width,at.height,1,_t,ce)}}else e.compressedTexSubImage3D(s.TEXTURE_2D_ARRAY,pt,0,0,0,at.width,at.height,ct.depth,_t,at.data)}else e.compressedTexImage3D(s.TEXTURE_2D_ARRAY,pt,ut,at.width,at.height,ct.depth,0,at.data,0,0);else jt("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()");else xt?qt&&e.texSubImage3D(s.TEXTURE_2D_ARRAY,pt,0,0,0,at.width,at.height,ct.depth,_t,V,at.data):e.texImage3D(s.TEXTURE_2D_ARRAY,pt,ut,at.width,at.height,ct.depth,0,_t,V,at.data);T.layerUpdates.size>0&&T.clearLayerUpdates()}else{xt&&Mt&&e.texStorage2D(s.TEXTURE_2D,ee,ut,Tt[0].width,Tt[0].height);for(let pt=0,Vt=Tt.length;pt<Vt;pt++)at=Tt[pt],T.format!==Yi?_t!==null?xt?qt&&e.compressedTexSubImage2D(s.TEXTURE_2D,pt,0,0,at.width,at.height,_t,at.data):e.compressedTexImage2D(s.TEXTURE_2D,pt,ut,at.width,at.height,0,at.data):jt("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()"):xt?qt&&e.texSubImage2D(s.TEXTURE_2D,pt,0,0,at.width,at.height,_t,V,at.data):e.texImage2D(s.TEXTURE_2D,pt,ut,at.width,at.height,0,_t,V,at.data)}else if(T.isDataArrayTexture)if(xt){if(Mt&&e.texStorage3D(s.TEXTURE_2D_ARRAY,ee,ut,ct.width,ct.height,ct.depth),qt)if(T.layerUpdates.size>0){let pt=hm(ct.width,ct.height,T.format,T.type);for(let Vt of T.layerUpdates){let ne=ct.data.subarray(Vt*pt/ct.data.BYTES_PER_ELEMENT,(Vt+1)*pt/ct.data.BYTES_PER_ELEMENT);e.texSubImage3D(s.TEXTURE_2D_ARRAY,0,0,0,Vt,ct.width,ct.height,1,_t,V,ne)}T.clearLayerUpdates()}else e.texSubImage3D(s.TEXTURE_2D_ARRAY,0,0,0,0,ct.width,ct.height,ct.depth,_t,V,ct.data)}else e.texImage3D(s.TEXTURE_2D_ARRAY,0,ut,ct.width,ct.height,ct.depth,0,_t,V,ct.data);else if(T.isData3DTexture)xt?(Mt&&e.texStorage3D(s.TEXTURE_3D,ee,ut,ct.width,ct.height,ct.depth),qt&&e.texSubImage3D(s.TEXTURE_3D,0,0,0,0,ct.width,ct.height,ct.depth,_t,V,ct.data)):e.texImage3D(s.TEXTURE_3D,0,ut,ct.width,ct.height,ct.depth,0,_t,V,ct.data);else if(T.isFramebufferTexture){if(Mt)if(xt)e.texStorage2D(s.TEXTURE_2D,ee,ut,ct.width,ct.height);else{let pt=ct.width,Vt=ct.height;for(let ne=0;ne<ee;ne++)e.texImage2D(s.TEXTURE_2D,ne,ut,pt,Vt,0,_t,V,null),pt>>=1,Vt>>=1}}else if(T.isHTMLTexture){if("texElementImage2D"in s){let pt=s.canvas;if(pt.hasAttribute("layoutsubtree")||pt.setAttribute("layoutsubtree","true"),ct.parentNode!==pt){pt.appendChild(ct),u.add(T),pt.onpaint=Vt=>{let ne=Vt.changedElements;for(let Rt of u)ne.includes(Rt.image)&&(Rt.needsUpdate=!0)},pt.requestPaint();return}if(s.texElementImage2D.length===3)s.texElementImage2D(s.TEXTURE_2D,s.RGBA8,ct);else{let ne=s.RGBA,Rt=s.RGBA,ce=s.UNSIGNED_BYTE;s.texElementImage2D(s.TEXTURE_2D,0,ne,Rt,ce,ct)}s.texParameteri(s.TEXTURE_2D,s.TEXTURE_MIN_FILTER,s.LINEAR),s.texParameteri(s.TEXTURE_2D,s.TEXTURE_WRAP_S,s.CLAMP_TO_EDGE),s.texParameteri(s.TEXTURE_2D,s.TEXTURE_WRAP_T,s.CLAMP_TO_EDGE)}}else if(Tt.length>0){if(xt&&Mt){let pt=$t(Tt[0]);e.texStorage2D(s.TEXTURE_2D,ee,ut,pt.width,pt.height)}for(let pt=0,Vt=Tt.length;pt<Vt;pt++)at=Tt[pt],xt?qt&&e.texSubImage2D(s.TEXTURE_2D,pt,0,0,_t,V,at):e.texImage2D(s.TEXTURE_2D,pt,ut,_t,V,at);T.generateMipmaps=!1}else if(xt){if(Mt){let pt=$t(ct);e.texStorage2D(s.TEXTURE_2D,ee,ut,pt.width,pt.height)}qt&&e.texSubImage2D(s.TEXTURE_2D,0,0,0,_t,V,ct)}else e.texImage2D(s.TEXTURE_2D,0,ut,_t,V,ct);w(T)&&T.mipmapsAutoUpdate===!0&&v(mt),bt.__version=vt.version,T.onUpdate&&T.onUpdate(T)}I.__version=T.version}function dn(I,T,J){if(T.image.length!==6)return;let mt=de(I,T),dt=T.source;e.bindTexture(s.TEXTURE_CUBE_MAP,I.__webglTexture,s.TEXTURE0+J);let vt=n.get(dt);if(dt.version!==vt.__version||mt===!0){e.activeTexture(s.TEXTURE0+J);let bt=he.getPrimaries(he.workingColorSpace),ot=T.colorSpace===nr?null:he.getPrimaries(T.colorSpace),ct=T.colorSpace===nr||bt===ot?s.NONE:s.BROWSER_DEFAULT_WEBGL;e.pixelStorei(s.UNPACK_FLIP_Y_WEBGL,T.flipY),e.pixelStorei(s.UNPACK_PREMULTIPLY_ALPHA_WEBGL,T.premultiplyAlpha),e.pixelStorei(s.UNPACK_ALIGNMENT,T.unpackAlignment),e.pixelStorei(s.UNPACK_COLORSPACE_CONVERSION_WEBGL,ct);let _t=T.isCompressedTexture||T.image[0].isCompressedTexture,V=T.image[0]&&T.image[0].isDataTexture,ut=[];for(let Rt=0;Rt<6;Rt++)!_t&&!V?ut[Rt]=_(T.image[Rt],!0,i.maxCubemapSize):ut[Rt]=V?T.image[Rt].image:T.image[Rt],ut[Rt]=Wt(T,ut[Rt]);let at=ut[0],Tt=r.convert(T.format,T.colorSpace),xt=r.convert(T.type),Mt=S(T.internalFormat,Tt,xt,T.normalized,T.colorSpace),qt=T.isVideoTexture!==!0,ee=vt.__version===void 0||mt===!0,pt=dt.dataReady,Vt=M(T,at);me(s.TEXTURE_CUBE_MAP,T);let ne;if(T.isDepthTexture){if(Mt=x(T.format===er,T.type),ee)if(qt)e.texStorage2D(s.TEXTURE_CUBE_MAP,1,Mt,at.width,at.height);else for(let Rt=0;Rt<6;Rt++)e.texImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,0,Mt,at.width,at.height,0,Tt,xt,null)}else if(_t){qt&&ee&&e.texStorage2D(s.TEXTURE_CUBE_MAP,Vt,Mt,at.width,at.height);for(let Rt=0;Rt<6;Rt++){ne=ut[Rt].mipmaps;for(let ce=0;ce<ne.length;ce++){let He=ne[ce];T.format!==Yi?Tt!==null?qt?pt&&e.compressedTexSubImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce,0,0,He.width,He.height,Tt,He.data):e.compressedTexImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce,Mt,He.width,He.height,0,He.data):jt("WebGLRenderer: Attempt to load unsupported compressed texture format in .setTextureCube()"):qt?pt&&e.texSubImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce,0,0,He.width,He.height,Tt,xt,He.data):e.texImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce,Mt,He.width,He.height,0,Tt,xt,He.data)}}}else{if(ne=T.mipmaps,qt&&ee){ne.length>0&&Vt++;let Rt=$t(ut[0]);e.texStorage2D(s.TEXTURE_CUBE_MAP,Vt,Mt,Rt.width,Rt.height)}for(let Rt=0;Rt<6;Rt++)if(V){qt?pt&&e.texSubImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,0,0,0,ut[Rt].width,ut[Rt].height,Tt,xt,ut[Rt].data):e.texImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,0,Mt,ut[Rt].width,ut[Rt].height,0,Tt,xt,ut[Rt].data);for(let ce=0;ce<ne.length;ce++){let ii=ne[ce].image[Rt].image;qt?pt&&e.texSubImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce+1,0,0,ii.width,ii.height,Tt,xt,ii.data):e.texImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce+1,Mt,ii.width,ii.height,0,Tt,xt,ii.data)}}else{qt?pt&&e.texSubImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,0,0,0,Tt,xt,ut[Rt]):e.texImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,0,Mt,Tt,xt,ut[Rt]);for(let ce=0;ce<ne.length;ce++){let He=ne[ce];qt?pt&&e.texSubImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce+1,0,0,Tt,xt,He.image[Rt]):e.texImage2D(s.TEXTURE_CUBE_MAP_POSITIVE_X+Rt,ce+1,Mt,Tt,xt,He.image[Rt])}}}w(T)&&T.mipmapsAutoUpdate===!0&&v(s.TEXTURE_CUBE_MAP),vt.__version=dt.version,T.onUpdate&&T.onUpdate(T)}I.__version=T.version}function Ue(I,T,J,mt,dt,vt){let bt=r.convert(J.format,J.colorSpace),ot=r.convert(J.type),ct=S(J.internalFormat,bt,ot,J.normalized,J.colorSpace),_t=n.get(T),V=n.get(J);if(V.__renderTarget=T,!_t.__hasExternalTextures){let ut=Math.max(1,T.width>>vt),at=Math.max(1,T.height>>vt);dt===s.TEXTURE_3D||dt===s.TEXTURE_2D_ARRAY?e.texImage3D(dt,vt,ct,ut,at,T.depth,0,bt,ot,null):e.texImage2D(dt,vt,ct,ut,at,0,bt,ot,null)}e.bindFramebuffer(s.FRAMEBUFFER,I),wt(T)?a.framebufferTexture2DMultisampleEXT(s.FRAMEBUFFER,mt,dt,V.__webglTexture,0,ae(T)):(dt===s.TEXTURE_2D||dt>=s.TEXTURE_CUBE_MAP_POSITIVE_X&&dt<=s.TEXTURE_CUBE_MAP_NEGATIVE_Z)&&s.framebufferTexture2D(s.FRAMEBUFFER,mt,dt,V.__webglTexture,vt),e.bindFramebuffer(s.FRAMEBUFFER,null)}function Pn(I,T,J){if(s.bindRenderbuffer(s.RENDERBUFFER,I),T.depthBuffer){let mt=T.depthTexture,dt=mt&&mt.isDepthTexture?mt.type:null,vt=x(T.stencilBuffer,dt),bt=T.stencilBuffer?s.DEPTH_STENCIL_ATTACHMENT:s.DEPTH_ATTACHMENT;wt(T)?a.renderbufferStorageMultisampleEXT(s.RENDERBUFFER,ae(T),vt,T.width,T.height):J?s.renderbufferStorageMultisample(s.RENDERBUFFER,ae(T),vt,T.width,T.height):s.renderbufferStorage(s.RENDERBUFFER,vt,T.width,T.height),s.framebufferRenderbuffer(s.FRAMEBUFFER,bt,s.RENDERBUFFER,I)}else{let mt=T.textures;for(let dt=0;dt<mt.length;dt++){let vt=mt[dt],bt=r.convert(vt.format,vt.colorSpace),ot=r.convert(vt.type),ct=S(vt.internalFormat,bt,ot,vt.normalized,vt.colorSpace);wt(T)?a.renderbufferStorageMultisampleEXT(s.RENDERBUFFER,ae(T),ct,T.width,T.height):J?s.renderbufferStorageMultisample(s.RENDERBUFFER,ae(T),ct,T.width,T.height):s.renderbufferStorage(s.RENDERBUFFER,ct,T.width,T.height)}}s.bindRenderbuffer(s.RENDERBUFFER,null)}function Se(I,T,J){let mt=T.isWebGLCubeRenderTarget===!0;if(e.bindFramebuffer(s.FRAMEBUFFER,I),!(T.depthTexture&&T.depthTexture.isDepthTexture))throw new Error("THREE.WebGLTextures: renderTarget.depthTexture must be an instance of THREE.DepthTexture.");let dt=n.get(T.depthTexture);dt.__renderTarget=T;let vt=mt?T.depthTexture.image[0]:T.depthTexture.image;(!dt.__webglTexture||vt.width!==T.width||vt.height!==T.height)&&(vt.width=T.width,vt.height=T.height,T.depthTexture.needsUpdate=!0),mt?gt(T.depthTexture,0):rt(T.depthTexture,0);let bt=dt.__webglTexture,ot=ae(T),ct=mt?s.TEXTURE_CUBE_MAP_POSITIVE_X+J:s.TEXTURE_2D,_t=T.depthTexture.format===er?s.DEPTH_STENCIL_ATTACHMENT:s.DEPTH_ATTACHMENT;if(T.depthTexture.format===js)wt(T)?a.framebufferTexture2DMultisampleEXT(s.FRAMEBUFFER,_t,ct,bt,0,ot):s.framebufferTexture2D(s.FRAMEBUFFER,_t,ct,bt,0);else if(T.depthTexture.format===er)wt(T)?a.framebufferTexture2DMultisampleEXT(s.FRAMEBUFFER,_t,ct,bt,0,ot):s.framebufferTexture2D(s.FRAMEBUFFER,_t,ct,bt,0);else throw new Error("THREE.WebGLTextures: Unknown depthTexture format.")}function Sn(I){let T=n.get(I),J=I.isWebGLCubeRenderTarget===!0;if(T.__boundDepthTexture!==I.depthTexture){let mt=I.depthTexture;if(T.__depthDisposeCallback&&T.__depthDisposeCallback(),mt){let dt=()=>{delete T.__boundDepthTexture,delete T.__depthDisposeCallback,mt.removeEventListener("dispose",dt)};mt.addEventListener("dispose",dt),T.__depthDisposeCallback=dt}T.__boundDepthTexture=mt}if(I.depthTexture&&!T.__autoAllocateDepthBuffer)if(J)for(let mt=0;mt<6;mt++)Se(T.__webglFramebuffer[mt],I,mt);else I.texture.mipmaps.length>0?Se(T.__webglFramebuffer[0],I,0):Se(T.__webglFramebuffer,I,0);else if(J){T.__webglDepthbuffer=[];for(let mt=0;mt<6;mt++)if(e.bindFramebuffer(s.FRAMEBUFFER,T.__webglFramebuffer[mt]),T.__webglDepthbuffer[mt]===void 0)T.__webglDepthbuffer[mt]=s.createRenderbuffer(),Pn(T.__webglDepthbuffer[mt],I,!1);else{let dt=I.stencilBuffer?s.DEPTH_STENCIL_ATTACHMENT:s.DEPTH_ATTACHMENT,vt=T.__webglDepthbuffer[mt];s.bindRenderbuffer(s.RENDERBUFFER,vt),s.framebufferRenderbuffer(s.FRAMEBUFFER,dt,s.RENDERBUFFER,vt)}}else if(I.texture.mipmaps.length>0?e.bindFramebuffer(s.FRAMEBUFFER,T.__webglFramebuffer[0]):e.bindFramebuffer(s.FRAMEBUFFER,T.__webglFramebuffer),T.__webglDepthbuffer===void 0)T.__webglDepthbuffer=s.createRenderbuffer(),Pn(T.__webglDepthbuffer,I,!1);else{let dt=I.stencilBuffer?s.DEPTH_STENCIL_ATTACHMENT:s.DEPTH_ATTACHMENT,vt=T.__webglDepthbuffer;s.bindRenderbuffer(s.RENDERBUFFER,vt),s.framebufferRenderbuffer(s.FRAMEBUFFER,dt,s.RENDERBUFFER,vt)}e.bindFramebuffer(s.FRAMEBUFFER,null)}function sn(I,T,J){let mt=n.get(I);T!==void 0&&Ue(mt.__webglFramebuffer,I,I.texture,s.COLOR_ATTACHMENT0,s.TEXTURE_2D,0),J!==void 0&&Sn(I)}function fn(I){let T=I.texture,J=n.get(I),mt=n.get(T);I.addEventListener("dispose",F),L(I);let dt=I.textures,vt=I.isWebGLCubeRenderTarget===!0,bt=dt.length>1;if(bt||(mt.__webglTexture===void 0&&(mt.__webglTexture=s.createTexture()),mt.__version=T.version,o.memory.textures++),vt){J.__webglFramebuffer=[];for(let ot=0;ot<6;ot++)if(T.mipmaps.length>0){J.__webglFramebuffer[ot]=[];for(let ct=0;ct<T.mipmaps.length;ct++)J.__webglFramebuffer[ot][ct]=s.createFramebuffer()}else J.__webglFramebuffer[ot]=s.createFramebuffer()}else{if(T.mipmaps.length>0){J.__webglFramebuffer=[];for(let ot=0;ot<T.mipmaps.length;ot++)J.__webglFramebuffer[ot]=s.createFramebuffer()}else J.__webglFramebuffer=s.createFramebuffer();if(bt)for(let ot=0,ct=dt.length;ot<ct;ot++){let _t=n.get(dt[ot]);_t.__webglTexture===void 0&&(_t.__webglTexture=s.createTexture(),o.memory.textures++)}if(I.samples>0&&wt(I)===!1){J.__webglMultisampledFramebuffer=s.createFramebuffer(),J.__webglColorRenderbuffer=[],e.bindFramebuffer(s.FRAMEBUFFER,J.__webglMultisampledFramebuffer);for(let ot=0;ot<dt.length;ot++){let ct=dt[ot];J.__webglColorRenderbuffer[ot]=s.createRenderbuffer(),s.bindRenderbuffer(s.RENDERBUFFER,J.__webglColorRenderbuffer[ot]);let _t=r.convert(ct.format,ct.colorSpace),V=r.convert(ct.type),ut=S(ct.internalFormat,_t,V,ct.normalized,ct.colorSpace,I.isXRRenderTarget===!0),at=ae(I);s.renderbufferStorageMultisample(s.RENDERBUFFER,at,ut,I.width,I.height),s.framebufferRenderbuffer(s.FRAMEBUFFER,s.COLOR_ATTACHMENT0+ot,s.RENDERBUFFER,J.__webglColorRenderbuffer[ot])}s.bindRenderbuffer(s.RENDERBUFFER,null),I.depthBuffer&&(J.__webglDepthRenderbuffer=s.createRenderbuffer(),Pn(J.__webglDepthRenderbuffer,I,!0)),e.bindFramebuffer(s.FRAMEBUFFER,null)}}if(vt){e.bindTexture(s.TEXTURE_CUBE_MAP,mt.__webglTexture),me(s.TEXTURE_CUBE_MAP,T);for(let ot=0;ot<6;ot++)if(T.mipmaps.length>0)for(let ct=0;ct<T.mipmaps.length;ct++)Ue(J.__webglFramebuffer[ot][ct],I,T,s.COLOR_ATTACHMENT0,s.TEXTURE_CUBE_MAP_POSITIVE_X+ot,ct);else Ue(J.__webglFramebuffer[ot],I,T,s.COLOR_ATTACHMENT0,s.TEXTURE_CUBE_MAP_POSITIVE_X+ot,0);w(T)?v(s.TEXTURE_CUBE_MAP):T.mipmaps.length>0&&s.texParameteri(s.TEXTURE_CUBE_MAP,s.TEXTURE_MAX_LEVEL,T.mipmaps.length-1),e.unbindTexture()}else if(bt){for(let ot=0,ct=dt.length;ot<ct;ot++){let _t=dt[ot],V=n.get(_t),ut=s.TEXTURE_2D;(I.isWebGL3DRenderTarget||I.isWebGLArrayRenderTarget)&&(ut=I.isWebGL3DRenderTarget?s.TEXTURE_3D:s.TEXTURE_2D_ARRAY),e.bindTexture(ut,V.__webglTexture),me(ut,_t),Ue(J.__webglFramebuffer,I,_t,s.COLOR_ATTACHMENT0+ot,ut,0),w(_t)&&v(ut)}e.unbindTexture()}else{let ot=s.TEXTURE_2D;if((I.isWebGL3DRenderTarget||I.isWebGLArrayRenderTarget)&&(ot=I.isWebGL3DRenderTarget?s.TEXTURE_3D:s.TEXTURE_2D_ARRAY),e.bindTexture(ot,mt.__webglTexture),me(ot,T),T.mipmaps.length>0)for(let ct=0;ct<T.mipmaps.length;ct++)Ue(J.__webglFramebuffer[ct],I,T,s.COLOR_ATTACHMENT0,ot,ct);else Ue(J.__webglFramebuffer,I,T,s.COLOR_ATTACHMENT0,ot,0);w(T)?v(ot):T.mipmaps.length>0&&s.texParameteri(ot,s.TEXTURE_MAX_LEVEL,T.mipmaps.length-1),e.unbindTexture()}I.depthBuffer&&Sn(I)}function G(I){let T=I.textures;for(let J=0,mt=T.length;J<mt;J++){let dt=T[J];if(w(dt)&&dt.mipmapsAutoUpdate===!0){let vt=E(I),bt=n.get(dt).__webglTexture;e.bindTexture(vt,bt),v(vt),e.unbindTexture()}}}let Ct=[];function Kt(I){if(I.samples>0){if(wt(I)===!1){let T=I.textures,J=I.width,mt=I.height,dt=s.COLOR_BUFFER_BIT,vt=I.stencilBuffer?s.DEPTH_STENCIL_ATTACHMENT:s.DEPTH_ATTACHMENT,bt=n.get(I),ot=T.length>1;if(ot)for(let _t=0;_t<T.length;_t++)e.bindFramebuffer(s.FRAMEBUFFER,bt.__webglMultisampledFramebuffer),s.framebufferRenderbuffer(s.FRAMEBUFFER,s.COLOR_ATTACHMENT0+_t,s.RENDERBUFFER,null),e.bindFramebuffer(s.FRAMEBUFFER,bt.__webglFramebuffer),s.framebufferTexture2D(s.DRAW_FRAMEBUFFER,s.COLOR_ATTACHMENT0+_t,s.TEXTURE_2D,null,0);e.bindFramebuffer(s.READ_FRAMEBUFFER,bt.__webglMultisampledFramebuffer),I.texture.mipmaps.length>0?e.bindFramebuffer(s.DRAW_FRAMEBUFFER,bt.__webglFramebuffer[0]):e.bindFramebuffer(s.DRAW_FRAMEBUFFER,bt.__webglFramebuffer);for(let _t=0;_t<T.length;_t++){if(I.resolveDepthBuffer&&(I.depthBuffer&&(dt|=s.DEPTH_BUFFER_BIT),I.stencilBuffer&&I.resolveStencilBuffer&&(dt|=s.STENCIL_BUFFER_BIT)),ot){s.framebufferRenderbuffer(s.READ_FRAMEBUFFER,s.COLOR_ATTACHMENT0,s.RENDERBUFFER,bt.__webglColorRenderbuffer[_t]);let V=n.get(T[_t]).__webglTexture;s.framebufferTexture2D(s.DRAW_FRAMEBUFFER,s.COLOR_ATTACHMENT0,s.TEXTURE_2D,V,0)}s.blitFramebuffer(0,0,J,mt,0,0,J,mt,dt,s.NEAREST),l===!0&&(Ct.length=0,Ct.push(s.COLOR_ATTACHMENT0+_t),I.depthBuffer&&I.storeMultisampledDepthBuffer===!1&&Ct.push(vt),s.invalidateFramebuffer(s.READ_FRAMEBUFFER,Ct))}if(e.bindFramebuffer(s.READ_FRAMEBUFFER,null),e.bindFramebuffer(s.DRAW_FRAMEBUFFER,null),ot)for(let _t=0;_t<T.length;_t++){e.bindFramebuffer(s.FRAMEBUFFER,bt.__webglMultisampledFramebuffer),s.framebufferRenderbuffer(s.FRAMEBUFFER,s.COLOR_ATTACHMENT0+_t,s.RENDERBUFFER,bt.__webglColorRenderbuffer[_t]);let V=n.get(T[_t]).__webglTexture;e.bindFramebuffer(s.FRAMEBUFFER,bt.__webglFramebuffer),s.framebufferTexture2D(s.DRAW_FRAMEBUFFER,s.COLOR_ATTACHMENT0+_t,s.TEXTURE_2D,V,0)}e.bindFramebuffer(s.DRAW_FRAMEBUFFER,bt.__webglMultisampledFramebuffer)}else if(I.depthBuffer&&I.storeMultisampledDepthBuffer===!1&&l){let T=I.stencilBuffer?s.DEPTH_STENCIL_ATTACHMENT:s.DEPTH_ATTACHMENT;s.invalidateFramebuffer(s.DRAW_FRAMEBUFFER,[T])}}}function ae(I){return Math.min(i.maxSamples,I.samples)}function wt(I){let T=n.get(I);return I.samples>0&&t.has("WEBGL_multisampled_render_to_texture")===!0&&T.__useRenderToTexture!==!1}function Be(I){let T=o.render.frame;h.get(I)!==T&&(h.set(I,T),I.update())}function Wt(I,T){let J=I.colorSpace,mt=I.format,dt=I.type;return I.isCompressedTexture===!0||I.isVideoTexture===!0||J!==ml&&J!==nr&&(he.getTransfer(J)===Le?(mt!==Yi||dt!==vi)&&jt("WebGLTextures: sRGB encoded textures have to use RGBAFormat and UnsignedByteType."):te("WebGLTextures: Unsupported texture color space:",J)),T}function $t(I){return typeof HTMLImageElement<"u"&&I instanceof HTMLImageElement?(c.width=I.naturalWidth||I.width,c.height=I.naturalHeight||I.height):typeof VideoFrame<"u"&&I instanceof VideoFrame?(c.width=I.displayWidth,c.height=I.displayHeight):(c.width=I.width,c.height=I.height),c}this.allocateTextureUnit=st,this.resetTextureUnits=Z,this.getTextureUnits=tt,this.setTextureUnits=ht,this.setTexture2D=rt,this.setTexture2DArray=nt,this.setTexture3D=lt,this.setTextureCube=gt,this.rebindTextures=sn,this.setupRenderTarget=fn,this.updateRenderTargetMipmap=G,this.updateMultisampleRenderTarget=Kt,this.setupDepthRenderbuffer=Sn,this.setupFrameBufferTexture=Ue,this.useMultisampledRTT=wt,this.dispose=W}function YR(s,t){function e(n,i=nr){let r,o=he.getTransfer(i);if(n===vi)return s.UNSIGNED_BYTE;if(n===pu)return s.UNSIGNED_SHORT_4_4_4_4;if(n===mu)return s.UNSIGNED_SHORT_5_5_5_1;if(n===jp)return s.UNSIGNED_INT_5_9_9_9_REV;if(n===Jp)return s.UNSIGNED_INT_10F_11F_11F_REV;if(n===qp)return s.BYTE;if(n===Yp)return s.SHORT;if(n===Ea)return s.UNSIGNED_SHORT;if(n===fu)return s.INT;if(n===cs)return s.UNSIGNED_INT;if(n===Bi)return s.FLOAT;if(n===hs)return s.HALF_FLOAT;if(n===$p)return s.ALPHA;if(n===Zp)return s.RGB;if(n===Yi)return s.RGBA;if(n===js)return s.DEPTH_COMPONENT;if(n===er)return s.DEPTH_STENCIL;if(n===gu)return s.RED;if(n===yu)return s.RED_INTEGER;if(n===Tr)return s.RG;if(n===_u)return s.RG_INTEGER;if(n===xu)return s.RGBA_INTEGER;if(n===jl||n===Jl||n===$l||n===Zl)if(o===Le)if(r=t.get("WEBGL_compressed_texture_s3tc_srgb"),r!==null){if(n===jl)return r.COMPRESSED_SRGB_S3TC_DXT1_EXT;if(n===Jl)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT;if(n===$l)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT;if(n===Zl)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT}else return null;else if(r=t.get("WEBGL_compressed_texture_s3tc"),r!==null){if(n===jl)return r.COMPRESSED_RGB_S3TC_DXT1_EXT;if(n===Jl)return r.COMPRESSED_RGBA_S3TC_DXT1_EXT;if(n===$l)return r.COMPRESSED_RGBA_S3TC_DXT3_EXT;if(n===Zl)return r.COMPRESSED_RGBA_S3TC_DXT5_EXT}else return null;if(n===vu||n===bu||n===Su||n===Mu)if(r=t.get("WEBGL_compressed_texture_pvrtc"),r!==null){if(n===vu)return r.COMPRESSED_RGB_PVRTC_4BPPV1_IMG;if(n===bu)return r.COMPRESSED_RGB_PVRTC_2BPPV1_IMG;if(n===Su)return r.COMPRESSED_RGBA_PVRTC_4BPPV1_IMG;if(n===Mu)return r.COMPRESSED_RGBA_PVRTC_2BPPV1_IMG}else return null;if(n===wu||n===Tu||n===Eu||n===Au||n===Ru||n===Kl||n===Cu)if(r=t.get("WEBGL_compressed_texture_etc"),r!==null){if(n===wu||n===Tu)return o===Le?r.COMPRESSED_SRGB8_ETC2:r.COMPRESSED_RGB8_ETC2;if(n===Eu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ETC2_EAC:r.COMPRESSED_RGBA8_ETC2_EAC;if(n===Au)return r.COMPRESSED_R11_EAC;if(n===Ru)return r.COMPRESSED_SIGNED_R11_EAC;if(n===Kl)return r.COMPRESSED_RG11_EAC;if(n===Cu)return r.COMPRESSED_SIGNED_RG11_EAC}else return null;if(n===Pu||n===Lu||n===Iu||n===Nu||n===Du||n===Fu||n===Uu||n===Ou||n===Bu||n===ku||n===zu||n===Vu||n===Gu||n===Hu)if(r=t.get("WEBGL_compressed_texture_astc"),r!==null){if(n===Pu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_4x4_KHR:r.COMPRESSED_RGBA_ASTC_4x4_KHR;if(n===Lu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_5x4_KHR:r.COMPRESSED_RGBA_ASTC_5x4_KHR;if(n===Iu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_5x5_KHR:r.COMPRESSED_RGBA_ASTC_5x5_KHR;if(n===Nu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_6x5_KHR:r.COMPRESSED_RGBA_ASTC_6x5_KHR;if(n===Du)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_6x6_KHR:r.COMPRESSED_RGBA_ASTC_6x6_KHR;if(n===Fu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x5_KHR:r.COMPRESSED_RGBA_ASTC_8x5_KHR;if(n===Uu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x6_KHR:r.COMPRESSED_RGBA_ASTC_8x6_KHR;if(n===Ou)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x8_KHR:r.COMPRESSED_RGBA_ASTC_8x8_KHR;if(n===Bu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x5_KHR:r.COMPRESSED_RGBA_ASTC_10x5_KHR;if(n===ku)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x6_KHR:r.COMPRESSED_RGBA_ASTC_10x6_KHR;if(n===zu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x8_KHR:r.COMPRESSED_RGBA_ASTC_10x8_KHR;if(n===Vu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x10_KHR:r.COMPRESSED_RGBA_ASTC_10x10_KHR;if(n===Gu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_12x10_KHR:r.COMPRESSED_RGBA_ASTC_12x10_KHR;if(n===Hu)return o===Le?r.COMPRESSED_SRGB8_ALPHA8_ASTC_12x12_KHR:r.COMPRESSED_RGBA_ASTC_12x12_KHR}else return null;if(n===Wu||n===Xu||n===qu)if(r=t.get("EXT_texture_compression_bptc"),r!==null){if(n===Wu)return o===Le?r.COMPRESSED_SRGB_ALPHA_BPTC_UNORM_EXT:r.COMPRESSED_RGBA_BPTC_UNORM_EXT;if(n===Xu)return r.COMPRESSED_RGB_BPTC_SIGNED_FLOAT_EXT;if(n===qu)return r.COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT_EXT}else return null;if(n===Yu||n===ju||n===Ql||n===Ju)if(r=t.get("EXT_texture_compression_rgtc"),r!==null){if(n===Yu)return r.COMPRESSED_RED_RGTC1_EXT;if(n===ju)return r.COMPRESSED_SIGNED_RED_RGTC1_EXT;if(n===Ql)return r.COMPRESSED_RED_GREEN_RGTC2_EXT;if(n===Ju)return r.COMPRESSED_SIGNED_RED_GREEN_RGTC2_EXT}else return null;return n===po?s.UNSIGNED_INT_24_8:s[n]!==void 0?s[n]:null}return{convert:e}}var jR=`
+void main() {
+
+	gl_Position = vec4( position, 1.0 );
+
+}`,JR=`
+uniform sampler2DArray depthColor;
+uniform float depthWidth;
+uniform float depthHeight;
+
+void main() {
+
+	vec2 coord = vec2( gl_FragCoord.x / depthWidth, gl_FragCoord.y / depthHeight );
+
+	if ( coord.x >= 1.0 ) {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x - 1.0, coord.y, 1 ) ).r;
+
+	} else {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x, coord.y, 0 ) ).r;
+
+	}
+
+}`,xm=class{constructor(){this.texture=null,this.mesh=null,this.depthNear=0,this.depthFar=0}init(t,e){if(this.texture===null){let n=new Rl(t.texture);(t.depthNear!==e.depthNear||t.depthFar!==e.depthFar)&&(this.depthNear=t.depthNear,this.depthFar=t.depthFar),this.texture=n}}getMesh(t){if(this.texture!==null&&this.mesh===null){let e=t.cameras[0].viewport,n=new _i({vertexShader:jR,fragmentShader:JR,uniforms:{depthColor:{value:this.texture},depthWidth:{value:e.z},depthHeight:{value:e.w}}});this.mesh=new ue(new ls(20,20),n)}return this.mesh}reset(){this.texture=null,this.mesh=null}getDepthTexture(){return this.texture}},vm=class extends as{constructor(t,e){super();let n=this,i=null,r=1,o=null,a="local-floor",l=1,c=null,h=null,u=null,d=null,f=null,p=null,y=typeof XRWebGLBinding<"u",m=new xm,g={},_=e.getContextAttributes(),w=null,v=null,E=[],S=[],x=new Xt,M=null,L=null,P=new bn;P.viewport=new be;let C=new bn;C.viewport=new be;let F=[P,C],B=new cu,N=null,W=null;this.cameraAutoUpdate=!0,this.enabled=!1,this.isPresenting=!1,this.getController=function(Y){let rt=E[Y];return rt===void 0&&(rt=new da,E[Y]=rt),rt.getTargetRaySpace()},this.getControllerGrip=function(Y){let rt=E[Y];return rt===void 0&&(rt=new da,E[Y]=rt),rt.getGripSpace()},this.getHand=function(Y){let rt=E[Y];return rt===void 0&&(rt=new da,E[Y]=rt),rt.getHandSpace()};function k(Y){let rt=S.indexOf(Y.inputSource);if(rt===-1)return;let nt=E[rt];nt!==void 0&&(nt.update(Y.inputSource,Y.frame,c||o),nt.dispatchEvent({type:Y.type,data:Y.inputSource}))}function H(){i.removeEventListener("select",k),i.removeEventListener("selectstart",k),i.removeEventListener("selectend",k),i.removeEventListener("squeeze",k),i.removeEventListener("squeezestart",k),i.removeEventListener("squeezeend",k),i.removeEventListener("end",H),i.removeEventListener("inputsourceschange",it);for(let Y=0;Y<E.length;Y++){let rt=S[Y];rt!==null&&(S[Y]=null,E[Y].disconnect(rt))}N=null,W=null,m.reset();for(let Y in g)delete g[Y];if(t.setRenderTarget(w),f=null,d=null,u=null,i=null,v=null,st.stop(),n.isPresenting=!1,t.setPixelRatio(M),t.setSize(x.width,x.height,!1),L!==null){let Y=L.camera;Y.fov=L.fov,Y.zoom=L.zoom,Y.updateProjectionMatrix(),L=null}n.dispatchEvent({type:"sessionend"})}this.setFramebufferScaleFactor=function(Y){r=Y,n.isPresenting===!0&&jt("WebXRManager: Cannot change framebuffer scale while presenting.")},this.setReferenceSpaceType=function(Y){a=Y,n.isPresenting===!0&&jt("WebXRManager: Cannot change reference space type while presenting.")},this.getReferenceSpace=function(){return c||o},this.setReferenceSpace=function(Y){c=Y},this.getBaseLayer=function(){return d!==null?d:f},this.getBinding=function(){return u===null&&y&&(u=new XRWebGLBinding(i,e)),u},this.getFrame=function(){return p},this.getSession=function(){return i},this.setSession=async function(Y){if(i=Y,i!==null){if(w=t.getRenderTarget(),i.addEventListener("select",k),i.addEventListener("selectstart",k),i.addEventListener("selectend",k),i.addEventListener("squeeze",k),i.addEventListener("squeezestart",k),i.addEventListener("squeezeend",k),i.addEventListener("end",H),i.addEventListener("inputsourceschange",it),_.xrCompatible!==!0&&await e.makeXRCompatible(),M=t.getPixelRatio(),t.getSize(x),y&&"createProjectionLayer"in XRWebGLBinding.prototype){let nt=null,lt=null,gt=null;_.depth&&(gt=_.stencil?e.DEPTH24_STENCIL8:e.DEPTH_COMPONENT24,nt=_.stencil?er:js,lt=_.stencil?po:cs);let Ot={colorFormat:e.RGBA8,depthFormat:gt,scaleFactor:r};u=this.getBinding(),d=u.createProjectionLayer(Ot),i.updateRenderState({layers:[d]}),t.setPixelRatio(1),t.setSize(d.textureWidth,d.textureHeight,!1),v=new Fi(d.textureWidth,d.textureHeight,{format:Yi,type:vi,depthTexture:new $s(d.textureWidth,d.textureHeight,lt,void 0,void 0,void 0,void 0,void 0,void 0,nt),stencilBuffer:_.stencil,colorSpace:t.outputColorSpace,samples:_.antialias?4:0,resolveDepthBuffer:d.ignoreDepthValues===!1,resolveStencilBuffer:d.ignoreDepthValues===!1,storeMultisampledDepthBuffer:d.ignoreDepthValues===!1,storeMultisampledStencilBuffer:d.ignoreDepthValues===!1})}else{let nt={antialias:_.antialias,alpha:!0,depth:_.depth,stencil:_.stencil,framebufferScaleFactor:r};f=new XRWebGLLayer(i,e,nt),i.updateRenderState({baseLayer:f}),t.setPixelRatio(1),t.setSize(f.framebufferWidth,f.framebufferHeight,!1),v=new Fi(f.framebufferWidth,f.framebufferHeight,{format:Yi,type:vi,colorSpace:t.outputColorSpace,stencilBuffer:_.stencil,resolveDepthBuffer:f.ignoreDepthValues===!1,resolveStencilBuffer:f.ignoreDepthValues===!1,storeMultisampledDepthBuffer:f.ignoreDepthValues===!1,storeMultisampledStencilBuffer:f.ignoreDepthValues===!1})}v.isXRRenderTarget=!0,this.setFoveation(l),c=null,o=await i.requestReferenceSpace(a),st.setContext(i),st.start(),n.isPresenting=!0,n.dispatchEvent({type:"sessionstart"})}},this.getEnvironmentBlendMode=function(){if(i!==null)return i.environmentBlendMode},this.getDepthTexture=function(){return m.getDepthTexture()};function it(Y){for(let rt=0;rt<Y.removed.length;rt++){let nt=Y.removed[rt],lt=S.indexOf(nt);lt>=0&&(S[lt]=null,E[lt].disconnect(nt))}for(let rt=0;rt<Y.added.length;rt++){let nt=Y.added[rt],lt=S.indexOf(nt);if(lt===-1){for(let Ot=0;Ot<E.length;Ot++)if(Ot>=S.length){S.push(nt),lt=Ot;break}else if(S[Ot]===null){S[Ot]=nt,lt=Ot;break}if(lt===-1)break}let gt=E[lt];gt&&gt.connect(nt)}}function j(Y,rt){rt===null?Y.matrixWorld.copy(Y.matrix):Y.matrixWorld.multiplyMatrices(rt.matrixWorld,Y.matrix),Y.matrixWorldInverse.copy(Y.matrixWorld).invert()}this.updateCamera=function(Y){if(i===null)return;let rt=Y.near,nt=Y.far;m.texture!==null&&(m.depthNear>0&&(rt=m.depthNear),m.depthFar>0&&(nt=m.depthFar)),B.near=C.near=P.near=rt,B.far=C.far=P.far=nt,(N!==B.near||W!==B.far)&&(i.updateRenderState({depthNear:B.near,depthFar:B.far}),N=B.near,W=B.far),B.layers.mask=Y.layers.mask|6,P.layers.mask=B.layers.mask&-5,C.layers.mask=B.layers.mask&-3;let lt=Y.parent,gt=B.cameras;j(B,lt);for(let Ot=0;Ot<gt.length;Ot++)j(gt[Ot],lt);B.projectionMatrix.copy(P.projectionMatrix),B.projectionMatrixInverse.copy(P.projectionMatrixInverse),L===null&&Y.isPerspectiveCamera&&(L={camera:Y,fov:Y.fov,zoom:Y.zoom}),Z(Y,B,lt)};function Z(Y,rt,nt){nt===null?Y.matrix.copy(rt.matrixWorld):(Y.matrix.copy(nt.matrixWorld),Y.matrix.invert(),Y.matrix.multiply(rt.matrixWorld)),Y.matrix.decompose(Y.position,Y.quaternion,Y.scale),Y.updateMatrixWorld(!0),Y.projectionMatrix.copy(rt.projectionMatrix),Y.projectionMatrixInverse.copy(rt.projectionMatrixInverse),Y.isPerspectiveCamera&&(Y.fov=Qr*2*Math.atan(1/Y.projectionMatrix.elements[5]),Y.zoom=1)}this.getCamera=function(){return B},this.getFoveation=function(){if(!(d===null&&f===null))return l},this.setFoveation=function(Y){l=Y,d!==null&&(d.fixedFoveation=Y),f!==null&&f.fixedFoveation!==void 0&&(f.fixedFoveation=Y)},this.hasDepthSensing=function(){return m.texture!==null},this.getDepthSensingMesh=function(){return m.getMesh(B)},this.getCameraTexture=function(Y){return g[Y]};let tt=null;function ht(Y,rt){if(h=rt.getViewerPose(c||o),p=rt,h!==null){let nt=h.views;f!==null&&(t.setRenderTargetFramebuffer(v,f.framebuffer),t.setRenderTarget(v));let lt=!1;nt.length!==B.cameras.length&&(B.cameras.length=0,lt=!0);for(let zt=0;zt<nt.length;zt++){let me=nt[zt],de=null;if(f!==null)de=f.getViewport(me);else{let $e=u.getViewSubImage(d,me);de=$e.viewport,zt===0&&(t.setRenderTargetTextures(v,$e.colorTexture,$e.depthStencilTexture),t.setRenderTarget(v))}let re=F[zt];re===void 0&&(re=new bn,re.layers.enable(zt),re.viewport=new be,F[zt]=re),re.matrix.fromArray(me.transform.matrix),re.matrix.decompose(re.position,re.quaternion,re.scale),re.projectionMatrix.fromArray(me.projectionMatrix),re.projectionMatrixInverse.copy(re.projectionMatrix).invert(),re.viewport.set(de.x,de.y,de.width,de.height),zt===0&&(B.matrix.copy(re.matrix),B.matrix.decompose(B.position,B.quaternion,B.scale)),lt===!0&&B.cameras.push(re)}let gt=i.enabledFeatures;if(gt&&gt.includes("depth-sensing")&&i.depthUsage=="gpu-optimized"&&y){u=n.getBinding();let zt=u.getDepthInformation(nt[0]);zt&&zt.isValid&&zt.texture&&m.init(zt,i.renderState)}if(gt&&gt.includes("camera-access")&&y){t.state.unbindTexture(),u=n.getBinding();for(let zt=0;zt<nt.length;zt++){let me=nt[zt].camera;if(me){let de=g[me];de||(de=new Rl,g[me]=de);let re=u.getCameraImage(me);de.sourceTexture=re}}}}for(let nt=0;nt<E.length;nt++){let lt=S[nt],gt=E[nt];lt!==null&&gt!==void 0&&gt.update(lt,rt,c||o)}tt&&tt(Y,rt),rt.detectedPlanes&&n.dispatchEvent({type:"planesdetected",data:rt}),p=null}let st=new Px;st.setAnimationLoop(ht),this.setAnimationLoop=function(Y){tt=Y},this.dispose=function(){}}},$R=new Nt,zx=new se;zx.set(-1,0,0,0,1,0,0,0,1);function ZR(s,t){function e(m,g){m.matrixAutoUpdate===!0&&m.updateMatrix(),g.value.copy(m.matrix)}function n(m,g){g.color.getRGB(m.fogColor.value,am(s)),g.isFog?(m.fogNear.value=g.near,m.fogFar.value=g.far):g.isFogExp2&&(m.fogDensity.value=g.density)}function i(m,g,_,w,v){g.isNodeMaterial?g.uniformsNeedUpdate=!1:g.isMeshBasicMaterial?r(m,g):g.isMeshLambertMaterial?(r(m,g),g.envMap&&(m.envMapIntensity.value=g.envMapIntensity)):g.isMeshToonMaterial?(r(m,g),u(m,g)):g.isMeshPhongMaterial?(r(m,g),h(m,g),g.envMap&&(m.envMapIntensity.value=g.envMapIntensity)):g.isMeshStandardMaterial?(r(m,g),d(m,g),g.isMeshPhysicalMaterial&&f(m,g,v)):g.isMeshMatcapMaterial?(r(m,g),p(m,g)):g.isMeshDepthMaterial?r(m,g):g.isMeshDistanceMaterial?(r(m,g),y(m,g)):g.isMeshNormalMaterial?r(m,g):g.isLineBasicMaterial?(o(m,g),g.isLineDashedMaterial&&a(m,g)):g.isPointsMaterial?l(m,g,_,w):g.isSpriteMaterial?c(m,g):g.isShadowMaterial?(m.color.value.copy(g.color),m.opacity.value=g.opacity):g.isShaderMaterial&&(g.uniformsNeedUpdate=!1)}function r(m,g){m.opacity.value=g.opacity,g.color&&m.diffuse.value.copy(g.color),g.emissive&&m.emissive.value.copy(g.emissive).multiplyScalar(g.emissiveIntensity),g.map&&(m.map.value=g.map,e(g.map,m.mapTransform)),g.alphaMap&&(m.alphaMap.value=g.alphaMap,e(g.alphaMap,m.alphaMapTransform)),g.bumpMap&&(m.bumpMap.value=g.bumpMap,e(g.bumpMap,m.bumpMapTransform),m.bumpScale.value=g.bumpScale,g.side===Wn&&(m.bumpScale.value*=-1)),g.normalMap&&(m.normalMap.value=g.normalMap,e(g.normalMap,m.normalMapTransform),m.normalScale.value.copy(g.normalScale),g.side===Wn&&m.normalScale.value.negate()),g.displacementMap&&(m.displacementMap.value=g.displacementMap,e(g.displacementMap,m.displacementMapTransform),m.displacementScale.value=g.displacementScale,m.displacementBias.value=g.displacementBias),g.emissiveMap&&(m.emissiveMap.value=g.emissiveMap,e(g.emissiveMap,m.emissiveMapTransform)),g.specularMap&&(m.specularMap.value=g.specularMap,e(g.specularMap,m.specularMapTransform)),g.alphaTest>0&&(m.alphaTest.value=g.alphaTest);let _=t.get(g),w=_.envMap,v=_.envMapRotation;w&&(m.envMap.value=w,m.envMapRotation.value.setFromMatrix4($R.makeRotationFromEuler(v)).transpose(),w.isCubeTexture&&w.isRenderTargetTexture===!1&&m.envMapRotation.value.premultiply(zx),m.reflectivity.value=g.reflectivity,m.ior.value=g.ior,m.refractionRatio.value=g.refractionRatio),g.lightMap&&(m.lightMap.value=g.lightMap,m.lightMapIntensity.value=g.lightMapIntensity,e(g.lightMap,m.lightMapTransform)),g.aoMap&&(m.aoMap.value=g.aoMap,m.aoMapIntensity.value=g.aoMapIntensity,e(g.aoMap,m.aoMapTransform))}function o(m,g){m.diffuse.value.copy(g.color),m.opacity.value=g.opacity,g.map&&(m.map.value=g.map,e(g.map,m.mapTransform))}function a(m,g){m.dashSize.value=g.dashSize,m.totalSize.value=g.dashSize+g.gapSize,m.scale.value=g.scale}function l(m,g,_,w){m.diffuse.value.copy(g.color),m.opacity.value=g.opacity,m.size.value=g.size*_,m.scale.value=w*.5,g.map&&(m.map.value=g.map,e(g.map,m.uvTransform)),g.alphaMap&&(m.alphaMap.value=g.alphaMap,e(g.alphaMap,m.alphaMapTransform)),g.alphaTest>0&&(m.alphaTest.value=g.alphaTest)}function c(m,g){m.diffuse.value.copy(g.color),m.opacity.value=g.opacity,m.rotation.value=g.rotation,g.map&&(m.map.value=g.map,e(g.map,m.mapTransform)),g.alphaMap&&(m.alphaMap.value=g.alphaMap,e(g.alphaMap,m.alphaMapTransform)),g.alphaTest>0&&(m.alphaTest.value=g.alphaTest)}function h(m,g){m.specular.value.copy(g.specular),m.shininess.value=Math.max(g.shininess,1e-4)}function u(m,g){g.gradientMap&&(m.gradientMap.value=g.gradientMap)}function d(m,g){m.metalness.value=g.metalness,g.metalnessMap&&(m.metalnessMap.value=g.metalnessMap,e(g.metalnessMap,m.metalnessMapTransform)),m.roughness.value=g.roughness,g.roughnessMap&&(m.roughnessMap.value=g.roughnessMap,e(g.roughnessMap,m.roughnessMapTransform)),g.envMap&&(m.envMapIntensity.value=g.envMapIntensity)}function f(m,g,_){m.ior.value=g.ior,g.diffuseRoughness>0&&(m.diffuseRoughness.value=g.diffuseRoughness,g.diffuseRoughnessMap&&(m.diffuseRoughnessMap.value=g.diffuseRoughnessMap,e(g.diffuseRoughnessMap,m.diffuseRoughnessMapTransform))),g.sheen>0&&(m.sheenColor.value.copy(g.sheenColor).multiplyScalar(g.sheen),m.sheenRoughness.value=g.sheenRoughness,g.sheenColorMap&&(m.sheenColorMap.value=g.sheenColorMap,e(g.sheenColorMap,m.sheenColorMapTransform)),g.sheenRoughnessMap&&(m.sheenRoughnessMap.value=g.sheenRoughnessMap,e(g.sheenRoughnessMap,m.sheenRoughnessMapTransform))),g.clearcoat>0&&(m.clearcoat.value=g.clearcoat,m.clearcoatRoughness.value=g.clearcoatRoughness,g.clearcoatMap&&(m.clearcoatMap.value=g.clearcoatMap,e(g.clearcoatMap,m.clearcoatMapTransform)),g.clearcoatRoughnessMap&&(m.clearcoatRoughnessMap.value=g.clearcoatRoughnessMap,e(g.clearcoatRoughnessMap,m.clearcoatRoughnessMapTransform)),g.clearcoatNormalMap&&(m.clearcoatNormalMap.value=g.clearcoatNormalMap,e(g.clearcoatNormalMap,m.clearcoatNormalMapTransform),m.clearcoatNormalScale.value.copy(g.clearcoatNormalScale),g.side===Wn&&m.clearcoatNormalScale.value.negate())),g.dispersion>0&&(m.dispersion.value=g.dispersion),g.retroreflectivity>0&&(m.retroreflectivity.value=g.retroreflectivity),g.iridescence>0&&(m.iridescence.value=g.iridescence,m.iridescenceIOR.value=g.iridescenceIOR,m.iridescenceThicknessMinimum.value=g.iridescenceThicknessMinimum,m.iridescenceThicknessMaximum.value=g.iridescenceThicknessMaximum,g.iridescenceMap&&(m.iridescenceMap.value=g.iridescenceMap,e(g.iridescenceMap,m.iridescenceMapTransform)),g.iridescenceThicknessMap&&(m.iridescenceThicknessMap.value=g.iridescenceThicknessMap,e(g.iridescenceThicknessMap,m.iridescenceThicknessMapTransform))),g.transmission>0&&(m.transmission.value=g.transmission,m.transmissionSamplerMap.value=_.texture,m.transmissionSamplerSize.value.set(_.width,_.height),g.transmissionMap&&(m.transmissionMap.value=g.transmissionMap,e(g.transmissionMap,m.transmissionMapTransform)),m.thickness.value=g.thickness,g.thicknessMap&&(m.thicknessMap.value=g.thicknessMap,e(g.thicknessMap,m.thicknessMapTransform)),m.attenuationDistance.value=g.attenuationDistance,m.attenuationColor.value.copy(g.attenuationColor)),g.anisotropy>0&&(m.anisotropyVector.value.set(g.anisotropy*Math.cos(g.anisotropyRotation),g.anisotropy*Math.sin(g.anisotropyRotation)),g.anisotropyMap&&(m.anisotropyMap.value=g.anisotropyMap,e(g.anisotropyMap,m.anisotropyMapTransform))),m.specularIntensity.value=g.specularIntensity,m.specularColor.value.copy(g.specularColor),g.specularColorMap&&(m.specularColorMap.value=g.specularColorMap,e(g.specularColorMap,m.specularColorMapTransform)),g.specularIntensityMap&&(m.specularIntensityMap.value=g.specularIntensityMap,e(g.specularIntensityMap,m.specularIntensityMapTransform))}function p(m,g){g.matcap&&(m.matcap.value=g.matcap)}function y(m,g){let _=t.get(g).light;m.referencePosition.value.setFromMatrixPosition(_.matrixWorld),m.nearDistance.value=_.shadow.camera.near,m.farDistance.value=_.shadow.camera.far}return{refreshFogUniforms:n,refreshMaterialUniforms:i}}function KR(s,t,e,n){let i={},r={};function o(_,w){let v=w.program;n.uniformBlockBinding(_,v,i[_.id])}function a(_,w){let v=i[_.id];v===void 0&&(p(_),v=l(_),i[_.id]=v,_.addEventListener("dispose",m));let E=w.program;n.updateUBOMapping(_,E);let S=t.render.frame;r[_.id]!==S&&(c(_),r[_.id]=S)}function l(_){let w=s.createBuffer(),v=_.__size,E=_.usage;return s.bindBuffer(s.UNIFORM_BUFFER,w),s.bufferData(s.UNIFORM_BUFFER,v,E),s.bindBuffer(s.UNIFORM_BUFFER,null),w}function c(_){let w=i[_.id],v=_.uniforms,E=_.__cache;s.bindBuffer(s.UNIFORM_BUFFER,w);for(let S=0,x=v.length;S<x;S++){let M=v[S];if(Array.isArray(M))for(let L=0,P=M.length;L<P;L++)h(M[L],S,L,E);else h(M,S,0,E)}s.bindBuffer(s.UNIFORM_BUFFER,null)}function h(_,w,v,E){if(d(_,w,v,E)===!0){let S=_.__offset,x=_.value;if(Array.isArray(x)){let M=0;for(let L=0;L<x.length;L++){let P=x[L],C=y(P,!0);u(P,_.__data,M),M+=C.storage/Float32Array.BYTES_PER_ELEMENT}}else u(x,_.__data,0);s.bufferSubData(s.UNIFORM_BUFFER,S,_.__data)}}function u(_,w,v){typeof _=="number"||typeof _=="boolean"?w[v]=_:_.isMatrix3?(w[v]=_.elements[0],w[v+1]=_.elements[1],w[v+2]=_.elements[2],w[v+3]=0,w[v+4]=_.elements[3],w[v+5]=_.elements[4],w[v+6]=_.elements[5],w[v+7]=0,w[v+8]=_.elements[6],w[v+9]=_.elements[7],w[v+10]=_.elements[8],w[v+11]=0):ArrayBuffer.isView(_)?w.set(_.subarray(0,w.length-v),v):_.toArray(w,v)}function d(_,w,v,E){let S=_.value,x=w+"_"+v;if(Array.isArray(S)){E[x]===void 0&&(E[x]=[]);let M=E[x],L=!1;for(let P=0;P<S.length;P++)f(S[P],M,P)===!0&&(L=!0);return L}return f(S,E,x)}function f(_,w,v){if(w[v]===void 0)return typeof _=="number"||typeof _=="boolean"?w[v]=_:ArrayBuffer.isView(_)?w[v]=_.slice():w[v]=_.clone(),!0;{let E=w[v];if(typeof _=="number"||typeof _=="boolean"){if(E!==_)return w[v]=_,!0}else{if(ArrayBuffer.isView(_))return!0;if(E.equals(_)===!1)return E.copy(_),!0}}return!1}function p(_){let w=_.uniforms,v=0,E=16;for(let x=0,M=w.length;x<M;x++){let L=Array.isArray(w[x])?w[x]:[w[x]];for(let P=0,C=L.length;P<C;P++){let F=L[P],B=Array.isArray(F.value)?F.value:[F.value],N=Array.isArray(w[x])||Array.isArray(F.value),W=v;for(let H=0,it=B.length;H<it;H++){let j=B[H],Z=y(j,N),tt=v%E,ht=tt%Z.boundary,st=tt+ht;v+=ht,st!==0&&E-st<Z.storage&&(v+=E-st),H===0&&(W=v),v+=Z.storage}let k=F.type==="int"?Int32Array:F.type==="uint"?Uint32Array:Float32Array;F.__data=new k((v-W)/Float32Array.BYTES_PER_ELEMENT),F.__offset=W}}let S=v%E;return S>0&&(v+=E-S),_.__size=v,_.__cache={},this}function y(_,w){let v={boundary:0,storage:0};return typeof _=="number"||typeof _=="boolean"?(v.boundary=4,v.storage=4):_.isVector2?(v.boundary=8,v.storage=8):_.isVector3||_.isColor?(v.boundary=16,v.storage=12):_.isVector4?(v.boundary=16,v.storage=16):_.isMatrix3?(v.boundary=16,v.storage=48):_.isMatrix4?(v.boundary=16,v.storage=64):_.isTexture?jt("WebGLRenderer: Texture samplers can not be part of an uniforms group."):ArrayBuffer.isView(_)?(v.boundary=16,v.storage=_.byteLength):jt("WebGLRenderer: Unsupported uniform value type.",_),w===!0&&(v.boundary=16,v.storage=Math.ceil(v.storage/16)*16),v}function m(_){let w=_.target;w.removeEventListener("dispose",m),s.deleteBuffer(i[w.id]),delete i[w.id],delete r[w.id]}function g(){for(let _ in i)s.deleteBuffer(i[_]);i={},r={}}return{bind:o,update:a,dispose:g}}var QR=new Uint16Array([12469,15057,12620,14925,13266,14620,13807,14376,14323,13990,14545,13625,14713,13328,14840,12882,14931,12528,14996,12233,15039,11829,15066,11525,15080,11295,15085,10976,15082,10705,15073,10495,13880,14564,13898,14542,13977,14430,14158,14124,14393,13732,14556,13410,14702,12996,14814,12596,14891,12291,14937,11834,14957,11489,14958,11194,14943,10803,14921,10506,14893,10278,14858,9960,14484,14039,14487,14025,14499,13941,14524,13740,14574,13468,14654,13106,14743,12678,14818,12344,14867,11893,14889,11509,14893,11180,14881,10751,14852,10428,14812,10128,14765,9754,14712,9466,14764,13480,14764,13475,14766,13440,14766,13347,14769,13070,14786,12713,14816,12387,14844,11957,14860,11549,14868,11215,14855,10751,14825,10403,14782,10044,14729,9651,14666,9352,14599,9029,14967,12835,14966,12831,14963,12804,14954,12723,14936,12564,14917,12347,14900,11958,14886,11569,14878,11247,14859,10765,14828,10401,14784,10011,14727,9600,14660,9289,14586,8893,14508,8533,15111,12234,15110,12234,15104,12216,15092,12156,15067,12010,15028,11776,14981,11500,14942,11205,14902,10752,14861,10393,14812,9991,14752,9570,14682,9252,14603,8808,14519,8445,14431,8145,15209,11449,15208,11451,15202,11451,15190,11438,15163,11384,15117,11274,15055,10979,14994,10648,14932,10343,14871,9936,14803,9532,14729,9218,14645,8742,14556,8381,14461,8020,14365,7603,15273,10603,15272,10607,15267,10619,15256,10631,15231,10614,15182,10535,15118,10389,15042,10167,14963,9787,14883,9447,14800,9115,14710,8665,14615,8318,14514,7911,14411,7507,14279,7198,15314,9675,15313,9683,15309,9712,15298,9759,15277,9797,15229,9773,15166,9668,15084,9487,14995,9274,14898,8910,14800,8539,14697,8234,14590,7790,14479,7409,14367,7067,14178,6621,15337,8619,15337,8631,15333,8677,15325,8769,15305,8871,15264,8940,15202,8909,15119,8775,15022,8565,14916,8328,14804,8009,14688,7614,14569,7287,14448,6888,14321,6483,14088,6171,15350,7402,15350,7419,15347,7480,15340,7613,15322,7804,15287,7973,15229,8057,15148,8012,15046,7846,14933,7611,14810,7357,14682,7069,14552,6656,14421,6316,14251,5948,14007,5528,15356,5942,15356,5977,15353,6119,15348,6294,15332,6551,15302,6824,15249,7044,15171,7122,15070,7050,14949,6861,14818,6611,14679,6349,14538,6067,14398,5651,14189,5311,13935,4958,15359,4123,15359,4153,15356,4296,15353,4646,15338,5160,15311,5508,15263,5829,15188,6042,15088,6094,14966,6001,14826,5796,14678,5543,14527,5287,14377,4985,14133,4586,13869,4257,15360,1563,15360,1642,15358,2076,15354,2636,15341,3350,15317,4019,15273,4429,15203,4732,15105,4911,14981,4932,14836,4818,14679,4621,14517,4386,14359,4156,14083,3795,13808,3437,15360,122,15360,137,15358,285,15355,636,15344,1274,15322,2177,15281,2765,15215,3223,15120,3451,14995,3569,14846,3567,14681,3466,14511,3305,14344,3121,14037,2800,13753,2467,15360,0,15360,1,15359,21,15355,89,15346,253,15325,479,15287,796,15225,1148,15133,1492,15008,1749,14856,1882,14685,1886,14506,1783,14324,1608,13996,1398,13702,1183]),Rs=null;function tC(){return Rs===null&&(Rs=new vr(QR,16,16,Tr,hs),Rs.name="DFG_LUT",Rs.minFilter=On,Rs.magFilter=On,Rs.wrapS=hi,Rs.wrapT=hi,Rs.generateMipmaps=!1,Rs.needsUpdate=!0),Rs}var ed=class{constructor(t={}){let{canvas:e=Q_(),context:n=null,depth:i=!0,stencil:r=!1,alpha:o=!1,antialias:a=!1,premultipliedAlpha:l=!0,preserveDrawingBuffer:c=!1,powerPreference:h="default",failIfMajorPerformanceCaveat:u=!1,reversedDepthBuffer:d=!1,outputBufferType:f=vi}=t;this.isWebGLRenderer=!0;let p;if(n!==null){if(typeof WebGLRenderingContext<"u"&&n instanceof WebGLRenderingContext)throw new Error("THREE.WebGLRenderer: WebGL 1 is not supported since r163.");p=n.getContextAttributes().alpha}else p=o;let y=f,m=new Set([xu,_u,yu]),g=new Set([vi,cs,Ea,po,pu,mu]),_=new Uint32Array(4),w=new Int32Array(4),v={textures:[],min:[],max:[],resolution:[]},E=null,S=null,x=[],M=[],L=null;this.domElement=e,this.debug={checkShaderErrors:!0,diagnostics:{keywords:!1},onShaderError:null},this.autoClear=!0,this.autoClearColor=!0,this.autoClearDepth=!0,this.autoClearStencil=!0,this.sortObjects=!0,this.clippingPlanes=[],this.localClippingEnabled=!1,this.toneMapping=Es,this.toneMappingExposure=1,this.transmissionResolutionScale=1;let P=this,C=!1,F=null,B=null,N=null,W=null;this._outputColorSpace=we;let k=0,H=0,it=null,j=-1,Z=null,tt=new be,ht=new be,st=null,Y=new Dt(0),rt=0,nt=e.width,lt=e.height,gt=1,Ot=null,Zt=null,zt=new be(0,0,nt,lt),me=new be(0,0,nt,lt),de=!1,re=new br,$e=new Zh,Ve=!1,dn=!1,Ue=new Nt,Pn=new O,Se=new be,Sn={background:null,fog:null,environment:null,overrideMaterial:null,isScene:!0},sn=!1;function fn(){return it===null?gt:1}let G=n;function Ct(R,X){return e.getContext(R,X)}let Kt,ae,wt,Be,Wt,$t,I,T,J,mt,dt,vt,bt,ot,ct,_t,V,ut,at,Tt,xt,Mt,qt;try{let R={alpha:!0,depth:i,stencil:r,antialias:a,premultipliedAlpha:l,preserveDrawingBuffer:c,powerPreference:h,failIfMajorPerformanceCaveat:u};if("setAttribute"in e&&e.setAttribute("data-engine",`three.js r${"187"}`),e.addEventListener("webglcontextlost",Vt,!1),e.addEventListener("webglcontextrestored",ne,!1),e.addEventListener("webglcontextcreationerror",Rt,!1),G===null){let X="webgl2";if(G=Ct(X,R),G===null)throw Ct(X)?new Error("THREE.WebGLRenderer: Error creating WebGL context with your selected attributes."):new Error("THREE.WebGLRenderer: Error creating WebGL context.")}ee()}catch(R){throw e.removeEventListener("webglcontextlost",Vt,!1),e.removeEventListener("webglcontextrestored",ne,!1),e.removeEventListener("webglcontextcreationerror",Rt,!1),te("WebGLRenderer: "+R.message),R}function ee(){Kt=new u1(G),Kt.init(),xt=new YR(G,Kt),ae=new t1(G,Kt,t,xt),wt=new XR(G,Kt),ae.reversedDepthBuffer&&d&&wt.buffers.depth.setReversed(!0),B=G.createFramebuffer(),N=G.createFramebuffer(),W=G.createFramebuffer(),Be=new p1(G),Wt=new LR,$t=new qR(G,Kt,wt,Wt,ae,xt,Be),I=new h1(P),T=new gT(G),Mt=new KA(G,T),J=new d1(G,T,Be,Mt),mt=new g1(G,J,T,Mt,Be),ut=new m1(G,ae,$t),ct=new e1(Wt),dt=new PR(P,I,Kt,ae,Mt,ct),vt=new ZR(P,Wt),bt=new NR,ot=new kR(Kt),V=new ZA(P,I,wt,mt,p,l),_t=new WR(P,mt,ae),qt=new KR(G,Be,ae,wt),at=new QA(G,Kt,Be),Tt=new f1(G,Kt,Be),Be.programs=dt.programs,P.capabilities=ae,P.extensions=Kt,P.properties=Wt,P.renderLists=bt,P.shadowMap=_t,P.state=wt,P.info=Be}y!==vi&&(L=new _1(y,e.width,e.height,a,i,r));let pt=new vm(P,G);this.xr=pt,this.getContext=function(){return G},this.getContextAttributes=function(){return G.getContextAttributes()},this.forceContextLoss=function(){let R=Kt.get("WEBGL_lose_context");R&&R.loseContext()},this.forceContextRestore=function(){let R=Kt.get("WEBGL_lose_context");R&&R.restoreContext()},this.getPixelRatio=function(){return gt},this.setPixelRatio=function(R){R!==void 0&&(gt=R,this.setSize(nt,lt,!1))},this.getSize=function(R){return R.set(nt,lt)},this.setSize=function(R,X,et=!0){if(pt.isPresenting){jt("WebGLRenderer: Can't change size while VR device is presenting.");return}nt=R,lt=X,e.width=Math.floor(R*gt),e.height=Math.floor(X*gt),et===!0&&(e.style.width=R+"px",e.style.height=X+"px"),L!==null&&L.setSize(e.width,e.height),this.setViewport(0,0,R,X)},this.getDrawingBufferSize=function(R){return R.set(nt*gt,lt*gt).floor()},this.setDrawingBufferSize=function(R,X,et){nt=R,lt=X,gt=et,e.width=Math.floor(R*et),e.height=Math.floor(X*et),this.setViewport(0,0,R,X)},this.setEffects=function(R){if(y===vi){te("WebGLRenderer: setEffects() requires outputBufferType set to HalfFloatType or FloatType.");return}if(R){for(let X=0;X<R.length;X++)if(R[X].isOutputPass===!0){jt("WebGLRenderer: OutputPass is not needed in setEffects(). Tone mapping and color space conversion are applied automatically.");break}}L.setEffects(R||[])},this.getCurrentViewport=function(R){return R.copy(tt)},this.getViewport=function(R){return R.copy(zt)},this.setViewport=function(R,X,et,$){R.isVector4?zt.set(R.x,R.y,R.z,R.w):zt.set(R,X,et,$),wt.viewport(tt.copy(zt).multiplyScalar(fn()).round())},this.getScissor=function(R){return R.copy(me)},this.setScissor=function(R,X,et,$){R.isVector4?me.set(R.x,R.y,R.z,R.w):me.set(R,X,et,$),wt.scissor(ht.copy(me).multiplyScalar(fn()).round())},this.getScissorTest=function(){return de},this.setScissorTest=function(R){wt.setScissorTest(de=R)},this.setOpaqueSort=function(R){Ot=R},this.setTransparentSort=function(R){Zt=R},this.getClearColor=function(R){return R.copy(V.getClearColor())},this.setClearColor=function(){V.setClearColor(...arguments)},this.getClearAlpha=function(){return V.getClearAlpha()},this.setClearAlpha=function(){V.setClearAlpha(...arguments)},this.clear=function(R=!0,X=!0,et=!0){let $=0;if(R){let K=!1;if(it!==null){let Et=it.texture.format;K=m.has(Et)}if(K){let Et=it.texture.type,Lt=g.has(Et),At=V.getClearColor(),It=V.getClearAlpha(),Ht=At.r,ie=At.g,ge=At.b;Lt?(_[0]=Ht,_[1]=ie,_[2]=ge,_[3]=It,G.clearBufferuiv(G.COLOR,0,_)):(w[0]=Ht,w[1]=ie,w[2]=ge,w[3]=It,G.clearBufferiv(G.COLOR,0,w))}else $|=G.COLOR_BUFFER_BIT}X&&($|=G.DEPTH_BUFFER_BIT,this.state.buffers.depth.setMask(!0)),et&&($|=G.STENCIL_BUFFER_BIT,this.state.buffers.stencil.setMask(4294967295)),$!==0&&G.clear($)},this.clearColor=function(){this.clear(!0,!1,!1)},this.clearDepth=function(){this.clear(!1,!0,!1)},this.clearStencil=function(){this.clear(!1,!1,!0)},this.setNodesHandler=function(R){R.setRenderer(this),F=R},this.dispose=function(){e.removeEventListener("webglcontextlost",Vt,!1),e.removeEventListener("webglcontextrestored",ne,!1),e.removeEventListener("webglcontextcreationerror",Rt,!1),V.dispose(),bt.dispose(),ot.dispose(),$t.dispose(),Wt.dispose(),I.dispose(),mt.dispose(),J.dispose(),Mt.dispose(),qt.dispose(),dt.dispose(),pt.dispose(),pt.removeEventListener("sessionstart",yc),pt.removeEventListener("sessionend",us),Is.stop()};function Vt(R){R.preventDefault(),yl("WebGLRenderer: Context Lost."),C=!0}function ne(){yl("WebGLRenderer: Context Restored."),C=!1;let R=Be.autoReset,X=_t.enabled,et=_t.autoUpdate,$=_t.needsUpdate,K=_t.type;ee(),Be.autoReset=R,_t.enabled=X,_t.autoUpdate=et,_t.needsUpdate=$,_t.type=K}function Rt(R){te("WebGLRenderer: A WebGL context could not be created. Reason: ",R.statusMessage)}function ce(R){let X=R.target;X.removeEventListener("dispose",ce),He(X)}function He(R){ii(R),Wt.remove(R)}function ii(R){let X=Wt.get(R).programs;X!==void 0&&(X.forEach(function(et){dt.releaseProgram(et)}),R.isShaderMaterial&&dt.releaseShaderCache(R))}this.renderBufferDirect=function(R,X,et,$,K,Et){X===null&&(X=Sn);let Lt=K.isMesh&&K.matrixWorld.determinantAffine()<0,At=ka(R,X,et,$,K);wt.setMaterial($,Lt);let It=et.index,Ht=1;if($.wireframe===!0){if(It=J.getWireframeAttribute(et),It===void 0)return;Ht=2}let ie=et.drawRange,ge=et.attributes.position,Gt=ie.start*Ht,ye=(ie.start+ie.count)*Ht;Et!==null&&(Gt=Math.max(Gt,Et.start*Ht),ye=Math.min(ye,(Et.start+Et.count)*Ht)),It!==null?(Gt=Math.max(Gt,0),ye=Math.min(ye,It.count)):ge!=null&&(Gt=Math.max(Gt,0),ye=Math.min(ye,ge.count));let Qe=ye-Gt;if(Qe<0||Qe===1/0)return;Mt.setup(K,$,At,et,It);let Ie,Ne=at;if(It!==null&&(Ie=T.get(It),Ne=Tt,Ne.setIndex(Ie)),K.isMesh)$.wireframe===!0?(wt.setLineWidth($.wireframeLinewidth*fn()),Ne.setMode(G.LINES)):Ne.setMode(G.TRIANGLES);else if(K.isLine){let Mn=$.linewidth;Mn===void 0&&(Mn=1),wt.setLineWidth(Mn*fn()),K.isLineSegments?Ne.setMode(G.LINES):K.isLineLoop?Ne.setMode(G.LINE_LOOP):Ne.setMode(G.LINE_STRIP)}else K.isPoints?Ne.setMode(G.POINTS):K.isSprite&&Ne.setMode(G.TRIANGLES);if(K.isBatchedMesh)if(Kt.get("WEBGL_multi_draw"))Ne.renderMultiDraw(K._multiDrawStarts,K._multiDrawCounts,K._multiDrawCount);else{let Mn=K._multiDrawStarts,Bt=K._multiDrawCounts,pn=K._multiDrawCount,xe=It?T.get(It).bytesPerElement:1,Ds=Wt.get($).currentProgram.getUniforms();for(let mn=0;mn<pn;mn++)Ds.setValue(G,"_gl_DrawID",mn),Ne.render(Mn[mn]/xe,Bt[mn])}else if(K.isInstancedMesh)Ne.renderInstances(Gt,Qe,K.count);else if(et.isInstancedBufferGeometry){let Mn=et._maxInstanceCount!==void 0?et._maxInstanceCount:1/0,Bt=Math.min(et.instanceCount,Mn);Ne.renderInstances(Gt,Qe,Bt)}else Ne.render(Gt,Qe)};function Ua(R,X,et,$){F!==null&&R.isNodeMaterial&&F.setObject($,R),Ve===!0&&ct.setState(R,et,!1),R.transparent===!0&&R.side===pi&&R.forceSinglePass===!1?(R.side=Wn,R.needsUpdate=!0,ds(R,X,$),R.side=Ts,R.needsUpdate=!0,ds(R,X,$),R.side=pi):ds(R,X,$)}this.compile=function(R,X,et=null){et===null&&(et=R),F!==null&&F.renderStart(R,X,et),S=ot.get(et),S.init(X),M.push(S),et.traverseVisible(function(K){K.isLight&&K.layers.test(X.layers)&&(S.pushLight(K),K.castShadow&&S.pushShadow(K))}),R!==et&&R.traverseVisible(function(K){K.isLight&&K.layers.test(X.layers)&&(S.pushLight(K),K.castShadow&&S.pushShadow(K))}),S.setupLights(),F!==null&&F.updateLights(S.state.lightsArray),dn=this.localClippingEnabled,Ve=ct.init(this.clippingPlanes,dn),Ve===!0&&ct.setGlobalState(this.clippingPlanes,X),F!==null&&_t.render(S.state.shadowsArray,et,X);let $=new Set;return R.traverse(function(K){if(!(K.isMesh||K.isPoints||K.isLine||K.isSprite))return;let Et=K.material;if(Et)if(Array.isArray(Et))for(let Lt=0;Lt<Et.length;Lt++){let At=Et[Lt];Ua(At,et,X,K),$.add(At)}else Ua(Et,et,X,K),$.add(Et)}),S=M.pop(),F!==null&&F.renderEnd(),$},this.compileAsync=function(R,X,et=null){let $=this.compile(R,X,et);return new Promise(K=>{function Et(){if($.forEach(function(Lt){let It=Wt.get(Lt).currentProgram;(It===void 0||It.isReady())&&$.delete(Lt)}),$.size===0){K(R);return}setTimeout(Et,10)}Kt.get("KHR_parallel_shader_compile")!==null?Et():setTimeout(Et,10)})};let vo=null;function qd(R){vo&&vo(R)}function yc(){Is.stop()}function us(){Is.start()}let Is=new Px;Is.setAnimationLoop(qd),typeof self<"u"&&Is.setContext(self),this.setAnimationLoop=function(R){vo=R,pt.setAnimationLoop(R),R===null?Is.stop():Is.start()},pt.addEventListener("sessionstart",yc),pt.addEventListener("sessionend",us),this.render=function(R,X){if(X!==void 0&&X.isCamera!==!0){te("WebGLRenderer.render: camera is not an instance of THREE.Camera.");return}if(C===!0)return;F!==null&&F.renderStart(R,X);let et=pt.enabled===!0&&pt.isPresenting===!0,$=L!==null&&(it===null||et)&&L.begin(P,it);if(R.matrixWorldAutoUpdate===!0&&R.updateMatrixWorld(),X.parent===null&&X.matrixWorldAutoUpdate===!0&&X.updateMatrixWorld(),pt.enabled===!0&&pt.isPresenting===!0&&(L===null||L.isCompositing()===!1)&&(pt.cameraAutoUpdate===!0&&pt.updateCamera(X),X=pt.getCamera()),R.isScene===!0&&R.onBeforeRender(P,R,X,it),S=ot.get(R,M.length),S.init(X),S.state.textureUnits=$t.getTextureUnits(),M.push(S),Ue.multiplyMatrices(X.projectionMatrix,X.matrixWorldInverse),X.isArrayCamera?$e.setFromArrayCamera(X):re.setFromProjectionMatrix(Ue,Wi,X.reversedDepth),dn=this.localClippingEnabled,Ve=ct.init(this.clippingPlanes,dn),E=bt.get(R,x.length),E.init(),x.push(E),this.info.render.frame++,pt.enabled===!0&&pt.isPresenting===!0){let Lt=P.xr.getDepthSensingMesh();Lt!==null&&Ns(Lt,X,-1/0,P.sortObjects)}Ns(R,X,0,P.sortObjects),E.finish(),F!==null&&F.updateLights(S.state.lightsArray),P.sortObjects===!0&&E.sort(Ot,Zt),sn=pt.enabled===!1||pt.isPresenting===!1||pt.hasDepthSensing()===!1,sn&&V.addToRenderList(E,R),this.info.autoReset===!0&&this.info.reset(),Ve===!0&&ct.beginShadows();let K=S.state.shadowsArray;if(_t.render(K,R,X),Ve===!0&&ct.endShadows(),($&&L.hasRenderPass())===!1){let Lt=E.opaque,At=E.transmissive;if(S.setupLights(),X.isArrayCamera){let It=X.cameras;if(At.length>0)for(let Ht=0,ie=It.length;Ht<ie;Ht++){let ge=It[Ht];$i(Lt,At,R,ge)}sn&&V.render(R);for(let Ht=0,ie=It.length;Ht<ie;Ht++){let ge=It[Ht];Oa(E,R,ge,ge.viewport)}}else At.length>0&&$i(Lt,At,R,X),sn&&V.render(R),Oa(E,R,X)}it!==null&&H===0&&($t.updateMultisampleRenderTarget(it),$t.updateRenderTargetMipmap(it)),$&&L.end(P),R.isScene===!0&&R.onAfterRender(P,R,X),Mt.resetDefaultState(),j=-1,Z=null,M.pop(),M.length>0?(S=M[M.length-1],$t.setTextureUnits(S.state.textureUnits),Ve===!0&&ct.setGlobalState(P.clippingPlanes,S.state.camera)):S=null,x.pop(),x.length>0?E=x[x.length-1]:E=null,F!==null&&F.renderEnd()};function Ns(R,X,et,$){if(R.visible===!1)return;if(R.layers.test(X.layers)){if(R.isGroup)et=R.renderOrder;else if(R.isLOD)R.autoUpdate===!0&&R.update(X);else if(R.isLight)S.pushLight(R),R.castShadow&&S.pushShadow(R);else if(R.isSprite){let Lt=X.isArrayCamera?$e:re;if(!R.frustumCulled||R.intersectsFrustum(Lt)){$&&Se.setFromMatrixPosition(R.matrixWorld).applyMatrix4(Ue);let At=mt.update(R),It=R.material;It.visible&&E.push(R,At,It,et,Se.z,null,X)}}else if(R.isMesh||R.isLine||R.isPoints){let Lt=X.isArrayCamera?$e:re;if(!R.frustumCulled||R.intersectsFrustum(Lt)){let At=mt.update(R),It=R.material;if($&&(R.boundingSphere!==void 0?(R.boundingSphere===null&&R.computeBoundingSphere(),Se.copy(R.boundingSphere.center)):(At.boundingSphere===null&&At.computeBoundingSphere(),Se.copy(At.boundingSphere.center)),Se.applyMatrix4(R.matrixWorld).applyMatrix4(Ue)),Array.isArray(It)){let Ht=At.groups;for(let ie=0,ge=Ht.length;ie<ge;ie++){let Gt=Ht[ie],ye=It[Gt.materialIndex];ye&&ye.visible&&E.push(R,At,ye,et,Se.z,Gt,X)}}else It.visible&&E.push(R,At,It,et,Se.z,null,X)}}}let Et=R.children;for(let Lt=0,At=Et.length;Lt<At;Lt++)Ns(Et[Lt],X,et,$)}function Oa(R,X,et,$){let{opaque:K,transmissive:Et,transparent:Lt}=R;S.setupLightsView(et),Ve===!0&&ct.setGlobalState(P.clippingPlanes,et),$&&wt.viewport(tt.copy($)),K.length>0&&rn(K,X,et),Et.length>0&&rn(Et,X,et),Lt.length>0&&rn(Lt,X,et),wt.buffers.depth.setTest(!0),wt.buffers.depth.setMask(!0),wt.buffers.color.setMask(!0),wt.setPolygonOffset(!1)}function $i(R,X,et,$){if((et.isScene===!0?et.overrideMaterial:null)!==null)return;if(S.state.transmissionRenderTarget[$.id]===void 0){let Gt=Kt.has("EXT_color_buffer_half_float")||Kt.has("EXT_color_buffer_float");S.state.transmissionRenderTarget[$.id]=new Fi(1,1,{generateMipmaps:!0,type:Gt?hs:vi,minFilter:qi,samples:Math.max(4,ae.samples),stencilBuffer:r,resolveDepthBuffer:!1,resolveStencilBuffer:!1,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,colorSpace:he.workingColorSpace})}let Et=S.state.transmissionRenderTarget[$.id],Lt=$.viewport||tt;Et.setSize(Lt.z*P.transmissionResolutionScale,Lt.w*P.transmissionResolutionScale);let At=P.getRenderTarget(),It=P.getActiveCubeFace(),Ht=P.getActiveMipmapLevel();P.setRenderTarget(Et),P.getClearColor(Y),rt=P.getClearAlpha(),rt<1&&P.setClearColor(16777215,.5),P.clear(),sn&&V.render(et);let ie=P.toneMapping;P.toneMapping=Es;let ge=$.viewport;if($.viewport!==void 0&&($.viewport=void 0),S.setupLightsView($),Ve===!0&&ct.setGlobalState(P.clippingPlanes,$),rn(R,et,$),$t.updateMultisampleRenderTarget(Et),$t.updateRenderTargetMipmap(Et),Kt.has("WEBGL_multisampled_render_to_texture")===!1){let Gt=!1;for(let ye=0,Qe=X.length;ye<Qe;ye++){let Ie=X[ye],{object:Ne,geometry:Mn,material:Bt,group:pn}=Ie;if(Bt.side===pi&&Ne.layers.test($.layers)){let xe=Bt.side;Bt.side=Wn,Bt.needsUpdate=!0,cn(Ne,et,$,Mn,Bt,pn),Bt.side=xe,Bt.needsUpdate=!0,Gt=!0}}Gt===!0&&($t.updateMultisampleRenderTarget(Et),$t.updateRenderTargetMipmap(Et))}P.setRenderTarget(At,It,Ht),P.setClearColor(Y,rt),ge!==void 0&&($.viewport=ge),P.toneMapping=ie}function rn(R,X,et){let $=X.isScene===!0?X.overrideMaterial:null;for(let K=0,Et=R.length;K<Et;K++){let Lt=R[K],{object:At,geometry:It,group:Ht}=Lt,ie=Lt.material;ie.allowOverride===!0&&$!==null&&(ie=$),At.layers.test(et.layers)&&cn(At,X,et,It,ie,Ht)}}function cn(R,X,et,$,K,Et){F!==null&&K.isNodeMaterial&&F.setObject(R,K),R.onBeforeRender(P,X,et,$,K,Et),R.modelViewMatrix.multiplyMatrices(et.matrixWorldInverse,R.matrixWorld),R.normalMatrix.getNormalMatrix(R.modelViewMatrix),K.onBeforeRender(P,X,et,$,R,Et),K.transparent===!0&&K.side===pi&&K.forceSinglePass===!1?(K.side=Wn,K.needsUpdate=!0,P.renderBufferDirect(et,X,$,K,R,Et),K.side=Ts,K.needsUpdate=!0,P.renderBufferDirect(et,X,$,K,R,Et),K.side=pi):P.renderBufferDirect(et,X,$,K,R,Et),R.onAfterRender(P,X,et,$,K,Et)}function hn(R){let X=0;for(let et of R)et.texture!==null&&X++;return X}function ds(R,X,et){X.isScene!==!0&&(X=Sn);let $=Wt.get(R),K=S.state.lights,Et=S.state.shadowsArray,Lt=K.state.version,At=dt.getParameters(R,K.state,Et,X,et,S.state.lightProbeGridArray),It=dt.getProgramCacheKey(At),Ht=$.programs;$.environment=R.isMeshStandardMaterial||R.isMeshLambertMaterial||R.isMeshPhongMaterial?X.environment:null,$.fog=X.fog;let ie=R.isMeshStandardMaterial||R.isMeshLambertMaterial&&!R.envMap||R.isMeshPhongMaterial&&!R.envMap;$.envMap=I.get(R.envMap||$.environment,ie),$.envMapRotation=$.environment!==null&&R.envMap===null?X.environmentRotation:R.envMapRotation,Ht===void 0&&(R.addEventListener("dispose",ce),Ht=new Map,$.programs=Ht,$.programVariants=new Map);let ge=Ht.get(It);if(ge!==void 0){if($.currentProgram===ge&&$.lightsStateVersion===Lt)return Ba(R,At),ge}else At.uniforms=dt.getUniforms(R),F!==null&&R.isNodeMaterial&&F.build(R,et,At),R.onBeforeCompile(At,P),ge=dt.acquireProgram(At,It),Ht.set(It,ge),$.uniforms=At.uniforms;let Gt=$.uniforms;return(!R.isShaderMaterial&&!R.isRawShaderMaterial||R.clipping===!0)&&(Gt.clippingPlanes=ct.uniform),Ba(R,At),$.needsLights=sr(R),$.lightsStateVersion=Lt,$.needsLights&&(Gt.ambientLightColor.value=K.state.ambient,Gt.lightProbe.value=K.state.probe,Gt.sunLights.value=K.state.sun,Gt.sunLightShadows.value=K.state.sunShadow,Gt.directionalLights.value=K.state.directional,Gt.directionalLightShadows.value=K.state.directionalShadow,Gt.spotLights.value=K.state.spot,Gt.spotLightShadows.value=K.state.spotShadow,Gt.rectAreaLights.value=K.state.rectArea,Gt.ltc_1.value=K.state.rectAreaLTC1,Gt.ltc_2.value=K.state.rectAreaLTC2,Gt.pointLights.value=K.state.point,Gt.pointLightShadows.value=K.state.pointShadow,Gt.hemisphereLights.value=K.state.hemi,Gt.sunShadowMatrix.value=K.state.sunShadowMatrix,Gt.sunShadowCascade.value=K.state.sunShadowCascade,Gt.directionalShadowMatrix.value=K.state.directionalShadowMatrix,Gt.spotLightMatrix.value=K.state.spotLightMatrix,Gt.spotLightMap.value=K.state.spotLightMap,Gt.pointShadowMatrix.value=K.state.pointShadowMatrix),$.numLightProbeGrids=hn(S.state.lightProbeGridArray),$.currentProgram=ge,$.uniformsList=null,ge}function wi(R,X,et,$,K){let Et=Wt.get(R),Lt=Et.currentProgram.id+","+$+","+K,At=Et.programVariants.get(Lt);return At===void 0?(At=ds(R,X,et),Et.programVariants.set(Lt,At)):(Et.currentProgram=At,Et.uniformsList=null,Et.outputColorSpace=$,Et.toneMapping=K),At}function ir(R){if(R.uniformsList===null){let X=R.currentProgram.getUniforms();R.uniformsList=Aa.seqWithValue(X.seq,R.uniforms)}return R.uniformsList}function Ba(R,X){let et=Wt.get(R);et.outputColorSpace=X.outputColorSpace,et.batching=X.batching,et.batchingColor=X.batchingColor,et.instancing=X.instancing,et.instancingColor=X.instancingColor,et.instancingMorph=X.instancingMorph,et.skinning=X.skinning,et.morphTargets=X.morphTargets,et.morphNormals=X.morphNormals,et.morphColors=X.morphColors,et.morphTargetsCount=X.morphTargetsCount,et.numClippingPlanes=X.numClippingPlanes,et.numIntersection=X.numClipIntersection,et.vertexAlphas=X.vertexAlphas,et.vertexTangents=X.vertexTangents,et.toneMapping=X.toneMapping}function ka(R,X,et,$,K){X.isScene!==!0&&(X=Sn),$t.resetTextureUnits();let Et=X.fog,Lt=$.isMeshStandardMaterial||$.isMeshLambertMaterial||$.isMeshPhongMaterial?X.environment:null,At=it===null?P.outputColorSpace:it.isXRRenderTarget===!0?it.texture.colorSpace:he.workingColorSpace,It=$.isMeshStandardMaterial||$.isMeshLambertMaterial&&!$.envMap||$.isMeshPhongMaterial&&!$.envMap,Ht=I.get($.envMap||Lt,It),ie=$.vertexColors===!0&&!!et.attributes.color&&et.attributes.color.itemSize===4,ge=!!et.attributes.tangent&&(!!$.normalMap||$.anisotropy>0),Gt=!!et.morphAttributes.position,ye=!!et.morphAttributes.normal,Qe=!!et.morphAttributes.color,Ie=Es;$.toneMapped&&(it===null||it.isXRRenderTarget===!0)&&(Ie=P.toneMapping);let Ne=et.morphAttributes.position||et.morphAttributes.normal||et.morphAttributes.color,Mn=Ne!==void 0?Ne.length:0,Bt=Wt.get($),pn=S.state.lights;if(Ve===!0&&(dn===!0||R!==Z)){let De=R===Z&&$.id===j;ct.setState($,R,De)}let xe=!1,Ds=!1;$.version===Bt.__version?Bt.needsLights&&Bt.lightsStateVersion!==pn.state.version||K.isBatchedMesh&&Bt.batching===!1||!K.isBatchedMesh&&Bt.batching===!0||K.isBatchedMesh&&Bt.batchingColor===!0&&K._colorsTexture===null||K.isBatchedMesh&&Bt.batchingColor===!1&&K._colorsTexture!==null||K.isInstancedMesh&&Bt.instancing===!1||!K.isInstancedMesh&&Bt.instancing===!0||K.isSkinnedMesh&&Bt.skinning===!1||!K.isSkinnedMesh&&Bt.skinning===!0||K.isInstancedMesh&&Bt.instancingColor===!0&&K.instanceColor===null||K.isInstancedMesh&&Bt.instancingColor===!1&&K.instanceColor!==null||K.isInstancedMesh&&Bt.instancingMorph===!0&&K.morphTexture===null||K.isInstancedMesh&&Bt.instancingMorph===!1&&K.morphTexture!==null||Bt.envMap!==Ht||$.fog===!0&&Bt.fog!==Et||Bt.numClippingPlanes!==void 0&&(Bt.numClippingPlanes!==ct.numPlanes||Bt.numIntersection!==ct.numIntersection)||Bt.vertexAlphas!==ie||Bt.vertexTangents!==ge||Bt.morphTargets!==Gt||Bt.morphNormals!==ye||Bt.morphColors!==Qe||Bt.morphTargetsCount!==Mn||Bt.numLightProbeGrids!==hn(S.state.lightProbeGridArray)?xe=!0:(Bt.outputColorSpace!==At||Bt.toneMapping!==Ie)&&(Ds=!0):(xe=!0,Bt.__version=$.version);let mn=Bt.currentProgram;(xe===!0||Ds===!0)&&(mn=Ds===!0?wi($,X,K,At,Ie):ds($,X,K),F&&$.isNodeMaterial&&F.onUpdateProgram($,mn,Bt));let Mo=!1,fs=!1,Fs=!1,fe=mn.getUniforms(),on=Bt.uniforms;if(wt.useProgram(mn.program)&&(Mo=!0,fs=!0,Fs=!0),$.id!==j&&(j=$.id,fs=!0),Mo||Z!==R){wt.buffers.depth.getReversed()&&R.reversedDepth!==!0&&(R._reversedDepth=!0,R.updateProjectionMatrix()),fe.setValue(G,"projectionMatrix",R.projectionMatrix),fe.setValue(G,"viewMatrix",R.matrixWorldInverse);let gn=fe.map.cameraPosition;gn!==void 0&&gn.setValue(G,Pn.setFromMatrixPosition(R.matrixWorld)),ae.logarithmicDepthBuffer&&fe.setValue(G,"logDepthBufFC",2/(Math.log(R.far+1)/Math.LN2)),($.isMeshPhongMaterial||$.isMeshToonMaterial||$.isMeshLambertMaterial||$.isMeshBasicMaterial||$.isMeshStandardMaterial||$.isShaderMaterial)&&fe.setValue(G,"isOrthographic",R.isOrthographicCamera===!0),Z!==R&&(Z=R,fs=!0,Fs=!0)}if(Bt.needsLights&&(pn.state.sunShadowMap.length>0&&fe.setValue(G,"sunShadowMap",pn.state.sunShadowMap,$t),pn.state.directionalShadowMap.length>0&&fe.setValue(G,"directionalShadowMap",pn.state.directionalShadowMap,$t),pn.state.spotShadowMap.length>0&&fe.setValue(G,"spotShadowMap",pn.state.spotShadowMap,$t),pn.state.pointShadowMap.length>0&&fe.setValue(G,"pointShadowMap",pn.state.pointShadowMap,$t)),K.isSkinnedMesh){fe.setOptional(G,K,"bindMatrix"),fe.setOptional(G,K,"bindMatrixInverse");let De=K.skeleton;De&&(De.boneTexture===null&&De.computeBoneTexture(),fe.setValue(G,"boneTexture",De.boneTexture,$t))}K.isBatchedMesh&&(fe.setOptional(G,K,"batchingTexture"),fe.setValue(G,"batchingTexture",K._matricesTexture,$t),fe.setOptional(G,K,"batchingIdTexture"),fe.setValue(G,"batchingIdTexture",K._indirectTexture,$t),fe.setOptional(G,K,"batchingColorTexture"),K._colorsTexture!==null&&fe.setValue(G,"batchingColorTexture",K._colorsTexture,$t));let si=et.morphAttributes;if((si.position!==void 0||si.normal!==void 0||si.color!==void 0)&&ut.update(K,et,mn),(fs||Bt.receiveShadow!==K.receiveShadow)&&(Bt.receiveShadow=K.receiveShadow,fe.setValue(G,"receiveShadow",K.receiveShadow)),($.isMeshStandardMaterial||$.isMeshLambertMaterial||$.isMeshPhongMaterial)&&$.envMap===null&&X.environment!==null&&(on.envMapIntensity.value=X.environmentIntensity),on.dfgLUT!==void 0&&(on.dfgLUT.value=tC()),fs){if(fe.setValue(G,"toneMappingExposure",P.toneMappingExposure),Bt.needsLights&&bo(on,Fs),Et&&$.fog===!0&&vt.refreshFogUniforms(on,Et),vt.refreshMaterialUniforms(on,$,gt,lt,S.state.transmissionRenderTarget[R.id]),Bt.needsLights&&Bt.numLightProbeGrids>0){let De=v,gn=0;for(let jn of S.state.lightProbeGridArray)jn.texture!==null&&(De.textures[gn]=jn.texture,De.min[gn]=jn.boundingBox.min,De.max[gn]=jn.boundingBox.max,De.resolution[gn]=jn.resolution,gn++);for(let jn in De)De[jn].length=gn;on.probesSH.value=De.textures,on.probesMin.value=De.min,on.probesMax.value=De.max,on.probesResolution.value=De.resolution}Aa.upload(G,ir(Bt),on,$t)}if($.isShaderMaterial&&$.uniformsNeedUpdate===!0&&(Aa.upload(G,ir(Bt),on,$t),$.uniformsNeedUpdate=!1),$.isSpriteMaterial&&fe.setValue(G,"center",K.center),fe.setValue(G,"modelViewMatrix",K.modelViewMatrix),fe.setValue(G,"normalMatrix",K.normalMatrix),fe.setValue(G,"modelMatrix",K.matrixWorld),$.uniformsGroups!==void 0){let De=$.uniformsGroups;for(let gn=0,jn=De.length;gn<jn;gn++){let _c=De[gn];qt.update(_c,mn),qt.bind(_c,mn)}}return mn}function bo(R,X){R.ambientLightColor.needsUpdate=X,R.lightProbe.needsUpdate=X,R.sunLights.needsUpdate=X,R.sunLightShadows.needsUpdate=X,R.directionalLights.needsUpdate=X,R.directionalLightShadows.needsUpdate=X,R.pointLights.needsUpdate=X,R.pointLightShadows.needsUpdate=X,R.spotLights.needsUpdate=X,R.spotLightShadows.needsUpdate=X,R.rectAreaLights.needsUpdate=X,R.hemisphereLights.needsUpdate=X}function sr(R){return R.isMeshLambertMaterial||R.isMeshToonMaterial||R.isMeshPhongMaterial||R.isMeshStandardMaterial||R.isShadowMaterial||R.isShaderMaterial&&R.lights===!0}this.getActiveCubeFace=function(){return k},this.getActiveMipmapLevel=function(){return H},this.getRenderTarget=function(){return it},this.setRenderTargetTextures=function(R,X,et){let $=Wt.get(R);$.__autoAllocateDepthBuffer=R.resolveDepthBuffer===!1,$.__autoAllocateDepthBuffer===!1&&($.__useRenderToTexture=!1),Wt.get(R.texture).__webglTexture=X,Wt.get(R.depthTexture).__webglTexture=$.__autoAllocateDepthBuffer?void 0:et,$.__hasExternalTextures=!0},this.setRenderTargetFramebuffer=function(R,X){let et=Wt.get(R);et.__webglFramebuffer=X,et.__useDefaultFramebuffer=X===void 0},this.setRenderTarget=function(R,X=0,et=0){it=R,k=X,H=et;let $=null,K=!1,Et=!1;if(R){let At=Wt.get(R);if(At.__useDefaultFramebuffer!==void 0){wt.bindFramebuffer(G.FRAMEBUFFER,At.__webglFramebuffer),tt.copy(R.viewport),ht.copy(R.scissor),st=R.scissorTest,wt.viewport(tt),wt.scissor(ht),wt.setScissorTest(st),j=-1;return}else if(At.__webglFramebuffer===void 0)$t.setupRenderTarget(R);else if(At.__hasExternalTextures)$t.rebindTextures(R,Wt.get(R.texture).__webglTexture,Wt.get(R.depthTexture).__webglTexture);else if(R.depthBuffer){let ie=R.depthTexture;if(At.__boundDepthTexture!==ie){if(ie!==null&&Wt.has(ie)&&(R.width!==ie.image.width||R.height!==ie.image.height))throw new Error("THREE.WebGLRenderer: Attached DepthTexture is initialized to the incorrect size.");$t.setupDepthRenderbuffer(R)}}let It=R.texture;(It.isData3DTexture||It.isDataArrayTexture||It.isCompressedArrayTexture)&&(Et=!0);let Ht=Wt.get(R).__webglFramebuffer;R.isWebGLCubeRenderTarget?(Array.isArray(Ht[X])?$=Ht[X][et]:$=Ht[X],K=!0):R.samples>0&&$t.useMultisampledRTT(R)===!1?$=Wt.get(R).__webglMultisampledFramebuffer:Array.isArray(Ht)?$=Ht[et]:$=Ht,tt.copy(R.viewport),ht.copy(R.scissor),st=R.scissorTest}else tt.copy(zt).multiplyScalar(gt).floor(),ht.copy(me).multiplyScalar(gt).floor(),st=de;if(et!==0&&($=B),wt.bindFramebuffer(G.FRAMEBUFFER,$)&&wt.drawBuffers(R,$),wt.viewport(tt),wt.scissor(ht),wt.setScissorTest(st),K){let At=Wt.get(R.texture);G.framebufferTexture2D(G.FRAMEBUFFER,G.COLOR_ATTACHMENT0,G.TEXTURE_CUBE_MAP_POSITIVE_X+X,At.__webglTexture,et)}else if(Et){let At=X;for(let It=0;It<R.textures.length;It++){let Ht=Wt.get(R.textures[It]);G.framebufferTextureLayer(G.FRAMEBUFFER,G.COLOR_ATTACHMENT0+It,Ht.__webglTexture,et,At)}}else if(R!==null&&et!==0){let At=Wt.get(R.texture);G.framebufferTexture2D(G.FRAMEBUFFER,G.COLOR_ATTACHMENT0,G.TEXTURE_2D,At.__webglTexture,et)}j=-1};function So(R){let X=Wt.get(R);return(X.__readFormat!==R.format||X.__readType!==R.type)&&(X.__readFormat=R.format,X.__readType=R.type,X.__formatReadable=ae.textureFormatReadable(R.format),X.__typeReadable=ae.textureTypeReadable(R.type)),X}this.readRenderTargetPixels=function(R,X,et,$,K,Et,Lt,At=0){if(!(R&&R.isWebGLRenderTarget)){te("WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");return}let It=Wt.get(R).__webglFramebuffer;if(R.isWebGLCubeRenderTarget&&Lt!==void 0&&(It=It[Lt],Array.isArray(It)&&(It=It[0])),It){wt.bindFramebuffer(G.FRAMEBUFFER,It);try{let Ht=R.textures[At],ie=Ht.format,ge=Ht.type;R.textures.length>1&&G.readBuffer(G.COLOR_ATTACHMENT0+At);let Gt=So(Ht);if(Gt.__formatReadable===!1){te("WebGLRenderer.readRenderTargetPixels: renderTarget is not in RGBA or implementation defined format.");return}if(Gt.__typeReadable===!1){te("WebGLRenderer.readRenderTargetPixels: renderTarget is not in UnsignedByteType or implementation defined type.");return}X>=0&&X<=R.width-$&&et>=0&&et<=R.height-K&&G.readPixels(X,et,$,K,xt.convert(ie),xt.convert(ge),Et)}finally{let Ht=it!==null?Wt.get(it).__webglFramebuffer:null;wt.bindFramebuffer(G.FRAMEBUFFER,Ht)}}},this.readRenderTargetPixelsAsync=async function(R,X,et,$,K,Et,Lt,At=0){if(!(R&&R.isWebGLRenderTarget))throw new Error("THREE.WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");let It=Wt.get(R).__webglFramebuffer;if(R.isWebGLCubeRenderTarget&&Lt!==void 0&&(It=It[Lt],Array.isArray(It)&&(It=It[0])),It)if(X>=0&&X<=R.width-$&&et>=0&&et<=R.height-K){wt.bindFramebuffer(G.FRAMEBUFFER,It);let Ht=R.textures[At],ie=Ht.format,ge=Ht.type;R.textures.length>1&&G.readBuffer(G.COLOR_ATTACHMENT0+At);let Gt=So(Ht);if(Gt.__formatReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in RGBA or implementation defined format.");if(Gt.__typeReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in UnsignedByteType or implementation defined type.");let ye=G.createBuffer();G.bindBuffer(G.PIXEL_PACK_BUFFER,ye),G.bufferData(G.PIXEL_PACK_BUFFER,Et.byteLength,G.STREAM_READ),G.readPixels(X,et,$,K,xt.convert(ie),xt.convert(ge),0),G.bindBuffer(G.PIXEL_PACK_BUFFER,null);let Qe=it!==null?Wt.get(it).__webglFramebuffer:null;wt.bindFramebuffer(G.FRAMEBUFFER,Qe);let Ie=G.fenceSync(G.SYNC_GPU_COMMANDS_COMPLETE,0);return G.flush(),await ex(G,Ie,4),G.bindBuffer(G.PIXEL_PACK_BUFFER,ye),G.getBufferSubData(G.PIXEL_PACK_BUFFER,0,Et),G.bindBuffer(G.PIXEL_PACK_BUFFER,null),G.deleteBuffer(ye),G.deleteSync(Ie),Et}else throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: requested read bounds are out of range.")},this.copyFramebufferToTexture=function(R,X=null,et=0){let $=Math.pow(2,-et),K=Math.floor(R.image.width*$),Et=Math.floor(R.image.height*$),Lt=X!==null?X.x:0,At=X!==null?X.y:0;$t.setTexture2D(R,0),G.copyTexSubImage2D(G.TEXTURE_2D,et,0,0,Lt,At,K,Et),wt.unbindTexture()},this.copyTextureToTexture=function(R,X,et=null,$=null,K=0,Et=0){let Lt,At,It,Ht,ie,ge,Gt,ye,Qe,Ie=R.isCompressedTexture?R.mipmaps[Et]:R.image;if(et!==null)Lt=et.max.x-et.min.x,At=et.max.y-et.min.y,It=et.isBox3?et.max.z-et.min.z:1,Ht=et.min.x,ie=et.min.y,ge=et.isBox3?et.min.z:0;else{let fe=Math.pow(2,-K);Lt=Math.floor(Ie.width*fe),At=Math.floor(Ie.height*fe),R.isDataArrayTexture?It=Ie.depth:R.isData3DTexture?It=Math.floor(Ie.depth*fe):It=1,Ht=0,ie=0,ge=0}$!==null?(Gt=$.x,ye=$.y,Qe=$.z):(Gt=0,ye=0,Qe=0);let Ne=xt.convert(X.format),Mn=xt.convert(X.type),Bt;X.isData3DTexture?($t.setTexture3D(X,0),Bt=G.TEXTURE_3D):X.isDataArrayTexture||X.isCompressedArrayTexture?($t.setTexture2DArray(X,0),Bt=G.TEXTURE_2D_ARRAY):($t.setTexture2D(X,0),Bt=G.TEXTURE_2D),wt.activeTexture(G.TEXTURE0),wt.pixelStorei(G.UNPACK_FLIP_Y_WEBGL,X.flipY),wt.pixelStorei(G.UNPACK_PREMULTIPLY_ALPHA_WEBGL,X.premultiplyAlpha),wt.pixelStorei(G.UNPACK_ALIGNMENT,X.unpackAlignment);let pn=wt.getParameter(G.UNPACK_ROW_LENGTH),xe=wt.getParameter(G.UNPACK_IMAGE_HEIGHT),Ds=wt.getParameter(G.UNPACK_SKIP_PIXELS),mn=wt.getParameter(G.UNPACK_SKIP_ROWS),Mo=wt.getParameter(G.UNPACK_SKIP_IMAGES);wt.pixelStorei(G.UNPACK_ROW_LENGTH,Ie.width),wt.pixelStorei(G.UNPACK_IMAGE_HEIGHT,Ie.height),wt.pixelStorei(G.UNPACK_SKIP_PIXELS,Ht),wt.pixelStorei(G.UNPACK_SKIP_ROWS,ie),wt.pixelStorei(G.UNPACK_SKIP_IMAGES,ge);let fs=R.isDataArrayTexture||R.isData3DTexture,Fs=X.isDataArrayTexture||X.isData3DTexture;if(R.isDepthTexture){let fe=Wt.get(R),on=Wt.get(X),si=Wt.get(fe.__renderTarget),De=Wt.get(on.__renderTarget);wt.bindFramebuffer(G.READ_FRAMEBUFFER,si.__webglFramebuffer),wt.bindFramebuffer(G.DRAW_FRAMEBUFFER,De.__webglFramebuffer);for(let gn=0;gn<It;gn++)fs&&(G.framebufferTextureLayer(G.READ_FRAMEBUFFER,G.COLOR_ATTACHMENT0,Wt.get(R).__webglTexture,K,ge+gn),G.framebufferTextureLayer(G.DRAW_FRAMEBUFFER,G.COLOR_ATTACHMENT0,Wt.get(X).__webglTexture,Et,Qe+gn)),G.blitFramebuffer(Ht,ie,Ht+Lt,ie+At,Gt,ye,Gt+Lt,ye+At,G.DEPTH_BUFFER_BIT,G.NEAREST);wt.bindFramebuffer(G.READ_FRAMEBUFFER,null),wt.bindFramebuffer(G.DRAW_FRAMEBUFFER,null)}else if(K!==0||R.isRenderTargetTexture||Wt.has(R)){let fe=Wt.get(R),on=Wt.get(X);wt.bindFramebuffer(G.READ_FRAMEBUFFER,N),wt.bindFramebuffer(G.DRAW_FRAMEBUFFER,W);for(let si=0;si<It;si++)fs?G.framebufferTextureLayer(G.READ_FRAMEBUFFER,G.COLOR_ATTACHMENT0,fe.__webglTexture,K,ge+si):G.framebufferTexture2D(G.READ_FRAMEBUFFER,G.COLOR_ATTACHMENT0,G.TEXTURE_2D,fe.__webglTexture,K),Fs?G.framebufferTextureLayer(G.DRAW_FRAMEBUFFER,G.COLOR_ATTACHMENT0,on.__webglTexture,Et,Qe+si):G.framebufferTexture2D(G.DRAW_FRAMEBUFFER,G.COLOR_ATTACHMENT0,G.TEXTURE_2D,on.__webglTexture,Et),K!==0?G.blitFramebuffer(Ht,ie,Ht+Lt,ie+At,Gt,ye,Gt+Lt,ye+At,G.COLOR_BUFFER_BIT,G.NEAREST):Fs?G.copyTexSubImage3D(Bt,Et,Gt,ye,Qe+si,Ht,ie,Lt,At):G.copyTexSubImage2D(Bt,Et,Gt,ye,Ht,ie,Lt,At);wt.bindFramebuffer(G.READ_FRAMEBUFFER,null),wt.bindFramebuffer(G.DRAW_FRAMEBUFFER,null)}else Fs?R.isDataTexture||R.isData3DTexture?G.texSubImage3D(Bt,Et,Gt,ye,Qe,Lt,At,It,Ne,Mn,Ie.data):X.isCompressedArrayTexture?G.compressedTexSubImage3D(Bt,Et,Gt,ye,Qe,Lt,At,It,Ne,Ie.data):G.texSubImage3D(Bt,Et,Gt,ye,Qe,Lt,At,It,Ne,Mn,Ie):R.isDataTexture?G.texSubImage2D(G.TEXTURE_2D,Et,Gt,ye,Lt,At,Ne,Mn,Ie.data):R.isCompressedTexture?G.compressedTexSubImage2D(G.TEXTURE_2D,Et,Gt,ye,Ie.width,Ie.height,Ne,Ie.data):G.texSubImage2D(G.TEXTURE_2D,Et,Gt,ye,Lt,At,Ne,Mn,Ie);wt.pixelStorei(G.UNPACK_ROW_LENGTH,pn),wt.pixelStorei(G.UNPACK_IMAGE_HEIGHT,xe),wt.pixelStorei(G.UNPACK_SKIP_PIXELS,Ds),wt.pixelStorei(G.UNPACK_SKIP_ROWS,mn),wt.pixelStorei(G.UNPACK_SKIP_IMAGES,Mo),Et===0&&X.generateMipmaps===!0&&X.mipmapsAutoUpdate===!0&&G.generateMipmap(Bt),wt.unbindTexture()},this.initRenderTarget=function(R){Wt.get(R).__webglFramebuffer===void 0&&$t.setupRenderTarget(R)},this.initTexture=function(R){R.isCubeTexture?$t.setTextureCube(R,0):R.isData3DTexture?$t.setTexture3D(R,0):R.isDataArrayTexture||R.isCompressedArrayTexture?$t.setTexture2DArray(R,0):$t.setTexture2D(R,0),wt.unbindTexture()},this.resetState=function(){k=0,H=0,it=null,wt.reset(),Mt.reset()},typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}get coordinateSystem(){return Wi}get outputColorSpace(){return this._outputColorSpace}set outputColorSpace(t){this._outputColorSpace=t;let e=this.getContext();e.drawingBufferColorSpace=he._getDrawingBufferColorSpace(t),e.unpackColorSpace=he._getUnpackColorSpace()}};Pt.line={worldUnits:{value:1},linewidth:{value:1},resolution:{value:new Xt},dashOffset:{value:0},dashScale:{value:1},dashSize:{value:1},gapSize:{value:1}};mi.line={uniforms:ec.merge([Pt.common,Pt.fog,Pt.line]),vertexShader:`
+		#include <common>
+		#include <color_pars_vertex>
+		#include <fog_pars_vertex>
+		#include <logdepthbuf_pars_vertex>
+		#include <clipping_planes_pars_vertex>
+
+		uniform float linewidth;
+		uniform vec2 resolution;
+
+		attribute vec3 instanceStart;
+		attribute vec3 instanceEnd;
+
+		attribute vec3 instanceColorStart;
+		attribute vec3 instanceColorEnd;
+
+		#ifdef WORLD_UNITS
+
+			varying vec4 worldPos;
+			varying vec3 worldStart;
+			varying vec3 worldEnd;
+
+			#ifdef USE_DASH
+
+				varying vec2 vUv;
+
+			#endif
+
+		#else
+
+			varying vec2 vUv;
+
+		#endif
+
+		#ifdef USE_DASH
+
+			uniform float dashScale;
+			attribute float instanceDistanceStart;
+			attribute float instanceDistanceEnd;
+			varying float vLineDistance;
+
+		#endif
+
+		float trimSegmentAlpha( const in vec4 start, const in vec4 end ) {
+
+			// compute the interpolation factor needed to trim the segment so it terminates
+			// between the camera plane and the near plane
+
+			// conservative estimate of the near plane
+			float a = projectionMatrix[ 2 ][ 2 ]; // 3nd entry in 3th column
+			float b = projectionMatrix[ 3 ][ 2 ]; // 3nd entry in 4th column
+
+			// we need different nearEstimate formula for reversed and default depth buffer
+			// a is positive with a reversed depth buffer so it can be used for controlling the code flow
+			float nearEstimate = ( a > 0.0 ) ? ( - b / ( a + 1.0 ) ) : ( - 0.5 * b / a );
+
+			return ( nearEstimate - start.z ) / ( end.z - start.z );
+
+		}
+
+		void main() {
+
+			#ifdef USE_COLOR
+
+				vColor.xyz = ( position.y < 0.5 ) ? instanceColorStart : instanceColorEnd;
+
+			#endif
+
+			float aspect = resolution.x / resolution.y;
+
+			// camera space
+			vec4 start = modelViewMatrix * vec4( instanceStart, 1.0 );
+			vec4 end = modelViewMatrix * vec4( instanceEnd, 1.0 );
+
+			#ifdef USE_DASH
+
+				float lineDistanceStart = dashScale * instanceDistanceStart;
+				float lineDistanceEnd = dashScale * instanceDistanceEnd;
+
+			#endif
+
+			#ifdef WORLD_UNITS
+
+				worldStart = start.xyz;
+				worldEnd = end.xyz;
+
+			#else
+
+				vUv = uv;
+
+			#endif
+
+			// special case for perspective projection, and segments that terminate either in, or behind, the camera plane
+			// clearly the gpu firmware has a way of addressing this issue when projecting into ndc space
+			// but we need to perform ndc-space calculations in the shader, so we must address this issue directly
+			// perhaps there is a more elegant solution -- WestLangley
+
+			bool perspective = ( projectionMatrix[ 2 ][ 3 ] == - 1.0 ); // 4th entry in the 3rd column
+
+			if ( perspective ) {
+
+				if ( start.z < 0.0 && end.z >= 0.0 ) {
+
+					float alpha = trimSegmentAlpha( start, end );
+					end.xyz = mix( start.xyz, end.xyz, alpha );
+
+					#ifdef USE_DASH
+
+						lineDistanceEnd = mix( lineDistanceStart, lineDistanceEnd, alpha );
+
+					#endif
+
+				} else if ( end.z < 0.0 && start.z >= 0.0 ) {
+
+					float alpha = trimSegmentAlpha( end, start );
+					start.xyz = mix( end.xyz, start.xyz, alpha );
+
+					#ifdef USE_DASH
+
+						lineDistanceStart = mix( lineDistanceEnd, lineDistanceStart, alpha );
+
+					#endif
+
+				}
+
+			}
+
+			#ifdef USE_DASH
+
+				vLineDistance = ( position.y < 0.5 ) ? lineDistanceStart : lineDistanceEnd;
+				vUv = uv;
+
+			#endif
+
+			// clip space
+			vec4 clipStart = projectionMatrix * start;
+			vec4 clipEnd = projectionMatrix * end;
+
+			// ndc space
+			vec3 ndcStart = clipStart.xyz / clipStart.w;
+			vec3 ndcEnd = clipEnd.xyz / clipEnd.w;
+
+			// direction
+			vec2 dir = ndcEnd.xy - ndcStart.xy;
+
+			// account for clip-space aspect ratio
+			dir.x *= aspect;
+			dir = normalize( dir );
+
+			#ifdef WORLD_UNITS
+
+				vec3 worldDir = normalize( end.xyz - start.xyz );
+				vec3 tmpFwd = perspective ? normalize( mix( start.xyz, end.xyz, 0.5 ) ) : vec3( 0.0, 0.0, - 1.0 );
+				vec3 worldUp = normalize( cross( worldDir, tmpFwd ) );
+				vec3 worldFwd = cross( worldDir, worldUp );
+				worldPos = position.y < 0.5 ? start: end;
+
+				// height offset
+				float hw = linewidth * 0.5;
+				worldPos.xyz += position.x < 0.0 ? hw * worldUp : - hw * worldUp;
+
+				// don't extend the line if we're rendering dashes because we
+				// won't be rendering the endcaps
+				#ifndef USE_DASH
+
+					// cap extension
+					worldPos.xyz += position.y < 0.5 ? - hw * worldDir : hw * worldDir;
+
+					// add width to the box
+					worldPos.xyz += worldFwd * hw;
+
+					// endcaps
+					if ( position.y > 1.0 || position.y < 0.0 ) {
+
+						worldPos.xyz -= worldFwd * 2.0 * hw;
+
+					}
+
+				#endif
+
+				// project the worldpos
+				vec4 clip = projectionMatrix * worldPos;
+
+				// shift the depth of the projected points so the line
+				// segments overlap neatly
+				vec3 clipPose = ( position.y < 0.5 ) ? ndcStart : ndcEnd;
+
+				// only shift the depth of vertices in front of the camera (#35137)
+				if ( clip.w > 0.0 ) clip.z = clipPose.z * clip.w;
+
+			#else
+
+				vec2 offset = vec2( dir.y, - dir.x );
+				// undo aspect ratio adjustment
+				dir.x /= aspect;
+				offset.x /= aspect;
+
+				// sign flip
+				if ( position.x < 0.0 ) offset *= - 1.0;
+
+				// endcaps
+				if ( position.y < 0.0 ) {
+
+					offset += - dir;
+
+				} else if ( position.y > 1.0 ) {
+
+					offset += dir;
+
+				}
+
+				// adjust for linewidth
+				offset *= linewidth;
+
+				// adjust for clip-space to screen-space conversion // maybe resolution should be based on viewport ...
+				offset /= resolution.y;
+
+				// select end
+				vec4 clip = ( position.y < 0.5 ) ? clipStart : clipEnd;
+
+				// back to clip space
+				offset *= clip.w;
+
+				clip.xy += offset;
+
+			#endif
+
+			gl_Position = clip;
+
+			vec4 mvPosition = ( position.y < 0.5 ) ? start : end; // this is an approximation
+
+			#include <logdepthbuf_vertex>
+			#include <clipping_planes_vertex>
+			#include <fog_vertex>
+
+		}
+		`,fragmentShader:`
+		uniform vec3 diffuse;
+		uniform float opacity;
+		uniform float linewidth;
+
+		#ifdef USE_DASH
+
+			uniform float dashOffset;
+			uniform float dashSize;
+			uniform float gapSize;
+
+		#endif
+
+		varying float vLineDistance;
+
+		#ifdef WORLD_UNITS
+
+			varying vec4 worldPos;
+			varying vec3 worldStart;
+			varying vec3 worldEnd;
+
+			#ifdef USE_DASH
+
+				varying vec2 vUv;
+
+			#endif
+
+		#else
+
+			varying vec2 vUv;
+
+		#endif
+
+		#include <common>
+		#include <color_pars_fragment>
+		#include <fog_pars_fragment>
+		#include <logdepthbuf_pars_fragment>
+		#include <clipping_planes_pars_fragment>
+
+		vec2 closestLineToLine(vec3 p1, vec3 p2, vec3 p3, vec3 p4) {
+
+			float mua;
+			float mub;
+
+			vec3 p13 = p1 - p3;
+			vec3 p43 = p4 - p3;
+
+			vec3 p21 = p2 - p1;
+
+			float d1343 = dot( p13, p43 );
+			float d4321 = dot( p43, p21 );
+			float d1321 = dot( p13, p21 );
+			float d4343 = dot( p43, p43 );
+			float d2121 = dot( p21, p21 );
+
+			float denom = d2121 * d4343 - d4321 * d4321;
+
+			float numer = d1343 * d4321 - d1321 * d4343;
+
+			mua = numer / denom;
+			mua = clamp( mua, 0.0, 1.0 );
+			mub = ( d1343 + d4321 * ( mua ) ) / d4343;
+			mub = clamp( mub, 0.0, 1.0 );
+
+			return vec2( mua, mub );
+
+		}
+
+		void main() {
+
+			float alpha = opacity;
+			vec4 diffuseColor = vec4( diffuse, alpha );
+
+			#include <clipping_planes_fragment>
+
+			#ifdef USE_DASH
+
+				if ( vUv.y < - 1.0 || vUv.y > 1.0 ) discard; // discard endcaps
+
+				if ( mod( vLineDistance + dashOffset, dashSize + gapSize ) > dashSize ) discard; // todo - FIX
+
+			#endif
+
+			#ifdef WORLD_UNITS
+
+				float len;
+
+				if ( isOrthographic ) {
+
+					// View rays are parallel to the z axis so the distance reduces to camera-space XY
+					vec2 lineDir = worldEnd.xy - worldStart.xy;
+					float t = clamp( dot( worldPos.xy - worldStart.xy, lineDir ) / dot( lineDir, lineDir ), 0.0, 1.0 );
+					len = length( worldStart.xy + lineDir * t - worldPos.xy );
+
+				} else {
+
+					// Find the closest points on the view ray and the line segment
+					vec3 rayEnd = normalize( worldPos.xyz ) * 1e5;
+					vec3 lineDir = worldEnd - worldStart;
+					vec2 params = closestLineToLine( worldStart, worldEnd, vec3( 0.0, 0.0, 0.0 ), rayEnd );
+
+					vec3 p1 = worldStart + lineDir * params.x;
+					vec3 p2 = rayEnd * params.y;
+					vec3 delta = p1 - p2;
+					len = length( delta );
+
+				}
+
+				float norm = len / linewidth;
+
+				#ifndef USE_DASH
+
+					#ifdef USE_ALPHA_TO_COVERAGE
+
+						float dnorm = fwidth( norm );
+						alpha = 1.0 - smoothstep( 0.5 - dnorm, 0.5 + dnorm, norm );
+
+					#else
+
+						if ( norm > 0.5 ) {
+
+							discard;
+
+						}
+
+					#endif
+
+				#endif
+
+			#else
+
+				#ifdef USE_ALPHA_TO_COVERAGE
+
+					// artifacts appear on some hardware if a derivative is taken within a conditional
+					float a = vUv.x;
+					float b = ( vUv.y > 0.0 ) ? vUv.y - 1.0 : vUv.y + 1.0;
+					float len2 = a * a + b * b;
+					float dlen = fwidth( len2 );
+
+					if ( abs( vUv.y ) > 1.0 ) {
+
+						alpha = 1.0 - smoothstep( 1.0 - dlen, 1.0 + dlen, len2 );
+
+					}
+
+				#else
+
+					if ( abs( vUv.y ) > 1.0 ) {
+
+						float a = vUv.x;
+						float b = ( vUv.y > 0.0 ) ? vUv.y - 1.0 : vUv.y + 1.0;
+						float len2 = a * a + b * b;
+
+						if ( len2 > 1.0 ) discard;
+
+					}
+
+				#endif
+
+			#endif
+
+			#include <logdepthbuf_fragment>
+			#include <color_fragment>
+
+			gl_FragColor = vec4( diffuseColor.rgb, alpha );
+
+			#include <tonemapping_fragment>
+			#include <colorspace_fragment>
+			#include <fog_fragment>
+			#include <premultiplied_alpha_fragment>
+
+		}
+		`};var Er=class extends _i{constructor(t){super({type:"LineMaterial",uniforms:ec.clone(mi.line.uniforms),vertexShader:mi.line.vertexShader,fragmentShader:mi.line.fragmentShader,clipping:!0}),this.isLineMaterial=!0,this.setValues(t)}get color(){return this.uniforms.diffuse.value}set color(t){this.uniforms.diffuse.value=t}get worldUnits(){return"WORLD_UNITS"in this.defines}set worldUnits(t){t===!0!==this.worldUnits&&(this.needsUpdate=!0),t===!0?this.defines.WORLD_UNITS="":delete this.defines.WORLD_UNITS}get linewidth(){return this.uniforms.linewidth.value}set linewidth(t){this.uniforms.linewidth&&(this.uniforms.linewidth.value=t)}get dashed(){return"USE_DASH"in this.defines}set dashed(t){t===!0!==this.dashed&&(this.needsUpdate=!0),t===!0?this.defines.USE_DASH="":delete this.defines.USE_DASH}get dashScale(){return this.uniforms.dashScale.value}set dashScale(t){this.uniforms.dashScale.value=t}get dashSize(){return this.uniforms.dashSize.value}set dashSize(t){this.uniforms.dashSize.value=t}get dashOffset(){return this.uniforms.dashOffset.value}set dashOffset(t){this.uniforms.dashOffset.value=t}get gapSize(){return this.uniforms.gapSize.value}set gapSize(t){this.uniforms.gapSize.value=t}get opacity(){return this.uniforms.opacity.value}set opacity(t){this.uniforms&&(this.uniforms.opacity.value=t)}get resolution(){return this.uniforms.resolution.value}set resolution(t){this.uniforms.resolution.value.copy(t)}get alphaToCoverage(){return"USE_ALPHA_TO_COVERAGE"in this.defines}set alphaToCoverage(t){this.defines&&(t===!0!==this.alphaToCoverage&&(this.needsUpdate=!0),t===!0?this.defines.USE_ALPHA_TO_COVERAGE="":delete this.defines.USE_ALPHA_TO_COVERAGE)}};var Vx=new un,sd=new O,Ar=class extends Gl{constructor(){super(),this.isLineSegmentsGeometry=!0,this.type="LineSegmentsGeometry";let t=[-1,2,0,1,2,0,-1,1,0,1,1,0,-1,0,0,1,0,0,-1,-1,0,1,-1,0],e=[-1,2,1,2,-1,1,1,1,-1,-1,1,-1,-1,-2,1,-2],n=[0,2,1,2,3,1,2,4,3,4,5,3,4,6,5,6,7,5];this.setIndex(n),this.setAttribute("position",new Jt(t,3)),this.setAttribute("uv",new Jt(e,2))}applyMatrix4(t){let e=this.attributes.instanceStart,n=this.attributes.instanceEnd;return e!==void 0&&(e.applyMatrix4(t),n.applyMatrix4(t),e.needsUpdate=!0),this.boundingBox!==null&&this.computeBoundingBox(),this.boundingSphere!==null&&this.computeBoundingSphere(),this}setPositions(t){let e;t instanceof Float32Array?e=t:Array.isArray(t)&&(e=new Float32Array(t));let n=new Xi(e,6,1);return this.setAttribute("instanceStart",new Gn(n,3,0)),this.setAttribute("instanceEnd",new Gn(n,3,3)),this.instanceCount=this.attributes.instanceStart.count,this.computeBoundingBox(),this.computeBoundingSphere(),this}setColors(t){let e;t instanceof Float32Array?e=t:Array.isArray(t)&&(e=new Float32Array(t));let n=new Xi(e,6,1);return this.setAttribute("instanceColorStart",new Gn(n,3,0)),this.setAttribute("instanceColorEnd",new Gn(n,3,3)),this}fromWireframeGeometry(t){return this.setPositions(t.attributes.position.array),this}fromEdgesGeometry(t){return this.setPositions(t.attributes.position.array),this}fromMesh(t){return this.fromWireframeGeometry(new Dl(t.geometry)),this}fromLineSegments(t){let e=t.geometry;return this.setPositions(e.attributes.position.array),this}computeBoundingBox(){this.boundingBox===null&&(this.boundingBox=new un);let t=this.attributes.instanceStart,e=this.attributes.instanceEnd;t!==void 0&&e!==void 0&&(this.boundingBox.setFromBufferAttribute(t),Vx.setFromBufferAttribute(e),this.boundingBox.union(Vx))}computeBoundingSphere(){this.boundingSphere===null&&(this.boundingSphere=new nn),this.boundingBox===null&&this.computeBoundingBox();let t=this.attributes.instanceStart,e=this.attributes.instanceEnd;if(t!==void 0&&e!==void 0){let n=this.boundingSphere.center;this.boundingBox.getCenter(n);let i=0;for(let r=0,o=t.count;r<o;r++)sd.fromBufferAttribute(t,r),i=Math.max(i,n.distanceToSquared(sd)),sd.fromBufferAttribute(e,r),i=Math.max(i,n.distanceToSquared(sd));this.boundingSphere.radius=Math.sqrt(i),isNaN(this.boundingSphere.radius)&&console.error("THREE.LineSegmentsGeometry.computeBoundingSphere(): Computed radius is NaN. The instanced position data is likely to have NaN values.",this)}}toJSON(){}};var bm=new be,Gx=new O,Hx=new O,Xn=new be,qn=new be,Cs=new be,Sm=new O,Mm=new Nt,Yn=new Wl,Wx=new O,rd=new un,od=new nn,Ps=new be,Ls,yo;function Xx(s,t,e){return Ps.set(0,0,-t,1).applyMatrix4(s.projectionMatrix),Ps.multiplyScalar(1/Ps.w),Ps.x=yo/e.width,Ps.y=yo/e.height,Ps.applyMatrix4(s.projectionMatrixInverse),Ps.multiplyScalar(1/Ps.w),Math.abs(Math.max(Ps.x,Ps.y))}function nC(s,t){let e=s.matrixWorld,n=s.geometry,i=n.attributes.instanceStart,r=n.attributes.instanceEnd,o=Math.min(n.instanceCount,i.count);for(let a=0,l=o;a<l;a++){Yn.start.fromBufferAttribute(i,a),Yn.end.fromBufferAttribute(r,a),Yn.applyMatrix4(e);let c=new O,h=new O;Ls.distanceSqToSegment(Yn.start,Yn.end,h,c),h.distanceTo(c)<yo*.5&&t.push({point:h,pointOnLine:c,distance:Ls.origin.distanceTo(h),object:s,face:null,faceIndex:a,uv:null,uv1:null})}}function iC(s,t,e){let n=t.projectionMatrix,r=s.material.resolution,o=s.matrixWorld,a=s.geometry,l=a.attributes.instanceStart,c=a.attributes.instanceEnd,h=Math.min(a.instanceCount,l.count),u=-t.near;Ls.at(1,Cs),Cs.w=1,Cs.applyMatrix4(t.matrixWorldInverse),Cs.applyMatrix4(n),Cs.multiplyScalar(1/Cs.w),Cs.x*=r.x/2,Cs.y*=r.y/2,Cs.z=0,Sm.copy(Cs),Mm.multiplyMatrices(t.matrixWorldInverse,o);for(let d=0,f=h;d<f;d++){if(Xn.fromBufferAttribute(l,d),qn.fromBufferAttribute(c,d),Xn.w=1,qn.w=1,Xn.applyMatrix4(Mm),qn.applyMatrix4(Mm),Xn.z>u&&qn.z>u)continue;if(Xn.z>u){let w=Xn.z-qn.z,v=(Xn.z-u)/w;Xn.lerp(qn,v)}else if(qn.z>u){let w=qn.z-Xn.z,v=(qn.z-u)/w;qn.lerp(Xn,v)}Xn.applyMatrix4(n),qn.applyMatrix4(n),Xn.multiplyScalar(1/Xn.w),qn.multiplyScalar(1/qn.w),Xn.x*=r.x/2,Xn.y*=r.y/2,qn.x*=r.x/2,qn.y*=r.y/2,Yn.start.copy(Xn),Yn.start.z=0,Yn.end.copy(qn),Yn.end.z=0;let y=Yn.closestPointToPointParameter(Sm,!0);Yn.at(y,Wx);let m=ti.lerp(Xn.z,qn.z,y),g=m>=-1&&m<=1,_=Sm.distanceTo(Wx)<yo*.5;if(g&&_){Yn.start.fromBufferAttribute(l,d),Yn.end.fromBufferAttribute(c,d),Yn.start.applyMatrix4(o),Yn.end.applyMatrix4(o);let w=new O,v=new O;Ls.distanceSqToSegment(Yn.start,Yn.end,v,w),e.push({point:v,pointOnLine:w,distance:Ls.origin.distanceTo(v),object:s,face:null,faceIndex:d,uv:null,uv1:null})}}}var Ca=class extends ue{constructor(t=new Ar,e=new Er({color:Math.random()*16777215})){super(t,e),this.isLineSegments2=!0,this.type="LineSegments2"}computeLineDistances(){let t=this.geometry,e=t.attributes.instanceStart,n=t.attributes.instanceEnd,i=new Float32Array(2*e.count);for(let o=0,a=0,l=e.count;o<l;o++,a+=2)Gx.fromBufferAttribute(e,o),Hx.fromBufferAttribute(n,o),i[a]=a===0?0:i[a-1],i[a+1]=i[a]+Gx.distanceTo(Hx);let r=new Xi(i,2,1);return t.setAttribute("instanceDistanceStart",new Gn(r,1,0)),t.setAttribute("instanceDistanceEnd",new Gn(r,1,1)),this}raycast(t,e){let n=this.material.worldUnits,i=t.camera;if(i===null&&!n&&console.error('LineSegments2: "Raycaster.camera" needs to be set in order to raycast against LineSegments2 while worldUnits is set to false.'),n===!1&&(this.material.resolution.x===0||this.material.resolution.y===0))return;let r=t.params.Line2!==void 0&&t.params.Line2.threshold||0;Ls=t.ray;let o=this.matrixWorld,a=this.geometry,l=this.material;yo=l.linewidth+r,a.boundingSphere===null&&a.computeBoundingSphere(),od.copy(a.boundingSphere).applyMatrix4(o);let c;if(n)c=yo*.5;else{let u=Math.max(i.near,od.distanceToPoint(Ls.origin));c=Xx(i,u,l.resolution)}if(od.radius+=c,Ls.intersectsSphere(od)===!1)return;a.boundingBox===null&&a.computeBoundingBox(),rd.copy(a.boundingBox).applyMatrix4(o);let h;if(n)h=yo*.5;else{let u=Math.max(i.near,rd.distanceToPoint(Ls.origin));h=Xx(i,u,l.resolution)}rd.expandByScalar(h),Ls.intersectsBox(rd)!==!1&&(n?nC(this,e):iC(this,i,e))}onBeforeRender(t){let e=this.material.uniforms;e&&e.resolution&&(t.getViewport(bm),this.material.uniforms.resolution.value.set(bm.z,bm.w))}};var ad=6,_o=class{object;geometry=new Ar;positions=new Float32Array(0);colours=new Float32Array(0);count=0;constructor(t,e=1){let n=new Er({linewidth:t,vertexColors:!0});n.transparent=e<1,n.opacity=e,this.object=new Ca(this.geometry,n),this.object.frustumCulled=!1,this.geometry.boundingSphere=new nn,this.object.raycast=()=>{},this.grow(64)}clear(){this.count=0}add(t,e,n){ad*this.count===this.positions.length&&this.grow(2*this.count);let i=ad*this.count++;t.toArray(this.positions,i),e.toArray(this.positions,i+3),n.toArray(this.colours,i),n.toArray(this.colours,i+3)}commit(){this.geometry.instanceCount=this.count,this.object.visible=this.count>0;for(let t of["instanceStart","instanceColorStart"])this.geometry.getAttribute(t).data.needsUpdate=!0}dispose(){this.object.removeFromParent(),this.geometry.dispose(),this.object.material.dispose()}grow(t){let e=n=>{let i=new Float32Array(ad*t);return i.set(n),i};this.geometry.dispose(),this.positions=this.bind(e(this.positions),"instanceStart","instanceEnd"),this.colours=this.bind(e(this.colours),"instanceColorStart","instanceColorEnd")}bind(t,e,n){let i=new Xi(t,ad,1).setUsage(mo);return this.geometry.setAttribute(e,new Gn(i,3,0)),this.geometry.setAttribute(n,new Gn(i,3,3)),t}};var ld=class{object=new Ke;axes=new _o(3);tree=new _o(1.5,.75);colours=[new Dt,new Dt,new Dt];treeColour=new Dt;from=new O;to=new O;constructor(){this.object.add(this.tree.object,this.axes.object)}setPalette(t){t.axes.forEach((e,n)=>this.colours[n].set(e)),this.treeColour.set(t.tree)}draw(t,e){this.axes.clear(),this.tree.clear();for(let{pose:n,parent:i}of t)this.from.setFromMatrixPosition(n),this.colours.forEach((r,o)=>{this.to.setFromMatrixColumn(n,o).multiplyScalar(e).add(this.from),this.axes.add(this.from,this.to,r)}),i!==null&&(this.to.setFromMatrixPosition(i),this.tree.add(this.from,this.to,this.treeColour));this.axes.commit(),this.tree.commit()}dispose(){this.axes.dispose(),this.tree.dispose()}};function qx(s,t){return s.map(({name:e,pose:n})=>({text:e,at:new O().setFromMatrixPosition(n),isStrong:e===t}))}var Yx={type:"change"},Tm={type:"start"},Jx={type:"end"},cd=new vs,jx=new Di,sC=Math.cos(70*ti.DEG2RAD),Cn=new O,bi=2*Math.PI,Ce={NONE:-1,ROTATE:0,DOLLY:1,PAN:2,TOUCH_ROTATE:3,TOUCH_PAN:4,TOUCH_DOLLY_PAN:5,TOUCH_DOLLY_ROTATE:6},wm=1e-6,hd=class extends Xl{constructor(t,e=null){super(t,e),this.state=Ce.NONE,this.target=new O,this.cursor=new O,this.minDistance=0,this.maxDistance=1/0,this.minZoom=0,this.maxZoom=1/0,this.minTargetRadius=0,this.maxTargetRadius=1/0,this.minPolarAngle=0,this.maxPolarAngle=Math.PI,this.minAzimuthAngle=-1/0,this.maxAzimuthAngle=1/0,this.enableDamping=!1,this.dampingFactor=.05,this.enableZoom=!0,this.zoomSpeed=1,this.enableRotate=!0,this.rotateSpeed=1,this.keyRotateSpeed=1,this.enablePan=!0,this.panSpeed=1,this.screenSpacePanning=!0,this.keyPanSpeed=7,this.zoomToCursor=!1,this.autoRotate=!1,this.autoRotateSpeed=2,this.keys={LEFT:"ArrowLeft",UP:"ArrowUp",RIGHT:"ArrowRight",BOTTOM:"ArrowDown"},this.mouseButtons={LEFT:Mr.ROTATE,MIDDLE:Mr.DOLLY,RIGHT:Mr.PAN},this.touches={ONE:wr.ROTATE,TWO:wr.DOLLY_PAN},this.target0=this.target.clone(),this.position0=this.object.position.clone(),this.zoom0=this.object.zoom,this._cursorStyle="auto",this._domElementKeyEvents=null,this._lastPosition=new O,this._lastQuaternion=new Ge,this._lastTargetPosition=new O,this._quat=new Ge().setFromUnitVectors(t.up,new O(0,1,0)),this._quatInverse=this._quat.clone().invert(),this._spherical=new Sa,this._sphericalDelta=new Sa,this._scale=1,this._panOffset=new O,this._rotateStart=new Xt,this._rotateEnd=new Xt,this._rotateDelta=new Xt,this._panStart=new Xt,this._panEnd=new Xt,this._panDelta=new Xt,this._dollyStart=new Xt,this._dollyEnd=new Xt,this._dollyDelta=new Xt,this._dollyDirection=new O,this._mouse=new Xt,this._performCursorZoom=!1,this._pointers=[],this._pointerPositions={},this._controlActive=!1,this._onPointerMove=oC.bind(this),this._onPointerDown=rC.bind(this),this._onPointerUp=aC.bind(this),this._onContextMenu=pC.bind(this),this._onMouseWheel=hC.bind(this),this._onKeyDown=uC.bind(this),this._onTouchStart=dC.bind(this),this._onTouchMove=fC.bind(this),this._onMouseDown=lC.bind(this),this._onMouseMove=cC.bind(this),this._interceptControlDown=mC.bind(this),this._interceptControlUp=gC.bind(this),this.domElement!==null&&this.connect(this.domElement),this.update()}set cursorStyle(t){this._cursorStyle=t,t==="grab"?this.domElement.style.cursor="grab":this.domElement.style.cursor="auto"}get cursorStyle(){return this._cursorStyle}connect(t){super.connect(t),this.domElement.addEventListener("pointerdown",this._onPointerDown),this.domElement.addEventListener("pointercancel",this._onPointerUp),this.domElement.addEventListener("contextmenu",this._onContextMenu),this.domElement.addEventListener("wheel",this._onMouseWheel,{passive:!1}),this.domElement.ownerDocument.addEventListener("keydown",this._interceptControlDown,{passive:!0,capture:!0}),this.domElement.style.touchAction="none"}disconnect(){this.state=Ce.NONE,this.domElement.removeEventListener("pointerdown",this._onPointerDown),this.domElement.ownerDocument.removeEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.removeEventListener("pointerup",this._onPointerUp),this.domElement.removeEventListener("pointercancel",this._onPointerUp),this.domElement.removeEventListener("wheel",this._onMouseWheel),this.domElement.removeEventListener("contextmenu",this._onContextMenu),this.stopListenToKeyEvents(),this.domElement.ownerDocument.removeEventListener("keydown",this._interceptControlDown,{capture:!0}),this.domElement.ownerDocument.removeEventListener("keyup",this._interceptControlUp,{capture:!0}),this._controlActive=!1,this._pointers.length=0,this._pointerPositions={},this.domElement.style.touchAction="",this.domElement.style.cursor="auto"}dispose(){this.disconnect()}getPolarAngle(){return this._spherical.phi}getAzimuthalAngle(){return this._spherical.theta}getDistance(){return this.object.position.distanceTo(this.target)}listenToKeyEvents(t){t.addEventListener("keydown",this._onKeyDown),this._domElementKeyEvents=t}stopListenToKeyEvents(){this._domElementKeyEvents!==null&&(this._domElementKeyEvents.removeEventListener("keydown",this._onKeyDown),this._domElementKeyEvents=null)}saveState(){this.target0.copy(this.target),this.position0.copy(this.object.position),this.zoom0=this.object.zoom}reset(){this.target.copy(this.target0),this.object.position.copy(this.position0),this.object.zoom=this.zoom0,this.object.updateProjectionMatrix(),this.dispatchEvent(Yx),this.update(),this.state=Ce.NONE}pan(t,e){this._pan(t,e),this.update()}dollyIn(t){this._dollyIn(t),this.update()}dollyOut(t){this._dollyOut(t),this.update()}rotateLeft(t){this._rotateLeft(t),this.update()}rotateUp(t){this._rotateUp(t),this.update()}update(t=null){let e=this.object.position;Cn.copy(e).sub(this.target),Cn.applyQuaternion(this._quat),this._spherical.setFromVector3(Cn),this.autoRotate&&this.state===Ce.NONE&&this._rotateLeft(this._getAutoRotationAngle(t)),this.enableDamping?(this._spherical.theta+=this._sphericalDelta.theta*this.dampingFactor,this._spherical.phi+=this._sphericalDelta.phi*this.dampingFactor):(this._spherical.theta+=this._sphericalDelta.theta,this._spherical.phi+=this._sphericalDelta.phi);let n=this.minAzimuthAngle,i=this.maxAzimuthAngle;isFinite(n)&&isFinite(i)&&(n<-Math.PI?n+=bi:n>Math.PI&&(n-=bi),i<-Math.PI?i+=bi:i>Math.PI&&(i-=bi),n<=i?this._spherical.theta=Math.max(n,Math.min(i,this._spherical.theta)):this._spherical.theta=this._spherical.theta>(n+i)/2?Math.max(n,this._spherical.theta):Math.min(i,this._spherical.theta)),this._spherical.phi=Math.max(this.minPolarAngle,Math.min(this.maxPolarAngle,this._spherical.phi)),this._spherical.makeSafe(),this.enableDamping===!0?this.target.addScaledVector(this._panOffset,this.dampingFactor):this.target.add(this._panOffset),this.target.sub(this.cursor),this.target.clampLength(this.minTargetRadius,this.maxTargetRadius),this.target.add(this.cursor);let r=!1;if(this.zoomToCursor&&this._performCursorZoom||this.object.isOrthographicCamera)this._spherical.radius=this._clampDistance(this._spherical.radius);else{let o=this._spherical.radius;this._spherical.radius=this._clampDistance(this._spherical.radius*this._scale),r=o!=this._spherical.radius}if(Cn.setFromSpherical(this._spherical),Cn.applyQuaternion(this._quatInverse),e.copy(this.target).add(Cn),this.object.lookAt(this.target),this.enableDamping===!0?(this._sphericalDelta.theta*=1-this.dampingFactor,this._sphericalDelta.phi*=1-this.dampingFactor,this._panOffset.multiplyScalar(1-this.dampingFactor)):(this._sphericalDelta.set(0,0,0),this._panOffset.set(0,0,0)),this.zoomToCursor&&this._performCursorZoom){let o=null;if(this.object.isPerspectiveCamera){let a=Cn.length();o=this._clampDistance(a*this._scale);let l=a-o;this.object.position.addScaledVector(this._dollyDirection,l),this.object.updateMatrixWorld(),r=!!l}else if(this.object.isOrthographicCamera){let a=new O(this._mouse.x,this._mouse.y,0);a.unproject(this.object);let l=this.object.zoom;this.object.zoom=Math.max(this.minZoom,Math.min(this.maxZoom,this.object.zoom/this._scale)),this.object.updateProjectionMatrix(),r=l!==this.object.zoom;let c=new O(this._mouse.x,this._mouse.y,0);c.unproject(this.object),this.object.position.sub(c).add(a),this.object.updateMatrixWorld(),o=Cn.length()}else console.warn("WARNING: OrbitControls.js encountered an unknown camera type - zoom to cursor disabled."),this.zoomToCursor=!1;o!==null&&(this.screenSpacePanning?this.target.set(0,0,-1).transformDirection(this.object.matrix).multiplyScalar(o).add(this.object.position):(cd.origin.copy(this.object.position),cd.direction.set(0,0,-1).transformDirection(this.object.matrix),Math.abs(this.object.up.dot(cd.direction))<sC?this.object.lookAt(this.target):(jx.setFromNormalAndCoplanarPoint(this.object.up,this.target),cd.intersectPlane(jx,this.target))))}else if(this.object.isOrthographicCamera){let o=this.object.zoom;this.object.zoom=Math.max(this.minZoom,Math.min(this.maxZoom,this.object.zoom/this._scale)),o!==this.object.zoom&&(this.object.updateProjectionMatrix(),r=!0)}return this._scale=1,this._performCursorZoom=!1,r||this._lastPosition.distanceToSquared(this.object.position)>wm||8*(1-this._lastQuaternion.dot(this.object.quaternion))>wm||this._lastTargetPosition.distanceToSquared(this.target)>wm?(this.dispatchEvent(Yx),this._lastPosition.copy(this.object.position),this._lastQuaternion.copy(this.object.quaternion),this._lastTargetPosition.copy(this.target),!0):!1}_getAutoRotationAngle(t){return t!==null?bi/60*this.autoRotateSpeed*t:bi/60/60*this.autoRotateSpeed}_getZoomScale(t){let e=Math.abs(t*.01);return Math.pow(.95,this.zoomSpeed*e)}_rotateLeft(t){this._sphericalDelta.theta-=t}_rotateUp(t){this._sphericalDelta.phi-=t}_panLeft(t,e){Cn.setFromMatrixColumn(e,0),Cn.multiplyScalar(-t),this._panOffset.add(Cn)}_panUp(t,e){this.screenSpacePanning===!0?Cn.setFromMatrixColumn(e,1):(Cn.setFromMatrixColumn(e,0),Cn.crossVectors(this.object.up,Cn)),Cn.multiplyScalar(t),this._panOffset.add(Cn)}_pan(t,e){let n=this.domElement;if(this.object.isPerspectiveCamera){let i=this.object.position;Cn.copy(i).sub(this.target);let r=Cn.length();r*=Math.tan(this.object.fov/2*Math.PI/180),this._panLeft(2*t*r/n.clientHeight,this.object.matrix),this._panUp(2*e*r/n.clientHeight,this.object.matrix)}else this.object.isOrthographicCamera?(this._panLeft(t*(this.object.right-this.object.left)/this.object.zoom/n.clientWidth,this.object.matrix),this._panUp(e*(this.object.top-this.object.bottom)/this.object.zoom/n.clientHeight,this.object.matrix)):(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - pan disabled."),this.enablePan=!1)}_dollyOut(t){this.object.isPerspectiveCamera||this.object.isOrthographicCamera?this._scale/=t:(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - dolly/zoom disabled."),this.enableZoom=!1)}_dollyIn(t){this.object.isPerspectiveCamera||this.object.isOrthographicCamera?this._scale*=t:(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - dolly/zoom disabled."),this.enableZoom=!1)}_updateZoomParameters(t,e){if(!this.zoomToCursor)return;this._performCursorZoom=!0;let n=this.domElement.getBoundingClientRect(),i=t-n.left,r=e-n.top,o=n.width,a=n.height;this._mouse.x=i/o*2-1,this._mouse.y=-(r/a)*2+1,this._dollyDirection.set(this._mouse.x,this._mouse.y,1).unproject(this.object).sub(this.object.position).normalize()}_clampDistance(t){return Math.max(this.minDistance,Math.min(this.maxDistance,t))}_handleMouseDownRotate(t){this._rotateStart.set(t.clientX,t.clientY)}_handleMouseDownDolly(t){this._updateZoomParameters(t.clientX,t.clientY),this._dollyStart.set(t.clientX,t.clientY)}_handleMouseDownPan(t){this._panStart.set(t.clientX,t.clientY)}_handleMouseMoveRotate(t){this._rotateEnd.set(t.clientX,t.clientY),this._rotateDelta.subVectors(this._rotateEnd,this._rotateStart).multiplyScalar(this.rotateSpeed);let e=this.domElement;this._rotateLeft(bi*this._rotateDelta.x/e.clientHeight),this._rotateUp(bi*this._rotateDelta.y/e.clientHeight),this._rotateStart.copy(this._rotateEnd),this.update()}_handleMouseMoveDolly(t){this._dollyEnd.set(t.clientX,t.clientY),this._dollyDelta.subVectors(this._dollyEnd,this._dollyStart),this._dollyDelta.y>0?this._dollyOut(this._getZoomScale(this._dollyDelta.y)):this._dollyDelta.y<0&&this._dollyIn(this._getZoomScale(this._dollyDelta.y)),this._dollyStart.copy(this._dollyEnd),this.zoomToCursor&&(this._performCursorZoom=!0,this._dollyDirection.set(this._mouse.x,this._mouse.y,1).unproject(this.object).sub(this.object.position).normalize()),this.update()}_handleMouseMovePan(t){this._panEnd.set(t.clientX,t.clientY),this._panDelta.subVectors(this._panEnd,this._panStart).multiplyScalar(this.panSpeed),this._pan(this._panDelta.x,this._panDelta.y),this._panStart.copy(this._panEnd),this.update()}_handleMouseWheel(t){this._updateZoomParameters(t.clientX,t.clientY),t.deltaY<0?this._dollyIn(this._getZoomScale(t.deltaY)):t.deltaY>0&&this._dollyOut(this._getZoomScale(t.deltaY)),this.update()}_handleKeyDown(t){let e=!1;switch(t.code){case this.keys.UP:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateUp(bi*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(0,this.keyPanSpeed),e=!0;break;case this.keys.BOTTOM:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateUp(-bi*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(0,-this.keyPanSpeed),e=!0;break;case this.keys.LEFT:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateLeft(bi*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(this.keyPanSpeed,0),e=!0;break;case this.keys.RIGHT:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateLeft(-bi*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(-this.keyPanSpeed,0),e=!0;break}e&&(t.preventDefault(),this.update())}_handleTouchStartRotate(t){if(this._pointers.length===1)this._rotateStart.set(t.pageX,t.pageY);else{let e=this._getSecondPointerPosition(t),n=.5*(t.pageX+e.x),i=.5*(t.pageY+e.y);this._rotateStart.set(n,i)}}_handleTouchStartPan(t){if(this._pointers.length===1)this._panStart.set(t.pageX,t.pageY);else{let e=this._getSecondPointerPosition(t),n=.5*(t.pageX+e.x),i=.5*(t.pageY+e.y);this._panStart.set(n,i)}}_handleTouchStartDolly(t){let e=this._getSecondPointerPosition(t),n=t.pageX-e.x,i=t.pageY-e.y,r=Math.sqrt(n*n+i*i);this._dollyStart.set(0,r)}_handleTouchStartDollyPan(t){this.enableZoom&&this._handleTouchStartDolly(t),this.enablePan&&this._handleTouchStartPan(t)}_handleTouchStartDollyRotate(t){this.enableZoom&&this._handleTouchStartDolly(t),this.enableRotate&&this._handleTouchStartRotate(t)}_handleTouchMoveRotate(t){if(this._pointers.length==1)this._rotateEnd.set(t.pageX,t.pageY);else{let n=this._getSecondPointerPosition(t),i=.5*(t.pageX+n.x),r=.5*(t.pageY+n.y);this._rotateEnd.set(i,r)}this._rotateDelta.subVectors(this._rotateEnd,this._rotateStart).multiplyScalar(this.rotateSpeed);let e=this.domElement;this._rotateLeft(bi*this._rotateDelta.x/e.clientHeight),this._rotateUp(bi*this._rotateDelta.y/e.clientHeight),this._rotateStart.copy(this._rotateEnd)}_handleTouchMovePan(t){if(this._pointers.length===1)this._panEnd.set(t.pageX,t.pageY);else{let e=this._getSecondPointerPosition(t),n=.5*(t.pageX+e.x),i=.5*(t.pageY+e.y);this._panEnd.set(n,i)}this._panDelta.subVectors(this._panEnd,this._panStart).multiplyScalar(this.panSpeed),this._pan(this._panDelta.x,this._panDelta.y),this._panStart.copy(this._panEnd)}_handleTouchMoveDolly(t){let e=this._getSecondPointerPosition(t),n=t.pageX-e.x,i=t.pageY-e.y,r=Math.sqrt(n*n+i*i);this._dollyEnd.set(0,r),this._dollyDelta.set(0,Math.pow(this._dollyEnd.y/this._dollyStart.y,this.zoomSpeed)),this._dollyOut(this._dollyDelta.y),this._dollyStart.copy(this._dollyEnd);let o=(t.pageX+e.x)*.5,a=(t.pageY+e.y)*.5;this._updateZoomParameters(o,a)}_handleTouchMoveDollyPan(t){this.enableZoom&&this._handleTouchMoveDolly(t),this.enablePan&&this._handleTouchMovePan(t)}_handleTouchMoveDollyRotate(t){this.enableZoom&&this._handleTouchMoveDolly(t),this.enableRotate&&this._handleTouchMoveRotate(t)}_addPointer(t){this._pointers.push(t.pointerId)}_removePointer(t){delete this._pointerPositions[t.pointerId];for(let e=0;e<this._pointers.length;e++)if(this._pointers[e]==t.pointerId){this._pointers.splice(e,1);return}}_isTrackingPointer(t){for(let e=0;e<this._pointers.length;e++)if(this._pointers[e]==t.pointerId)return!0;return!1}_trackPointer(t){let e=this._pointerPositions[t.pointerId];e===void 0&&(e=new Xt,this._pointerPositions[t.pointerId]=e),e.set(t.pageX,t.pageY)}_getSecondPointerPosition(t){let e=t.pointerId===this._pointers[0]?this._pointers[1]:this._pointers[0];return this._pointerPositions[e]}_customWheelEvent(t){let e=t.deltaMode,n={clientX:t.clientX,clientY:t.clientY,deltaY:t.deltaY};switch(e){case 1:n.deltaY*=16;break;case 2:n.deltaY*=100;break}return t.ctrlKey&&!this._controlActive&&(n.deltaY*=10),n}};function rC(s){this.enabled!==!1&&(this._pointers.length===0&&(this.domElement.setPointerCapture(s.pointerId),this.domElement.ownerDocument.addEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.addEventListener("pointerup",this._onPointerUp)),!this._isTrackingPointer(s)&&(this._addPointer(s),s.pointerType==="touch"?this._onTouchStart(s):this._onMouseDown(s),this._cursorStyle==="grab"&&(this.domElement.style.cursor="grabbing")))}function oC(s){this.enabled!==!1&&(s.pointerType==="touch"?this._onTouchMove(s):this._onMouseMove(s))}function aC(s){switch(this._removePointer(s),this._pointers.length){case 0:this.domElement.releasePointerCapture(s.pointerId),this.domElement.ownerDocument.removeEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.removeEventListener("pointerup",this._onPointerUp),this.dispatchEvent(Jx),this.state=Ce.NONE,this._cursorStyle==="grab"&&(this.domElement.style.cursor="grab");break;case 1:let t=this._pointers[0],e=this._pointerPositions[t];this._onTouchStart({pointerId:t,pageX:e.x,pageY:e.y});break}}function lC(s){let t;switch(s.button){case 0:t=this.mouseButtons.LEFT;break;case 1:t=this.mouseButtons.MIDDLE;break;case 2:t=this.mouseButtons.RIGHT;break;default:t=-1}switch(t){case Mr.DOLLY:if(this.enableZoom===!1)return;this._handleMouseDownDolly(s),this.state=Ce.DOLLY;break;case Mr.ROTATE:if(s.ctrlKey||s.metaKey||s.shiftKey){if(this.enablePan===!1)return;this._handleMouseDownPan(s),this.state=Ce.PAN}else{if(this.enableRotate===!1)return;this._handleMouseDownRotate(s),this.state=Ce.ROTATE}break;case Mr.PAN:if(s.ctrlKey||s.metaKey||s.shiftKey){if(this.enableRotate===!1)return;this._handleMouseDownRotate(s),this.state=Ce.ROTATE}else{if(this.enablePan===!1)return;this._handleMouseDownPan(s),this.state=Ce.PAN}break;default:this.state=Ce.NONE}this.state!==Ce.NONE&&this.dispatchEvent(Tm)}function cC(s){switch(this.state){case Ce.ROTATE:if(this.enableRotate===!1)return;this._handleMouseMoveRotate(s);break;case Ce.DOLLY:if(this.enableZoom===!1)return;this._handleMouseMoveDolly(s);break;case Ce.PAN:if(this.enablePan===!1)return;this._handleMouseMovePan(s);break}}function hC(s){this.enabled===!1||this.enableZoom===!1||this.state!==Ce.NONE||(s.preventDefault(),this.dispatchEvent(Tm),this._handleMouseWheel(this._customWheelEvent(s)),this.dispatchEvent(Jx))}function uC(s){this.enabled!==!1&&this._handleKeyDown(s)}function dC(s){switch(this._trackPointer(s),this._pointers.length){case 1:switch(this.touches.ONE){case wr.ROTATE:if(this.enableRotate===!1){this.state=Ce.NONE;break}this._handleTouchStartRotate(s),this.state=Ce.TOUCH_ROTATE;break;case wr.PAN:if(this.enablePan===!1){this.state=Ce.NONE;break}this._handleTouchStartPan(s),this.state=Ce.TOUCH_PAN;break;default:this.state=Ce.NONE}break;case 2:switch(this.touches.TWO){case wr.DOLLY_PAN:if(this.enableZoom===!1&&this.enablePan===!1)return;this._handleTouchStartDollyPan(s),this.state=Ce.TOUCH_DOLLY_PAN;break;case wr.DOLLY_ROTATE:if(this.enableZoom===!1&&this.enableRotate===!1)return;this._handleTouchStartDollyRotate(s),this.state=Ce.TOUCH_DOLLY_ROTATE;break;default:this.state=Ce.NONE}break;default:this.state=Ce.NONE}this.state!==Ce.NONE&&this.dispatchEvent(Tm)}function fC(s){switch(this._trackPointer(s),this.state){case Ce.TOUCH_ROTATE:if(this.enableRotate===!1)return;this._handleTouchMoveRotate(s),this.update();break;case Ce.TOUCH_PAN:if(this.enablePan===!1)return;this._handleTouchMovePan(s),this.update();break;case Ce.TOUCH_DOLLY_PAN:if(this.enableZoom===!1&&this.enablePan===!1)return;this._handleTouchMoveDollyPan(s),this.update();break;case Ce.TOUCH_DOLLY_ROTATE:if(this.enableZoom===!1&&this.enableRotate===!1)return;this._handleTouchMoveDollyRotate(s),this.update();break;default:this.state=Ce.NONE}}function pC(s){this.enabled!==!1&&s.preventDefault()}function mC(s){s.key==="Control"&&(this._controlActive=!0,this.domElement.ownerDocument.addEventListener("keyup",this._interceptControlUp,{passive:!0,capture:!0}))}function gC(s){s.key==="Control"&&(this._controlActive=!1,this.domElement.ownerDocument.removeEventListener("keyup",this._interceptControlUp,{passive:!0,capture:!0}))}var $x=40,Zx=new O(-.78,-.55,.5).normalize(),yC=new O(-1,0,.48).normalize(),Pa=new O(0,0,1),_C=1.75,xC=2.4,vC=.35,bC=.1,SC=.45,ud=Math.PI/24,dd=class{constructor(t,e,n){this.canvas=t;this.changed=e;this.goHome=n;this.camera.up.copy(Pa),this.camera.position.copy(Zx).multiplyScalar(4),this.controls=new hd(this.camera,t),Object.assign(this.controls,{enableDamping:!0,dampingFactor:.16,minDistance:.15,maxDistance:150,maxPolarAngle:Math.PI*.52,screenSpacePanning:!1,zoomToCursor:!1}),this.controls.addEventListener("change",e),this.controls.addEventListener("start",()=>this.isMoved=!0),t.addEventListener("keydown",this.onKey),this.controls.update()}canvas;changed;goHome;camera=new bn($x,1,.03,600);controls;isMoved=!1;isFollowing=!1;heading=0;lift=0;get target(){return this.controls.target}get distance(){return this.camera.position.distanceTo(this.target)}resize(t){this.camera.aspect=t;let e=Math.tan($x*Math.PI/360),n=t<1?e/Math.max(t,.6):e;this.camera.fov=Math.atan(n)*360/Math.PI,this.camera.updateProjectionMatrix()}frame(t,e=_C){let n=t.isEmpty()?new nn(new O,1):t.getBoundingSphere(new nn),i=Math.tan(this.camera.fov*Math.PI/360)*Math.min(1,this.camera.aspect),r=e*Math.max(n.radius,vC)/i;this.isMoved=!1,this.target.copy(n.center),this.camera.position.copy(n.center).addScaledVector(Zx,r),this.controls.update(),this.changed()}startFollowing(t,e){this.frame(e,xC);let n=this.distance,i=new O().setFromMatrixPosition(t);this.lift=this.target.z-i.z,this.heading=Kx(t),this.target.setX(i.x).setY(i.y),this.camera.position.copy(yC).applyAxisAngle(Pa,this.heading).multiplyScalar(n).add(this.target),this.isFollowing=!0,this.controls.enablePan=!1,this.controls.update()}stopFollowing(){this.isFollowing=!1,this.controls.enablePan=!0}update(t,e){let n=this.isFollowing&&e!==null&&this.follow(e,t);return this.controls.update(t)||n}dispose(){this.canvas.removeEventListener("keydown",this.onKey),this.controls.dispose()}follow(t,e){let n=new O().setFromMatrixPosition(t);n.z+=this.lift;let i=n.sub(this.target).multiplyScalar(1-Math.exp(-e/bC)),r=Kx(t),o=Qx(r-this.heading)*(1-Math.exp(-e/SC));this.heading=Qx(this.heading+o);let a=this.camera.position.clone().sub(this.target).applyAxisAngle(Pa,o);return this.target.add(i),this.camera.position.copy(this.target).add(a),i.lengthSq()>1e-10||Math.abs(o)>1e-5}onKey=t=>{let e=this.camera.position.clone().sub(this.target),n=Math.asin(e.z/e.length()),i=new O().crossVectors(Pa,e).normalize();switch((t.shiftKey&&t.key.startsWith("Arrow")?"Shift":"")+t.key){case"ShiftArrowLeft":e.applyAxisAngle(Pa,-ud);break;case"ShiftArrowRight":e.applyAxisAngle(Pa,ud);break;case"ShiftArrowUp":e.applyAxisAngle(i,-Math.min(ud,1.55-n));break;case"ShiftArrowDown":e.applyAxisAngle(i,Math.min(ud,Math.max(0,n)));break;case"+":case"=":e.multiplyScalar(1/1.15);break;case"-":e.multiplyScalar(1.15);break;case"Home":t.preventDefault(),this.goHome();return;default:return}t.preventDefault(),t.stopPropagation(),this.isMoved=!0,this.camera.position.copy(this.target).add(e),this.controls.update(),this.changed()}};function Kx({elements:s}){return Math.atan2(s[1],s[0])}function Qx(s){return Math.atan2(Math.sin(s),Math.cos(s))}var MC=[10,22,40,64,92],tv=12,ev=220,wC=.8;function nv(s,t,e,n){let i=[],r=[];for(let o of s){let a=EC(o,s),l=n.get(o.key),c=f=>AC(Em[f],a)-(f===l?wC:0),h=[...Em.keys()].sort((f,p)=>c(f)-c(p)),u=Em.map(f=>TC(o,f)),d=h.find(f=>RC(u[f],t,e)&&!i.some(p=>CC(u[f],p)));d!==void 0&&(n.set(o.key,d),i.push(u[d]),r.push({key:o.key,left:u[d].left,top:u[d].top}))}return r}var Em=MC.flatMap(s=>Array.from({length:tv},(t,e)=>{let n=2*Math.PI*e/tv;return{x:Math.cos(n),y:Math.sin(n),distance:s}}));function TC({x:s,y:t,width:e,height:n},i){let r=s+i.x*(i.distance+e/2)-e/2,o=t+i.y*(i.distance+n/2)-n/2;return{left:r,top:o,right:r+e,bottom:o+n}}function EC(s,t){let e=t.filter(({x:a,y:l})=>Math.hypot(a-s.x,l-s.y)<ev),n=a=>a.reduce((l,c)=>l+c,0)/a.length,i=s.x-n(e.map(a=>a.x)),r=s.y-n(e.map(a=>a.y)),o=Math.max(Math.hypot(i,r),ev/8);return{x:i/o,y:r/o}}function AC(s,t){return s.distance/20-2*(s.x*t.x+s.y*t.y)-.3*s.x}function RC(s,t,e){return s.left>=0&&s.top>=0&&s.right<=t&&s.bottom<=e}function CC(s,t){return s.left<t.right+3&&t.left<s.right+3&&s.top<t.bottom+3&&t.top<s.bottom+3}var PC='500 11.5px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif',oc=18,iv=6,fd=class{constructor(t){this.below=t;this.canvas.setAttribute("aria-hidden","true"),Object.assign(this.canvas.style,{position:"absolute",pointerEvents:"none"}),this.pen=this.canvas.getContext("2d"),t.after(this.canvas)}below;canvas=document.createElement("canvas");pen;widths=new Map;habits=new Map;point=new O;isBlank=!0;resize(t){let{offsetLeft:e,offsetTop:n,clientWidth:i,clientHeight:r}=this.below;this.canvas.width=Math.round(i*t),this.canvas.height=Math.round(r*t),Object.assign(this.canvas.style,{left:`${e}px`,top:`${n}px`,width:`${i}px`,height:`${r}px`}),this.pen?.setTransform(t,0,0,t,0,0),this.isBlank=!0}draw(t,e,n){let{pen:i}=this,{clientWidth:r,clientHeight:o}=this.below;if(i===null||this.isBlank&&t.length===0)return;i.clearRect(0,0,r,o),i.font=PC,i.textBaseline="middle";let a=this.anchorsOf(t,e,r,o),l=new Map(a.map(h=>[h.key,h])),c=new Set(t.filter(h=>h.isStrong).map(({text:h})=>h));for(let{key:h,left:u,top:d}of nv(a,r,o,this.habits)){let f=l.get(h);i.fillStyle=n.labelBack,i.strokeStyle=n.tree,this.drawLeader(i,f,u,d),i.beginPath(),i.roundRect(u,d,f.width,oc,oc/2),i.fill(),i.fillStyle=c.has(h)?n.labelFixed:n.label,i.fillText(h,u+iv,d+oc/2+.5)}this.isBlank=t.length===0}dispose(){this.canvas.remove()}anchorsOf(t,e,n,i){return t.map(({text:o,at:a,isStrong:l})=>{let{x:c,y:h,z:u}=this.point.copy(a).project(e);return{text:o,isStrong:l,x:(c+1)/2*n,y:(1-h)/2*i,z:u}}).filter(({x:o,y:a,z:l})=>l<1&&o>=0&&o<=n&&a>=0&&a<=i).sort((o,a)=>Number(a.isStrong)-Number(o.isStrong)||o.z-a.z).map(({text:o,x:a,y:l})=>({key:o,x:a,y:l,width:this.widthOf(o),height:oc}))}widthOf(t){let e=this.widths.get(t);return e===void 0&&(e=Math.ceil(this.pen?.measureText(t).width??0)+2*iv,this.widths.set(t,e)),e}drawLeader(t,{x:e,y:n,width:i},r,o){let a=Math.min(Math.max(e,r),r+i),l=Math.min(Math.max(n,o),o+oc);t.globalAlpha=.8,t.lineWidth=1,t.beginPath(),t.moveTo(e,n),t.lineTo(a,l),t.stroke(),t.globalAlpha=1}};var sv={hardware:2,software:1},LC={hardware:.75,software:.5},IC=50,NC=20,rv=.85,DC=20,ov=.85,FC=500,pd=class{constructor(t,e,n,i){this.canvas=t;this.step=n;this.resized=i;let r=e?"software":"hardware";this.range={finest:sv[r],coarsest:LC[r]},this.ratio=this.range.finest,this.renderer=new ed({canvas:t,antialias:!e,alpha:!1}),this.renderer.shadowMap.enabled=!0,this.renderer.shadowMap.type=co,this.renderer.autoClear=!1,this.renderer.info.autoReset=!1,t.addEventListener("webglcontextrestored",this.onRestored)}canvas;step;resized;renderer;frames=0;triangles=0;ratio;range;request=0;isDirty=!1;last=0;fence=null;cost=0;changedAt=0;dirty=()=>{this.isDirty=!0,this.ask()};resize(){let{clientWidth:t,clientHeight:e}=this.canvas,n=devicePixelRatio||1;this.renderer.setPixelRatio(Math.min(n,this.ratio)),this.renderer.setSize(t,e,!1),this.resized(t,e,Math.min(n,sv.hardware)),this.dirty()}paint(t,e,n){let{renderer:i}=this;i.info.reset(),i.clear(),i.render(t,n),i.clearDepth(),i.render(e,n),this.triangles=i.info.render.triangles,this.frames++}dispose(){cancelAnimationFrame(this.request),this.canvas.removeEventListener("webglcontextrestored",this.onRestored),this.renderer.dispose()}get gl(){return this.renderer.getContext()}ask(){this.request===0&&(this.request=requestAnimationFrame(this.onFrame))}onRestored=()=>{this.fence=null,this.dirty()};onFrame=t=>{this.request=0,!this.gl.isContextLost()&&(this.isBusy()?this.ask():this.isDirty&&this.draw(t))};draw(t){let e=t-this.last;this.last=t,this.isDirty=!1,this.isDirty=this.step(Math.min(e,100)/1e3)||this.isDirty,this.fence=this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE,0),this.gl.flush(),this.ask()}isBusy(){let{fence:t,gl:e}=this;return t===null?!1:e.getSyncParameter(t,e.SYNC_STATUS)===e.UNSIGNALED?!0:(e.deleteSync(t),this.fence=null,this.adapt(performance.now()-this.last),!1)}adapt(t){if(this.cost=ov*this.cost+(1-ov)*Math.min(t,FC),this.frames-this.changedAt<DC)return;let{finest:e,coarsest:n}=this.range,i=Math.min(this.ratio,devicePixelRatio||1),r=this.cost>IC?i*rv:this.cost<NC?i/rv:i,o=Math.min(Math.max(r,n),e,devicePixelRatio||1);o!==i&&(this.changedAt=this.frames,this.ratio=o,this.resize())}};var UC=5,OC=500,md=class{constructor(t,e,n,i){this.canvas=t;this.camera=e;this.views=n;this.picked=i;let{signal:r}=this.abort;t.addEventListener("pointerdown",o=>this.onDown(o),{signal:r}),t.addEventListener("pointerup",o=>this.onUp(o),{signal:r})}canvas;camera;views;picked;caster=new Hl;abort=new AbortController;down=null;dispose(){this.abort.abort()}onDown(t){let{clientX:e,clientY:n,timeStamp:i,pointerId:r}=t;this.down=t.button===0&&t.isPrimary?{x:e,y:n,time:i,id:r}:null}onUp({clientX:t,clientY:e,timeStamp:n,pointerId:i}){let{down:r}=this;this.down=null,!(r?.id!==i||n-r.time>OC)&&Math.hypot(t-r.x,e-r.y)<=UC&&this.picked(this.at(t,e))}at(t,e){let{left:n,top:i,width:r,height:o}=this.canvas.getBoundingClientRect(),a=(t-n)/r*2-1,l=1-(e-i)/o*2;this.caster.setFromCamera(new Xt(a,l),this.camera);let c=1/0,h=null;for(let[u,d]of this.views()){let[f]=d.object.visible?this.caster.intersectObjects(d.visuals(),!1):[];f!==void 0&&f.distance<c&&(c=f.distance,h={robot:u,link:d.linkOf(f.object)})}return h}};var BC=1e-4;function av(s,t){if(s===null||s.layout.id!==t.layout.id)return!0;let e=new Float32Array(s.poses.buffer,16),n=new Float32Array(t.poses.buffer,16);if(e.length!==n.length)return!0;for(let i=0;i<n.length;i++)if(!(Math.abs(n[i]-e[i])<=BC*Math.max(1,Math.abs(e[i])))&&!(Number.isNaN(n[i])&&Number.isNaN(e[i])))return!0;return!1}var lv=256,kC=.5,zC=.01,VC=.6,GC=.05,gd=class{object=new Ke;discs=new Tl(new Pl(1,32),new Ui({transparent:!0,opacity:.55,depthWrite:!1}),lv);arrows=new _o(3);slipColour=new Dt;radii=new WeakMap;constructor(){this.discs.instanceMatrix.setUsage(mo),this.discs.frustumCulled=!1,this.discs.raycast=()=>{},this.object.add(this.discs,this.arrows.object),this.begin()}setPalette(t){this.discs.material.color.set(t.contact),this.slipColour.set(t.slip)}forget(t){this.radii.delete(t)}begin(){this.discs.count=0,this.arrows.clear()}add(t,e,n){let i=a=>n.wheels.subarray(4*a,4*(a+1)),r=e.map((a,l)=>i(l)[1]).filter(a=>a>0),o=r.reduce((a,l)=>a+l,0)/Math.max(1,r.length);e.forEach((a,l)=>{let[c,h,u,d]=i(l),f=c>0?this.footingOf(t,a):null;f!==null&&this.discs.count<lv&&(this.drawDisc(f,h/o),this.drawArrow(f,u,d))})}commit(){this.discs.instanceMatrix.needsUpdate=!0,this.discs.visible=this.discs.count>0,this.arrows.commit()}dispose(){this.discs.geometry.dispose(),this.discs.material.dispose(),this.discs.dispose(),this.arrows.dispose()}footingOf(t,e){let n=t.joint(e),i=this.radiusOf(t,e);if(n===void 0||i===0)return null;let{matrixWorld:r}=n,o=n.axis.clone().transformDirection(r),a=new O().setFromMatrixColumn(t.object.matrixWorld,2).normalize();return a.addScaledVector(o,-a.dot(o)),a.lengthSq()<1e-6?null:(a.normalize(),{point:new O().setFromMatrixPosition(r).addScaledVector(a,-i),up:a,sideways:o,forward:o.clone().cross(a),radius:i})}drawDisc({point:t,forward:e,sideways:n,up:i,radius:r},o){let a=.45*r*Math.sqrt(Math.min(o,4)),l=new Nt().makeBasis(e.clone().multiplyScalar(a),n.clone().multiplyScalar(a),i);l.setPosition(t.x,t.y,t.z),this.discs.setMatrixAt(this.discs.count++,l)}drawArrow({point:t,forward:e,sideways:n},i,r){let o=Math.hypot(i,r);if(!(o>zC))return;let a=Math.min(kC*o,VC),l=new O().addScaledVector(e,i).addScaledVector(n,r);l.divideScalar(o);let c=new O().addScaledVector(e,-r).addScaledVector(n,i);c.divideScalar(o);let h=t.clone().addScaledVector(l,a);this.arrows.add(t,h,this.slipColour);let u=Math.min(GC,a/2);for(let d of[-.6*u,.6*u]){let f=h.clone().addScaledVector(l,-u).addScaledVector(c,d);this.arrows.add(h,f,this.slipColour)}}radiusOf(t,e){let n=this.radii.get(t)??new Map;this.radii.set(t,n);let i=n.get(e)??t.wheelRadius(e);return n.set(e,i),i}};var La=class extends Qn{constructor(t){super(t)}load(t,e,n,i){let r=this,o=new Ms(this.manager);o.setPriority(this.priority),o.setCache(this.cache),o.setPath(this.path),o.setResponseType("arraybuffer"),o.setRequestHeader(this.requestHeader),o.setWithCredentials(this.withCredentials),o.load(t,function(a){try{e(r.parse(a))}catch(l){i?i(l):console.error(l),r.manager.itemError(t)}},n,i)}parse(t){function e(c){let h=new DataView(c),u=32/8*3+32/8*3*3+16/8,d=h.getUint32(80,!0);if(80+32/8+d*u===h.byteLength)return!0;let p=[115,111,108,105,100];for(let y=0;y<5;y++)if(n(p,h,y))return!1;return!0}function n(c,h,u){for(let d=0,f=c.length;d<f;d++)if(c[d]!==h.getUint8(u+d))return!1;return!0}function i(c){let h=new DataView(c),u=h.getUint32(80,!0),d,f,p,y=!1,m,g,_,w,v;for(let C=0;C<=70;C++)h.getUint32(C,!1)==1129270351&&h.getUint8(C+4)==82&&h.getUint8(C+5)==61&&(y=!0,m=new Float32Array(u*3*3),g=h.getUint8(C+6)/255,_=h.getUint8(C+7)/255,w=h.getUint8(C+8)/255,v=h.getUint8(C+9)/255);let E=84,S=50,x=new Fe,M=new Float32Array(u*3*3),L=new Float32Array(u*3*3),P=new Dt;for(let C=0;C<u;C++){let F=E+C*S,B=h.getFloat32(F,!0),N=h.getFloat32(F+4,!0),W=h.getFloat32(F+8,!0);if(y){let k=h.getUint16(F+48,!0);(k&32768)===0?(d=(k&31)/31,f=(k>>5&31)/31,p=(k>>10&31)/31):(d=g,f=_,p=w)}for(let k=1;k<=3;k++){let H=F+k*12,it=C*3*3+(k-1)*3;M[it]=h.getFloat32(H,!0),M[it+1]=h.getFloat32(H+4,!0),M[it+2]=h.getFloat32(H+8,!0),L[it]=B,L[it+1]=N,L[it+2]=W,y&&(P.setRGB(d,f,p,we),m[it]=P.r,m[it+1]=P.g,m[it+2]=P.b)}}return x.setAttribute("position",new Zn(M,3)),x.setAttribute("normal",new Zn(L,3)),y&&(x.setAttribute("color",new Zn(m,3)),x.hasColors=!0,x.alpha=v),x}function r(c){let h=new Fe,u=/solid([\s\S]*?)endsolid/g,d=/facet([\s\S]*?)endfacet/g,f=/solid\s(.+)/,p=0,y=/[\s]+([+-]?(?:\d*)(?:\.\d*)?(?:[eE][+-]?\d+)?)/.source,m=new RegExp("vertex"+y+y+y,"g"),g=new RegExp("normal"+y+y+y,"g"),_=[],w=[],v=[],E=new O,S,x=0,M=0,L=0;for(;(S=u.exec(c))!==null;){M=L;let P=S[0],C=(S=f.exec(P))!==null?S[1]:"";for(v.push(C);(S=d.exec(P))!==null;){let N=0,W=0,k=S[0];for(;(S=g.exec(k))!==null;)E.x=parseFloat(S[1]),E.y=parseFloat(S[2]),E.z=parseFloat(S[3]),W++;for(;(S=m.exec(k))!==null;)_.push(parseFloat(S[1]),parseFloat(S[2]),parseFloat(S[3])),w.push(E.x,E.y,E.z),N++,L++;W!==1&&console.error("THREE.STLLoader: Something isn't right with the normal of face number "+p),N!==3&&console.error("THREE.STLLoader: Something isn't right with the vertices of face number "+p),p++}let F=M,B=L-M;h.userData.groupNames=v,h.addGroup(F,B,x),x++}return h.setAttribute("position",new Jt(_,3)),h.setAttribute("normal",new Jt(w,3)),h}function o(c){return typeof c!="string"?new TextDecoder().decode(c):c}function a(c){if(typeof c=="string"){let h=new Uint8Array(c.length);for(let u=0;u<c.length;u++)h[u]=c.charCodeAt(u)&255;return h.buffer||h}else return c}let l=a(t);return e(l)?i(l):r(o(t))}};var ac=class extends Ol{constructor(t){super(t)}parse(t){function e(k){switch(k.image_type){case d:case y:if(k.colormap_length>256||k.colormap_size!==24||k.colormap_type!==1)throw new Error("THREE.TGALoader: Invalid type colormap data for indexed type.");break;case f:case p:case m:case g:if(k.colormap_type)throw new Error("THREE.TGALoader: Invalid type colormap data for colormap type.");break;case u:throw new Error("THREE.TGALoader: No data.");default:throw new Error("THREE.TGALoader: Invalid type "+k.image_type)}if(k.width<=0||k.height<=0)throw new Error("THREE.TGALoader: Invalid image size.");if(k.pixel_size!==8&&k.pixel_size!==16&&k.pixel_size!==24&&k.pixel_size!==32)throw new Error("THREE.TGALoader: Invalid pixel size "+k.pixel_size)}function n(k,H,it,j,Z){let tt,ht,st=it.pixel_size>>3,Y=it.width*it.height*st;if(H&&(ht=Z.subarray(j,j+=it.colormap_length*(it.colormap_size>>3))),k){tt=new Uint8Array(Y);let rt,nt,lt,gt=0,Ot=new Uint8Array(st);for(;gt<Y;)if(rt=Z[j++],nt=(rt&127)+1,rt&128){for(lt=0;lt<st;++lt)Ot[lt]=Z[j++];for(lt=0;lt<nt;++lt)tt.set(Ot,gt+lt*st);gt+=st*nt}else{for(nt*=st,lt=0;lt<nt;++lt)tt[gt+lt]=Z[j++];gt+=nt}}else tt=Z.subarray(j,j+=H?it.width*it.height:Y);return{pixel_data:tt,palettes:ht}}function i(k,H,it,j,Z,tt,ht,st,Y){let rt=Y,nt=P.colormap_index,lt,gt=0,Ot,Zt,zt=P.width;for(Zt=H;Zt!==j;Zt+=it)for(Ot=Z;Ot!==ht;Ot+=tt,gt++)lt=st[gt]-nt,k[(Ot+zt*Zt)*4+3]=255,k[(Ot+zt*Zt)*4+2]=rt[lt*3+0],k[(Ot+zt*Zt)*4+1]=rt[lt*3+1],k[(Ot+zt*Zt)*4+0]=rt[lt*3+2];return k}function r(k,H,it,j,Z,tt,ht,st){let Y,rt=0,nt,lt,gt=P.width;for(lt=H;lt!==j;lt+=it)for(nt=Z;nt!==ht;nt+=tt,rt+=2)Y=st[rt+0]+(st[rt+1]<<8),k[(nt+gt*lt)*4+0]=(Y&31744)>>7,k[(nt+gt*lt)*4+1]=(Y&992)>>2,k[(nt+gt*lt)*4+2]=(Y&31)<<3,k[(nt+gt*lt)*4+3]=Y&32768?0:255;return k}function o(k,H,it,j,Z,tt,ht,st){let Y=0,rt,nt,lt=P.width;for(nt=H;nt!==j;nt+=it)for(rt=Z;rt!==ht;rt+=tt,Y+=3)k[(rt+lt*nt)*4+3]=255,k[(rt+lt*nt)*4+2]=st[Y+0],k[(rt+lt*nt)*4+1]=st[Y+1],k[(rt+lt*nt)*4+0]=st[Y+2];return k}function a(k,H,it,j,Z,tt,ht,st){let Y=0,rt,nt,lt=P.width;for(nt=H;nt!==j;nt+=it)for(rt=Z;rt!==ht;rt+=tt,Y+=4)k[(rt+lt*nt)*4+2]=st[Y+0],k[(rt+lt*nt)*4+1]=st[Y+1],k[(rt+lt*nt)*4+0]=st[Y+2],k[(rt+lt*nt)*4+3]=st[Y+3];return k}function l(k,H,it,j,Z,tt,ht,st){let Y,rt=0,nt,lt,gt=P.width;for(lt=H;lt!==j;lt+=it)for(nt=Z;nt!==ht;nt+=tt,rt++)Y=st[rt],k[(nt+gt*lt)*4+0]=Y,k[(nt+gt*lt)*4+1]=Y,k[(nt+gt*lt)*4+2]=Y,k[(nt+gt*lt)*4+3]=255;return k}function c(k,H,it,j,Z,tt,ht,st){let Y=0,rt,nt,lt=P.width;for(nt=H;nt!==j;nt+=it)for(rt=Z;rt!==ht;rt+=tt,Y+=2)k[(rt+lt*nt)*4+0]=st[Y+0],k[(rt+lt*nt)*4+1]=st[Y+0],k[(rt+lt*nt)*4+2]=st[Y+0],k[(rt+lt*nt)*4+3]=st[Y+1];return k}function h(k,H,it,j,Z){let tt,ht,st,Y,rt,nt;switch((P.flags&_)>>w){default:case S:tt=0,st=1,rt=H,ht=0,Y=1,nt=it;break;case v:tt=0,st=1,rt=H,ht=it-1,Y=-1,nt=-1;break;case x:tt=H-1,st=-1,rt=-1,ht=0,Y=1,nt=it;break;case E:tt=H-1,st=-1,rt=-1,ht=it-1,Y=-1,nt=-1;break}if(B)switch(P.pixel_size){case 8:l(k,ht,Y,nt,tt,st,rt,j);break;case 16:c(k,ht,Y,nt,tt,st,rt,j);break;default:throw new Error("THREE.TGALoader: Format not supported.")}else switch(P.pixel_size){case 8:i(k,ht,Y,nt,tt,st,rt,j,Z);break;case 16:r(k,ht,Y,nt,tt,st,rt,j);break;case 24:o(k,ht,Y,nt,tt,st,rt,j);break;case 32:a(k,ht,Y,nt,tt,st,rt,j);break;default:throw new Error("THREE.TGALoader: Format not supported.")}return k}let u=0,d=1,f=2,p=3,y=9,m=10,g=11,_=48,w=4,v=0,E=1,S=2,x=3;if(t.length<19)throw new Error("THREE.TGALoader: Not enough data to contain header.");let M=0,L=new Uint8Array(t),P={id_length:L[M++],colormap_type:L[M++],image_type:L[M++],colormap_index:L[M++]|L[M++]<<8,colormap_length:L[M++]|L[M++]<<8,colormap_size:L[M++],origin:[L[M++]|L[M++]<<8,L[M++]|L[M++]<<8],width:L[M++]|L[M++]<<8,height:L[M++]|L[M++]<<8,pixel_size:L[M++],flags:L[M++]};if(e(P),P.id_length+M>t.length)throw new Error("THREE.TGALoader: No data.");M+=P.id_length;let C=!1,F=!1,B=!1;switch(P.image_type){case y:C=!0,F=!0;break;case d:F=!0;break;case m:C=!0;break;case f:break;case g:C=!0,B=!0;break;case p:B=!0;break}let N=new Uint8Array(P.width*P.height*4),W=n(C,F,P,M,L);return h(N,P.width,P.height,W.pixel_data,W.palettes),{data:N,width:P.width,height:P.height,flipY:!0,generateMipmaps:!0,minFilter:qi}}};function Si(s,t){let e=[],n=s.childNodes;for(let i=0,r=n.length;i<r;i++){let o=n[i];o.nodeName===t&&e.push(o)}return e}function HC(s){return s.length===0?[]:s.trim().split(/\s+/)}function ni(s){return s.length===0?[]:s.trim().split(/\s+/).map(parseFloat)}function yd(s){return s.length===0?[]:s.trim().split(/\s+/).map(t=>parseInt(t))}function kn(s){return s.substring(1)}var _d=class{constructor(){this.count=0}generateId(){return"three_default_"+this.count++}parse(t){if(t.length===0)return null;let e=new DOMParser().parseFromString(t,"application/xml"),n=Si(e,"COLLADA")[0],i=e.getElementsByTagName("parsererror")[0];if(i!==void 0){let l=Si(i,"div")[0],c;return l?c=l.textContent:c=this.parserErrorToText(i),console.error(`THREE.ColladaLoader: Failed to parse collada file.
+`,c),null}let r=n.getAttribute("version");console.debug("THREE.ColladaLoader: File version",r);let o=this.parseAsset(Si(n,"asset")[0]),a={animations:{},clips:{},controllers:{},images:{},effects:{},materials:{},cameras:{},lights:{},geometries:{},nodes:{},visualScenes:{},kinematicsModels:{},physicsModels:{},kinematicsScenes:{},joints:{}};return this.library=a,this.collada=n,this.parseLibrary(n,"library_animations","animation",this.parseAnimation.bind(this)),this.parseLibrary(n,"library_animation_clips","animation_clip",this.parseAnimationClip.bind(this)),this.parseLibrary(n,"library_controllers","controller",this.parseController.bind(this)),this.parseLibrary(n,"library_images","image",this.parseImage.bind(this)),this.parseLibrary(n,"library_effects","effect",this.parseEffect.bind(this)),this.parseLibrary(n,"library_materials","material",this.parseMaterial.bind(this)),this.parseLibrary(n,"library_cameras","camera",this.parseCamera.bind(this)),this.parseLibrary(n,"library_lights","light",this.parseLight.bind(this)),this.parseLibrary(n,"library_geometries","geometry",this.parseGeometry.bind(this)),this.parseLibrary(n,"library_nodes","node",this.parseNode.bind(this)),this.parseLibrary(n,"library_visual_scenes","visual_scene",this.parseVisualScene.bind(this)),this.parseLibrary(n,"library_joints","joint",this.parseLibraryJoint.bind(this)),this.parseLibrary(n,"library_kinematics_models","kinematics_model",this.parseKinematicsModel.bind(this)),this.parseLibrary(n,"library_physics_models","physics_model",this.parsePhysicsModel.bind(this)),this.parseLibrary(n,"scene","instance_kinematics_scene",this.parseKinematicsScene.bind(this)),{library:a,asset:o,collada:n}}parserErrorToText(t){let e=[],n=[t];for(;n.length;){let i=n.shift();i.nodeType===Node.TEXT_NODE?e.push(i.textContent):(e.push(`
+`),n.push(...i.childNodes))}return e.join("").trim()}parseAsset(t){return{unit:this.parseAssetUnit(Si(t,"unit")[0]),upAxis:this.parseAssetUpAxis(Si(t,"up_axis")[0])}}parseAssetUnit(t){return t!==void 0&&t.hasAttribute("meter")===!0?parseFloat(t.getAttribute("meter")):1}parseAssetUpAxis(t){return t!==void 0?t.textContent:"Y_UP"}parseLibrary(t,e,n,i){let r=Si(t,e)[0];if(r!==void 0){let o=Si(r,n);for(let a=0;a<o.length;a++)i(o[a])}}parseAnimation(t){let e={sources:{},samplers:{},channels:{}},n=!1;for(let i=0,r=t.childNodes.length;i<r;i++){let o=t.childNodes[i];if(o.nodeType!==1)continue;let a;switch(o.nodeName){case"source":a=o.getAttribute("id"),e.sources[a]=this.parseSource(o);break;case"sampler":a=o.getAttribute("id"),e.samplers[a]=this.parseAnimationSampler(o);break;case"channel":a=o.getAttribute("target"),e.channels[a]=this.parseAnimationChannel(o);break;case"animation":this.parseAnimation(o),n=!0;break;default:}}n===!1&&(this.library.animations[t.getAttribute("id")||ti.generateUUID()]=e)}parseAnimationSampler(t){let e={inputs:{}};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1&&r.nodeName==="input"){let o=kn(r.getAttribute("source")),a=r.getAttribute("semantic");e.inputs[a]=o}}return e}parseAnimationChannel(t){let e={},i=t.getAttribute("target").split("/"),r=i.shift(),o=i.shift(),a=o.indexOf("(")!==-1,l=o.indexOf(".")!==-1;if(l)i=o.split("."),o=i.shift(),e.member=i.shift();else if(a){let c=o.split("(");o=c.shift();for(let h=0;h<c.length;h++)c[h]=parseInt(c[h].replace(/\)/,""));e.indices=c}return e.id=r,e.sid=o,e.arraySyntax=a,e.memberSyntax=l,e.sampler=kn(t.getAttribute("source")),e}parseAnimationClip(t){let e={name:t.getAttribute("id")||"default",start:parseFloat(t.getAttribute("start")||0),end:parseFloat(t.getAttribute("end")||0),animations:[]};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="instance_animation"&&e.animations.push(kn(r.getAttribute("url")))}this.library.clips[t.getAttribute("id")]=e}parseController(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"skin":e.id=kn(r.getAttribute("source")),e.skin=this.parseSkin(r);break;case"morph":e.id=kn(r.getAttribute("source")),console.warn("THREE.ColladaLoader: Morph target animation not supported yet.");break}}this.library.controllers[t.getAttribute("id")]=e}parseSkin(t){let e={sources:{}};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"bind_shape_matrix":e.bindShapeMatrix=ni(r.textContent);break;case"source":let o=r.getAttribute("id");e.sources[o]=this.parseSource(r);break;case"joints":e.joints=this.parseJoints(r);break;case"vertex_weights":e.vertexWeights=this.parseVertexWeights(r);break}}return e}parseJoints(t){let e={inputs:{}};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1&&r.nodeName==="input"){let o=r.getAttribute("semantic"),a=kn(r.getAttribute("source"));e.inputs[o]=a}}return e}parseVertexWeights(t){let e={inputs:{}};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"input":let o=r.getAttribute("semantic"),a=kn(r.getAttribute("source")),l=parseInt(r.getAttribute("offset"));e.inputs[o]={id:a,offset:l};break;case"vcount":e.vcount=yd(r.textContent);break;case"v":e.v=yd(r.textContent);break}}return e}parseImage(t){let e={init_from:Si(t,"init_from")[0].textContent};this.library.images[t.getAttribute("id")]=e}parseEffect(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="profile_COMMON"&&(e.profile=this.parseEffectProfileCOMMON(r))}this.library.effects[t.getAttribute("id")]=e}parseEffectProfileCOMMON(t){let e={surfaces:{},samplers:{}};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"newparam":this.parseEffectNewparam(r,e);break;case"technique":e.technique=this.parseEffectTechnique(r);break;case"extra":e.extra=this.parseEffectExtra(r);break}}return e}parseEffectNewparam(t,e){let n=t.getAttribute("sid");for(let i=0,r=t.childNodes.length;i<r;i++){let o=t.childNodes[i];if(o.nodeType===1)switch(o.nodeName){case"surface":e.surfaces[n]=this.parseEffectSurface(o);break;case"sampler2D":e.samplers[n]=this.parseEffectSampler(o);break}}}parseEffectSurface(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="init_from"&&(e.init_from=r.textContent)}return e}parseEffectSampler(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="source"&&(e.source=r.textContent)}return e}parseEffectTechnique(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"constant":case"lambert":case"blinn":case"phong":e.type=r.nodeName,e.parameters=this.parseEffectParameters(r);break;case"extra":e.extra=this.parseEffectExtra(r);break}}return e}parseEffectParameters(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"emission":case"diffuse":case"specular":case"bump":case"ambient":case"shininess":case"transparency":e[r.nodeName]=this.parseEffectParameter(r);break;case"transparent":e[r.nodeName]={opaque:r.hasAttribute("opaque")?r.getAttribute("opaque"):"A_ONE",data:this.parseEffectParameter(r)};break}}return e}parseEffectParameter(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"color":e[r.nodeName]=ni(r.textContent);break;case"float":e[r.nodeName]=parseFloat(r.textContent);break;case"texture":e[r.nodeName]={id:r.getAttribute("texture"),extra:this.parseEffectParameterTexture(r)};break}}return e}parseEffectParameterTexture(t){let e={technique:{}};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="extra"&&this.parseEffectParameterTextureExtra(r,e)}return e}parseEffectParameterTextureExtra(t,e){for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="technique"&&this.parseEffectParameterTextureExtraTechnique(r,e)}}parseEffectParameterTextureExtraTechnique(t,e){for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"repeatU":case"repeatV":case"offsetU":case"offsetV":e.technique[r.nodeName]=parseFloat(r.textContent);break;case"wrapU":case"wrapV":r.textContent.toUpperCase()==="TRUE"?e.technique[r.nodeName]=1:r.textContent.toUpperCase()==="FALSE"?e.technique[r.nodeName]=0:e.technique[r.nodeName]=parseInt(r.textContent);break;case"bump":e[r.nodeName]=this.parseEffectExtraTechniqueBump(r);break}}}parseEffectExtra(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="technique"&&(e.technique=this.parseEffectExtraTechnique(r))}return e}parseEffectExtraTechnique(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"double_sided":e[r.nodeName]=parseInt(r.textContent);break;case"bump":e[r.nodeName]=this.parseEffectExtraTechniqueBump(r);break}}return e}parseEffectExtraTechniqueBump(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="texture"&&(e[r.nodeName]={id:r.getAttribute("texture"),texcoord:r.getAttribute("texcoord"),extra:this.parseEffectParameterTexture(r)})}return e}parseMaterial(t){let e={name:t.getAttribute("name")};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="instance_effect"&&(e.url=kn(r.getAttribute("url")))}this.library.materials[t.getAttribute("id")]=e}parseCamera(t){let e={name:t.getAttribute("name")};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="optics"&&(e.optics=this.parseCameraOptics(r))}this.library.cameras[t.getAttribute("id")]=e}parseCameraOptics(t){for(let e=0;e<t.childNodes.length;e++){let n=t.childNodes[e];if(n.nodeName==="technique_common")return this.parseCameraTechnique(n)}return{}}parseCameraTechnique(t){let e={};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];switch(i.nodeName){case"perspective":case"orthographic":e.technique=i.nodeName,e.parameters=this.parseCameraParameters(i);break}}return e}parseCameraParameters(t){let e={};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];switch(i.nodeName){case"xfov":case"yfov":case"xmag":case"ymag":case"znear":case"zfar":case"aspect_ratio":e[i.nodeName]=parseFloat(i.textContent);break}}return e}parseLight(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];r.nodeType===1&&r.nodeName==="technique_common"&&(e=this.parseLightTechnique(r))}this.library.lights[t.getAttribute("id")]=e}parseLightTechnique(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"directional":case"point":case"spot":case"ambient":e.technique=r.nodeName,e.parameters=this.parseLightParameters(r);break}}return e}parseLightParameters(t){let e={};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"color":let o=ni(r.textContent);e.color=new Dt().fromArray(o),he.colorSpaceToWorking(e.color,we);break;case"falloff_angle":e.falloffAngle=parseFloat(r.textContent);break;case"quadratic_attenuation":let a=parseFloat(r.textContent);e.distance=a?Math.sqrt(1/a):0;break}}return e}parseGeometry(t){let e={name:t.getAttribute("name"),sources:{},vertices:{},primitives:[]},n=Si(t,"mesh")[0];if(n!==void 0){for(let i=0;i<n.childNodes.length;i++){let r=n.childNodes[i];if(r.nodeType!==1)continue;let o=r.getAttribute("id");switch(r.nodeName){case"source":e.sources[o]=this.parseSource(r);break;case"vertices":e.vertices=this.parseGeometryVertices(r);break;case"polygons":case"lines":case"linestrips":case"polylist":case"triangles":e.primitives.push(this.parseGeometryPrimitive(r));break;default:}}this.library.geometries[t.getAttribute("id")]=e}}parseSource(t){let e={array:[],stride:3};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"float_array":e.array=ni(i.textContent);break;case"Name_array":e.array=HC(i.textContent);break;case"technique_common":let r=Si(i,"accessor")[0];r!==void 0&&(e.stride=parseInt(r.getAttribute("stride")));break}}return e}parseGeometryVertices(t){let e={};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];i.nodeType===1&&(e[i.getAttribute("semantic")]=kn(i.getAttribute("source")))}return e}parseGeometryPrimitive(t){let e={type:t.nodeName,material:t.getAttribute("material"),count:parseInt(t.getAttribute("count")),inputs:{},stride:0,hasUV:!1};for(let n=0,i=t.childNodes.length;n<i;n++){let r=t.childNodes[n];if(r.nodeType===1)switch(r.nodeName){case"input":let o=kn(r.getAttribute("source")),a=r.getAttribute("semantic"),l=parseInt(r.getAttribute("offset")),c=parseInt(r.getAttribute("set")),h=c>0?a+c:a;e.inputs[h]={id:o,offset:l},e.stride=Math.max(e.stride,l+1),a==="TEXCOORD"&&(e.hasUV=!0);break;case"vcount":e.vcount=yd(r.textContent);break;case"p":e.p=yd(r.textContent);break}}return e.type==="polygons"&&(e.vcount=[e.p.length/e.stride]),e}parseLibraryJoint(t){this.library.joints[t.getAttribute("id")]=this.parseKinematicsJoint(t)}parseKinematicsModel(t){let e={name:t.getAttribute("name")||"",joints:{},links:[]};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];i.nodeType===1&&i.nodeName==="technique_common"&&this.parseKinematicsTechniqueCommon(i,e)}this.library.kinematicsModels[t.getAttribute("id")]=e}parseKinematicsTechniqueCommon(t,e){for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"joint":e.joints[i.getAttribute("sid")]=this.parseKinematicsJoint(i);break;case"instance_joint":e.joints[i.getAttribute("sid")]=this.library.joints[kn(i.getAttribute("url"))];break;case"link":e.links.push(this.parseKinematicsLink(i));break}}}parseKinematicsJoint(t){let e;for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"prismatic":case"revolute":e=this.parseKinematicsJointParameter(i);break}}return e}parseKinematicsJointParameter(t){let e={sid:t.getAttribute("sid"),name:t.getAttribute("name")||"",axis:new O,limits:{min:0,max:0},type:t.nodeName,static:!1,zeroPosition:0,middlePosition:0};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"axis":let r=ni(i.textContent);e.axis.fromArray(r);break;case"limits":let o=i.getElementsByTagName("max")[0],a=i.getElementsByTagName("min")[0];e.limits.max=parseFloat(o.textContent),e.limits.min=parseFloat(a.textContent);break}}return e.limits.min>=e.limits.max&&(e.static=!0),e.middlePosition=(e.limits.min+e.limits.max)/2,e}parseKinematicsLink(t){let e={sid:t.getAttribute("sid"),name:t.getAttribute("name")||"",attachments:[],transforms:[]};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"attachment_full":e.attachments.push(this.parseKinematicsAttachment(i));break;case"matrix":case"translate":case"rotate":e.transforms.push(this.parseKinematicsTransform(i));break}}return e}parseKinematicsAttachment(t){let e={joint:t.getAttribute("joint").split("/").pop(),transforms:[],links:[]};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"link":e.links.push(this.parseKinematicsLink(i));break;case"matrix":case"translate":case"rotate":e.transforms.push(this.parseKinematicsTransform(i));break}}return e}parseKinematicsTransform(t){let e={type:t.nodeName},n=ni(t.textContent);switch(e.type){case"matrix":e.obj=new Nt,e.obj.fromArray(n).transpose();break;case"translate":e.obj=new O,e.obj.fromArray(n);break;case"rotate":e.obj=new O,e.obj.fromArray(n),e.angle=ti.degToRad(n[3]);break}return e}parsePhysicsModel(t){let e={name:t.getAttribute("name")||"",rigidBodies:{}};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];i.nodeType===1&&i.nodeName==="rigid_body"&&(e.rigidBodies[i.getAttribute("name")]={},this.parsePhysicsRigidBody(i,e.rigidBodies[i.getAttribute("name")]))}this.library.physicsModels[t.getAttribute("id")]=e}parsePhysicsRigidBody(t,e){for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];i.nodeType===1&&i.nodeName==="technique_common"&&this.parsePhysicsTechniqueCommon(i,e)}}parsePhysicsTechniqueCommon(t,e){for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1)switch(i.nodeName){case"inertia":e.inertia=ni(i.textContent);break;case"mass":e.mass=ni(i.textContent)[0];break}}}parseKinematicsScene(t){let e={bindJointAxis:[]};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];i.nodeType===1&&i.nodeName==="bind_joint_axis"&&e.bindJointAxis.push(this.parseKinematicsBindJointAxis(i))}this.library.kinematicsScenes[kn(t.getAttribute("url"))]=e}parseKinematicsBindJointAxis(t){let e={target:t.getAttribute("target").split("/").pop()};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];if(i.nodeType===1&&i.nodeName==="axis"){let r=i.getElementsByTagName("param")[0];e.axis=r.textContent;let o=e.axis.split("inst_").pop().split("axis")[0];e.jointIndex=o.substring(0,o.length-1)}}return e}prepareNodes(t){let e=t.getElementsByTagName("node");for(let n=0;n<e.length;n++){let i=e[n];i.hasAttribute("id")===!1&&i.setAttribute("id",this.generateId())}}parseNode(t){let e=new Nt,n=new O,i={name:t.getAttribute("name")||"",type:t.getAttribute("type"),id:t.getAttribute("id"),sid:t.getAttribute("sid"),matrix:new Nt,nodes:[],instanceCameras:[],instanceControllers:[],instanceLights:[],instanceGeometries:[],instanceNodes:[],transforms:{},transformData:{},transformOrder:[]};for(let r=0;r<t.childNodes.length;r++){let o=t.childNodes[r];if(o.nodeType!==1)continue;let a;switch(o.nodeName){case"node":i.nodes.push(o.getAttribute("id")),this.parseNode(o);break;case"instance_camera":i.instanceCameras.push(kn(o.getAttribute("url")));break;case"instance_controller":i.instanceControllers.push(this.parseNodeInstance(o));break;case"instance_light":i.instanceLights.push(kn(o.getAttribute("url")));break;case"instance_geometry":i.instanceGeometries.push(this.parseNodeInstance(o));break;case"instance_node":i.instanceNodes.push(kn(o.getAttribute("url")));break;case"matrix":a=ni(o.textContent),i.matrix.multiply(e.fromArray(a).transpose());{let l=o.getAttribute("sid");i.transforms[l]=o.nodeName,i.transformData[l]={type:"matrix",array:a},i.transformOrder.push(l)}break;case"translate":a=ni(o.textContent),n.fromArray(a),i.matrix.multiply(e.makeTranslation(n.x,n.y,n.z));{let l=o.getAttribute("sid");i.transforms[l]=o.nodeName,i.transformData[l]={type:"translate",x:a[0],y:a[1],z:a[2]},i.transformOrder.push(l)}break;case"rotate":a=ni(o.textContent);{let l=ti.degToRad(a[3]);i.matrix.multiply(e.makeRotationAxis(n.fromArray(a),l));let c=o.getAttribute("sid");i.transforms[c]=o.nodeName,i.transformData[c]={type:"rotate",axis:[a[0],a[1],a[2]],angle:a[3]},i.transformOrder.push(c)}break;case"scale":a=ni(o.textContent),i.matrix.scale(n.fromArray(a));{let l=o.getAttribute("sid");i.transforms[l]=o.nodeName,i.transformData[l]={type:"scale",x:a[0],y:a[1],z:a[2]},i.transformOrder.push(l)}break;case"extra":break;default:}}return this.hasNode(i.id)?console.warn("THREE.ColladaLoader: There is already a node with ID %s. Exclude current node from further processing.",i.id):this.library.nodes[i.id]=i,i}parseNodeInstance(t){let e={id:kn(t.getAttribute("url")),materials:{},skeletons:[]};for(let n=0;n<t.childNodes.length;n++){let i=t.childNodes[n];switch(i.nodeName){case"bind_material":let r=i.getElementsByTagName("instance_material");for(let o=0;o<r.length;o++){let a=r[o],l=a.getAttribute("symbol"),c=a.getAttribute("target");e.materials[l]=kn(c)}break;case"skeleton":e.skeletons.push(kn(i.textContent));break;default:break}}return e}parseVisualScene(t){let e={name:t.getAttribute("name"),children:[]};this.prepareNodes(t);let n=Si(t,"node");for(let i=0;i<n.length;i++)e.children.push(this.parseNode(n[i]));this.library.visualScenes[t.getAttribute("id")]=e}hasNode(t){return this.library.nodes[t]!==void 0}};var xd=class{constructor(t,e,n,i){this.library=t,this.collada=e,this.textureLoader=n,this.tgaLoader=i,this.tempColor=new Dt,this.animations=[],this.kinematics={},this.position=new O,this.scale=new O,this.quaternion=new Ge,this.matrix=new Nt,this.deferredPivotAnimations={},this.transformNodes={}}compose(){let t=this.library;this.buildLibrary(t.animations,this.buildAnimation.bind(this)),this.buildLibrary(t.clips,this.buildAnimationClip.bind(this)),this.buildLibrary(t.controllers,this.buildController.bind(this)),this.buildLibrary(t.images,this.buildImage.bind(this)),this.buildLibrary(t.effects,this.buildEffect.bind(this)),this.buildLibrary(t.materials,this.buildMaterial.bind(this)),this.buildLibrary(t.cameras,this.buildCamera.bind(this)),this.buildLibrary(t.lights,this.buildLight.bind(this)),this.buildLibrary(t.geometries,this.buildGeometry.bind(this)),this.buildLibrary(t.visualScenes,this.buildVisualScene.bind(this)),this.setupAnimations(),this.setupKinematics();let e=this.parseScene(Si(this.collada,"scene")[0]);return e.animations=this.animations,{scene:e,animations:this.animations,kinematics:this.kinematics}}buildLibrary(t,e){for(let n in t){let i=t[n];i.build=e(t[n])}}getBuild(t,e){return t.build!==void 0||(t.build=e(t)),t.build}isEmpty(t){return Object.keys(t).length===0}buildAnimation(t){let e=[],n=t.channels,i=t.samplers,r=t.sources,o=this.aggregateAnimationChannels(n,i,r);for(let a in o){let l=this.library.nodes[a];if(!l)continue;let c=o[a];if(this.hasPivotTransforms(l))this.collectDeferredPivotAnimation(a,c);else{let h=this.getNode(a),u=!1;for(let d in c){let f=l.transforms[d],p=l.transformData[d],y=c[d];switch(f){case"matrix":this.buildMatrixTracks(h,y,l,e);break;case"translate":this.buildTranslateTrack(h,y,p,e);break;case"rotate":u||(this.buildRotateTrack(h,d,y,p,l,e),u=!0);break;case"scale":this.buildScaleTrack(h,y,p,e);break}}}}return e}collectDeferredPivotAnimation(t,e){this.deferredPivotAnimations[t]||(this.deferredPivotAnimations[t]={});let n=this.deferredPivotAnimations[t];for(let i in e){n[i]||(n[i]={});for(let r in e[i])n[i][r]=e[i][r]}}hasPivotTransforms(t){let e=["rotatePivot","rotatePivotInverse","rotatePivotTranslation","scalePivot","scalePivotInverse","scalePivotTranslation"];for(let n of e)if(t.transforms[n]!==void 0)return!0;return!1}getAnimation(t){return this.getBuild(this.library.animations[t],this.buildAnimation.bind(this))}aggregateAnimationChannels(t,e,n){let i={};for(let r in t){if(!t.hasOwnProperty(r))continue;let o=t[r],a=e[o.sampler],l=a.inputs.INPUT,c=a.inputs.OUTPUT,h=n[l],u=n[c],d=a.inputs.INTERPOLATION,f=a.inputs.IN_TANGENT,p=a.inputs.OUT_TANGENT,y=d?n[d]:null,m=f?n[f]:null,g=p?n[p]:null,_=o.id,w=o.sid,v=o.member||"default";i[_]||(i[_]={}),i[_][w]||(i[_][w]={}),i[_][w][v]={times:h.array,values:u.array,stride:u.stride,arraySyntax:o.arraySyntax,indices:o.indices,interpolation:y?y.array:null,inTangent:m?m.array:null,outTangent:g?g.array:null,inTangentStride:m?m.stride:0,outTangentStride:g?g.stride:0}}return i}buildMatrixTracks(t,e,n,i){let r=n.matrix.clone().transpose(),o={};for(let c in e){let h=e[c],u=h.times,d=h.values,f=h.stride;for(let p=0,y=u.length;p<y;p++){let m=u[p],g=p*f;if(o[m]===void 0&&(o[m]={}),h.arraySyntax===!0){let _=d[g],w=h.indices[0]+4*h.indices[1];o[m][w]=_}else for(let _=0;_<f;_++)o[m][_]=d[g+_]}}let a=this.prepareAnimationData(o,r),l={name:t.uuid,keyframes:a};this.createKeyframeTracks(l,i)}buildTranslateTrack(t,e,n,i){if(e.default&&e.default.stride===3){let c=e.default,h=Array.from(c.times),u=Array.from(c.values),d=new Kn(t.uuid+".position",h,u),f=this.getInterpolationInfo(e);this.applyInterpolation(d,f,e),i.push(d);return}let r=this.getTimesForAllAxes(e);if(r.length===0)return;let o=[],a=this.getInterpolationInfo(e);for(let c=0;c<r.length;c++){let h=r[c],u=this.getValueAtTime(e.X,h,n.x),d=this.getValueAtTime(e.Y,h,n.y),f=this.getValueAtTime(e.Z,h,n.z);o.push(u,d,f)}let l=new Kn(t.uuid+".position",r,o);this.applyInterpolation(l,a),i.push(l)}buildRotateTrack(t,e,n,i,r,o){let a=n.ANGLE||n.default;if(!a)return;let l=Array.from(a.times);if(l.length===0)return;let c=[];for(let m of r.transformOrder)if(r.transforms[m]==="rotate"){let _=r.transformData[m];c.push({sid:m,axis:new O(_.axis[0],_.axis[1],_.axis[2]),defaultAngle:_.angle})}let h=new Ge,u=new Ge,d=new Ge,f=[],p=this.getInterpolationInfo(n);for(let m=0;m<l.length;m++){let g=l[m];h.identity();for(let _ of c){let w;_.sid===e?w=this.getValueAtTime(a,g,_.defaultAngle):w=_.defaultAngle;let v=ti.degToRad(w);d.setFromAxisAngle(_.axis,v),h.multiply(d)}m>0&&u.dot(h)<0&&(h.x=-h.x,h.y=-h.y,h.z=-h.z,h.w=-h.w),u.copy(h),f.push(h.x,h.y,h.z,h.w)}let y=new Ss(t.uuid+".quaternion",l,f);this.applyInterpolation(y,p),o.push(y)}buildScaleTrack(t,e,n,i){if(e.default&&e.default.stride===3){let c=e.default,h=Array.from(c.times),u=Array.from(c.values),d=new Kn(t.uuid+".scale",h,u),f=this.getInterpolationInfo(e);this.applyInterpolation(d,f,e),i.push(d);return}let r=this.getTimesForAllAxes(e);if(r.length===0)return;let o=[],a=this.getInterpolationInfo(e);for(let c=0;c<r.length;c++){let h=r[c],u=this.getValueAtTime(e.X,h,n.x),d=this.getValueAtTime(e.Y,h,n.y),f=this.getValueAtTime(e.Z,h,n.z);o.push(u,d,f)}let l=new Kn(t.uuid+".scale",r,o);this.applyInterpolation(l,a),i.push(l)}getTimesForAllAxes(t){let e=[];return t.X&&(e=e.concat(Array.from(t.X.times))),t.Y&&(e=e.concat(Array.from(t.Y.times))),t.Z&&(e=e.concat(Array.from(t.Z.times))),t.ANGLE&&(e=e.concat(Array.from(t.ANGLE.times))),t.default&&(e=e.concat(Array.from(t.default.times))),e=[...new Set(e)].sort((n,i)=>n-i),e}getValueAtTime(t,e,n){if(!t)return n;let i=t.times,r=t.values,o=t.interpolation;for(let a=0;a<i.length;a++){if(i[a]===e)return r[a];if(i[a]>e){if(a===0)return r[0];let l=a-1,c=a,h=i[l],u=i[c],d=r[l],f=r[c],p=o?o[l]:"LINEAR";if(p==="STEP")return d;if(p==="BEZIER"&&t.inTangent&&t.outTangent)return this.evaluateBezierComponent(t,l,c,h,u,e);{let y=(e-h)/(u-h);return d+y*(f-d)}}}return r[r.length-1]}evaluateBezierComponent(t,e,n,i,r,o){let a=t.values,l=t.inTangent,c=t.outTangent,h=t.inTangentStride||1,u=a[e],d=a[n],f,p,y,m;h===2?(f=c[e*2],p=c[e*2+1],y=l[n*2],m=l[n*2+1]):(f=i+(r-i)/3,p=c[e],y=r-(r-i)/3,m=l[n]);let g=(o-i)/(r-i);for(let x=0;x<8;x++){let M=g*g,L=M*g,P=1-g,C=P*P,B=C*P*i+3*C*g*f+3*P*M*y+L*r,N=3*C*(f-i)+6*P*g*(y-f)+3*M*(r-y);if(Math.abs(N)<1e-10)break;let W=B-o;if(Math.abs(W)<1e-10)break;g=g-W/N,g=Math.max(0,Math.min(1,g))}let _=g*g,w=_*g,v=1-g,E=v*v;return E*v*u+3*E*g*p+3*v*_*m+w*d}getInterpolationInfo(t){let e=["X","Y","Z","ANGLE","default"],n=null,i=!0;for(let r of e){let o=t[r];if(!o||!o.interpolation)continue;let a=o.interpolation;for(let l=0;l<a.length;l++){let c=a[l];n===null?n=c:c!==n&&(i=!1)}}return{type:n||"LINEAR",uniform:i}}applyInterpolation(t,e,n=null){if(e.type==="STEP"&&e.uniform)t.setInterpolation(Kr);else if(e.type==="BEZIER"&&e.uniform&&n){let i=n.default;i&&i.inTangent&&i.outTangent&&(t.setInterpolation(pl),t.settings={inTangents:new Float32Array(i.inTangent),outTangents:new Float32Array(i.outTangent)})}}prepareAnimationData(t,e){let n=[];for(let i in t)n.push({time:parseFloat(i),value:t[i]});n.sort((i,r)=>i.time-r.time);for(let i=0;i<16;i++)this.transformAnimationData(n,i,e.elements[i]);return n}createKeyframeTracks(t,e){let n=t.keyframes,i=t.name,r=[],o=[],a=[],l=[],c=this.position,h=this.quaternion,u=this.scale,d=this.matrix;for(let f=0,p=n.length;f<p;f++){let y=n[f],m=y.time,g=y.value;d.fromArray(g).transpose(),d.decompose(c,h,u),r.push(m),o.push(c.x,c.y,c.z),a.push(h.x,h.y,h.z,h.w),l.push(u.x,u.y,u.z)}return o.length>0&&e.push(new Kn(i+".position",r,o)),a.length>0&&e.push(new Ss(i+".quaternion",r,a)),l.length>0&&e.push(new Kn(i+".scale",r,l)),e}transformAnimationData(t,e,n){let i,r=!0,o,a;for(o=0,a=t.length;o<a;o++)i=t[o],i.value[e]===void 0?i.value[e]=null:r=!1;if(r===!0)for(o=0,a=t.length;o<a;o++)i=t[o],i.value[e]=n;else this.createMissingKeyframes(t,e)}createMissingKeyframes(t,e){let n,i;for(let r=0,o=t.length;r<o;r++){let a=t[r];if(a.value[e]===null){if(n=this.getPrev(t,r,e),i=this.getNext(t,r,e),n===null){a.value[e]=i.value[e];continue}if(i===null){a.value[e]=n.value[e];continue}this.interpolate(a,n,i,e)}}}getPrev(t,e,n){for(;e>=0;){let i=t[e];if(i.value[n]!==null)return i;e--}return null}getNext(t,e,n){for(;e<t.length;){let i=t[e];if(i.value[n]!==null)return i;e++}return null}interpolate(t,e,n,i){if(n.time-e.time===0){t.value[i]=e.value[i];return}t.value[i]=(t.time-e.time)*(n.value[i]-e.value[i])/(n.time-e.time)+e.value[i]}buildAnimationClip(t){let e=[],n=t.name,i=t.end-t.start||-1,r=t.animations;for(let o=0,a=r.length;o<a;o++){let l=this.getAnimation(r[o]);for(let c=0,h=l.length;c<h;c++)e.push(l[c])}return new _a(n,i,e)}getAnimationClip(t){return this.getBuild(this.library.clips[t],this.buildAnimationClip.bind(this))}buildController(t){let e={id:t.id},n=this.library.geometries[e.id];return t.skin!==void 0&&(e.skin=this.buildSkin(t.skin),n.sources.skinIndices=e.skin.indices,n.sources.skinWeights=e.skin.weights),e}buildSkin(t){let n={joints:[],indices:{array:[],stride:4},weights:{array:[],stride:4}},i=t.sources,r=t.vertexWeights,o=r.vcount,a=r.v,l=r.inputs.JOINT.offset,c=r.inputs.WEIGHT.offset,h=t.sources[t.joints.inputs.JOINT],u=t.sources[t.joints.inputs.INV_BIND_MATRIX],d=i[r.inputs.WEIGHT.id].array,f=0,p,y,m;for(p=0,m=o.length;p<m;p++){let _=o[p],w=[];for(y=0;y<_;y++){let v=a[f+l],E=a[f+c],S=d[E];w.push({index:v,weight:S}),f+=2}for(w.sort(g),y=0;y<4;y++){let v=w[y];v!==void 0?(n.indices.array.push(v.index),n.weights.array.push(v.weight)):(n.indices.array.push(0),n.weights.array.push(0))}}for(t.bindShapeMatrix?n.bindMatrix=new Nt().fromArray(t.bindShapeMatrix).transpose():n.bindMatrix=new Nt().identity(),p=0,m=h.array.length;p<m;p++){let _=h.array[p],w=new Nt().fromArray(u.array,p*u.stride).transpose();n.joints.push({name:_,boneInverse:w})}return n;function g(_,w){return w.weight-_.weight}}getController(t){return this.getBuild(this.library.controllers[t],this.buildController.bind(this))}buildImage(t){return t.build!==void 0?t.build:t.init_from}getImage(t){let e=this.library.images[t];return e!==void 0?this.getBuild(e,this.buildImage.bind(this)):(console.warn("THREE.ColladaLoader: Couldn't find image with ID:",t),null)}buildEffect(t){return t}getEffect(t){return this.getBuild(this.library.effects[t],this.buildEffect.bind(this))}getTextureLoader(t){let e,n=t.slice((t.lastIndexOf(".")-1>>>0)+2);return n=n.toLowerCase(),n==="tga"?e=this.tgaLoader:e=this.textureLoader,e}buildMaterial(t){let e=this.getEffect(t.url),n=e.profile.technique,i;switch(n.type){case"phong":case"blinn":i=new Hn;break;case"lambert":i=new io;break;default:i=new Ui;break}i.name=t.name||"";let r=this;function o(h,u=null){let d=e.profile.samplers[h.id],f=null;if(d!==void 0){let p=e.profile.surfaces[d.source];f=r.getImage(p.init_from)}else console.warn("THREE.ColladaLoader: Undefined sampler. Access image directly (see #12530)."),f=r.getImage(h.id);if(f!==null){let p=r.getTextureLoader(f);if(p!==void 0){let y=p.load(f),m=h.extra;if(m!==void 0&&m.technique!==void 0&&r.isEmpty(m.technique)===!1){let g=m.technique;y.wrapS=g.wrapU?Ys:hi,y.wrapT=g.wrapV?Ys:hi,y.offset.set(g.offsetU||0,g.offsetV||0),y.repeat.set(g.repeatU||1,g.repeatV||1)}else y.wrapS=Ys,y.wrapT=Ys;return u!==null&&(y.colorSpace=u),y}else return console.warn("THREE.ColladaLoader: Loader for texture %s not found.",f),null}else return console.warn("THREE.ColladaLoader: Couldn't create texture with ID:",h.id),null}let a=n.parameters;for(let h in a){let u=a[h];switch(h){case"diffuse":u.color&&i.color.fromArray(u.color),u.texture&&(i.map=o(u.texture,we));break;case"specular":u.color&&i.specular&&i.specular.fromArray(u.color),u.texture&&(i.specularMap=o(u.texture));break;case"bump":u.texture&&(i.normalMap=o(u.texture));break;case"ambient":u.texture&&(i.lightMap=o(u.texture,we));break;case"shininess":u.float&&i.shininess&&(i.shininess=u.float);break;case"emission":u.color&&i.emissive&&i.emissive.fromArray(u.color),u.texture&&(i.emissiveMap=o(u.texture,we));break}}he.colorSpaceToWorking(i.color,we),i.specular&&he.colorSpaceToWorking(i.specular,we),i.emissive&&he.colorSpaceToWorking(i.emissive,we);let l=a.transparent,c=a.transparency;if(c===void 0&&l&&(c={float:1}),l===void 0&&c&&(l={opaque:"A_ONE",data:{color:[1,1,1,1]}}),l&&c)if(l.data.texture)i.transparent=!0;else{let h=l.data.color;switch(l.opaque){case"A_ONE":i.opacity=h[3]*c.float;break;case"RGB_ZERO":i.opacity=1-h[0]*c.float;break;case"A_ZERO":i.opacity=1-h[3]*c.float;break;case"RGB_ONE":i.opacity=h[0]*c.float;break;default:console.warn('THREE.ColladaLoader: Invalid opaque type "%s" of transparent tag.',l.opaque)}i.opacity<1&&(i.transparent=!0)}if(n.extra!==void 0&&n.extra.technique!==void 0){let h=n.extra.technique;for(let u in h){let d=h[u];switch(u){case"double_sided":i.side=d===1?pi:Ts;break;case"bump":i.normalMap=o(d.texture),i.normalScale=new Xt(1,1);break}}}return i}getMaterial(t){return this.getBuild(this.library.materials[t],this.buildMaterial.bind(this))}buildCamera(t){let e;switch(t.optics.technique){case"perspective":e=new bn(t.optics.parameters.yfov,t.optics.parameters.aspect_ratio,t.optics.parameters.znear,t.optics.parameters.zfar);break;case"orthographic":let n=t.optics.parameters.ymag,i=t.optics.parameters.xmag,r=t.optics.parameters.aspect_ratio;i=i===void 0?n*r:i,n=n===void 0?i/r:n,i*=.5,n*=.5,e=new oo(-i,i,n,-n,t.optics.parameters.znear,t.optics.parameters.zfar);break;default:e=new bn;break}return e.name=t.name||"",e}getCamera(t){let e=this.library.cameras[t];return e!==void 0?this.getBuild(e,this.buildCamera.bind(this)):(console.warn("THREE.ColladaLoader: Couldn't find camera with ID:",t),null)}buildLight(t){let e;switch(t.technique){case"directional":e=new ao;break;case"point":e=new zl;break;case"spot":e=new kl;break;case"ambient":e=new Vl;break}return t.parameters.color&&e.color.copy(t.parameters.color),t.parameters.distance&&(e.distance=t.parameters.distance),t.parameters.falloffAngle&&(e.angle=ti.degToRad(t.parameters.falloffAngle)),e}getLight(t){let e=this.library.lights[t];return e!==void 0?this.getBuild(e,this.buildLight.bind(this)):(console.warn("THREE.ColladaLoader: Couldn't find light with ID:",t),null)}groupPrimitives(t){let e={};for(let n=0;n<t.length;n++){let i=t[n];e[i.type]===void 0&&(e[i.type]=[]),e[i.type].push(i)}return e}checkUVCoordinates(t){let e=0;for(let n=0,i=t.length;n<i;n++)t[n].hasUV===!0&&e++;e>0&&e<t.length&&(t.uvsNeedsFix=!0)}buildGeometry(t){let e={},n=t.sources,i=t.vertices,r=t.primitives;if(r.length===0)return{};let o=this.groupPrimitives(r);for(let a in o){let l=o[a];this.checkUVCoordinates(l),e[a]=this.buildGeometryType(l,n,i)}return e}buildGeometryType(t,e,n){let i={},r={array:[],stride:0},o={array:[],stride:0},a={array:[],stride:0},l={array:[],stride:0},c={array:[],stride:0},h={array:[],stride:4},u={array:[],stride:4},d=new Fe,f=[],p=0;for(let y=0;y<t.length;y++){let m=t[y],g=m.inputs,_=0;switch(m.type){case"lines":case"linestrips":_=m.count*2;break;case"triangles":_=m.count*3;break;case"polygons":case"polylist":for(let w=0;w<m.count;w++){let v=m.vcount[w];switch(v){case 3:_+=3;break;case 4:_+=6;break;default:_+=(v-2)*3;break}}break;default:console.warn("THREE.ColladaLoader: Unknown primitive type:",m.type)}d.addGroup(p,_,y),p+=_,m.material&&f.push(m.material),m.positionSource=e[n.POSITION],m.positionOffset=g.VERTEX.offset;for(let w in g){let v=g[w];switch(w){case"VERTEX":for(let E in n){let S=n[E];switch(E){case"POSITION":let x=r.array.length;if(this.buildGeometryData(m,e[S],v.offset,r.array),r.stride=e[S].stride,e.skinWeights&&e.skinIndices&&(this.buildGeometryData(m,e.skinIndices,v.offset,h.array),this.buildGeometryData(m,e.skinWeights,v.offset,u.array)),m.hasUV===!1&&t.uvsNeedsFix===!0){let M=(r.array.length-x)/r.stride;for(let L=0;L<M;L++)a.array.push(0,0)}break;case"NORMAL":this.buildGeometryData(m,e[S],v.offset,o.array),o.stride=e[S].stride;break;case"COLOR":this.buildGeometryData(m,e[S],v.offset,c.array,!0),c.stride=e[S].stride;break;case"TEXCOORD":this.buildGeometryData(m,e[S],v.offset,a.array),a.stride=e[S].stride;break;case"TEXCOORD1":this.buildGeometryData(m,e[S],v.offset,l.array),a.stride=e[S].stride;break;default:console.warn('THREE.ColladaLoader: Semantic "%s" not handled in geometry build process.',E)}}break;case"NORMAL":this.buildGeometryData(m,e[v.id],v.offset,o.array),o.stride=e[v.id].stride;break;case"COLOR":this.buildGeometryData(m,e[v.id],v.offset,c.array,!0),c.stride=e[v.id].stride;break;case"TEXCOORD":this.buildGeometryData(m,e[v.id],v.offset,a.array),a.stride=e[v.id].stride;break;case"TEXCOORD1":this.buildGeometryData(m,e[v.id],v.offset,l.array),l.stride=e[v.id].stride;break}}}return r.array.length>0&&d.setAttribute("position",new Jt(r.array,r.stride)),o.array.length>0&&d.setAttribute("normal",new Jt(o.array,o.stride)),c.array.length>0&&d.setAttribute("color",new Jt(c.array,c.stride)),a.array.length>0&&d.setAttribute("uv",new Jt(a.array,a.stride)),l.array.length>0&&d.setAttribute("uv1",new Jt(l.array,l.stride)),h.array.length>0&&d.setAttribute("skinIndex",new Jt(h.array,h.stride)),u.array.length>0&&d.setAttribute("skinWeight",new Jt(u.array,u.stride)),i.data=d,i.type=t[0].type,i.materialKeys=f,i}buildGeometryData(t,e,n,i,r=!1){let o=t.p,a=t.stride,l=t.vcount,c=t.positionSource,h=t.positionOffset,u=this.tempColor;function d(y){let m=o[y+n]*p,g=m+p;for(;m<g;m++)i.push(f[m]);if(r){let _=i.length-p;u.setRGB(i[_+0],i[_+1],i[_+2],we),i[_+0]=u.r,i[_+1]=u.g,i[_+2]=u.b}}let f=e.array,p=e.stride;if(t.vcount!==void 0){let y=0;for(let m=0,g=l.length;m<g;m++){let _=l[m];if(_===4){let w=y+a*0,v=y+a*1,E=y+a*2,S=y+a*3;d(w),d(v),d(S),d(v),d(E),d(S)}else if(_===3){let w=y+a*0,v=y+a*1,E=y+a*2;d(w),d(v),d(E)}else if(_>4){let w=[];for(let L=0;L<_;L++){let P=y+a*L+h,C=o[P]*c.stride,F=c.array[C],B=c.array[C+1],N=c.array[C+2];w.push(new O(F,B,N))}let v=new O,E=new os;E.a=w[0],E.b=w[1],E.c=w[2],E.getNormal(v);let S=[];if(Math.abs(v.x)>Math.abs(v.y)&&Math.abs(v.x)>Math.abs(v.z))for(let L=0;L<_;L++)S.push(new Xt(w[L].y,w[L].z));else if(Math.abs(v.y)>Math.abs(v.z))for(let L=0;L<_;L++)S.push(new Xt(w[L].x,w[L].z));else for(let L=0;L<_;L++)S.push(new Xt(w[L].x,w[L].y));let x=ga.isClockWise(S);x===!0&&S.reverse();let M=ga.triangulateShape(S,[]);for(let L=0;L<M.length;L++){let P=M[L],C,F,B;x===!1?(C=P[0],F=P[1],B=P[2]):(C=_-1-P[0],F=_-1-P[2],B=_-1-P[1]);let N=y+a*C,W=y+a*F,k=y+a*B;d(N),d(W),d(k)}}y+=a*_}}else for(let y=0,m=o.length;y<m;y+=a)d(y)}getGeometry(t){return this.getBuild(this.library.geometries[t],this.buildGeometry.bind(this))}buildKinematicsModel(t){return t.build!==void 0?t.build:t}getKinematicsModel(t){return this.getBuild(this.library.kinematicsModels[t],this.buildKinematicsModel.bind(this))}buildKinematicsScene(t){return t.build!==void 0?t.build:t}getKinematicsScene(t){return this.getBuild(this.library.kinematicsScenes[t],this.buildKinematicsScene.bind(this))}setupKinematics(){let t=Object.keys(this.library.kinematicsModels)[0],e=Object.keys(this.library.kinematicsScenes)[0],n=Object.keys(this.library.visualScenes)[0];if(t===void 0||e===void 0)return;let i=this.getKinematicsModel(t),r=this.getKinematicsScene(e),o=this.getVisualScene(n),a=r.bindJointAxis,l={},c=this.collada,h=this;for(let p=0,y=a.length;p<y;p++){let m=a[p],g=c.querySelector('[sid="'+m.target+'"]');if(g){let _=g.parentElement;u(m.jointIndex,_)}}function u(p,y){let m=y.getAttribute("name"),g=i.joints[p],_=h.buildTransformList(y);o.traverse(function(w){w.name===m&&(l[p]={object:w,transforms:_,joint:g,position:g.zeroPosition})})}let d=new Nt,f=this.matrix;this.kinematics={joints:i&&i.joints,getJointValue:function(p){let y=l[p];if(y)return y.position;console.warn("THREE.ColladaLoader: Joint "+p+" doesn't exist.")},setJointValue:function(p,y){let m=l[p];if(m){let g=m.joint;if(y>g.limits.max||y<g.limits.min)console.warn("THREE.ColladaLoader: Joint "+p+" value "+y+" outside of limits (min: "+g.limits.min+", max: "+g.limits.max+").");else if(g.static)console.warn("THREE.ColladaLoader: Joint "+p+" is static.");else{let _=m.object,w=g.axis,v=m.transforms;f.identity();for(let E=0;E<v.length;E++){let S=v[E];if(S.sid&&S.sid.indexOf(p)!==-1)switch(g.type){case"revolute":f.multiply(d.makeRotationAxis(w,ti.degToRad(y)));break;case"prismatic":f.multiply(d.makeTranslation(w.x*y,w.y*y,w.z*y));break;default:console.warn("THREE.ColladaLoader: Unknown joint type: "+g.type);break}else switch(S.type){case"matrix":f.multiply(S.obj);break;case"translate":f.multiply(d.makeTranslation(S.obj.x,S.obj.y,S.obj.z));break;case"scale":f.scale(S.obj);break;case"rotate":f.multiply(d.makeRotationAxis(S.obj,S.angle));break}}_.matrix.copy(f),_.matrix.decompose(_.position,_.quaternion,_.scale),l[p].position=y}}else console.warn("THREE.ColladaLoader: Joint "+p+" does not exist.")}}}buildTransformList(t){let e=[],n=this.collada.querySelector('[id="'+t.id+'"]');for(let i=0;i<n.childNodes.length;i++){let r=n.childNodes[i];if(r.nodeType!==1)continue;let o,a;switch(r.nodeName){case"matrix":o=ni(r.textContent);let l=new Nt().fromArray(o).transpose();e.push({sid:r.getAttribute("sid"),type:r.nodeName,obj:l});break;case"translate":case"scale":o=ni(r.textContent),a=new O().fromArray(o),e.push({sid:r.getAttribute("sid"),type:r.nodeName,obj:a});break;case"rotate":o=ni(r.textContent),a=new O().fromArray(o);let c=ti.degToRad(o[3]);e.push({sid:r.getAttribute("sid"),type:r.nodeName,obj:a,angle:c});break}}return e}buildSkeleton(t,e){let n=[],i=[],r,o,a;for(r=0;r<t.length;r++){let h=t[r],u;if(this.hasNode(h))u=this.getNode(h),this.buildBoneHierarchy(u,e,n);else if(this.hasVisualScene(h)){let f=this.library.visualScenes[h].children;for(let p=0;p<f.length;p++){let y=f[p];if(y.type==="JOINT"){let m=this.getNode(y.id);this.buildBoneHierarchy(m,e,n)}}}else console.error("THREE.ColladaLoader: Unable to find root bone of skeleton with ID:",h)}for(r=0;r<e.length;r++)for(o=0;o<n.length;o++)if(a=n[o],a.bone.name===e[r].name){i[r]=a,a.processed=!0;break}for(r=0;r<n.length;r++)a=n[r],a.processed===!1&&(i.push(a),a.processed=!0);let l=[],c=[];for(r=0;r<i.length;r++)a=i[r],l.push(a.bone),c.push(a.boneInverse);return new Ml(l,c)}buildBoneHierarchy(t,e,n){t.traverse(function(i){if(i.isBone===!0){let r;for(let o=0;o<e.length;o++){let a=e[o];if(a.name===i.name){r=a.boneInverse;break}}r===void 0&&(r=new Nt),n.push({bone:i,boneInverse:r,processed:!1})}})}buildNode(t){let e=[],n=t.matrix,i=t.nodes,r=t.type,o=t.instanceCameras,a=t.instanceControllers,l=t.instanceLights,c=t.instanceGeometries,h=t.instanceNodes;for(let d=0,f=i.length;d<f;d++)e.push(this.getNode(i[d]));for(let d=0,f=o.length;d<f;d++){let p=this.getCamera(o[d]);p!==null&&e.push(p.clone())}for(let d=0,f=a.length;d<f;d++){let p=a[d],y=this.getController(p.id),m=this.getGeometry(y.id),g=this.buildObjects(m,p.materials),_=p.skeletons,w=y.skin.joints,v=this.buildSkeleton(_,w);for(let E=0,S=g.length;E<S;E++){let x=g[E];x.isSkinnedMesh&&(x.bind(v,y.skin.bindMatrix),x.normalizeSkinWeights()),e.push(x)}}for(let d=0,f=l.length;d<f;d++){let p=this.getLight(l[d]);p!==null&&e.push(p.clone())}for(let d=0,f=c.length;d<f;d++){let p=c[d],y=this.getGeometry(p.id),m=this.buildObjects(y,p.materials);for(let g=0,_=m.length;g<_;g++)e.push(m[g])}for(let d=0,f=h.length;d<f;d++)e.push(this.getNode(h[d]).clone());let u;if(i.length===0&&e.length===1)u=e[0];else{u=r==="JOINT"?new fa:new Ke;for(let d=0;d<e.length;d++)u.add(e[d])}return u.name=r==="JOINT"?t.sid:t.name,r!=="JOINT"&&this.hasPivotTransforms(t)?this.wrapWithTransformHierarchy(u,t):(u.matrix.copy(n),u.matrix.decompose(u.position,u.quaternion,u.scale),u)}wrapWithTransformHierarchy(t,e){let n=e.id;this.transformNodes[n]={};let i=e.transformOrder,r=e.transformData,o=new Ke;o.name=e.name;let a=o;for(let l=0;l<i.length;l++){let c=i[l],h=r[c],u=new Ke;switch(u.name=e.name+"_"+c,h.type){case"translate":u.position.set(h.x,h.y,h.z);break;case"rotate":{let d=new O(h.axis[0],h.axis[1],h.axis[2]),f=ti.degToRad(h.angle);u.quaternion.setFromAxisAngle(d,f),u.userData.rotationAxis=d;break}case"scale":u.scale.set(h.x,h.y,h.z);break;case"matrix":{new Nt().fromArray(h.array).transpose().decompose(u.position,u.quaternion,u.scale);break}}this.transformNodes[n][c]=u,a.add(u),a=u}return a.add(t),o}resolveMaterialBinding(t,e){let n=[];for(let i=0,r=t.length;i<r;i++){let o=e[t[i]];o===void 0?(console.warn("THREE.ColladaLoader: Material with key %s not found. Apply fallback material.",t[i]),n.push(this.fallbackMaterial)):n.push(this.getMaterial(o))}return n}get fallbackMaterial(){return this._fallbackMaterial===void 0&&(this._fallbackMaterial=new Ui({name:Qn.DEFAULT_MATERIAL_NAME,color:16711935})),this._fallbackMaterial}buildObjects(t,e){let n=[];for(let i in t){let r=t[i],o=this.resolveMaterialBinding(r.materialKeys,e);if(o.length===0&&(i==="lines"||i==="linestrips"?o.push(new fi):o.push(new Hn)),i==="lines"||i==="linestrips")for(let h=0,u=o.length;h<u;h++){let d=o[h];if(d.isMeshPhongMaterial===!0||d.isMeshLambertMaterial===!0){let f=new fi;f.color.copy(d.color),f.opacity=d.opacity,f.transparent=d.transparent,o[h]=f}}let a=r.data.attributes.skinIndex!==void 0,l=o.length===1?o[0]:o,c;switch(i){case"lines":c=new Oi(r.data,l);break;case"linestrips":c=new pa(r.data,l);break;case"triangles":case"polygons":case"polylist":a?c=new Sl(r.data,l):c=new ue(r.data,l);break}n.push(c)}return n}hasNode(t){return this.library.nodes[t]!==void 0}getNode(t){return this.getBuild(this.library.nodes[t],this.buildNode.bind(this))}buildVisualScene(t){let e=new Ke;e.name=t.name;let n=t.children;for(let i=0;i<n.length;i++){let r=n[i];e.add(this.getNode(r.id))}return e}hasVisualScene(t){return this.library.visualScenes[t]!==void 0}getVisualScene(t){return this.getBuild(this.library.visualScenes[t],this.buildVisualScene.bind(this))}parseScene(t){let e=Si(t,"instance_visual_scene")[0];return this.getVisualScene(this.parseId(e.getAttribute("url")))}parseId(t){return t.substring(1)}setupAnimations(){let t=this.library.clips;if(this.isEmpty(t)===!0){if(this.isEmpty(this.library.animations)===!1){let e=[];for(let n in this.library.animations){let i=this.getAnimation(n);for(let r=0,o=i.length;r<o;r++)e.push(i[r])}this.buildDeferredPivotAnimationTracks(e),this.animations.push(new _a("default",-1,e))}}else for(let e in t)this.animations.push(this.getAnimationClip(e))}buildDeferredPivotAnimationTracks(t){for(let e in this.deferredPivotAnimations){let n=this.library.nodes[e];if(!n)continue;let i=this.deferredPivotAnimations[e];this.buildTransformHierarchyTracks(e,i,n,t)}}buildTransformHierarchyTracks(t,e,n,i){let r=this.transformNodes[t];if(!r){console.warn("THREE.ColladaLoader: Transform hierarchy not found for node:",t);return}for(let o in e){let a=r[o];if(!a)continue;let l=n.transforms[o],c=n.transformData[o],h=e[o];switch(l){case"translate":this.buildHierarchyTranslateTrack(a,h,c,i);break;case"rotate":this.buildHierarchyRotateTrack(a,h,c,i);break;case"scale":this.buildHierarchyScaleTrack(a,h,c,i);break}}}buildHierarchyTranslateTrack(t,e,n,i){if(e.default&&e.default.stride===3){let c=e.default,h=new Kn(t.uuid+".position",Array.from(c.times),Array.from(c.values)),u=this.getInterpolationInfo(e);this.applyInterpolation(h,u,e),i.push(h);return}let r=this.getTimesForAllAxes(e);if(r.length===0)return;let o=[],a=this.getInterpolationInfo(e);for(let c=0;c<r.length;c++){let h=r[c],u=this.getValueAtTime(e.X,h,n.x),d=this.getValueAtTime(e.Y,h,n.y),f=this.getValueAtTime(e.Z,h,n.z);o.push(u,d,f)}let l=new Kn(t.uuid+".position",r,o);this.applyInterpolation(l,a),i.push(l)}buildHierarchyRotateTrack(t,e,n,i){let r=e.ANGLE||e.default;if(!r)return;let o=Array.from(r.times);if(o.length===0)return;let a=t.userData.rotationAxis||new O(n.axis[0],n.axis[1],n.axis[2]),l=new Ge,c=new Ge,h=[],u=this.getInterpolationInfo(e);for(let f=0;f<o.length;f++){let p=o[f],y=this.getValueAtTime(r,p,n.angle),m=ti.degToRad(y);l.setFromAxisAngle(a,m),f>0&&c.dot(l)<0&&(l.x=-l.x,l.y=-l.y,l.z=-l.z,l.w=-l.w),c.copy(l),h.push(l.x,l.y,l.z,l.w)}let d=new Ss(t.uuid+".quaternion",o,h);this.applyInterpolation(d,u),i.push(d)}buildHierarchyScaleTrack(t,e,n,i){if(e.default&&e.default.stride===3){let c=e.default,h=new Kn(t.uuid+".scale",Array.from(c.times),Array.from(c.values)),u=this.getInterpolationInfo(e);this.applyInterpolation(h,u,e),i.push(h);return}let r=this.getTimesForAllAxes(e);if(r.length===0)return;let o=[],a=this.getInterpolationInfo(e);for(let c=0;c<r.length;c++){let h=r[c],u=this.getValueAtTime(e.X,h,n.x),d=this.getValueAtTime(e.Y,h,n.y),f=this.getValueAtTime(e.Z,h,n.z);o.push(u,d,f)}let l=new Kn(t.uuid+".scale",r,o);this.applyInterpolation(l,a),i.push(l)}};var Ia=class extends Qn{load(t,e,n,i){let r=this,o=r.path===""?lo.extractUrlBase(t):r.path,a=new Ms(r.manager);a.setPriority(r.priority),a.setCache(r.cache),a.setPath(r.path),a.setRequestHeader(r.requestHeader),a.setWithCredentials(r.withCredentials),a.load(t,function(l){try{e(r.parse(l,o))}catch(c){i?i(c):console.error(c),r.manager.itemError(t)}},n,i)}parse(t,e){if(t.length===0)return{scene:new xr};let i=new _d().parse(t);if(i===null)return null;let{library:r,asset:o,collada:a}=i,l=new so(this.manager);l.setPriority(this.priority),l.setCache(this.cache),l.setPath(this.resourcePath||e).setCrossOrigin(this.crossOrigin);let c;ac&&(c=new ac(this.manager),c.setPriority(this.priority),c.setCache(this.cache),c.setPath(this.resourcePath||e),c.setRequestHeader(this.requestHeader),c.setWithCredentials(this.withCredentials));let h=new xd(r,a,l,c),{scene:u,animations:d,kinematics:f}=h.compose();return u.animations=d,o.upAxis==="Z_UP"&&(console.warn("THREE.ColladaLoader: You are loading an asset with a Z-UP coordinate system. The loader just rotates the asset to transform it into Y-UP. The vertex data are not converted, see #24289."),u.rotation.set(-Math.PI/2,0,0)),u.scale.multiplyScalar(o.unit),{get animations(){return console.warn("THREE.ColladaLoader: Please access animations over scene.animations now."),d},kinematics:f,library:r,scene:u}}};var cv=new O,WC=new yi,vd=new Nt,Rr=new Nt,bd=new Ge,Sd=new O(1,1,1),Md=new O,Na=class extends en{constructor(...t){super(...t),this.urdfNode=null,this.urdfName=""}copy(t,e){return super.copy(t,e),this.urdfNode=t.urdfNode,this.urdfName=t.urdfName,this}},wd=class extends Na{constructor(...t){super(...t),this.isURDFCollider=!0,this.type="URDFCollider"}},Td=class extends Na{constructor(...t){super(...t),this.isURDFVisual=!0,this.type="URDFVisual"}},lc=class extends Na{constructor(...t){super(...t),this.isURDFLink=!0,this.type="URDFLink",this.name="",this.inertial={mass:0,origin:{xyz:[0,0,0],rpy:[0,0,0]},inertia:{ixx:0,ixy:0,ixz:0,iyy:0,iyz:0,izz:0}}}copy(t,e){return super.copy(t,e),this.inertial={mass:t.inertial.mass,origin:{xyz:[...t.inertial.origin.xyz],rpy:[...t.inertial.origin.rpy]},inertia:{...t.inertial.inertia}},this}},cc=class extends Na{get jointType(){return this._jointType}set jointType(t){if(this.jointType!==t)switch(this._jointType=t,this.matrixWorldNeedsUpdate=!0,t){case"fixed":this.jointValue=[];break;case"continuous":case"revolute":case"prismatic":this.jointValue=new Array(1).fill(0);break;case"planar":this.jointValue=new Array(3).fill(0),this.axis=new O(0,0,1);break;case"floating":this.jointValue=new Array(6).fill(0);break}}get angle(){return this.jointValue[0]}constructor(...t){super(...t),this.isURDFJoint=!0,this.type="URDFJoint",this.name="",this.jointValue=null,this.jointType="fixed",this.axis=new O(1,0,0),this.limit={lower:0,upper:0,effort:0,velocity:0},this.ignoreLimits=!1,this.origPosition=null,this.origQuaternion=null,this.mimicJoints=[]}copy(t,e){return super.copy(t,e),this.jointType=t.jointType,this.axis=t.axis.clone(),this.limit.lower=t.limit.lower,this.limit.upper=t.limit.upper,this.limit.effort=t.limit.effort,this.limit.velocity=t.limit.velocity,this.ignoreLimits=!1,this.jointValue=[...t.jointValue],this.origPosition=t.origPosition?t.origPosition.clone():null,this.origQuaternion=t.origQuaternion?t.origQuaternion.clone():null,this.mimicJoints=[...t.mimicJoints],this}setJointValue(...t){t=t.map(n=>n===null?null:parseFloat(n)),(!this.origPosition||!this.origQuaternion)&&(this.origPosition=this.position.clone(),this.origQuaternion=this.quaternion.clone());let e=!1;switch(this.mimicJoints.forEach(n=>{e=n.updateFromMimickedJoint(...t)||e}),this.jointType){case"fixed":return e;case"continuous":case"revolute":{let n=t[0];return n==null||n===this.jointValue[0]?e:(!this.ignoreLimits&&this.jointType==="revolute"&&(n=Math.min(this.limit.upper,n),n=Math.max(this.limit.lower,n)),this.quaternion.setFromAxisAngle(this.axis,n).premultiply(this.origQuaternion),this.jointValue[0]!==n?(this.jointValue[0]=n,this.matrixWorldNeedsUpdate=!0,!0):e)}case"prismatic":{let n=t[0];return n==null||n===this.jointValue[0]?e:(this.ignoreLimits||(n=Math.min(this.limit.upper,n),n=Math.max(this.limit.lower,n)),this.position.copy(this.origPosition),cv.copy(this.axis).applyEuler(this.rotation),this.position.addScaledVector(cv,n),this.jointValue[0]!==n?(this.jointValue[0]=n,this.matrixWorldNeedsUpdate=!0,!0):e)}case"floating":return this.jointValue.every((n,i)=>t[i]===n||t[i]===null)?e:(this.jointValue[0]=t[0]!==null?t[0]:this.jointValue[0],this.jointValue[1]=t[1]!==null?t[1]:this.jointValue[1],this.jointValue[2]=t[2]!==null?t[2]:this.jointValue[2],this.jointValue[3]=t[3]!==null?t[3]:this.jointValue[3],this.jointValue[4]=t[4]!==null?t[4]:this.jointValue[4],this.jointValue[5]=t[5]!==null?t[5]:this.jointValue[5],Rr.compose(this.origPosition,this.origQuaternion,Sd),bd.setFromEuler(WC.set(this.jointValue[3],this.jointValue[4],this.jointValue[5],"XYZ")),Md.set(this.jointValue[0],this.jointValue[1],this.jointValue[2]),vd.compose(Md,bd,Sd),Rr.premultiply(vd),this.position.setFromMatrixPosition(Rr),this.rotation.setFromRotationMatrix(Rr),this.matrixWorldNeedsUpdate=!0,!0);case"planar":return this.jointValue.every((n,i)=>t[i]===n||t[i]===null)?e:(this.jointValue[0]=t[0]!==null?t[0]:this.jointValue[0],this.jointValue[1]=t[1]!==null?t[1]:this.jointValue[1],this.jointValue[2]=t[2]!==null?t[2]:this.jointValue[2],Rr.compose(this.origPosition,this.origQuaternion,Sd),bd.setFromAxisAngle(this.axis,this.jointValue[2]),Md.set(this.jointValue[0],this.jointValue[1],0),vd.compose(Md,bd,Sd),Rr.premultiply(vd),this.position.setFromMatrixPosition(Rr),this.rotation.setFromRotationMatrix(Rr),this.matrixWorldNeedsUpdate=!0,!0)}return e}},hc=class extends cc{constructor(...t){super(...t),this.type="URDFMimicJoint",this.mimicJoint=null,this.offset=0,this.multiplier=1}updateFromMimickedJoint(...t){let e=t.map(n=>n===null?null:n*this.multiplier+this.offset);return super.setJointValue(...e)}copy(t,e){return super.copy(t,e),this.mimicJoint=t.mimicJoint,this.offset=t.offset,this.multiplier=t.multiplier,this}},Ed=class extends lc{constructor(...t){super(...t),this.isURDFRobot=!0,this.urdfNode=null,this.urdfRobotNode=null,this.robotName=null,this.links=null,this.joints=null,this.colliders=null,this.visual=null,this.frames=null}copy(t,e){super.copy(t,e),this.urdfRobotNode=t.urdfRobotNode,this.robotName=t.robotName,this.links={},this.joints={},this.colliders={},this.visual={},this.traverse(n=>{n.isURDFJoint&&n.urdfName in t.joints&&(this.joints[n.urdfName]=n),n.isURDFLink&&n.urdfName in t.links&&(this.links[n.urdfName]=n),n.isURDFCollider&&n.urdfName in t.colliders&&(this.colliders[n.urdfName]=n),n.isURDFVisual&&n.urdfName in t.visual&&(this.visual[n.urdfName]=n)});for(let n in this.joints)this.joints[n].mimicJoints=this.joints[n].mimicJoints.map(i=>this.joints[i.name]);return this.frames={...this.colliders,...this.visual,...this.links,...this.joints},this}getFrame(t){return this.frames[t]}setJointValue(t,...e){let n=this.joints[t];return n?n.setJointValue(...e):!1}setJointValues(t){let e=!1;for(let n in t){let i=t[n];Array.isArray(i)?e=this.setJointValue(n,...i)||e:e=this.setJointValue(n,i)||e}return e}};var Am=new Ge,hv=new yi;function Cr(s){return s?s.trim().split(/\s+/g).map(t=>parseFloat(t)):[0,0,0]}function uv(s,t,e=!1){e||s.rotation.set(0,0,0),hv.set(t[0],t[1],t[2],"ZYX"),Am.setFromEuler(hv),Am.multiply(s.quaternion),s.quaternion.copy(Am)}var Rm=class{constructor(t){this.manager=t||Zu,this.loadMeshCb=this.defaultMeshLoader.bind(this),this.parseVisual=!0,this.parseCollision=!1,this.packages="",this.workingPath="",this.fetchOptions={}}loadAsync(t){return new Promise((e,n)=>{this.load(t,e,null,n)})}load(t,e,n,i){let r=this.manager,o=lo.extractUrlBase(t),a=this.manager.resolveURL(t);r.itemStart(a),fetch(a,this.fetchOptions).then(l=>{if(l.ok)return n&&n(null),l.text();throw new Error(`URDFLoader: Failed to load url '${a}' with error code ${l.status} : ${l.statusText}.`)}).then(l=>{let c=this.parse(l,this.workingPath||o);e(c),r.itemEnd(a)}).catch(l=>{i?i(l):console.error("URDFLoader: Error loading file.",l),r.itemError(a),r.itemEnd(a)})}parse(t,e=this.workingPath){let n=this.packages,i=this.loadMeshCb,r=this.parseVisual,o=this.parseCollision,a=this.manager,l={},c={},h={};function u(_){if(!/^package:\/\//.test(_))return e?e+_:_;let[w,v]=_.replace(/^package:\/\//,"").split(/\/(.+)/);if(typeof n=="string")return n.endsWith(w)?n+"/"+v:n+"/"+w+"/"+v;if(typeof n=="function")return n(w)+"/"+v;if(typeof n=="object")return w in n?n[w]+"/"+v:(console.error(`URDFLoader : ${w} not found in provided package list.`),null)}function d(_){let w;_ instanceof Document?w=[..._.children]:_ instanceof Element?w=[_]:w=[...new DOMParser().parseFromString(_,"text/xml").children];let v=w.filter(E=>E.nodeName==="robot").pop();return f(v)}function f(_){let w=[..._.children],v=w.filter(C=>C.nodeName.toLowerCase()==="link"),E=w.filter(C=>C.nodeName.toLowerCase()==="joint"),S=w.filter(C=>C.nodeName.toLowerCase()==="material"),x=new Ed;x.robotName=_.getAttribute("name"),x.urdfRobotNode=_,S.forEach(C=>{let F=C.getAttribute("name");h[F]=m(C)});let M={},L={};v.forEach(C=>{let F=C.getAttribute("name"),B=_.querySelector(`child[link="${F}"]`)===null;l[F]=y(C,M,L,B?x:null)}),E.forEach(C=>{let F=C.getAttribute("name");c[F]=p(C)}),x.joints=c,x.links=l,x.colliders=L,x.visual=M;let P=Object.values(c);return P.forEach(C=>{C instanceof hc&&c[C.mimicJoint].mimicJoints.push(C)}),P.forEach(C=>{let F=new Set,B=N=>{if(F.has(N))throw new Error("URDFLoader: Detected an infinite loop of mimic joints.");F.add(N),N.mimicJoints.forEach(W=>{B(W)})};B(C)}),x.frames={...L,...M,...l,...c},x}function p(_){let w=[..._.children],v=_.getAttribute("type"),E,S=w.find(F=>F.nodeName.toLowerCase()==="mimic");S?(E=new hc,E.mimicJoint=S.getAttribute("joint"),E.multiplier=parseFloat(S.getAttribute("multiplier")||1),E.offset=parseFloat(S.getAttribute("offset")||0)):E=new cc,E.urdfNode=_,E.name=_.getAttribute("name"),E.urdfName=E.name,E.jointType=v;let x=null,M=null,L=[0,0,0],P=[0,0,0];w.forEach(F=>{let B=F.nodeName.toLowerCase();B==="origin"?(L=Cr(F.getAttribute("xyz")),P=Cr(F.getAttribute("rpy"))):B==="child"?M=l[F.getAttribute("link")]:B==="parent"?x=l[F.getAttribute("link")]:B==="limit"&&(E.limit.lower=parseFloat(F.getAttribute("lower")||E.limit.lower),E.limit.upper=parseFloat(F.getAttribute("upper")||E.limit.upper),E.limit.effort=parseFloat(F.getAttribute("effort")||E.limit.effort),E.limit.velocity=parseFloat(F.getAttribute("velocity")||E.limit.velocity))}),x.add(E),E.add(M),uv(E,P),E.position.set(L[0],L[1],L[2]);let C=w.filter(F=>F.nodeName.toLowerCase()==="axis")[0];if(C){let F=C.getAttribute("xyz").split(/\s+/g).map(B=>parseFloat(B));E.axis=new O(F[0],F[1],F[2]),E.axis.normalize()}return E}function y(_,w,v,E=null){E===null&&(E=new lc);let S=[..._.children];E.name=_.getAttribute("name"),E.urdfName=E.name,E.urdfNode=_;let x=S.find(M=>M.nodeName.toLowerCase()==="inertial");return x&&[...x.children].forEach(M=>{let L=M.nodeName.toLowerCase();L==="origin"?(E.inertial.origin.xyz=Cr(M.getAttribute("xyz")),E.inertial.origin.rpy=Cr(M.getAttribute("rpy"))):L==="mass"?E.inertial.mass=parseFloat(M.getAttribute("value"))||0:L==="inertia"&&(E.inertial.inertia.ixx=parseFloat(M.getAttribute("ixx"))||0,E.inertial.inertia.ixy=parseFloat(M.getAttribute("ixy"))||0,E.inertial.inertia.ixz=parseFloat(M.getAttribute("ixz"))||0,E.inertial.inertia.iyy=parseFloat(M.getAttribute("iyy"))||0,E.inertial.inertia.iyz=parseFloat(M.getAttribute("iyz"))||0,E.inertial.inertia.izz=parseFloat(M.getAttribute("izz"))||0)}),r&&S.filter(L=>L.nodeName.toLowerCase()==="visual").forEach(L=>{let P=g(L,h);if(E.add(P),L.hasAttribute("name")){let C=L.getAttribute("name");P.name=C,P.urdfName=C,w[C]=P}}),o&&S.filter(L=>L.nodeName.toLowerCase()==="collision").forEach(L=>{let P=g(L);if(E.add(P),L.hasAttribute("name")){let C=L.getAttribute("name");P.name=C,P.urdfName=C,v[C]=P}}),E}function m(_){let w=[..._.children],v=new Hn;return v.name=_.getAttribute("name")||"",w.forEach(E=>{let S=E.nodeName.toLowerCase();if(S==="color"){let x=E.getAttribute("rgba").split(/\s/g).map(M=>parseFloat(M));v.color.setRGB(x[0],x[1],x[2]),v.opacity=x[3],v.transparent=x[3]<1,v.depthWrite=!v.transparent}else if(S==="texture"){let x=E.getAttribute("filename");if(x){let M=new so(a),L=u(x);v.map=M.load(L),v.map.colorSpace=we}}}),v}function g(_,w={}){let v=_.nodeName.toLowerCase()==="collision",E=[..._.children],S=null,x=E.filter(L=>L.nodeName.toLowerCase()==="material")[0];if(x){let L=x.getAttribute("name");L&&L in w?S=w[L]:S=m(x)}else S=new Hn;let M=v?new wd:new Td;return M.urdfNode=_,E.forEach(L=>{let P=L.nodeName.toLowerCase();if(P==="geometry"){let C=L.children[0].nodeName.toLowerCase();if(C==="mesh"){let F=L.children[0].getAttribute("filename"),B=u(F);if(B!==null){let N=L.children[0].getAttribute("scale");if(N){let W=Cr(N);M.scale.set(W[0],W[1],W[2])}i(B,a,S,(W,k)=>{k?console.error("URDFLoader: Error loading mesh.",k):W&&(W.position.set(0,0,0),W.quaternion.identity(),M.add(W))})}}else if(C==="box"){let F=new ue;F.geometry=new bs(1,1,1),F.material=S;let B=Cr(L.children[0].getAttribute("size"));F.scale.set(B[0],B[1],B[2]),M.add(F)}else if(C==="sphere"){let F=new ue;F.geometry=new Ks(1,30,30),F.material=S;let B=parseFloat(L.children[0].getAttribute("radius"))||0;F.scale.set(B,B,B),M.add(F)}else if(C==="cylinder"){let F=new ue;F.geometry=new Zs(1,1,1,30),F.material=S;let B=parseFloat(L.children[0].getAttribute("radius"))||0,N=parseFloat(L.children[0].getAttribute("length"))||0;F.scale.set(B,N,B),F.rotation.set(Math.PI/2,0,0),M.add(F)}}else if(P==="origin"){let C=Cr(L.getAttribute("xyz")),F=Cr(L.getAttribute("rpy"));M.position.set(C[0],C[1],C[2]),M.rotation.set(0,0,0),uv(M,F)}}),M}return d(t)}defaultMeshLoader(t,e,n,i){/\.stl$/i.test(t)?new La(e).load(t,o=>{let a=new ue(o,n||new Hn);i(a)},null,o=>i(null,o)):/\.dae$/i.test(t)?new Ia(e).load(t,o=>i(o.scene),null,o=>i(null,o)):console.warn(`URDFLoader: Could not load model at ${t}.
+No loader available`)}},dv=Rm;var Cm=.018,XC=25,fv=36;function pv(s){let{r:t,g:e,b:n}=s.color;s.color.setRGB(t,e,n,we);let{color:i}=s;i.setRGB(Math.max(i.r,Cm),Math.max(i.g,Cm),Math.max(i.b,Cm)),s.specular.setScalar(.03),s.shininess=24}function mv(s,t){let n=s.geometry instanceof Zs?qC():new eo(s.geometry,XC),i=new Oi(n,t);return i.raycast=()=>{},s.add(i),i}function qC(){let s=[];for(let t of[-.502,.502]){for(let e=0;e<fv;e++)for(let n of[e,e+1].map(i=>2*Math.PI*i/fv))s.push(Math.cos(n),t,Math.sin(n));s.push(.3,t,0,.85,t,0,-.3,t,0,-.85,t,0),s.push(0,t,.3,0,t,.85,0,t,-.3,0,t,-.85)}return new Fe().setAttribute("position",new Jt(s,3))}function gv(s){return new Ui({color:new Dt(s),transparent:!0,opacity:.28,depthWrite:!1,polygonOffset:!0,polygonOffsetFactor:-1,polygonOffsetUnits:-1})}var Ad=class{originals=new Map;set(t,e){this.clear();for(let n of t){this.originals.set(n,n.material);let i=[n.material].flat().map(r=>{let o=r.clone();return o instanceof Hn&&(o.color.lerp(new Dt(e),.8),o.emissive.set(e),o.emissiveIntensity=.2),o});n.material=Array.isArray(n.material)?i:i[0]}}clear(){for(let[t,e]of this.originals)[t.material].flat().forEach(n=>n.dispose()),t.material=e;this.originals.clear()}};function uc(s){s.traverse(t=>{(t instanceof ue||t instanceof Oi)&&(t.geometry.dispose(),[t.material].flat().forEach(e=>{e instanceof Hn&&e.map?.dispose(),e.dispose()}))})}var YC=/^[og]\s*(.+)?/,jC=/^mtllib /,JC=/^usemtl /,$C=/^usemap /,Rd=/\s+/,yv=new O,Pm=new O,_v=new O,xv=new O,ji=new O,Cd=new Dt;function ZC(){let s={objects:[],object:{},vertices:[],normals:[],colors:[],uvs:[],materials:{},materialLibraries:[],startObject:function(t,e){if(this.object&&this.object.fromDeclaration===!1){this.object.name=t,this.object.fromDeclaration=e!==!1;return}let n=this.object&&typeof this.object.currentMaterial=="function"?this.object.currentMaterial():void 0;if(this.object&&typeof this.object._finalize=="function"&&this.object._finalize(!0),this.object={name:t||"",fromDeclaration:e!==!1,geometry:{vertices:[],normals:[],colors:[],uvs:[],hasUVIndices:!1},materials:[],smooth:!0,startMaterial:function(i,r){let o=this._finalize(!1);o&&(o.inherited||o.groupCount<=0)&&this.materials.splice(o.index,1);let a={index:this.materials.length,name:i||"",mtllib:Array.isArray(r)&&r.length>0?r[r.length-1]:"",smooth:o!==void 0?o.smooth:this.smooth,groupStart:o!==void 0?o.groupEnd:0,groupEnd:-1,groupCount:-1,inherited:!1,clone:function(l){let c={index:typeof l=="number"?l:this.index,name:this.name,mtllib:this.mtllib,smooth:this.smooth,groupStart:0,groupEnd:-1,groupCount:-1,inherited:!1};return c.clone=this.clone.bind(c),c}};return this.materials.push(a),a},currentMaterial:function(){if(this.materials.length>0)return this.materials[this.materials.length-1]},_finalize:function(i){let r=this.currentMaterial();if(r&&r.groupEnd===-1&&(r.groupEnd=this.geometry.vertices.length/3,r.groupCount=r.groupEnd-r.groupStart,r.inherited=!1),i&&this.materials.length>1)for(let o=this.materials.length-1;o>=0;o--)this.materials[o].groupCount<=0&&this.materials.splice(o,1);return i&&this.materials.length===0&&this.materials.push({name:"",smooth:this.smooth}),r}},n&&n.name&&typeof n.clone=="function"){let i=n.clone(0);i.inherited=!0,this.object.materials.push(i)}this.objects.push(this.object)},finalize:function(){this.object&&typeof this.object._finalize=="function"&&this.object._finalize(!0)},parseVertexIndex:function(t,e){let n=parseInt(t,10);return(n>=0?n-1:n+e/3)*3},parseNormalIndex:function(t,e){let n=parseInt(t,10);return(n>=0?n-1:n+e/3)*3},parseUVIndex:function(t,e){let n=parseInt(t,10);return(n>=0?n-1:n+e/2)*2},addVertex:function(t,e,n){let i=this.vertices,r=this.object.geometry.vertices;r.push(i[t+0],i[t+1],i[t+2]),r.push(i[e+0],i[e+1],i[e+2]),r.push(i[n+0],i[n+1],i[n+2])},addVertexPoint:function(t){let e=this.vertices;this.object.geometry.vertices.push(e[t+0],e[t+1],e[t+2])},addVertexLine:function(t){let e=this.vertices;this.object.geometry.vertices.push(e[t+0],e[t+1],e[t+2])},addNormal:function(t,e,n){let i=this.normals,r=this.object.geometry.normals;r.push(i[t+0],i[t+1],i[t+2]),r.push(i[e+0],i[e+1],i[e+2]),r.push(i[n+0],i[n+1],i[n+2])},addFaceNormal:function(t,e,n){let i=this.vertices,r=this.object.geometry.normals;yv.fromArray(i,t),Pm.fromArray(i,e),_v.fromArray(i,n),ji.subVectors(_v,Pm),xv.subVectors(yv,Pm),ji.cross(xv),ji.normalize(),r.push(ji.x,ji.y,ji.z),r.push(ji.x,ji.y,ji.z),r.push(ji.x,ji.y,ji.z)},addColor:function(t,e,n){let i=this.colors,r=this.object.geometry.colors;i[t]!==void 0&&r.push(i[t+0],i[t+1],i[t+2]),i[e]!==void 0&&r.push(i[e+0],i[e+1],i[e+2]),i[n]!==void 0&&r.push(i[n+0],i[n+1],i[n+2])},addUV:function(t,e,n){let i=this.uvs,r=this.object.geometry.uvs;r.push(i[t+0],i[t+1]),r.push(i[e+0],i[e+1]),r.push(i[n+0],i[n+1])},addDefaultUV:function(){let t=this.object.geometry.uvs;t.push(0,0),t.push(0,0),t.push(0,0)},addUVLine:function(t){let e=this.uvs;this.object.geometry.uvs.push(e[t+0],e[t+1])},addFace:function(t,e,n,i,r,o,a,l,c){let h=this.vertices.length,u=this.parseVertexIndex(t,h),d=this.parseVertexIndex(e,h),f=this.parseVertexIndex(n,h);if(this.addVertex(u,d,f),this.addColor(u,d,f),a!==void 0&&a!==""){let p=this.normals.length;u=this.parseNormalIndex(a,p),d=this.parseNormalIndex(l,p),f=this.parseNormalIndex(c,p),this.addNormal(u,d,f)}else this.addFaceNormal(u,d,f);if(i!==void 0&&i!==""){let p=this.uvs.length;u=this.parseUVIndex(i,p),d=this.parseUVIndex(r,p),f=this.parseUVIndex(o,p),this.addUV(u,d,f),this.object.geometry.hasUVIndices=!0}else this.addDefaultUV()},addPointGeometry:function(t){this.object.geometry.type="Points";let e=this.vertices.length;for(let n=0,i=t.length;n<i;n++){let r=this.parseVertexIndex(t[n],e);this.addVertexPoint(r),this.addColor(r)}},addLineGeometry:function(t,e){this.object.geometry.type="Line";let n=this.vertices.length,i=this.uvs.length;for(let r=0,o=t.length-1;r<o;r++)this.addVertexLine(this.parseVertexIndex(t[r],n)),this.addVertexLine(this.parseVertexIndex(t[r+1],n));for(let r=0,o=e.length-1;r<o;r++)this.addUVLine(this.parseUVIndex(e[r],i)),this.addUVLine(this.parseUVIndex(e[r+1],i))}};return s.startObject("",!1),s}var Pd=class extends Qn{constructor(t){super(t),this.materials=null}load(t,e,n,i){let r=this,o=new Ms(this.manager);o.setPriority(this.priority),o.setCache(this.cache),o.setPath(this.path),o.setRequestHeader(this.requestHeader),o.setWithCredentials(this.withCredentials),o.load(t,function(a){try{e(r.parse(a))}catch(l){i?i(l):console.error(l),r.manager.itemError(t)}},n,i)}setMaterials(t){return this.materials=t,this}parse(t){let e=new ZC;t.indexOf(`\r
+`)!==-1&&(t=t.replace(/\r\n/g,`
+`)),t.indexOf(`\\
+`)!==-1&&(t=t.replace(/\\\n/g,""));let n=t.split(`
+`),i=[];for(let a=0,l=n.length;a<l;a++){let c=n[a].trimStart();if(c.length===0)continue;let h=c.charAt(0);if(h!=="#")if(h==="v"){let u=c.split(Rd);switch(u[0]){case"v":e.vertices.push(parseFloat(u[1]),parseFloat(u[2]),parseFloat(u[3])),u.length>=7?(Cd.setRGB(parseFloat(u[4]),parseFloat(u[5]),parseFloat(u[6]),we),e.colors.push(Cd.r,Cd.g,Cd.b)):e.colors.push(void 0,void 0,void 0);break;case"vn":e.normals.push(parseFloat(u[1]),parseFloat(u[2]),parseFloat(u[3]));break;case"vt":e.uvs.push(parseFloat(u[1]),parseFloat(u[2]));break}}else if(h==="f"){let d=c.slice(1).trim().split(Rd),f=[];for(let y=0,m=d.length;y<m;y++){let g=d[y];if(g.length>0){let _=g.split("/");f.push(_)}}let p=f[0];for(let y=1,m=f.length-1;y<m;y++){let g=f[y],_=f[y+1];e.addFace(p[0],g[0],_[0],p[1],g[1],_[1],p[2],g[2],_[2])}}else if(h==="l"){let u=c.substring(1).trim().split(Rd),d=[],f=[];if(c.indexOf("/")===-1)d=u;else for(let p=0,y=u.length;p<y;p++){let m=u[p].split("/");m[0]!==""&&d.push(m[0]),m[1]!==""&&f.push(m[1])}e.addLineGeometry(d,f)}else if(h==="p"){let d=c.slice(1).trim().split(Rd);e.addPointGeometry(d)}else if((i=YC.exec(c))!==null){let u=(" "+i[0].slice(1).trim()).slice(1);e.startObject(u)}else if(JC.test(c))e.object.startMaterial(c.substring(7).trim(),e.materialLibraries);else if(jC.test(c))e.materialLibraries.push(c.substring(7).trim());else if($C.test(c))console.warn('THREE.OBJLoader: Rendering identifier "usemap" not supported. Textures must be defined in MTL files.');else if(h==="s"){if(i=c.split(" "),i.length>1){let d=i[1].trim().toLowerCase();e.object.smooth=d!=="0"&&d!=="off"}else e.object.smooth=!0;let u=e.object.currentMaterial();u&&(u.smooth=e.object.smooth)}else{if(c==="\0")continue;console.warn('THREE.OBJLoader: Unexpected line: "'+c+'"')}}e.finalize();let r=new Ke;if(r.materialLibraries=[].concat(e.materialLibraries),!(e.objects.length===1&&e.objects[0].geometry.vertices.length===0)===!0)for(let a=0,l=e.objects.length;a<l;a++){let c=e.objects[a],h=c.geometry,u=c.materials,d=h.type==="Line",f=h.type==="Points",p=!1;if(h.vertices.length===0)continue;let y=new Fe;y.setAttribute("position",new Jt(h.vertices,3)),h.normals.length>0&&y.setAttribute("normal",new Jt(h.normals,3)),h.colors.length>0&&(p=!0,y.setAttribute("color",new Jt(h.colors,3))),h.hasUVIndices===!0&&y.setAttribute("uv",new Jt(h.uvs,2));let m=[];for(let _=0,w=u.length;_<w;_++){let v=u[_],E=v.name+"_"+v.smooth+"_"+p,S=e.materials[E];if(this.materials!==null){if(S=this.materials.create(v.name),d&&S&&!(S instanceof fi)){let x=new fi;di.prototype.copy.call(x,S),x.color.copy(S.color),S=x}else if(f&&S&&!(S instanceof Js)){let x=new Js({size:10,sizeAttenuation:!1});di.prototype.copy.call(x,S),x.color.copy(S.color),x.map=S.map,S=x}}S===void 0&&(d?S=new fi:f?S=new Js({size:1,sizeAttenuation:!1}):S=new Hn,S.name=v.name,S.flatShading=!v.smooth,S.vertexColors=p,e.materials[E]=S),m.push(S)}let g;if(m.length>1){for(let _=0,w=u.length;_<w;_++){let v=u[_];y.addGroup(v.groupStart,v.groupCount,_)}d?g=new Oi(y,m):f?g=new to(y,m):g=new ue(y,m)}else d?g=new Oi(y,m[0]):f?g=new to(y,m[0]):g=new ue(y,m[0]);g.name=c.name,r.add(g)}else if(e.vertices.length>0){let a=new Js({size:1,sizeAttenuation:!1}),l=new Fe;l.setAttribute("position",new Jt(e.vertices,3)),e.colors.length>0&&e.colors[0]!==void 0&&(l.setAttribute("color",new Jt(e.colors,3)),a.vertexColors=!0);let c=new to(l,a);r.add(c)}return r}};function vv(s){let t=new xa;return t.setURLModifier(e=>{let n=s[e];if(n===void 0)throw new Error(`'${e}' was not found`);return n}),t}async function bv(s,t,e,n){let i=t[s];if(i===void 0)throw new Error(`the mesh '${s}' was not found`);let r=await fetch(i);if(!r.ok)throw new Error(`the mesh '${s}' was not served: ${r.status} ${r.statusText}`);switch(/\.(\w+)$/.exec(s)?.[1].toLowerCase()){case"stl":return new ue(new La().parse(await r.arrayBuffer()),Mv(n));case"obj":return Sv(new Pd(e).parse(await r.text()),n);case"dae":return KC(await r.text(),QC(s),t,e,n);default:throw new Error(`'${s}' is of a kind that is not drawn here: .stl, .dae and .obj are`)}}function KC(s,t,e,n,i){let r=new DOMParser().parseFromString(s,"text/xml");r.querySelectorAll("up_axis").forEach(h=>h.textContent="Y_UP"),r.querySelectorAll("library_images > image").forEach(h=>{let u=h.querySelector("init_from"),d=(u?.textContent??"").trim().replace(/^\.\//,"");u===null||e[t+d]===void 0?h.remove():u.textContent=d});let o=new Ia(n);o.setResourcePath(t);let a=o.parse(new XMLSerializer().serializeToString(r),t);if(a===null)throw new Error("it is no COLLADA file");let{scene:l}=a,c=[];return l.traverse(h=>{(h instanceof ws||h instanceof ro)&&c.push(h)}),c.forEach(h=>h.removeFromParent()),Sv(l,i)}function Sv(s,t){return s.traverse(e=>{if(!(e instanceof ue))return;let n=[e.material].flat(),i=n.every(({name:r,map:o})=>r===""&&!o);e.material=i?Mv(t):e.material,n.forEach(r=>r.side=pi)}),s}function Mv(s){return s.side=pi,s}function QC(s){return s.slice(0,s.lastIndexOf("/")+1)}function Ld(s,t){let e=[],n=i=>{"isURDFCollider"in i||!t&&"isURDFJoint"in i||(i instanceof ue&&e.push(i),i.children.forEach(n))};return n(s),e}function wv(s){return"parameters"in s.geometry}function Tv(s){let t=s.children.find(r=>"isURDFLink"in r);if(t===void 0)return 0;let e=t.matrixWorld.clone().invert(),n=new O,i=0;for(let r of Ld(t,!1)){let o=r.geometry.getAttribute("position"),a=e.clone().multiply(r.matrixWorld);for(let l=0;l<o.count;l++){n.fromBufferAttribute(o,l).applyMatrix4(a);let c=n.dot(s.axis);i=Math.max(i,Math.sqrt(Math.max(0,n.lengthSq()-c*c)))}}return i}var zn="world",Id=class{anchors=new Map;places=new Map;bases=new Map;fixed=null;clear(){this.anchors.clear()}update(t,e,n){this.places=new Map([[zn,{reference:zn,pose:new Nt}]]),this.bases=new Map;let i=this.placeRoots(t,e),r=new Map;for(let a of e)this.placeBody(t,a,i,r);for(let a of t.names)this.placeFrame(t,a,i,r);let o=this.places.get(n);this.fixed=o?{...o,pose:o.pose.clone().invert()}:null}poseOf(t){return this.inFixed(this.places.get(t))}poseOfBody(t){return this.inFixed(this.bases.get(t))}inFixed(t){return t===void 0||this.fixed===null||t.reference!==this.fixed.reference?null:this.fixed.pose.clone().multiply(t.pose)}placeRoots(t,e){let n=new Map;if(t.has(zn)){let i=t.inRoot(zn);i!==null&&n.set(t.rootOf(zn),{reference:zn,pose:i.invert()})}for(let{base:i,truth:r}of e){let o=t.rootOf(i);if(n.has(o)||!t.has(i))continue;let a=this.anchors.get(o)??tP(r,t.inRoot(i));a!==null&&(this.anchors.set(o,a),n.set(o,{reference:zn,pose:a}))}return n}placeBody(t,e,n,i){let r=t.rootOf(e.base),{reference:o,pose:a}=n.get(r)??{reference:r,pose:new Nt},l=t.inRoot(e.base),c=e.truth!==null?{reference:zn,pose:e.truth}:l&&{reference:o,pose:a.clone().multiply(l)};if(c!==null){this.bases.set(e,c),t.has(e.base)||this.places.set(e.base,c);for(let[h,u]of e.links)i.set(h,{...c,pose:c.pose.clone().multiply(u)})}}placeFrame(t,e,n,i){let r=t.parentOf(e),o=n.get(t.rootOf(e))??{reference:t.rootOf(e),pose:new Nt},a=i.get(e);if(a!==void 0||r===null){this.places.set(e,a??o);return}let l=this.places.get(r),c=t.localOf(e);if(l!==void 0&&c!==null){let h=l.pose.clone().multiply(c);this.places.set(e,{reference:l.reference,pose:h})}}};function tP(s,t){return s&&t&&s.clone().multiply(t.invert())}var Lm="#0fa3b1",Im="#f2811d",dc={light:{horizon:"#e9edf1",zenith:"#c9d6e3",ground:"#dfe4e9",gridMinor:"#bcc6d1",gridMajor:"#8896a6",edge:"#26323f",edgeOpacity:.28,partEdge:"#ffffff",partEdgeOpacity:.35,axes:["#e03a3a","#22a047","#2f6fed"],tree:"#8a6d1f",label:"#1d2733",labelFixed:"#0b5cad",labelBack:"rgba(255, 255, 255, 0.78)",contact:"#1f9d55",slip:"#d6246e",highlight:"#ff9d00",collision:"#d97706",sun:2.3,sky:1.7,shadow:.26},dark:{horizon:"#161b21",zenith:"#0d1116",ground:"#20262e",gridMinor:"#3a4450",gridMajor:"#5a6878",edge:"#dbe6f2",edgeOpacity:.22,partEdge:"#ffffff",partEdgeOpacity:.4,axes:["#ff5c5c","#46cf6f","#6b9dff"],tree:"#d9b650",label:"#e8eef5",labelFixed:"#7cc0ff",labelBack:"rgba(16, 21, 27, 0.74)",contact:"#3ddc84",slip:"#ff5fa2",highlight:"#ffb02e",collision:"#f59e0b",sun:2,sky:1.5,shadow:.5}};var fc=class extends Error{name="BadModel"};function Ev(s,t,e){let n=new DOMParser().parseFromString(s,"text/xml"),i=n.querySelector("parsererror");if(i!==null||n.documentElement.localName!=="robot")throw new fc(`the robot's description is no URDF: ${i?.textContent??""}`.trim());for(let r of n.querySelectorAll("material > texture")){let o=r.getAttribute("filename");o!==null&&t[o]===void 0&&(e(o),r.remove())}return eP(n),n}function eP(s){let t=new Map,e=[...s.querySelectorAll("robot > material, visual > material")];for(let n of e){let i=n.getAttribute("name");i&&n.childElementCount>0&&!t.has(i)&&t.set(i,n)}for(let n of e){let i=t.get(n.getAttribute("name")??"");i!==void 0&&n.childElementCount===0&&n.replaceWith(i.cloneNode(!0))}}var Nd=class{constructor(t,e,n){this.model=t;this.isShaded=e;this.events=n;this.object=this.load(),this.object.matrixAutoUpdate=!1,this.object.visible=!1,this.listParts(this.object,-1,null);let i=this.parts[0];this.basePart=i.name===zn&&this.parts[1]||i,this.base=this.basePart.name,this.dress()}model;isShaded;events;object;base;parts=[];basePart;colliders=[];problems=new Set;highlight=new Ad;edges=new fi({transparent:!0});collider=gv(dc.light.collision);chosen=null;joint(t){return this.object.joints[t]}get movingLinks(){return this.parts.filter(({joint:e})=>e!==null&&e.jointType!=="fixed").map(({name:e,parent:n,joint:i})=>({link:e,parent:this.parts[n].name,joint:i?.name??""}))}setJoints(t,e){for(let n of[!1,!0])t.forEach((i,r)=>{let o=this.object.joints[i];o!==void 0&&Number.isFinite(e[r])&&Rv(o)===n&&o.setJointValue(e[r])})}setLinkPose(t,e){let n=this.parts.find(({name:i})=>i===t)?.joint;n&&e.decompose(n.position,n.quaternion,new O)}linkPoses(){for(let{joint:n,parent:i,pose:r}of this.parts)n!==null&&(n.updateMatrix(),r.multiplyMatrices(this.parts[i].pose,n.matrix));let t=this.basePart.pose.clone().invert(),e=this.parts.filter(({name:n})=>n!==zn);return new Map(e.map(({name:n,pose:i})=>[n,t.clone().multiply(i)]))}place(t){this.object.visible=t!==null,t!==null&&(this.object.matrix.copy(this.basePart.pose).invert().premultiply(t),this.object.updateMatrixWorld(!0))}bounds(){let t=new un;return this.object.updateMatrixWorld(!0),this.visuals().forEach(e=>t.expandByObject(e)),t}wheelRadius(t){let e=this.object.joints[t];return e===void 0?0:Tv(e)}linkOf(t){for(let e=t;e!==null;e=e.parent)if(this.object.links[e.name]===e)return e.name;return null}visuals(){return Ld(this.object,!0)}showCollisions(t){this.colliders.forEach(e=>e.visible=t)}choose(t,e){this.chosen=t;let n=t===null?void 0:this.object.links[t];this.highlight.set(n?Ld(n,!1):[],e)}setPalette(t){this.edges.color.set(t.partEdge),this.edges.opacity=t.partEdgeOpacity,this.choose(this.chosen,t.highlight)}dispose(){this.highlight.clear(),this.object.removeFromParent(),uc(this.object),this.edges.dispose(),this.collider.dispose()}load(){let{meshes:t,urdf:e}=this.model,n=vv(t),i=new dv(n);i.packages=o=>`package://${o}`,i.parseCollision=!0,n.onLoad=()=>this.events.changed(),n.onError=o=>this.report(`'${o}' could not be loaded`),i.loadMeshCb=(o,a,l,c)=>{Av(l),bv(o,t,n,l).then(h=>{c(h),this.dress(),this.events.changed()},h=>this.report(h.message))};let r=Ev(e,t,o=>this.report(`the texture '${o}' was not found`));try{let o=i.parse(r);for(let l of Object.values(o.joints))l.ignoreLimits=!0;return Object.values(o.joints).filter(l=>!Rv(l)).forEach(l=>l.setJointValue(0)),o}catch(o){throw new fc(`the robot '${this.model.robot}' cannot be drawn: ${String(o)}`)}}report(t){this.problems.has(t)||(this.problems.add(t),this.events.problem(t))}listParts(t,e,n){let i=this.parts.push({name:t.name,parent:e,joint:n,pose:new Nt})-1;for(let r of t.children.filter(o=>o.name in this.object.joints)){let o=r.children.find(a=>a.name in this.object.links);o!==void 0&&this.listParts(o,i,r)}}dress(){this.object.traverse(t=>{"isURDFCollider"in t&&!this.colliders.includes(t)&&(t.visible=!1,this.colliders.push(t))});for(let t of this.colliders)t.traverse(e=>e instanceof ue&&(e.material=this.collider));for(let t of this.visuals().filter(e=>!e.castShadow))t.castShadow=!0,t.receiveShadow=this.isShaded,wv(t)&&([t.material].flat().forEach(Av),mv(t,this.edges))}};function Av(s){s instanceof Hn&&!s.userData.isCorrect&&(s.userData.isCorrect=!0,pv(s))}function Rv(s){return"mimicJoint"in s}var Dd=class{points;firstChanged=0;coarseCapacity;fineCapacity;fineSpacing;coarseSpacing;coarse=0;fine=0;constructor({coarse:t=4096,fine:e=4096,spacing:n=.02}={}){this.coarseCapacity=t,this.fineCapacity=e,this.fineSpacing=n,this.coarseSpacing=n,this.points=new Float32Array(3*(t+e))}get count(){return this.coarse+this.fine}clear(){this.coarse=this.fine=this.firstChanged=0,this.coarseSpacing=this.fineSpacing}markDrawn(){this.firstChanged=this.count}add(t,e,n){return this.count>0&&this.distanceTo(this.count-1,t,e,n)<this.fineSpacing?!1:(this.fine===this.fineCapacity&&this.ageFinePart(),this.points.set([t,e,n],3*this.count),this.fine++,!0)}ageFinePart(){let t=this.coarse,e=t+(this.fine>>1),n=t+this.fine;for(let i=t;i<e;i++){let[r,o,a]=this.points.subarray(3*i,3*i+3);this.addCoarse(r,o,a)}this.points.copyWithin(3*this.coarse,3*e,3*n),this.firstChanged=Math.min(this.firstChanged,this.coarse),this.fine=n-e}addCoarse(t,e,n){this.coarse>0&&this.distanceTo(this.coarse-1,t,e,n)<this.coarseSpacing||(this.coarse===this.coarseCapacity&&this.thinCoarsePart(),this.points.set([t,e,n],3*this.coarse),this.firstChanged=Math.min(this.firstChanged,this.coarse),this.coarse++)}thinCoarsePart(){let t=this.coarse>>1;for(let e=0;e<t;e++)this.points.copyWithin(3*e,6*e,3*(2*e+1));this.coarse=t,this.coarseSpacing*=2,this.firstChanged=0}distanceTo(t,e,n,i){let[r,o,a]=this.points.subarray(3*t,3*t+3);return Math.hypot(e-r,n-o,i-a)}};var Cv=new O,Pv=new Ge,nP=new O(1,1,1);function xo(s,t,e){return eh(s,t)?(Cv.fromArray(s,t),Pv.fromArray(s,t+3).normalize(),e.compose(Cv,Pv,nP)):null}var pc=class{names;parents=new Map;locals=new Map;places=new Map;constructor(t){let e=new Set;t.frames.forEach(({name:n,parent:i},r)=>{e.add(i).add(n),this.parents.set(n,i),this.places.set(n,7*r)}),this.names=e}read(t){for(let[e,n]of this.places)this.locals.set(e,xo(t,n,this.locals.get(e)??new Nt))}has(t){return this.names.has(t)}parentOf(t){return this.parents.get(t)??null}localOf(t){return this.locals.get(t)??null}rootOf(t){let e=t;for(let n=this.parentOf(e);n!==null;n=this.parentOf(e))e=n;return e}inRoot(t){let e=new Nt;for(let n=t;this.parentOf(n)!==null;n=this.parentOf(n)){let i=this.localOf(n);if(i===null)return null;e.premultiply(i)}return e}};var iP=3,Lv=.004,sP=-800,rP=.5,oP=10,Fd=class{constructor(t,e){this.lift=e;let{points:n}=this.trail;this.buffer=new Xi(n,3,1).setUsage(mo),this.geometry.setAttribute("instanceStart",new Gn(this.buffer,3,0)),this.geometry.setAttribute("instanceEnd",new Gn(this.buffer,3,3)),this.buffer.onUpload(()=>this.trail.markDrawn());let i=new Er({color:new Dt(t).getHex(),linewidth:iP});i.polygonOffset=!0,i.polygonOffsetUnits=sP,this.object=new Ca(this.geometry,i),this.object.frustumCulled=!1,this.geometry.boundingSphere=new nn,this.object.raycast=()=>{},this.draw()}lift;trail=new Dd;object;buffer;geometry=new Ar;add(t,e,n){this.trail.add(t,e,n+this.lift)&&this.draw()}clear(){this.trail.clear(),this.draw()}dispose(){this.geometry.dispose(),this.object.material.dispose()}draw(){let{count:t,firstChanged:e}=this.trail;this.geometry.instanceCount=Math.max(0,t-1),this.object.visible=t>1,this.buffer.clearUpdateRanges(),this.buffer.addUpdateRange(3*e,3*(t-e)),this.buffer.needsUpdate=!0}},Ud=class{object=new Ke;truth=new Fd(Lm,Lv);odometry=new Fd(Im,2*Lv);anchor=null;last=null;constructor(){this.object.matrixAutoUpdate=!1,this.odometry.object.matrixAutoUpdate=!1,this.object.add(this.truth.object,this.odometry.object)}get isAnchored(){return this.anchor!==null}add(t,e){let n=xo(t.truth,0,new Nt),i=xo(t.odometry,0,new Nt);if(n!==null&&this.hasJumped(t.truth,e)&&this.clear(),n!==null&&i!==null&&this.anchor===null&&(this.odometry.clear(),this.anchor=n.clone().multiply(i.clone().invert()),this.odometry.object.matrix.copy(this.anchor)),n!==null){let[r,o,a]=t.truth;this.truth.add(r,o,a),this.last={x:r,y:o,z:a,time:e}}if(i!==null){let[r,o,a]=t.odometry;this.odometry.add(r,o,a)}}place(t,e){this.object.visible=e&&t!==null,t!==null&&(this.object.matrix.copy(t),this.object.matrixWorldNeedsUpdate=!0)}clear(){this.truth.clear(),this.odometry.clear(),this.odometry.object.matrix.identity(),this.anchor=this.last=null}dispose(){this.object.removeFromParent(),this.truth.dispose(),this.odometry.dispose()}hasJumped([t,e,n],i){return this.last===null?!1:Math.hypot(t-this.last.x,e-this.last.y,n-this.last.z)>rP+oP*Math.abs(i-this.last.time)}};var Od=class{id;view;trails;size=0;body=null;state=null;constructor(t,e,n,i){this.id=t.robot,this.view=new Nd(t,e,n),this.trails=i?.trails??new Ud,this.measure()}read(t,e,n){this.state=n;let i=this.prefixIn(t);n!==null&&this.view.setJoints(e,n.positions),this.readUnknownJoints(t,i,new Map(e.map((a,l)=>[a,l])));let r=new Map;this.view.linkPoses().forEach((a,l)=>r.set(i+l,a));let o=n&&xo(n.truth,0,new Nt);this.body={base:i+this.view.base,truth:o,links:r}}place(t,e,n){let i=this.body&&t.poseOfBody(this.body);this.view.place(i);let r=this.state&&xo(this.state.odometry,0,new Nt),o=this.trails.isAnchored?e:i&&r&&i.clone().multiply(r.invert());this.trails.place(o,n)}measure(){let{x:t,y:e,z:n}=this.view.bounds().getSize(new O);this.size=Number.isFinite(t)?Math.max(t,e,n):0}dispose(){this.view.dispose(),this.trails.dispose()}prefixIn(t){let e=this.id.replace(/^\//,""),n=e&&`${e}/`;return!t.has(n+this.view.base)&&t.has(this.view.base)?"":n}readUnknownJoints(t,e,n){for(let{link:i,parent:r,joint:o}of this.view.movingLinks){let a=this.state?.positions[n.get(o)??-1],l=t.localOf(e+i);!(a!==void 0&&Number.isFinite(a))&&l!==null&&t.parentOf(e+i)===e+r&&this.view.setLinkPose(i,l)}}};var aP=`
+  uniform vec2 middle;
+  varying vec2 place;
+  varying float depth;
+  void main() {
+    place = position.xy + middle;
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    depth = -seen.z;
+    gl_Position = projectionMatrix * seen;
+  }
+`,lP=`
+  uniform vec3 base;
+  uniform vec3 minor;
+  uniform vec3 major;
+  uniform vec3 horizon;
+  uniform vec2 fog;
+  uniform float solid;
+  uniform float ruled;
+  varying vec2 place;
+  varying float depth;
+
+  /* How much of this pixel a grid covers; nothing where its cells, m, are under 1/dense pixels. */
+  float lines(float cell, float dense, vec2 pixel) {
+    vec2 away = abs(fract(place / cell - 0.5) - 0.5) * cell / pixel;
+    vec2 fade = 1.0 - smoothstep(0.25 * dense, dense, pixel / cell);
+    vec2 cover = clamp(1.0 - away, 0.0, 1.0) * fade;
+    return max(cover.x, cover.y);
+  }
+
+  void main() {
+    vec2 pixel = max(fwidth(place), vec2(1e-6));
+    float strong = lines(10.0, 0.3, pixel);
+    float plain = max(lines(1.0, 0.3, pixel), 0.4 * lines(0.1, 0.06, pixel));
+    float near = 1.0 - smoothstep(fog.x, fog.y, depth);
+    float cover = ruled * max(strong, 0.8 * plain);
+    vec3 line = mix(minor, major, strong);
+    vec3 ground = mix(horizon, mix(base, line, cover), near);
+    gl_FragColor = solid > 0.5 ? vec4(ground, 1.0) : vec4(line, cover * near);
+    #include <colorspace_fragment>
+  }
+`,Bd=class extends ue{constructor(e,n){let i=["base","minor","major","horizon"].map(o=>[o,{value:new Dt}]),r=new _i({vertexShader:aP,fragmentShader:lP,polygonOffset:!0,polygonOffsetFactor:1,polygonOffsetUnits:1,uniforms:{...Object.fromEntries(i),middle:{value:new Xt},fog:{value:new Xt},solid:{value:0},ruled:{value:1}}});super(new ls(2*e,2*e),r);this.mist=n;this.raycast=()=>{},this.renderOrder=1,this.setSolid(!1)}mist;setSolid(e){this.material.uniforms.solid.value=Number(e),this.material.transparent=!e,this.material.depthWrite=e}showGrid(e){this.material.uniforms.ruled.value=Number(e)}follow(e,n){let{middle:i,fog:r}=this.material.uniforms;this.position.set(e,n,0),i.value.set(e,n),r.value.set(this.mist.near,this.mist.far)}setPalette(e){let{base:n,minor:i,major:r,horizon:o}=this.material.uniforms;n.value.set(e.ground),i.value.set(e.gridMinor),r.value.set(e.gridMajor),o.value.set(e.horizon)}dispose(){this.geometry.dispose(),this.material.dispose()}};var kd=400,cP=new Nt,hP=new O(-.9,-.45,1.5),Iv={hardware:2048,software:512},uP=24,dP=1,zd=class{constructor(t,e){this.isSoftware=e;this.sky=new ue(new Ks(kd,16,12).rotateX(Math.PI/2),new Ui({vertexColors:!0,side:Wn,fog:!1,depthWrite:!1})),this.sky.renderOrder=2,this.sky.visible=!e,this.shadows.receiveShadow=!0,this.shadows.renderOrder=2,this.shadows.raycast=()=>{},this.floor.matrixAutoUpdate=!1,this.floor.add(this.ground,this.shadows),this.castShadows(e?Iv.software:Iv.hardware),t.fog=this.fog,t.background=this.horizon,t.add(this.sky,this.floor,this.sun,this.sun.target,this.dome)}isSoftware;floor=new Ke;fog=new xl(0,10,100);ground=new Bd(kd,this.fog);shadows=new ue(new ls(2,2),new Fl({depthWrite:!1}));sky;sun=new ao;dome=new Bl;horizon=new Dt;setGround(t){this.ground.setSolid(t!==null),this.floor.matrix.copy(t??cP),this.floor.matrixWorldNeedsUpdate=!0}showGrid(t){this.ground.showGrid(t)}follow(t,e,n){let{x:i,y:r}=e.clone().applyMatrix4(this.floor.matrix.clone().invert());this.fog.near=8+n,this.fog.far=Math.min(38+4*n,.9*kd),this.ground.follow(i,r),this.sky.position.copy(t);let o=this.isSoftware?dP:uP,a=Math.min(Math.max(1.2*n,1),o),l=2**Math.ceil(Math.log2(a));this.shadows.position.set(i,r,0),this.shadows.scale.setScalar(l),this.aimSun(e,l)}setPalette(t){this.horizon.set(t.horizon),this.fog.color.set(t.horizon),this.ground.setPalette(t),this.shadows.material.opacity=t.shadow,this.sun.intensity=t.sun,this.dome.intensity=t.sky,this.dome.groundColor.set(t.ground).lerp(new Dt("#808080"),.5);let e=[],n=this.sky.geometry.getAttribute("position"),i=new Dt(t.zenith),r=new Dt;for(let o=0;o<n.count;o++){let a=Math.max(0,n.getZ(o)/kd);r.copy(this.horizon).lerp(i,Math.sqrt(a)).toArray(e,3*o)}this.sky.geometry.setAttribute("color",new Jt(e,3))}dispose(){for(let{geometry:t,material:e}of[this.sky,this.shadows])t.dispose(),e.dispose();this.ground.dispose(),this.sun.dispose()}castShadows(t){this.sun.castShadow=!0,this.sun.shadow.mapSize.set(t,t),this.sun.shadow.bias=-4e-4,this.sun.shadow.normalBias=.01,this.sun.shadow.radius=3}aimSun(t,e){let n=16*e/this.sun.shadow.mapSize.x,i=a=>n*Math.round(a/n);this.sun.target.position.set(i(t.x),i(t.y),i(t.z)),this.sun.position.copy(hP).multiplyScalar(2*e).add(this.sun.target.position);let{camera:r}=this.sun.shadow,o=1.5*e;r.right!==o&&(r.left=r.bottom=-o,r.right=r.top=o,r.near=.1,r.far=6*e,r.updateProjectionMatrix())}};var fP=25,pP=new Set(["box","cylinder","triangles"]),Vd=class{constructor(t){this.isShaded=t;this.object.matrixAutoUpdate=!1,this.object.visible=!1}isShaded;object=new Ke;hasGround=!1;edges=new fi({transparent:!0});set(t){uc(this.object),this.object.clear(),this.hasGround=t.shapes.some(Nv);for(let e of t.shapes.filter(n=>!Nv(n)))this.object.add(this.draw(e))}place(t){this.object.visible=t!==null,t!==null&&(this.object.matrix.copy(t),this.object.matrixWorldNeedsUpdate=!0)}setPalette(t){this.edges.color.set(t.edge),this.edges.opacity=t.edgeOpacity}dispose(){uc(this.object),this.object.removeFromParent(),this.edges.dispose()}draw(t){let[e,n,i,r]=t.colour,o=new ue(mP(t),new io({color:new Dt().setRGB(e,n,i,we),opacity:r,transparent:r<1,depthWrite:r===1,flatShading:t.kind==="triangles"}));return o.name=t.name,o.position.fromArray(t.position),o.quaternion.fromArray(t.orientation),o.castShadow=this.isShaded&&r>.5&&t.kind!=="plane",o.receiveShadow=this.isShaded,pP.has(t.kind)&&o.add(new Oi(new eo(o.geometry,fP),this.edges)),o}};function Nv({kind:s,size:t,position:e,orientation:n}){let i=Math.hypot(n[0],n[1])<1e-6;return s==="plane"&&t[0]===0&&i&&Math.abs(e[2])<1e-6}function mP({kind:s,size:[t,e,n],points:i}){switch(s){case"box":return new bs(t,e,n);case"sphere":return new Ks(.5,32,20).scale(t,e,n);case"cylinder":return new Zs(.5,.5,1,40).rotateX(Math.PI/2).scale(t,e,n);case"capsule":return new Cl(t/2,Math.max(0,n-t),10,28).rotateX(Math.PI/2);case"plane":return new ls(t||Dv,e||Dv);case"triangles":{let r=new Fe;return r.setAttribute("position",new Jt(i,3)),r.computeVertexNormals(),r}}}var Dv=800;var gP=.28,yP=12,Fv={type:"layout",id:-1,frames:[],robots:[]},Gd=class{constructor(t){this.isSoftware=t;this.world=new Vd(!t),this.surroundings=new zd(this.scene,t),this.scene.add(this.world.object),this.overlay.add(this.axes.object,this.contacts.object)}isSoftware;scene=new xr;overlay=new xr;world;surroundings;options={frames:!0,frameNames:!0,trails:!0,contacts:!0,collisions:!1,grid:!0};chosenFrame=null;fixedFrame=zn;placed=[];robots=new Map;placement=new Id;axes=new ld;contacts=new gd;layout=Fv;tree=new pc(Fv);state=null;drawn=null;setModel(t,e,n){let i=this.robots.get(t.robot),r=new Od(t,!this.isSoftware,e,i);i?.view.dispose(),this.robots.set(t.robot,r),r.view.setPalette(n),r.view.showCollisions(this.options.collisions),this.scene.add(r.view.object,r.trails.object)}removeRobot(t){this.robots.get(t)?.dispose(),this.robots.delete(t)}setLayout(t){this.layout=t,this.tree=new pc(t),this.state=null}setState(t){if(t.layout.id!==this.layout.id)return!1;this.state=t;for(let e of t.robots)this.robots.get(e.id)?.trails.add(e,t.time);return av(this.drawn,t)}setOptions(t){this.options={...this.options,...t},this.surroundings.showGrid(this.options.grid),this.views().forEach(e=>e.showCollisions(this.options.collisions))}setPalette(t){let{surroundings:e,world:n,axes:i,contacts:r}=this;for(let o of[e,n,i,r,...this.views().values()])o.setPalette(t)}measure(t){let e=this.robots.get(t);e!==void 0&&(e.measure(),this.contacts.forget(e.view))}clearTrails(){this.placement.clear(),this.robots.forEach(({trails:t})=>t.clear())}views(){return new Map([...this.robots].map(([t,{view:e}])=>[t,e]))}frames(){let t=new Set(this.tree.names);for(let{body:e}of this.robots.values())e!==null&&t.add(e.base);return this.hasTruth()?[zn,...[...t].filter(e=>e!==zn)]:[...t]}poseOf(t){let e=t===null?null:this.robots.get(t)?.body;return e?this.placement.poseOfBody(e):null}bounds(){let t=new un;for(let e of this.views().values()){let n=e.object.visible?e.bounds():new un;(t.isEmpty()||n.distanceToPoint(t.getCenter(new O))<yP)&&t.union(n)}return t}place(){this.readState(),this.fixedFrame=this.chosenFrame??this.defaultFrame();let t=[...this.robots.values()],e=t.flatMap(({body:i})=>i??[]);this.placement.update(this.tree,e,this.fixedFrame);let n=this.placement.poseOf(zn);this.world.place(n),this.surroundings.setGround(this.world.hasGround?n:null),t.forEach(i=>i.place(this.placement,n,this.options.trails)),this.placeFrames(),this.placeContacts()}dispose(){[...this.robots.keys()].forEach(t=>this.removeRobot(t));for(let t of[this.axes,this.contacts,this.world,this.surroundings])t.dispose()}readState(){let{state:t}=this;t!==null&&this.tree.read(t.poses);for(let e of this.robots.values()){let n=this.layout.robots.findIndex(({id:i})=>i===e.id);e.read(this.tree,this.layout.robots[n]?.joints??[],t?.robots[n]??null)}this.drawn=t}placeFrames(){this.placed=this.frames().flatMap(e=>{let n=this.placement.poseOf(e),i=this.tree.parentOf(e),r=i===null?null:this.placement.poseOf(i);return n===null?[]:{name:e,pose:n,parent:r}});let t=Math.max(0,...[...this.robots.values()].map(e=>e.size))||1;this.axes.object.visible=this.options.frames,this.axes.draw(this.placed,gP*t)}placeContacts(){this.contacts.begin(),this.layout.robots.forEach(({id:t,wheels:e},n)=>{let i=this.robots.get(t)?.view,r=this.state?.robots[n];this.options.contacts&&i?.object.visible&&r&&this.contacts.add(i,e,r)}),this.contacts.commit()}hasTruth(){return this.state?.robots.some(({truth:t})=>eh(t))??!1}defaultFrame(){if(this.hasTruth())return zn;let t=[...this.robots.values()].find(({body:n})=>n!==null)?.body?.base,[e]=this.tree.names;return t!==void 0?this.tree.rootOf(t):e??zn}};var Da=class extends Error{name="NoWebGL";constructor(){super("This browser offers no WebGL 2, so the 3-D view is off; everything else works. Turn on hardware acceleration in its settings, or try another browser.")}};function Uv(){let s=document.createElement("canvas").getContext("webgl2");if(s===null)throw new Da;let t=s.getExtension("WEBGL_debug_renderer_info"),e=String(s.getParameter(t?t.UNMASKED_RENDERER_WEBGL:s.RENDERER));return s.getExtension("WEBGL_lose_context")?.loseContext(),/swiftshader|llvmpipe|softpipe|software|basic render/i.test(e)}var Hd=class{onSelect=()=>{};onProblem=()=>{};picture;labels;painter;rig;picking;palette=dc.light;followed=null;picked=null;isStale=!0;framed=null;constructor(t){let e=Uv();this.picture=new Gd(e),this.labels=new fd(t),this.painter=new pd(t,e,this.step,this.onResize),this.rig=new dd(t,this.painter.dirty,()=>this.resetView());let n=()=>this.picture.views();this.picking=new md(t,this.rig.camera,n,this.onPick),this.setTheme("light"),this.resize()}setModel(t){let e={changed:()=>this.onMesh(t.robot),problem:n=>this.onProblem(n)};try{this.picture.setModel(t,e,this.palette)}catch(n){this.onProblem(n instanceof Error?n.message:String(n))}this.invalidate()}removeRobot(t){this.picture.removeRobot(t),this.followed===t&&this.follow(null),this.picked?.robot===t&&(this.picked=null),this.invalidate()}setWorld(t){this.picture.world.set(t),this.invalidate()}setLayout(t){this.picture.setLayout(t)}applyState(t){this.picture.setState(t)&&this.invalidate()}setFixedFrame(t){this.picture.chosenFrame=t,this.invalidate()}currentFixedFrame(){return this.picture.fixedFrame}frames(){return this.picture.frames()}unconnectedFrames(){let t=new Set(this.picture.placed.map(({name:e})=>e));return this.frames().filter(e=>!t.has(e))}show(t){this.picture.setOptions(t),this.invalidate()}follow(t){this.followed=t,this.rig.stopFollowing(),t!==null&&this.resetView()}resetView(){let t=this.picture.poseOf(this.followed),e=this.picture.views().get(this.followed??"");t!==null&&e!==void 0?this.rig.startFollowing(t,e.bounds()):this.rig.frame(this.picture.bounds()),this.painter.dirty()}select(t,e){this.picked={robot:t,link:e};for(let[n,i]of this.picture.views())i.choose(n===t?e:null,this.palette.highlight);this.invalidate()}clearTrails(){this.picture.clearTrails(),this.invalidate()}setTheme(t){this.palette=dc[t],this.picture.setPalette(this.palette),this.invalidate()}resize(){this.painter.resize()}stats(){return{frames:this.painter.frames,triangles:this.painter.triangles}}dispose(){for(let t of[this.picking,this.rig,this.labels,this.picture,this.painter])t.dispose()}invalidate(){this.isStale=!0,this.painter.dirty()}onResize=(t,e,n)=>{this.rig.resize(t/Math.max(1,e)),this.labels.resize(n)};onMesh(t){this.picture.measure(t),this.rig.isMoved||(this.framed=null),this.invalidate()}onPick=t=>{let{robot:e,link:n}=t??{robot:this.picked?.robot??"",link:null};e!==""&&(this.select(e,n),this.onSelect(e,n))};step=t=>{let{picture:e,rig:n}=this;this.isStale&&(this.isStale=!1,e.place(),this.pointCamera());let i=n.update(t,e.poseOf(this.followed));e.surroundings.follow(n.camera.position,n.target,n.distance),this.painter.paint(e.scene,e.overlay,n.camera);let{frames:r,frameNames:o}=e.options,a=r&&o?qx(e.placed,e.fixedFrame):[];return this.labels.draw(a,n.camera,this.palette),i};pointCamera(){[...this.picture.views().values()].some(({object:e})=>e.visible)&&this.framed!==this.picture.fixedFrame&&(this.framed=this.picture.fixedFrame,this.resetView())}};var _P=[{name:"frames",label:"Frames",on:!1,title:"Axes of the TF frames"},{name:"frameNames",label:"Names",on:!1,title:"Names of the frames"},{name:"trails",label:"Trails",on:!0,title:"Where the robot went: truth and odometry"},{name:"contacts",label:"Contacts",on:!1,title:"Load and slip of the wheels"},{name:"collisions",label:"Collisions",on:!1,title:"Shapes that touch"},{name:"grid",label:"Grid",on:!0,title:"Squares of 1 m"}],Wd=class{constructor(t){this.app=t;this.element=z("main",{class:"view",id:"view"},this.canvas,this.words,this.hint),this.scene=this.makeScene(),this.scene===null?this.canvas.remove():(this.element.append(this.tools(this.scene),bP(t)),this.connect(this.scene)),t.store.watch(["graph","link","robot"],()=>this.showWords())}app;element;scene;canvas=z("canvas",{class:"scene","aria-label":"The robot in its world"});words=z("div",{class:"view-words"});hint=z("div",{class:"view-hint",hidden:!0});following=Qi("follow")!=="no";apply(t){this.scene?.applyState(t)}setTheme(t){this.scene?.setTheme(t)}makeScene(){try{return new Hd(this.canvas)}catch(t){if(t instanceof Da)return this.element.classList.add("blind"),null;throw t}}connect(t){let{store:e}=this.app,n=new Set;e.watch(["model","graph"],()=>{for(let i of[...n].filter(r=>!e.models.has(r)))t.removeRobot(i),n.delete(i)}),e.watch(["layout"],()=>{e.layout!==null&&t.setLayout(e.layout)}),e.watch(["frame"],()=>t.setFixedFrame(e.fixedFrame)),e.watch(["reset"],()=>t.clearTrails()),e.watch(["robot","graph"],()=>this.follow(t)),e.onModel=i=>{t.setModel(i),n.add(i.robot)},e.onWorld=i=>t.setWorld(i),e.watch(["graph"],()=>{e.worlds.size===0&&t.setWorld({type:"world",simulator:"",shapes:[]})}),t.onSelect=(i,r)=>{e.choose(i),e.select({robot:i,frame:r})},new ResizeObserver(()=>t.resize()).observe(this.canvas)}follow(t){t.follow(this.following?this.app.store.robot?.id??null:null)}tools(t){let e=Wa("Follow",this.following,i=>{this.following=i,Ri("follow",i?"yes":"no"),this.follow(t)},"The camera goes with the robot"),n=_P.map(({name:i,label:r,on:o,title:a})=>{let l=Qi(`show.${i}`),c=l===null?o:l==="yes";return t.show({[i]:c}),Wa(r,c,u=>{Ri(`show.${i}`,u?"yes":"no"),t.show({[i]:u})},a)});return z("div",{class:"view-tools",role:"toolbar","aria-label":"View"},Ye("Reset view",()=>t.resetView(),{kind:"quiet"}),e,z("span",{class:"rule","aria-hidden":"true"}),...n,Ye("Clear trails",()=>t.clearTrails(),{kind:"quiet"}))}showWords(){let{link:t,graph:e,robot:n}=this.app.store,i=t.state!=="open",r=!i&&e!==null&&e.robots.length===0;this.hint.hidden=i||n===null||n.command===null,this.hint.replaceChildren("Hold ",...xP()," or the arrow keys to drive"),this.words.replaceChildren(),i?this.sayLost(t):r?this.say("Nothing to see yet",e.hint??"Nobody publishes a robot description."):this.scene===null&&this.say("No 3-D view","This browser draws no WebGL 2. Driving, panels and plots work all the same.")}sayLost(t){if(t.state==="waiting"){let n=`${t.reason===""?"The viewer does not answer.":`${t.reason}.`} This page connects again by itself as soon as it does.`;this.say("No connection",n)}else this.say("Connecting \u2026","")}say(t,e){let n=z("h2",{});Me(n,t);let i=e.charAt(0).toUpperCase()+e.slice(1);this.words.append(z("div",{class:"card"},n,z("p",{},...vP(i))))}};function xP(){return["W","A","S","D"].map(s=>z("kbd",{},s))}function vP(s){return s.split("`").map((t,e)=>e%2===1?z("code",{},t):document.createTextNode(t))}function bP({store:s}){let t=(r,o)=>z("span",{},z("i",{class:`swatch ${r}`}),o),e=t("truth","Truth"),n=t("odometry","Odometry"),i=z("div",{class:"view-legend","aria-hidden":"true"},e,n);return s.watch(["graph","robot"],()=>{e.hidden=(s.robot?.truth??null)===null,n.hidden=(s.robot?.odometry??null)===null,i.hidden=e.hidden&&n.hidden}),i}var SP=100,Mi=new ih,Fa=new bc(rg(window.location)),Pr=new Cc({send:s=>Fa.send(s),now:()=>performance.now(),after:(s,t)=>{let e=setTimeout(t,s);return()=>clearTimeout(e)}}),Ji={store:Mi,connection:Fa,pilot:Pr},gc=new Qc,Nm=new nh(Mi),Xd=new Wd(Ji),Dm=new Rc(Ji),Ov=new th(Ji,gc),Bv=new Fc(Ji),kv=new Nc(Ji),mc=new sh("tab");for(let s of[Bv,new Dc(Ji),new Ic(Ji),new Uc(Ji),new Lc(Ji),kv])mc.add(s);var zv=by(Ji,{view:Xd,drive:Dm,plots:Ov,tabs:mc}),MP=uy(s=>{Xd.setTheme(s),Ov.repaint()}),Vv=new Pc(Ji,{flipTheme:MP.flip,openPanels:zv.openPanels});document.body.prepend(z("a",{class:"skip",href:"#drive"},"Skip to driving"),Vv.element);document.body.append(ng(Mi));Mi.watch(["graph","robot","model","diagnostics"],()=>{mc.setBadge("model",Bv.toLookAt,"warning"),mc.setBadge("health",kv.toLookAt,"warning")});Mi.watch(["graph"],()=>gc.keep((Mi.graph?.robots??[]).map(({id:s})=>s)));Mi.watch(["reset"],()=>gc.clear());Mi.watch(["driver","robot","graph"],()=>{let{driver:s}=Mi;Pr.hearDriver(s===null?"nobody":s.me?"me":"other")});Pr.onRefused=()=>{Mi.note("warning",`${Mi.driver?.name} drives; STOP stops it for everybody.`)};gg(Pr);mg(Pr,s=>Dm.showPad(s));Fa.onLink=s=>{s.state!=="open"&&Pr.halt(),Mi.setLink(s)};Fa.onMessage=s=>{s.type==="reply"&&!s.ok&&Pr.halt(),Mi.take(s)};Fa.onState=s=>{Pr.keepUp();let t=Nm.take(s);t!==null&&(Xd.apply(t),gc.record(t,Mi.simulation?.real_factor??null))};setInterval(()=>{let s=Nm.fresh();if(s!==null)for(let t of[Vv,Dm,mc,zv])t.pulse(s)},SP);Ag({app:Ji,stream:Nm,recorder:gc,view:Xd});Fa.open();
