@@ -74,6 +74,12 @@ class Page:
         """The last message of a type; None: none has come yet."""
         return next((m for m in reversed([*self.messages]) if m['type'] == kind), None)
 
+    @property
+    def is_told_that_nobody_drives(self):
+        """Whether the last word about a driver is that there is none any more."""
+        driver = self.last('driver')
+        return driver is not None and driver['client'] is None
+
     def wait(self, condition):
         """Wait until a condition on what came is something; return it."""
         with self._changed:

@@ -83,7 +83,7 @@ class Host:
         )
         page.say('stop', robot=name)
         self.until(lambda: robot.velocities[-1] == (0.0, 0.0))  # nothing is on its way any more
-        self.until(lambda: page.last('driver')['client'] is None)
+        self.until(lambda: page.is_told_that_nobody_drives)
         robot.commands.clear()
 
 
@@ -237,7 +237,7 @@ def test_whatever_ends_a_drive_stops_the_robot(host, url, ending):
                     driver.socket.send('{')
                 case 'stop all':
                     watcher.say('stop', robot=None)
-        host.until(lambda: watcher.last('driver')['client'] is None)
+        host.until(lambda: watcher.is_told_that_nobody_drives)
 
 
 def test_the_end_of_the_viewer_stops_the_robot(host):
