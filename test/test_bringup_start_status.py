@@ -11,6 +11,7 @@ import pytest
 from amr_description.bringup import exited_cleanly, Node, Stack
 from amr_description.bringup.console import Console
 from amr_description.bringup.log_folder import LogFolder
+from amr_description.bringup.narrator import steps_text
 from amr_description.bringup.progress import Progress
 from amr_description.bringup.start_status import StartStatus
 
@@ -117,3 +118,11 @@ def test_elsewhere_a_line_is_said_at_times(tmp_path):
         open_gate(bringup, tmp_path)
         bringup.expect('ready in')
         assert bringup.end(2) == 0
+
+
+def test_of_many_steps_the_longest_are_named():
+    steps = {f's{number}': float(number) for number in range(1, 10)}
+    assert steps_text(steps) == (
+        'steps: s4 4.0 s, s5 5.0 s, s6 6.0 s, s7 7.0 s, s8 8.0 s, s9 9.0 s and 3 shorter ones'
+    )
+    assert steps_text({'create-3': 1.26}) == 'steps: create-3 1.3 s'

@@ -183,4 +183,3 @@ def test_a_lent_screen_is_written_without_erasing_where_it_cannot(tmp_path):
         console.say('INFO', 'a', 'seen again')
         screen.seek(0)
         assert screen.read() == '[WARNING] [a]: seen\n[INFO] [a]: seen again\n'
-

@@ -20,6 +20,7 @@ from amr_description.bringup.start_status import StartStatus
 from amr_description.bringup.waits import Expired
 
 _POLITE = (signal.SIGINT, signal.SIGTERM)  # what a program may leave to its default
+_MOST_STEPS = 6  # on a line
 
 
 class Narrator:
@@ -35,7 +36,7 @@ class Narrator:
         self._events = events
         self._status = StartStatus(console, self._name_of)
         self._started_at: dict[Node, float] = {}
-        self._steps: list[str] = []  # that came to their end, and how long they took
+        self._steps: dict[str, float] = {}  # that came to their end, and how long they took, s
         for node in self._jobs:
             self._note('waiting', node, condition=self._condition_of(node))
         self._begin = time.monotonic()
@@ -62,8 +63,7 @@ class Narrator:
         """Say how its process ended; launch calls it an error, too, if it did as it was told."""
         self._note('exited', node, pid=child.pid, **_end(child.returncode))
         if child.returncode == 0:
-            took = time.monotonic() - self._started_at[node]
-            self._steps.append(f'{self._name_of(node)} {took:.1f} s')
+            self._steps[self._name_of(node)] = time.monotonic() - self._started_at[node]
             text = f'process has finished cleanly [pid {child.pid}]'
             self._console.say('INFO', self._name_of(node), text)
         elif child.sent in _POLITE and child.returncode in (-child.sent, 128 + child.sent):
@@ -98,7 +98,7 @@ class Narrator:
             took = time.monotonic() - self._begin
             self._note('ready', seconds=round(took, 3))
             if self._steps:
-                self._console.say('INFO', LAUNCH, f'steps: {", ".join(self._steps)}')
+                self._console.say('INFO', LAUNCH, steps_text(self._steps))
             steps = f': {self._stack.all_next_steps}' if self._stack.all_next_steps else ''
             self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
 
@@ -120,11 +120,13 @@ class Narrator:
             return
         of = f' of {rule.limit}' if rule.limit is not None else ''
         delay = state.restart_at - situation.time
+        self._note('respawn', node, seconds=round(delay, 3), restarts=state.restarts)
         text = f'process is started again in {delay:.1f} s ({state.restarts}{of})'
         self._console.say('WARNING', self._name_of(node), text)
 
     def shutdown(self, shutdown: Shutdown) -> None:
         """Say why a handler wants all to be stopped."""
+        self._note('shutdown', reason=shutdown.reason)
         level = 'ERROR' if shutdown.exit_code else 'INFO'
         self._console.say(level, LAUNCH, f'stopping: {shutdown.reason}')
 
@@ -200,6 +202,14 @@ class Narrator:
 
     def _name_of(self, node: Node) -> str:
         return self._jobs[node].name
+
+
+def steps_text(steps: Mapping[str, float]) -> str:
+    """Return how long each step took, in their order; of many only the longest."""
+    shown = sorted(steps, key=steps.__getitem__, reverse=True)[:_MOST_STEPS]
+    texts = [f'{name} {took:.1f} s' for name, took in steps.items() if name in shown]
+    more = f' and {len(steps) - len(shown)} shorter ones' if len(steps) > len(shown) else ''
+    return f'steps: {", ".join(texts)}{more}'
 
 
 def _end(returncode: int) -> dict[str, object]:
