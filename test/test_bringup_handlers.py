@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is done when a node ends, and when the stack stops; and new starts of real processes."""
 
+import json
 import re
 import signal
 
@@ -141,5 +142,11 @@ def test_a_step_that_is_started_again_until_it_is_enough(tmp_path):
         ) == [
             '0.1 s (1 of 2)',
             '0.2 s (2 of 2)',
+        ]
+        events = (bringup.logs / 'latest/events.jsonl').read_text().splitlines()
+        told = [event for event in map(json.loads, events) if event['event'] == 'respawn']
+        assert [(event['node'], event['seconds']) for event in told] == [
+            ('step-2', pytest.approx(0.1)),
+            ('step-2', pytest.approx(0.2)),
         ]
         assert bringup.end(signal.SIGINT) == 0

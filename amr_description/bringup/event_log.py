@@ -22,9 +22,11 @@ event              of                                  more keys
 ``started``        a node                              ``pid``
 ``not_started``    a node                              ``reason``
 ``exited``         a node                              ``pid``, ``exit_code`` or ``signal``
+``respawn``        a node that is to be started again  in ``seconds``; ``restarts`` in a row
 ``never``          a node that can never start         ``condition``
 ``ready``          the run                             ``seconds`` it took
 ``stop_requested`` the run                             ``signal``
+``shutdown``       the run, which a handler stops      ``reason``
 ``signal_sent``    a node                              ``pid``, ``signal``
 ``failure``        the node that stopped the run       ``reason``
 ``stopped``        the run, last of all                ``exit_code``

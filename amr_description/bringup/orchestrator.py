@@ -174,7 +174,8 @@ class Orchestrator:
             reason = f'could not be started: {error}'
             self._narrator.not_started(node, reason)
             self._last_lines[node] = [reason]
-            self._progress.end(node, CANNOT_START)
+            self._progress.end(node, CANNOT_START, [reason])
+            self._narrator.respawn(node, self._progress.situation)
             self._wake.set()
             return
         if node in self._children:  # it is started again
