@@ -21,6 +21,7 @@ const LAYERS = [
 export class View {
   readonly element: HTMLElement;
   readonly scene: Scene | null;
+  private whyBlind = '';
   private readonly canvas = h('canvas', { class: 'scene', 'aria-label': 'The robot in its world' });
   private readonly words = h('div', { class: 'view-words' });
   private readonly hint = h('div', { class: 'view-hint', hidden: true });
@@ -52,7 +53,8 @@ export class View {
       return new Scene(this.canvas);
     } catch (error) {
       if (error instanceof NoWebGL) {
-        this.element.classList.add('blind');
+        this.whyBlind = error.message;
+        document.body.classList.add('blind'); // the place is for the plots
         return null;
       }
       throw error;
@@ -136,8 +138,7 @@ export class View {
     } else if (empty) {
       this.say('Nothing to see yet', graph.hint ?? 'Nobody publishes a robot description.');
     } else if (this.scene === null) {
-      const text = 'This browser draws no WebGL 2. Driving, panels and plots work all the same.';
-      this.say('No 3-D view', text);
+      this.say('No 3-D view', this.whyBlind);
     }
   }
 
