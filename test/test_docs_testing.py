@@ -13,12 +13,12 @@ import pytest
 from amr_description.testing.simulation import Simulation
 
 PAGE = Page('test_your_robot.md')
-FIRST, CONFTEST, TESTS, ARM, SAME_BITS = PAGE.blocks('python')
+FIRST, CONFTEST, TESTS, FLEET, ARM, SAME_BITS = PAGE.blocks('python')
 (ARM_YAML,) = PAGE.blocks('yaml')
 ARM_URDF = ROOT / 'test' / 'fixtures' / 'sim' / 'arm.urdf'
 
 
-@pytest.mark.parametrize('block', [FIRST, SAME_BITS])
+@pytest.mark.parametrize('block', [FIRST, FLEET, SAME_BITS])
 def test_a_block_holds(block):
     PAGE.run(block)
 

@@ -84,6 +84,14 @@ def test_each_speaks_with_its_own_names(sim):
     assert parents == {f'{name}/base_footprint': {f'{name}/odom'} for name in NAMES}
 
 
+def names_below(node, namespace):
+    """Topics, services and nodes in a namespace."""
+    full = (f'{ns.rstrip("/")}/{name}' for name, ns in node.get_node_names_and_namespaces())
+    topics, services = node.get_topic_names_and_types(), node.get_service_names_and_types()
+    everything = [*full, *(name for name, _ in topics), *(name for name, _ in services)]
+    return [name for name in everything if name.startswith(namespace)]
+
+
 @pytest.fixture(scope='module')
 def tracks(sim):
     """Name → truth and odometry after every LOOK, of GONE since it came again."""
@@ -93,6 +101,7 @@ def tracks(sim):
         if number == round(LEAVES / LOOK):
             sim.remove(GONE)
             found[GONE].clear()
+            sim.wait(lambda: not names_below(sim.node, f'/{GONE}/'), 'its names to be free')
         if number == round(COMES / LOOK):
             sim.spawn(GONE, STARTS[GONE])
         drive(sim, LOOK)

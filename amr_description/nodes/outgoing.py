@@ -10,6 +10,7 @@ of a core for three nodes. Their clocks are set here, before anything is publish
 
 from collections.abc import Callable, Sequence
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from rclpy.clock import ROSClock
 from rclpy.exceptions import InvalidHandle
@@ -17,12 +18,13 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
 from amr_description.control.foreign_errors import describe
 from amr_description.control.interfaces import NANOSECONDS
+from amr_description.nodes.node_ending import destroy_node
 from amr_description.nodes.receipts import Receipts
 
 CLOCK_QOS = QoSProfile(depth=10)
@@ -43,6 +45,8 @@ class Outgoing:
         self.reporters: list[Callable[[int], None]] = []
         """Called at the end of a turn with its time, ns; what they send goes out with it."""
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
+        self._keeps: WeakKeyDictionary[Publisher, bool] = WeakKeyDictionary()
+        """Of topics that nobody listened to: whether they keep what is said for who comes."""
         self._logger = logger
 
     def make_node(
@@ -69,7 +73,7 @@ class Outgoing:
     def destroy_node(self, node: Node) -> None:
         """Remove a node that was adopted."""
         self.release(node)
-        node.destroy_node()
+        destroy_node(node)
 
     def adopt(self, node: Node) -> None:
         """Take in a node; on the thread that made it, after its constructor."""
@@ -95,8 +99,9 @@ class Outgoing:
             report(time)
         for fill, sample, message, publisher in self._outbox:
             try:
-                fill(sample, message)
-                publisher.publish(message)
+                if self._is_wanted(publisher):
+                    fill(sample, message)
+                    publisher.publish(message)
             except InvalidHandle:  # the topic went with a cleanup since it was said
                 continue
             except Exception as error:  # a stranger's converter; the robot must go on
@@ -105,6 +110,16 @@ class Outgoing:
                     throttle_duration_sec=1.0,
                 )
         self._outbox.clear()
+
+    def _is_wanted(self, publisher: Publisher) -> bool:
+        """Whether somebody listens, 1 µs, or may come later for what was said now."""
+        if publisher.get_subscription_count():
+            return True
+        keeps = self._keeps.get(publisher)
+        if keeps is None:
+            durability = publisher.qos_profile.durability
+            keeps = self._keeps[publisher] = durability is not DurabilityPolicy.VOLATILE
+        return keeps
 
 
 class SimulatedOutgoing(Outgoing):
