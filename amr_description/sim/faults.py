@@ -6,6 +6,11 @@ What goes wrong in the physics: one line for each, with robot, joint, value, cau
 MuJoCo hands its warnings to one function of the process; without it a MUJOCO_LOG.TXT would appear
 in the user's folder. A step without a fault costs a look at an empty queue and at two numbers.
 Nothing is mended: what is lost stays lost until a reset that somebody asks for.
+
+Nor is it contained: a value that is not finite in one robot is in all of them after the same step,
+as MuJoCo's solver weighs its start for the whole world at once. What is told is the robot where it
+began. To keep the others going, every step would have to be made again without that robot, from
+a state saved before.
 """
 
 from collections import deque
