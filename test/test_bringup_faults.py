@@ -9,6 +9,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 
 from fixtures.bringup.running import Bringup, ends, install_toys, STACKS
 import machines
@@ -97,6 +98,26 @@ def test_a_suspended_orchestrator_can_be_killed(tmp_path):
         bringup.signal(signal.SIGSTOP)
         bringup.signal(signal.SIGKILL)
         assert all(ends(pid) for pid in pids)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_while_xacro_runs_ends_xacro_too(tmp_path, number):
+    bomb = tmp_path / 'bomb.xacro'
+    endless = '[0 for a in range(10**9) for b in range(10**9)]'
+    bomb.write_text(f'<robot name="${{{endless}}}" xmlns:xacro="http://ros.org/wiki/xacro"/>')
+    path = os.environ['AMENT_PREFIX_PATH']
+    with Bringup(tmp_path, 'simulation', f'urdf:={bomb}', AMENT_PREFIX_PATH=path) as bringup:
+        deadline = time.monotonic() + PATIENCE
+        while not (xacro := children_of(bringup.process.pid)):
+            assert time.monotonic() < deadline
+            os.sched_yield()
+        assert bringup.end(number) == 128 + number
+        assert bringup.output == ''
+        assert all(ends(pid) for pid in xacro)
+
+
+def children_of(parent):
+    return [process.pid for process in processes('') if process.parent == parent]
 
 
 MANNERS = {

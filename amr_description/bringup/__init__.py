@@ -48,6 +48,7 @@ narrator.py            what the orchestrator says of a stack, in launch's words
 post_mortem.py         pure: what is said of the failure that stopped a stack
 console.py             what a person reads: prefixes, colours, log files
 start_status.py        what a start waits for, told while it takes
+early_signals.py       signals before the orchestrator listens
 event_log.py           what happens in a run, for programs: events.jsonl
 terminal.py            one process with the terminal, as a shell gives it
 run_registry.py        the runs of this user on this host

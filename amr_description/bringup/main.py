@@ -13,6 +13,7 @@ from amr_description.bringup import discovery, unique_names
 from amr_description.bringup.arguments import declared, parse, show
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
 from amr_description.bringup.description import nodes_of, Stack
+from amr_description.bringup.early_signals import ended_by_signals
 from amr_description.bringup.event_log import EventLog, FILE, json_line
 from amr_description.bringup.job import Job, jobs_of, LaunchPrefix
 from amr_description.bringup.listing import listing
@@ -36,7 +37,8 @@ def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
     try:
         if words and words[0] in COMMANDS:
             return COMMANDS[words[0]](words[1:])
-        return _run(_parser().parse_intermixed_args(words))
+        with ended_by_signals():
+            return _run(_parser().parse_intermixed_args(words))
     except AmrError as error:
         print(f'{prog}: {error}', file=sys.stderr)
         return error.exit_code
