@@ -3,14 +3,25 @@
 """Who finds the nodes of a stack: the options, the environment variables, what is said of them."""
 
 from argparse import ArgumentParser
+import os
 
 import pytest
 
 from amr_description.bringup.discovery import add_options, exports, told, variables, words
+from amr_description.bringup.main import main as bringup_main
+from amr_description.cli import ros2
 from amr_description.errors import UsageError
 
 DOMAIN, RANGE = 'ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 PEERS, SERVER = 'ROS_STATIC_PEERS', 'ROS_DISCOVERY_SERVER'
+
+
+def bringup(*words):
+    return bringup_main(['simulation', *words])
+
+
+def ros2_launch(*words):
+    return ros2.main(['launch', *words, 'amr_description', 'simulation'])
 
 
 def options(*typed):
@@ -103,3 +114,16 @@ def test_right_variables_are_left_alone():
 def test_what_a_person_is_told_and_types_next(environment, text, lines):
     assert told(environment) == text
     assert exports(environment) == lines
+
+
+@pytest.mark.parametrize('main', [bringup, ros2_launch])
+def test_what_is_wrong_is_told_before_anything_starts(monkeypatch, capsys, main):
+    monkeypatch.setattr('os.environ', dict(os.environ))
+    assert main('--domain', '233') == 2
+    assert main('--discovery', 'lan') == 2
+    captured = capsys.readouterr()
+    assert captured.out == ''
+    said = captured.err.splitlines()
+    assert len(said) == 2
+    assert '--domain 233: a ROS domain is an integer from 0 to 232' in said[0]
+    assert '--discovery lan: a discovery range is one of' in said[1]
