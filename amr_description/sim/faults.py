@@ -93,8 +93,7 @@ class FaultMonitor:
 
     def _look(self, roots: Iterable[tuple[str, int]]) -> None:
         data = self._engine.data
-        for warning in data.warning:
-            warning.number = 0  # else MuJoCo says each of them once in its life
+        data.warning.number[:] = 0  # else MuJoCo says each of them once in its life
         if self._state_is_lost:
             # It may have gone with the robot that was taken out of the world.
             if np.isfinite(data.qpos).all() and data.qvel.dot(data.qvel) < HIGHEST_SPEED**2:
