@@ -35,20 +35,29 @@ const FRAGMENT = /* glsl */ `
   varying vec2 place;
   varying float depth;
 
-  /* How much of this pixel a grid covers; nothing where its cells, m, are under 1/dense pixels. */
-  float lines(float cell, float dense, vec2 pixel) {
-    vec2 away = abs(fract(place / cell - 0.5) - 0.5) * cell / pixel;
-    vec2 fade = 1.0 - smoothstep(0.25 * dense, dense, pixel / cell);
-    vec2 cover = clamp(1.0 - away, 0.0, 1.0) * fade;
+  /*
+   * How much of this pixel a grid covers. Place and pixel are in cells; the grid fades away where
+   * a cell is less than 1/dense pixels.
+   */
+  float lines(vec2 at, vec2 pixel, float dense) {
+    vec2 away = abs(fract(at - 0.5) - 0.5);
+    vec2 fade = clamp(1.333 - pixel / (0.75 * dense), 0.0, 1.0);
+    vec2 cover = clamp(1.0 - away / pixel, 0.0, 1.0) * fade;
     return max(cover.x, cover.y);
   }
 
   void main() {
+    float near = clamp((fog.y - depth) / (fog.y - fog.x), 0.0, 1.0);
     vec2 pixel = max(fwidth(place), vec2(1e-6));
-    float strong = lines(10.0, 0.3, pixel);
-    float plain = max(lines(1.0, 0.3, pixel), 0.4 * lines(0.1, 0.06, pixel));
-    float near = 1.0 - smoothstep(fog.x, fog.y, depth);
-    float cover = ruled * max(strong, 0.8 * plain);
+    float strong = 0.0;
+    float cover = 0.0;
+    if (ruled * near > 0.0) {
+      strong = lines(0.1 * place, 0.1 * pixel, 0.3);
+      cover = max(strong, 0.8 * lines(place, pixel, 0.3));
+      if (min(pixel.x, pixel.y) < 0.006) {
+        cover = max(cover, 0.32 * lines(10.0 * place, 10.0 * pixel, 0.06));
+      }
+    }
     vec3 line = mix(minor, major, strong);
     vec3 ground = mix(horizon, mix(base, line, cover), near);
     gl_FragColor = solid > 0.5 ? vec4(ground, 1.0) : vec4(line, cover * near);

@@ -7,7 +7,7 @@
  * No more than one frame is on its way to the screen: a second one would have to wait, and with it
  * all else that the page does, keys for driving among them.
  */
-import { PCFShadowMap, WebGLRenderer } from 'three';
+import { BasicShadowMap, PCFShadowMap, WebGLRenderer } from 'three';
 import type { Camera, Scene as ThreeScene } from 'three';
 
 const FINEST = { hardware: 2, software: 1 }; // pixels to a CSS pixel
@@ -48,7 +48,7 @@ export class Painter {
     this.ratio = this.range.finest;
     this.renderer = new WebGLRenderer({ canvas, antialias: !isSoftware, alpha: false });
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.shadowMap.type = isSoftware ? BasicShadowMap : PCFShadowMap;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     canvas.addEventListener('webglcontextrestored', this.onRestored);

@@ -126,6 +126,11 @@ export class Picture {
     return new Map([...this.robots].map(([id, { view }]) => [id, view]));
   }
 
+  /** The size of the largest robot, m; 1 where there is none. */
+  get size(): number {
+    return Math.max(0, ...[...this.robots.values()].map((entry) => entry.size)) || 1;
+  }
+
   /** All frames there are. */
   frames(): string[] {
     const names = new Set(this.tree.names);
@@ -197,9 +202,8 @@ export class Picture {
       const above = parent === null ? null : this.placement.poseOf(parent);
       return pose === null ? [] : { name, pose, parent: above };
     });
-    const size = Math.max(0, ...[...this.robots.values()].map((entry) => entry.size)) || 1;
     this.axes.object.visible = this.options.frames;
-    this.axes.draw(this.placed, AXIS_SHARE * size);
+    this.axes.draw(this.placed, AXIS_SHARE * this.size);
   }
 
   private placeContacts(): void {

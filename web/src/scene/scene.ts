@@ -212,7 +212,7 @@ export class Scene {
       this.pointCamera();
     }
     const goesOn = rig.update(dt, picture.poseOf(this.followed));
-    picture.surroundings.follow(rig.camera.position, rig.target, rig.distance);
+    picture.surroundings.follow(rig.camera.position, rig.target, rig.distance, picture.size);
     this.painter.paint(picture.scene, picture.overlay, rig.camera);
     const { frames, frameNames } = picture.options;
     const labels = frames && frameNames ? labelsOf(picture.placed, picture.fixedFrame) : [];

@@ -24,9 +24,8 @@ import type { Palette } from './theme';
 const FAR = 400; // m, the radius of the sky
 const IDENTITY = new Matrix4();
 const SUN = new Vector3(-0.9, -0.45, 1.5); // towards it
-const SHADOW_PIXELS = { hardware: 2048, software: 512 };
+const SHADOW_PIXELS = { hardware: 2048, software: 256 };
 const WIDEST = 24; // m, half of the side of what shadows fall on
-const SOFTWARE_WIDEST = 1;
 
 export class Surroundings {
   private readonly floor = new Group(); // at z = 0 of `world`, or of the fixed frame
@@ -71,16 +70,18 @@ export class Surroundings {
     this.ground.showGrid(shown);
   }
 
-  /** Follow the camera: its place, what it looks at, and how far that is; m. */
-  follow(eye: Vector3, target: Vector3, distance: number): void {
+  /**
+   * Follow the camera: its place, what it looks at, and how far that is; m. `size`: of the robot
+   * there, m.
+   */
+  follow(eye: Vector3, target: Vector3, distance: number, size: number): void {
     const { x, y } = target.clone().applyMatrix4(this.floor.matrix.clone().invert());
     this.fog.near = 8 + distance;
     this.fog.far = Math.min(38 + 4 * distance, 0.9 * FAR);
     this.ground.follow(x, y);
     this.sky.position.copy(eye);
-    const widest = this.isSoftware ? SOFTWARE_WIDEST : WIDEST;
-    const wanted = Math.min(Math.max(1.2 * distance, 1), widest);
-    const extent = 2 ** Math.ceil(Math.log2(wanted));
+    const wide = 2 ** Math.ceil(Math.log2(Math.min(Math.max(1.2 * distance, 1), WIDEST)));
+    const extent = this.isSoftware ? Math.min(size, wide) : wide;
     this.shadows.position.set(x, y, 0);
     this.shadows.scale.setScalar(extent);
     this.aimSun(target, extent);
