@@ -80,6 +80,15 @@ export class Store {
     return name === null ? null : { me: name === this.hello?.client, name };
   }
 
+  /** The controller that hears the commands, where it is known and does not run. */
+  get deafController(): { name: string; state: string } | null {
+    const topic = this.robot?.command?.topic.split('/') ?? [];
+    const here = this.robot === null ? undefined : this.controllers.get(this.robot.id);
+    const [name] = topic.slice(-2); // ~/cmd_vel of the controller of that name
+    const found = here?.controllers.find((controller) => controller.name === name);
+    return found === undefined || found.state === 'active' ? null : found;
+  }
+
   choose(robot: string): void {
     this.chosen = robot;
     this.tell('robot');

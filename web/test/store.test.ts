@@ -83,6 +83,25 @@ test('a listener hears its topics, at first and on each change', () => {
   assert.equal(calls, 3);
 });
 
+test('a controller that would hear commands but does not run is found by its topic', () => {
+  const store = new Store();
+  store.take(HELLO);
+  const command = { topic: '/robot1/diff_drive_controller/cmd_vel', message: 'x/msg/Twist' };
+  store.take({ ...graph(), robots: [{ ...robot('/robot1'), command }] });
+  const say = (state: string): void =>
+    store.take({
+      type: 'controllers',
+      robot: '/robot1',
+      controllers: [{ name: 'diff_drive_controller', kind: 'k', state, claims: [] }],
+      hardware: [],
+    });
+  assert.equal(store.deafController, null, 'nobody says');
+  say('inactive');
+  assert.equal(store.deafController?.state, 'inactive');
+  say('active');
+  assert.equal(store.deafController, null);
+});
+
 test('notices that repeat are counted, and only the latest are kept', () => {
   const store = new Store();
   store.note('info', 'same');

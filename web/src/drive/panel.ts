@@ -44,6 +44,7 @@ export class DrivePanel implements Panel {
       h('div', { class: 'drive-notes' }, keysHint(), this.pad, this.topic),
     );
     app.store.watch(['graph', 'robot', 'driver', 'link', 'hello'], () => this.showWho());
+    app.store.watch(['graph', 'robot', 'controllers'], () => this.showTopic());
     app.pilot.onChange = (velocity) => this.showAsked(velocity);
   }
 
@@ -86,14 +87,25 @@ export class DrivePanel implements Panel {
       driver === null ? 'Nobody drives' : driver.me ? 'You drive' : `${driver.name} drives`;
     setText(this.who, word);
     this.who.dataset.tone = driver === null ? 'calm' : driver.me ? 'good' : 'warning';
-    const type = command?.message.split('/').at(-1) ?? '';
-    setText(
-      this.topic,
-      command === null ? 'No command topic: this robot cannot be driven.' : command.topic,
-    );
-    this.topic.title = command === null ? '' : `${type} on ${command.topic}`;
     this.element.classList.toggle('cannot', command === null || store.link.state !== 'open');
     this.app.pilot.setRobot(command === null ? null : (store.robot?.id ?? null));
+  }
+
+  /** Where commands go, or why they would move nothing. */
+  private showTopic(): void {
+    const { robot, deafController: deaf } = this.app.store;
+    const command = robot?.command ?? null;
+    if (robot === null) {
+      setText(this.topic, 'There is no robot.');
+    } else if (command === null) {
+      setText(this.topic, 'No command topic: this robot cannot be driven.');
+    } else if (deaf !== null) {
+      setText(this.topic, `${deaf.name} is ${deaf.state}: it hears no command.`);
+    } else {
+      setText(this.topic, command.topic);
+    }
+    this.topic.classList.toggle('deaf', deaf !== null);
+    this.topic.title = command === null ? '' : `${command.message} on ${command.topic}`;
   }
 
   private readout(): HTMLElement {

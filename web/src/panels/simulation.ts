@@ -64,7 +64,7 @@ export class SimulationPanel implements Panel {
     }
     const { factor: asked, real_factor: real, state } = simulation;
     setText(this.state, state);
-    setText(this.real, factor(real));
+    setText(this.real, state === 'playing' ? factor(real) : UNKNOWN);
     const slow = state === 'playing' && asked !== null && asked > 0 && real !== null;
     this.real.dataset.tone = slow && real < SLOW * asked ? 'warning' : 'calm';
     this.real.title = this.real.dataset.tone === 'warning' ? 'This machine is too slow for it.' : '';
