@@ -11,6 +11,7 @@ import pytest
 from ros_processes import ROOT
 from simulation_interfaces.srv import GetEntitiesStates
 from tf2_msgs.msg import TFMessage
+import yaml
 
 from amr_description.model.frames import Transform
 from amr_description.testing.message_readings import motion_of_entity
@@ -30,29 +31,30 @@ CIRCLES = {
 GONE = 'robot4'
 SECONDS, LEAVES, COMES = 60, 20, 40
 """s; GONE is away from the second to the third."""
-PERIOD = 0.4
-"""s between two commands; the controllers wait for the next one for 0.5 s."""
 LOOK = 2.0
 """s between two looks at all robots, who turn by less than half a turn meanwhile."""
 
 
 @pytest.fixture(scope='module')
-def sim():
-    urdf = ROOT / 'urdf' / 'amr.urdf'
-    with Simulation(urdf, robots=STARTS, activate=['diff_drive_controller']) as sim:
+def sim(tmp_path_factory):
+    """The shipped parameters, but for commands that hold until the next."""
+    shipped = yaml.safe_load((ROOT / 'config/controllers.yaml').read_text())
+    shipped['/**/diff_drive_controller']['ros__parameters']['cmd_vel_timeout'] = 0.0
+    path = tmp_path_factory.mktemp('fleet') / 'controllers.yaml'
+    path.write_text(yaml.safe_dump(shipped))
+    urdf, drive = ROOT / 'urdf/amr.urdf', ['diff_drive_controller']
+    with Simulation(urdf, path, robots=STARTS, activate=drive) as sim:
         yield sim
 
 
-def drive(sim, seconds):
-    """Let every robot that is there go on with its circle."""
-    for _ in range(round(seconds / PERIOD)):
-        commands = {}
-        for name in sim.robots:
-            command = TwistStamped()
-            command.twist.linear.x, command.twist.angular.z = CIRCLES[name]
-            commands[f'/{name}/diff_drive_controller/cmd_vel'] = command
-        sim.send_all(commands)
-        sim.run(PERIOD)
+def command(sim, *names):
+    """Send each to its circle."""
+    messages = {}
+    for name in names:
+        message = TwistStamped()
+        message.twist.linear.x, message.twist.angular.z = CIRCLES[name]
+        messages[f'/{name}/diff_drive_controller/cmd_vel'] = message
+    sim.send_all(messages)
 
 
 def test_each_speaks_with_its_own_names(sim):
@@ -73,8 +75,10 @@ def test_each_speaks_with_its_own_names(sim):
     listening = [listen(name) for name in NAMES]
     listening.append(sim.node.create_subscription(TFMessage, '/tf', hear_transforms, 100))
 
+    command(sim, *NAMES)
+
     def all_are_heard():
-        drive(sim, PERIOD)
+        sim.run(0.1)
         return len(odometry) == len(parents) == len(NAMES)
 
     sim.wait(all_are_heard, 'the odometry and the transforms of all')
@@ -96,6 +100,7 @@ def names_below(node, namespace):
 def tracks(sim):
     """Name → truth and odometry after every LOOK, of GONE since it came again."""
     sim.reset()
+    command(sim, *NAMES)
     found = {name: [] for name in NAMES}
     for number in range(round(SECONDS / LOOK)):
         if number == round(LEAVES / LOOK):
@@ -104,7 +109,8 @@ def tracks(sim):
             sim.wait(lambda: not names_below(sim.node, f'/{GONE}/'), 'its names to be free')
         if number == round(COMES / LOOK):
             sim.spawn(GONE, STARTS[GONE])
-        drive(sim, LOOK)
+            command(sim, GONE)
+        sim.run(LOOK)
         states = sim.ask(GetEntitiesStates)
         for name, state in zip(states.entities, states.states, strict=True):
             found[name].append((motion_of_entity(state), sim.robots[name].odometry))
