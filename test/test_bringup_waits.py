@@ -8,7 +8,9 @@ import pytest
 
 from amr_description.bringup import (
     after,
+    all_of,
     exited_cleanly,
+    failed,
     logged,
     Node,
     Respawn,
@@ -121,6 +123,39 @@ def test_an_optional_node_is_given_up_and_the_stack_goes_on():
     assert progress.ready
     progress.see(graph=Graph(topics={'/odom': {'a/msg/B'}}))
     assert progress.startable() == []
+
+
+def test_a_stack_that_can_no_longer_get_ready_goes_on_unready():
+    step = Node('step', required=False)
+    progress = begun(Node('sim'), step, ready_when=exited_cleanly(step))
+    assert progress.never_ready is None
+    progress.end(step, 1)
+    assert progress.never_ready == exited_cleanly(step)
+    progress.at(2000.0)
+    assert not progress.over
+    assert not progress.ready
+
+
+def test_who_waits_for_a_failure_has_time_and_is_not_missed():
+    driver = Node('driver', required=False)
+    progress = begun(driver, Node('fallback', start_when=failed(driver)))
+    assert progress.ready
+    progress.at(1e6)
+    assert not progress.over
+    progress.end(driver, 3)
+    assert [node.executable for node in progress.startable()] == ['fallback']
+
+
+def test_patience_begins_once_the_failure_has_come():
+    driver = Node('driver', required=False)
+    fallback = Node('fallback', start_when=all_of(failed(driver), topic('/odom')))
+    progress = begun(Node('sim'), driver, fallback)
+    progress.at(2000.0)
+    progress.end(driver, 3)
+    progress.at(2000.0)
+    assert progress.next_time() == 2060.0
+    progress.at(2060.0)
+    assert progress.failure.node is fallback
 
 
 def test_two_are_given_up_at_once():

@@ -61,6 +61,10 @@ class Condition(ABC):
         """How long it waits on purpose, s; no patience is lost by that."""
         return max((part.delay for part in self.parts), default=0.0)
 
+    def is_dormant(self, situation: Situation) -> bool:
+        """Say whether it waits for a failure or a request, which has not come and need not."""
+        return any(part.is_dormant(situation) for part in self.parts)
+
     @property
     def looks_outside(self) -> bool:
         """Whether it can come to hold although no process of the stack does anything."""

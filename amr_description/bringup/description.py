@@ -10,7 +10,7 @@ from typing import Literal
 from amr_description.bringup.conditions import all_of, Condition, ready
 from amr_description.bringup.console import Level
 from amr_description.bringup.handlers import ExitHandler, StopHandler
-from amr_description.bringup.node_conditions import settled, waits_for_request
+from amr_description.bringup.node_conditions import may_never_hold, settled
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
@@ -174,7 +174,7 @@ class Stack:
         if self.ready_when is not None:
             return self.ready_when
         nodes = nodes_of(self.nodes, into_stacks=False)
-        own = (settled(node) for node in nodes if not waits_for_request(node.start_when))
+        own = (settled(node) for node in nodes if not may_never_hold(node.start_when))
         return all_of(*own, *(ready(stack) for stack in stacks_of(self.nodes)))
 
 

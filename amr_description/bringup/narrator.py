@@ -12,6 +12,7 @@ from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.event_log import EventLog
 from amr_description.bringup.handlers import Shutdown
 from amr_description.bringup.job import Job
+from amr_description.bringup.node_conditions import may_never_hold
 from amr_description.bringup.outlook import GRAPH_WATCH
 from amr_description.bringup.post_mortem import expiry, post_mortem, signal_name
 from amr_description.bringup.progress import Progress
@@ -86,12 +87,18 @@ class Narrator:
                 self._console.say('WARNING', self._name_of(expired.node), text)
         for node in progress.unreachable():
             condition = progress.waits_for(node)
-            if node not in self._told and not progress.over and condition:
+            if node not in self._told and not progress.over and not may_never_hold(condition):
                 self._told.add(node)
                 self._note('never', node, condition=self._condition_of(node))
                 needs = condition.describe(self._name_of)
                 text = f'never starts: needs that {needs}'
                 self._console.say('WARNING', self._name_of(node), text)
+        lost = progress.never_ready
+        if lost and not progress.over and 'ready' not in self._told:
+            self._told.add('ready')
+            needs = lost.describe(self._name_of)
+            self._console.say('WARNING', LAUNCH, f'never gets ready: needs that {needs}')
+            self._status.end()
         if progress.ready and 'ready' not in self._told:
             self._told.add('ready')
             self._status.end()

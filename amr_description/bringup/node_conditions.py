@@ -3,7 +3,6 @@
 """Conditions on what became of the nodes of the stack, what they wrote, and who asks for one."""
 
 from dataclasses import dataclass
-import math
 import re
 from typing import TYPE_CHECKING
 
@@ -48,6 +47,9 @@ class _ExitedCleanly(_OfNode):
 
 @dataclass(frozen=True)
 class _Failed(_OfNode):
+    def is_dormant(self, situation: Situation) -> bool:
+        return self.judge(situation) is Verdict.NOT_YET
+
     def judge(self, situation: Situation) -> Verdict:
         state = situation.states[self.node]
         if state.returncode is None:
@@ -114,9 +116,8 @@ class Logged(_OfNode):
 class OnRequest(Condition):
     """See :func:`on_request`; each is another one."""
 
-    @property
-    def delay(self) -> float:
-        return math.inf  # nothing is amiss if nobody ever asks
+    def is_dormant(self, situation: Situation) -> bool:
+        return self.judge(situation) is Verdict.NOT_YET
 
     def judge(self, situation: Situation) -> Verdict:
         return Verdict.HOLDS if self in situation.said else Verdict.NOT_YET
@@ -160,6 +161,11 @@ def logged(node: 'Node', pattern: str) -> Condition:
 def on_request() -> Condition:
     """Hold once a handler has asked for the node; see :mod:`handlers`."""
     return OnRequest()
+
+
+def may_never_hold(condition: Condition | None) -> bool:
+    """Say whether it is no fault if it never holds: it is for a failure, or for a request."""
+    return any(isinstance(part, OnRequest | _Failed) for part in leaves(condition))
 
 
 def waits_for_request(condition: Condition | None) -> bool:

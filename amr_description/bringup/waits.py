@@ -5,7 +5,7 @@ Patience: how long each wait of a stack may take.
 
 A wait is counted from when all the nodes that it depends on were started: who waits for the end
 of a step has patience with that step alone, however long it took until the step could start. The
-seconds of an ``after`` come on top.
+seconds of an ``after`` come on top. Who waits for a failure or for a request waits for ever.
 """
 
 from collections.abc import Iterable, Mapping
@@ -77,8 +77,10 @@ class Waits:
     ) -> float | None:
         states = situation.states
         if node not in self._began:
+            if condition.is_dormant(situation):
+                return None
             if not all(states[n].started or states[n].never for n in condition.nodes):
                 return None
-            self._began[node] = situation.time if condition.nodes else situation.began
+            self._began[node] = situation.time
         deadline = self._began[node] + self._patience[node] + condition.delay
         return None if math.isinf(deadline) else deadline
