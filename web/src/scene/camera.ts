@@ -16,7 +16,7 @@ const HEADING_LAG = 0.45;
 const STEP = Math.PI / 24; // rad a key press
 
 export class CameraRig {
-  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.03, 600);
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 600);
   readonly controls: OrbitControls;
   /** Whether hands have moved it since it was last pointed at something. */
   isMoved = false;

@@ -65,6 +65,9 @@ const FRAGMENT = /* glsl */ `
   }
 `;
 
+// Depth within one triangle of hundreds of metres is not exact enough to draw upon it.
+const CELLS = 24;
+
 export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
   /** `extent` in m, from the middle to the edge. */
   constructor(extent: number, private readonly mist: Fog) {
@@ -86,7 +89,7 @@ export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
         ruled: { value: 1 },
       },
     });
-    super(new PlaneGeometry(2 * extent, 2 * extent), material);
+    super(planeOf(extent), material);
     this.raycast = () => {};
     this.renderOrder = 1; // after what hides it
     this.setSolid(false);
@@ -123,4 +126,15 @@ export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
     this.geometry.dispose();
     this.material.dispose();
   }
+}
+
+/** A square in cells that are the smaller the nearer they are to its middle, m. */
+function planeOf(extent: number): PlaneGeometry {
+  const geometry = new PlaneGeometry(2, 2, CELLS, CELLS);
+  const points = geometry.getAttribute('position');
+  const spread = (share: number): number => extent * Math.sign(share) * Math.abs(share) ** 4;
+  for (let i = 0; i < points.count; i++) {
+    points.setXY(i, spread(points.getX(i)), spread(points.getY(i)));
+  }
+  return geometry;
 }

@@ -18,7 +18,7 @@ import {
 } from 'three';
 
 /** Black of a URDF, as black things look: a little light comes back, so that shape can be seen. */
-const DARKEST = 0.018;
+const DARKEST = 0.028;
 const SHARPEST = 25; // degrees between two faces that show an edge
 const RIM_SEGMENTS = 36;
 

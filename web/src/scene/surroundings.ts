@@ -53,6 +53,8 @@ export class Surroundings {
     this.shadows.raycast = () => {};
     this.floor.matrixAutoUpdate = false;
     this.floor.add(this.ground, this.shadows);
+    this.shadows.material.polygonOffset = true; // on the ground, not in it
+    this.shadows.material.polygonOffsetUnits = -20;
     this.castShadows(isSoftware ? SHADOW_PIXELS.software : SHADOW_PIXELS.hardware);
     scene.fog = this.fog;
     scene.background = this.horizon;
