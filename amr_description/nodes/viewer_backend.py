@@ -16,7 +16,11 @@ from visualization_msgs.msg import MarkerArray
 from amr_description.errors import AmrError, ViewerError
 from amr_description.nodes.viewer_diagnostics import DiagnosticsBoard
 from amr_description.nodes.viewer_link import RobotLink
-from amr_description.nodes.viewer_manager import list_controllers, switch_controllers
+from amr_description.nodes.viewer_manager import (
+    list_controllers,
+    start_like,
+    switch_controllers,
+)
 from amr_description.nodes.viewer_services import Services
 from amr_description.nodes.viewer_simulator import Simulator
 from amr_description.nodes.viewer_stage import Audience, Stage
@@ -29,7 +33,7 @@ from amr_description.viewer.protocol import (
     SimulationStatus,
     World,
 )
-from amr_description.viewer.requests import Request, Switch
+from amr_description.viewer.requests import Request, Spawn, Switch
 from amr_description.viewer.server import Server
 
 _REFRESH_PERIOD = 1.0
@@ -117,9 +121,23 @@ class GraphBackend(Audience):
             known = ', '.join(self._simulators) or 'none'
             raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
         try:
-            return await simulator.answer(request)
+            done = await simulator.answer(request)
         finally:
             self._do(self._refresh(simulator))
+        return f'{done}{await self._join(request)}' if isinstance(request, Spawn) else done
+
+    async def _join(self, request: Spawn) -> str:
+        """Have a robot that was just spawned drawn and driven as the one that it is like."""
+        like, place = self._link(request.like), f'/{request.namespace.strip("/")}'
+        self._executor.create_task(self._stage.describe, place, self._description_of(request.like))
+        if like.found.manager is None:
+            return ''
+        manager = place.rstrip('/') + like.found.manager.removeprefix(like.found.id.rstrip('/'))
+        try:
+            names = await start_like(self._services, like.found.manager, manager)
+        except ViewerError as error:
+            return f', but its controllers are not active: {error}'
+        return f'; active: {", ".join(names) or "no controllers"}'
 
     def mesh(self, name: str) -> Path | None:
         """Return the file that a description names."""

@@ -47,7 +47,7 @@ class RobotLink:
         self._on_change = on_change
         self._on_activity = on_activity
         self._description = node.create_subscription(
-            String, found.description, self._take_description, LATCHED
+            String, found.description, lambda message: self.describe(message.data), LATCHED
         )
         self._activity: Any = None
         self._commands: Publisher | None = None
@@ -140,10 +140,11 @@ class RobotLink:
         if self.topics is not None:
             self.topics.destroy()
 
-    def _take_description(self, message: String) -> None:
-        if self.described is not None and self.described.message.urdf == message.data:
+    def describe(self, text: str) -> None:
+        """Take a description."""
+        if self.described is not None and self.described.message.urdf == text:
             return
-        self.described = describe_robot(self.found.id, message.data)
+        self.described = describe_robot(self.found.id, text)
         assert self.topics is not None, 'it is connected from the start'
         self.topics.destroy()
         self.topics = RobotTopics(self._node, self.found, self.described.joints)

@@ -61,6 +61,7 @@ class Stage:
         self._services = services
         self._worlds: dict[str, WorldLink] = {}
         self._session = 0
+        self._described: dict[str, str] = {}
         self._timer: Timer | None = None
         self._diagnostics: Subscription | None = None
         self._clock: RosClock | None = None
@@ -74,6 +75,12 @@ class Stage:
         self._close()
         if session:
             self._open()
+
+    def describe(self, robot: str, text: str) -> None:
+        """Take this for the description of a robot that nobody else describes."""
+        self._described[robot] = text
+        if self._timer is not None:
+            self._look()
 
     def _open(self) -> None:
         """Connect with what is there, and go on looking."""
@@ -102,7 +109,7 @@ class Stage:
 
     def _look(self) -> None:
         """See whether the graph has changed."""
-        found = discover(names_in(self._node))
+        found = discover(names_in(self._node), self._described)
         if found != self.found:
             self._follow(found)
             self._set_scene()
@@ -115,6 +122,9 @@ class Stage:
         self.links, self.found = links, found
         for link in gone:
             link.destroy()
+        for name, link in links.items():
+            if link.described is None and name in self._described:
+                link.describe(self._described[name])
         worlds = {each.id: each.world for each in found.simulators if each.world}
         for name in [*self._worlds]:
             if worlds.get(name) != self._worlds[name].topic:

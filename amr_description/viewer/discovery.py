@@ -73,14 +73,20 @@ class Found:
     simulators: tuple[FoundSimulator, ...] = ()
 
 
-def discover(names: Names) -> Found:
-    """Return what there is to see."""
-    ids = sorted(
+def discover(names: Names, described: Iterable[str] = ()) -> Found:
+    """
+    Return what there is to see.
+
+    ``described``: the ids of robots whose description is known otherwise; they are there as long
+    as their truth is.
+    """
+    ids = {
         topic.removesuffix('robot_description').rstrip('/') or '/'
         for topic, types in names.published.items()
         if topic.endswith('/robot_description') and STRING in types
-    )
-    robots = tuple(_robot(names, each, lambda name: owner(name, ids)) for each in ids)
+    }
+    ids |= {each for each in described if _truth(names, each)}
+    robots = tuple(_robot(names, each, lambda name: owner(name, ids)) for each in sorted(ids))
     simulators = tuple(
         FoundSimulator(
             service.rpartition('/')[0],
@@ -122,13 +128,17 @@ def _robot(names: Names, robot: str, owner_of: Callable[[str], str | None]) -> F
         description=f'{place}/robot_description',
         command=_command(own, names),
         odometry=_first(odometries, f'{place}/odom'),
-        truth=names.publishes(f'{place}/ground_truth/odom', ODOMETRY),
+        truth=_truth(names, robot),
         wheels=names.publishes(f'{place}/ground_truth/wheels', DYNAMIC_JOINT_STATE),
         joint_states=names.publishes(f'{place}/joint_states', JOINT_STATE),
         joint_publisher=(_first(publishers) or '').removesuffix('/set_joint_positions') or None,
         manager=manager,
         activity=names.publishes(f'{manager}/activity', ACTIVITY),
     )
+
+
+def _truth(names: Names, robot: str) -> str | None:
+    return names.publishes(f'{robot.rstrip("/")}/ground_truth/odom', ODOMETRY)
 
 
 def _command(own: Callable[[Types, str], list[str]], names: Names) -> Command | None:
