@@ -35,7 +35,7 @@ const ICONS = {
   reset: 'M8 2.5V0L4 3.5 8 7V4.3a3.9 3.9 0 1 1-3.9 3.9H2.3A5.7 5.7 0 1 0 8 2.5z',
   theme: 'M8 1.5a6.5 6.5 0 1 0 0 13zM8 1.5v1.3a5.2 5.2 0 0 1 0 10.4v1.3a6.5 6.5 0 0 0 0-13z',
   panels: 'M2 3h12v2H2zM2 7h12v2H2zM2 11h12v2H2z',
-  close: 'M3.2 4.6 4.6 3.2 8 6.6l3.4-3.4 1.4 1.4L9.4 8l3.4 3.4-1.4 1.4L8 9.4l-3.4 3.4-1.4-1.4L6.6 8z',
+  close: 'M3 4.4 4.4 3 8 6.6 11.6 3 13 4.4 9.4 8l3.6 3.6-1.4 1.4L8 9.4 4.4 13 3 11.6 6.6 8z',
   down: 'M3 5.5 8 10.5l5-5z',
   up: 'M3 10.5 8 5.5l5 5z',
 } as const;
@@ -163,7 +163,7 @@ export function setText(element: Node, text: string): void {
   }
 }
 
-/** Whether a key is for the element that has the focus: letters where one types, arrows in lists. */
+/** Whether a key is for what has the focus: letters where one types, arrows where they move. */
 export function takesKey(target: EventTarget | null, code: string): boolean {
   if (!(target instanceof HTMLElement)) {
     return false;

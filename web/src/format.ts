@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Numbers as people read them: of constant width, with a true minus, a dash for what is unknown. */
+/** Numbers as people read them: of constant width, a true minus, a dash for what is unknown. */
 
 export const UNKNOWN = '–';
 

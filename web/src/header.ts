@@ -6,7 +6,11 @@ import { button, h, icon, setText } from './dom';
 import { clock, factor, UNKNOWN } from './format';
 import type { State } from './state';
 
-const LINKS = { connecting: 'Connecting …', open: 'Connected', waiting: 'Reconnecting …' } as const;
+const LINKS = {
+  connecting: 'Connecting …',
+  open: 'Connected',
+  waiting: 'Reconnecting …',
+} as const;
 const TONES = { connecting: 'warning', open: 'good', waiting: 'error' } as const;
 
 export class Header {

@@ -64,7 +64,8 @@ const theme = watchTheme((now) => {
   plots.repaint();
 });
 const header = new Header(app, { flipTheme: theme.flip, openPanels: shell.openPanels });
-document.body.prepend(h('a', { class: 'skip', href: '#drive' }, 'Skip to driving'), header.element);
+const skip = h('a', { class: 'skip', href: '#drive' }, 'Skip to driving');
+document.body.prepend(skip, header.element);
 document.body.append(announce(store));
 
 store.watch(['graph', 'robot', 'model', 'diagnostics'], () => {

@@ -23,7 +23,12 @@ export function recall(name: string): string | null {
 }
 
 /** A number remembered, if it is one within the bounds. */
-export function recallNumber(name: string, least: number, most: number, otherwise: number): number {
+export function recallNumber(
+  name: string,
+  least: number,
+  most: number,
+  otherwise: number,
+): number {
   const value = Number.parseFloat(recall(name) ?? '');
   return value >= least && value <= most ? value : otherwise;
 }

@@ -127,7 +127,7 @@ export class Store {
     this.tell('notice');
   }
 
-  /** Take in what the node said. A message of a kind unknown here is of a newer node: let it be. */
+  /** Take in what the node said. A kind of message unknown here is of a newer node: let it be. */
   take(message: ServerMessage): void {
     switch (message.type) {
       case 'hello':

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Panels one at a time, chosen by tabs as the ARIA practices have them: arrows move, Tab leaves. */
+/** Panels one at a time, chosen by tabs as in the ARIA practices: arrows move, Tab leaves. */
 import type { Panel } from './app';
 import { h, setText } from './dom';
 import { recall, remember } from './remember';

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The view of the scene: its canvas, what is shown in it, and words where nothing can be shown. */
+/** The view of the scene: its canvas, what is shown in it, and words where nothing can be. */
 import type { App } from './app';
 import type { Link } from './connection';
 import { button, h, setText, toggle } from './dom';
@@ -22,7 +22,10 @@ export class View {
   readonly element: HTMLElement;
   readonly scene: Scene | null;
   private whyBlind = '';
-  private readonly canvas = h('canvas', { class: 'scene', 'aria-label': 'The robot in its world' });
+  private readonly canvas = h('canvas', {
+    class: 'scene',
+    'aria-label': 'The robot in its world',
+  });
   private readonly words = h('div', { class: 'view-words' });
   private readonly hint = h('div', { class: 'view-hint', hidden: true });
   private following = recall('follow') !== 'no';

@@ -19,7 +19,8 @@ const LAYOUT: Layout = {
 const HALF = Math.SQRT1_2;
 
 function state(...poses: number[][]): State {
-  return { layout: LAYOUT, sequence: 0, time: 0, poses: new Float32Array(poses.flat()), robots: [] };
+  const numbers = new Float32Array(poses.flat());
+  return { layout: LAYOUT, sequence: 0, time: 0, poses: numbers, robots: [] };
 }
 
 const STATE = state(

@@ -3,7 +3,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { freeName } from '../src/panels/simulation';
-import { FACTOR_COLUMN, FIRST_WHEEL_COLUMN, Recorder, velocityColumn } from '../src/plots/recorder';
+import {
+  FACTOR_COLUMN, FIRST_WHEEL_COLUMN, Recorder, velocityColumn,
+} from '../src/plots/recorder';
 import { HEADER_BYTES, type Layout } from '../src/protocol';
 import { wheelsOf } from '../src/readings';
 import { decodeState, stateBytes, type State } from '../src/state';

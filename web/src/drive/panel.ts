@@ -160,9 +160,14 @@ function unit(name: string): HTMLElement {
 function stopButton(pilot: Pilot): HTMLElement {
   const element = h(
     'button',
-    { type: 'button', class: 'stop', 'aria-label': 'Stop all robots', 'aria-keyshortcuts': 'Escape' },
+    {
+      type: 'button',
+      class: 'stop',
+      'aria-label': 'Stop all robots',
+      'aria-keyshortcuts': 'Escape',
+    },
     h('strong', {}, 'STOP'),
-    h('span', { class: 'keys', 'aria-hidden': 'true' }, h('kbd', {}, 'Space'), h('kbd', {}, 'Esc')),
+    h('span', { class: 'keys' }, h('kbd', {}, 'Space'), h('kbd', {}, 'Esc')),
   );
   // On the press, not on the release of a click: it is for when one is in a hurry.
   element.addEventListener('pointerdown', () => pilot.stop());

@@ -3,8 +3,8 @@
 /**
  * The one who decides what is sent to a driven robot, and when.
  *
- * Hands (keys, joystick, gamepad) say what they want; while one of them does, a `drive` goes out at
- * once on each change, at most 60 times a second, and again every 33 ms, so that the node knows
+ * Hands (keys, joystick, gamepad) say what they want; while one of them does, a `drive` goes out
+ * at once on each change, at most 60 times a second, and again every 33 ms, so that the node knows
  * that somebody is there. When the last hand lets go, a `stop` goes out at once.
  */
 import type { Drive, Stop } from '../protocol';
@@ -12,7 +12,7 @@ import { mix, toVelocity, type Demand, type Limits, type Velocity } from './mixi
 
 const LEAST_GAP = 1000 / 60; // ms between two `drive`
 const REPEAT = 1000 / 30; // ms
-const LATE = 250; // ms between two `drive`, after which the node may have given us up: 400 by default
+const LATE = 250; // ms between two `drive` after which the node, at 400 ms, may give us up
 const OWN_STOP = 500; // ms in which "nobody drives" is the answer to a stop of our own
 
 /** Who has the wheel of a robot. */
@@ -104,7 +104,7 @@ export class Pilot {
     this.onChange(null);
   }
 
-  /** The node refused, or the connection went: nothing is sent, hands must let go to drive again. */
+  /** The node refused, or the connection went: nothing is sent; hands must let go to drive. */
   halt(): void {
     const driving = this.driving;
     this.letGo();

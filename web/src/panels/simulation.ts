@@ -18,7 +18,13 @@ export class SimulationPanel implements Panel {
   private readonly time = h('dd', {}, UNKNOWN);
   private readonly state = h('dd', {}, UNKNOWN);
   private readonly real = h('dd', {}, UNKNOWN);
-  private readonly steps = h('input', { type: 'number', min: 1, max: 10000, value: 10, id: 'steps' });
+  private readonly steps = h('input', {
+    type: 'number',
+    id: 'steps',
+    min: 1,
+    max: 10000,
+    value: 10,
+  });
   private readonly wanted = h('select', { id: 'factor' });
   private readonly entities = h('ul', { class: 'rows' });
   private signature: string | null = null;
@@ -32,8 +38,11 @@ export class SimulationPanel implements Panel {
     this.wanted.addEventListener('change', () => {
       this.ask({ type: 'set_factor', factor: Number(this.wanted.value) });
     });
-    this.body.append(section('Clock', this.clock(), this.tools()), section('In the world', this.entities));
-    this.body.append(section('Another robot like this one', this.spawnForm()));
+    this.body.append(
+      section('Clock', this.clock(), this.tools()),
+      section('In the world', this.entities),
+      section('Another robot like this one', this.spawnForm()),
+    );
     this.element.append(this.none, this.body);
     app.store.watch(['graph', 'simulation'], () => this.show());
     app.store.watch(['graph'], () => this.showEntities());
@@ -66,8 +75,9 @@ export class SimulationPanel implements Panel {
     setText(this.state, state);
     setText(this.real, state === 'playing' ? factor(real) : UNKNOWN);
     const slow = state === 'playing' && asked !== null && asked > 0 && real !== null;
-    this.real.dataset.tone = slow && real < SLOW * asked ? 'warning' : 'calm';
-    this.real.title = this.real.dataset.tone === 'warning' ? 'This machine is too slow for it.' : '';
+    const tooSlow = slow && real < SLOW * asked;
+    this.real.dataset.tone = tooSlow ? 'warning' : 'calm';
+    this.real.title = tooSlow ? 'This machine is too slow for it.' : '';
     if (asked !== null && document.activeElement !== this.wanted) {
       this.showFactor(asked);
     }
@@ -132,7 +142,8 @@ export class SimulationPanel implements Panel {
         h('span', {}, label),
         h('input', { type: 'number', name, value, step: 'any', required: true }),
       );
-    const name = h('input', { type: 'text', name: 'name', required: true, pattern: '[A-Za-z]\\w*' });
+    const pattern = '[A-Za-z]\\w*'; // of a ROS name
+    const name = h('input', { type: 'text', name: 'name', required: true, pattern });
     const form = h(
       'form',
       { class: 'form spawn' },

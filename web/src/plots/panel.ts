@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The plots: velocities, wheels, real-time factor; a window of time, pause, and what one saves. */
+/** The plots: velocities, wheels, real-time factor; a window of time, pause, what one saves. */
 import type { App, Panel } from '../app';
 import { button, h, toggle } from '../dom';
 import { SOURCES } from '../readings';
