@@ -87,6 +87,7 @@ export class Tabs {
       tab.button.tabIndex = active ? 0 : -1;
       tab.button.setAttribute('aria-selected', String(active));
     }
+    this.active?.button.scrollIntoView({ inline: 'nearest', block: 'nearest' });
     if (wanted !== undefined && isChoice) {
       remember(this.name, id);
     }
