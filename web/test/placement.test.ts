@@ -107,6 +107,16 @@ test('after a reset the two agree anew', () => {
   assertPose(placement.poseOf('odom'), at([1, 2, 3]));
 });
 
+test('one tree is forgotten without the other', () => {
+  const tree = treeOf({ 'a/base < a/odom': [0, 0, 0], 'b/base < b/odom': [0, 0, 0] });
+  const placement = new Placement();
+  placement.update(tree, [body('a/base', [1, 0, 0]), body('b/base', [2, 0, 0])], WORLD);
+  placement.forget('a/odom');
+  placement.update(tree, [body('a/base', [3, 0, 0]), body('b/base', [4, 0, 0])], WORLD);
+  assertPose(placement.poseOf('a/odom'), at([3, 0, 0]));
+  assertPose(placement.poseOf('b/odom'), at([2, 0, 0]));
+});
+
 test('the choice of the fixed frame moves the view, not what is in it', () => {
   const tree = treeOf({ 'base < odom': [1, 2, 0.3], 'laser < base': [0.1, 0, 0.2] });
   const robot = body('base', [4, -1, 2]);

@@ -45,7 +45,7 @@ export class RobotEntry {
     const pose = this.body && placement.poseOfBody(this.body);
     this.view.place(pose);
     const odometry = this.state && readPose(this.state.odometry, 0, new Matrix4());
-    const frame = this.trails.isAnchored
+    const frame = this.trails.anchorInWorld
       ? world
       : pose && odometry && pose.clone().multiply(odometry.invert());
     this.trails.place(frame, withTrails);

@@ -52,6 +52,7 @@ export class Picture {
   private tree = new FrameTree(EMPTY);
   private state: State | null = null;
   private drawn: State | null = null; // the last one that was
+  private isWaiting = false; // for the first state of a new layout; what is drawn stays until then
 
   constructor(private readonly isSoftware: boolean) {
     this.world = new WorldView(!isSoftware);
@@ -72,6 +73,7 @@ export class Picture {
   }
 
   removeRobot(robot: string): void {
+    this.forgetAnchor(robot);
     this.robots.get(robot)?.dispose();
     this.robots.delete(robot);
   }
@@ -79,7 +81,8 @@ export class Picture {
   setLayout(layout: Layout): void {
     this.layout = layout;
     this.tree = new FrameTree(layout);
-    this.state = null; // of another layout; what it showed stays until the next one
+    this.isWaiting = this.drawn !== null;
+    this.state = this.drawn = null;
   }
 
   /** Take over a state of the last layout. Returns whether it looks other than what is drawn. */
@@ -88,8 +91,11 @@ export class Picture {
       return false;
     }
     this.state = state;
+    this.isWaiting = false;
     for (const robot of state.robots) {
-      this.robots.get(robot.id)?.trails.add(robot, state.time);
+      if (this.robots.get(robot.id)?.trails.add(robot, state.time)) {
+        this.forgetAnchor(robot.id);
+      }
     }
     return differ(this.drawn, state);
   }
@@ -163,6 +169,9 @@ export class Picture {
 
   /** Put everything where the last state has it. */
   place(): void {
+    if (this.isWaiting) {
+      return;
+    }
     this.readState();
     this.fixedFrame = this.chosenFrame ?? this.defaultFrame();
     const entries = [...this.robots.values()];
@@ -180,6 +189,14 @@ export class Picture {
     [...this.robots.keys()].forEach((robot) => this.removeRobot(robot));
     for (const each of [this.axes, this.contacts, this.world, this.surroundings]) {
       each.dispose();
+    }
+  }
+
+  /** Let odometry and truth of a robot agree anew. */
+  private forgetAnchor(robot: string): void {
+    const base = this.robots.get(robot)?.body?.base;
+    if (base !== undefined) {
+      this.placement.forget(this.tree.rootOf(base));
     }
   }
 

@@ -40,6 +40,11 @@ export class Placement {
     this.anchors.clear();
   }
 
+  /** … of one TF tree, by its root. */
+  forget(root: string): void {
+    this.anchors.delete(root);
+  }
+
   /** Place all frames and bodies. */
   update(tree: FrameTree, bodies: readonly Body[], fixedFrame: string): void {
     this.places = new Map([[WORLD, { reference: WORLD, pose: new Matrix4() }]]);

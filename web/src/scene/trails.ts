@@ -94,16 +94,15 @@ export class Trails {
     this.object.add(this.truth.object, this.odometry.object);
   }
 
-  /** Whether there is a truth, and the trails are in `world`. */
-  get isAnchored(): boolean {
-    return this.anchor !== null;
-  }
-
-  /** Go on; `time` in s. */
-  add(state: RobotState, time: number): void {
+  /**
+   * Go on; `time` in s. Returns whether they began anew: the robot was put somewhere else, which is
+   * no drift.
+   */
+  add(state: RobotState, time: number): boolean {
     const truth = readPose(state.truth, 0, new Matrix4());
     const odometry = readPose(state.odometry, 0, new Matrix4());
-    if (truth !== null && this.hasJumped(state.truth, time)) {
+    const hasJumped = truth !== null && this.hasJumped(state.truth, time);
+    if (hasJumped) {
       this.clear();
     }
     if (truth !== null && odometry !== null && this.anchor === null) {
@@ -120,6 +119,17 @@ export class Trails {
       const [x, y, z] = state.odometry;
       this.odometry.add(x, y, z);
     }
+    return hasJumped;
+  }
+
+  /** Where the odometry's frame is in `world`; null: not known, or there is no truth. */
+  get anchorInWorld(): Matrix4 | null {
+    return this.anchor?.clone() ?? null;
+  }
+
+  /** How many points there are: of the truth's trail, and of the odometry's. */
+  get counts(): [truth: number, odometry: number] {
+    return [this.truth.trail.count, this.odometry.trail.count];
   }
 
   /** Put `world`, or the odometry's frame, somewhere; null: hide them. */
