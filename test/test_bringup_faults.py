@@ -21,7 +21,7 @@ from amr_description.bringup.guardian import processes
 GATED = str(STACKS / 'gated.py')
 UNRULY = str(STACKS / 'unruly.py')
 WORKERS = ['worker-1', 'worker-2']
-STEPS = ['gate-3', 'gate-4', 'gate-5']
+STEPS = ['turnstile-3', 'turnstile-4', 'turnstile-5']
 UP = len(STEPS)
 
 
@@ -34,7 +34,7 @@ def started(folder, until, **options):
         for worker in WORKERS:
             bringup.expect(rf'\[{worker}\] working')
         for number, step in enumerate(STEPS[: until + 1]):
-            bringup.expect(rf'\[{step}\] at the gate')
+            bringup.expect(rf'\[{step}\] at the turnstile')
             if number < until:
                 (folder / str(number)).write_text('')  # which waits for the reader
         if until == UP:
@@ -239,4 +239,5 @@ def test_thirty_stacks_in_a_row_leave_no_handle_thread_process_or_file(tmp_path)
     assert len(set(runs)) == 30
     assert not any(p.marked for run in runs for p in processes(run))
     assert sorted(path.name for path in (tmp_path / 'logs').iterdir()) == [*sorted(runs), 'latest']
-    assert list((tmp_path / 'tmp').iterdir()) == list((tmp_path / 'home').iterdir()) == []
+    left = [path for folder in ('tmp', 'home') for path in (tmp_path / folder).rglob('*')]
+    assert [path.name for path in left if path.is_file()] == ['.lock'], 'of the list of all runs'

@@ -19,7 +19,7 @@ def late(tmp_path):
     def start(**arguments):
         prefixes = {'AMENT_PREFIX_PATH': os.environ['AMENT_PREFIX_PATH']}
         words = [f'{name}:={value}' for name, value in arguments.items()]
-        stack = str(STACKS / 'late.py')
+        stack = str(STACKS / 'late_simulator.py')
         return Bringup(tmp_path, stack, f'gate:={gate}', *words, **prefixes)
 
     gate = tmp_path / 'gate'

@@ -40,7 +40,7 @@ def up(bringup, *steps):
 @pytest.mark.parametrize('victim', AT_ONCE)
 def test_any_node_killed_before_the_simulator_is_there(tmp_path, victim):
     os.mkfifo(tmp_path / 'gate')
-    with stack(tmp_path, str(STACKS / 'late.py'), f'gate:={tmp_path}/gate') as bringup:
+    with stack(tmp_path, str(STACKS / 'late_simulator.py'), f'gate:={tmp_path}/gate') as bringup:
         bringup.expect(r'Waiting messages on topic|Robot initialized')
         os.kill(bringup.pids()[victim], signal.SIGKILL)
         assert bringup.end() == 128 + signal.SIGKILL
