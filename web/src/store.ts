@@ -55,10 +55,14 @@ export class Store {
     call();
   }
 
-  /** The robot that the panels show and the keys drive: the chosen one while it is there. */
+  /**
+   * The robot that the panels show and the keys drive: the chosen one while it is there, else the
+   * first that can be driven. (A fleet has a description of its own, of where its robots stand.)
+   */
   get robot(): RobotInfo | null {
     const robots = this.graph?.robots ?? [];
-    return robots.find((robot) => robot.id === this.chosen) ?? robots[0] ?? null;
+    const chosen = robots.find(({ id }) => id === this.chosen);
+    return chosen ?? robots.find(({ command }) => command !== null) ?? robots[0] ?? null;
   }
 
   get simulator(): SimulatorInfo | null {

@@ -38,6 +38,17 @@ test('the first robot is the one, until another is chosen, and again when that g
   assert.equal(store.robot, null);
 });
 
+test('of several robots, one that can be driven is the first choice', () => {
+  const store = new Store();
+  store.take(HELLO);
+  const command = { topic: '/robot1/cmd_vel', message: 'geometry_msgs/msg/TwistStamped' };
+  const robots = [robot('/fleet'), { ...robot('/robot1'), command }];
+  store.take({ ...graph(), robots });
+  assert.equal(store.robot?.id, '/robot1');
+  store.choose('/fleet');
+  assert.equal(store.robot?.id, '/fleet');
+});
+
 test('what belongs to a robot goes with it', () => {
   const store = connected('/', '/robot1');
   store.take({ type: 'driver', robot: '/robot1', client: 'page 2' });
