@@ -101,19 +101,27 @@ class Ears(Node):
 
     def has_stopped(self):
         """Wait until it rests, and return how long that took from the command to stop, s."""
-        self.wait(lambda: self.commands and self.commanded == 0.0)
-        begin = seconds(self.commands[-1].header.stamp)
-        self.wait(lambda: self.speed < AT_REST and seconds(self.truth[-1].header.stamp) > begin)
-        rest = next(
-            message
-            for message in self.truth
-            if seconds(message.header.stamp) > begin and message.twist.twist.linear.x < AT_REST
+        self.wait(
+            lambda: (
+                self.commands
+                and self.commanded == 0.0
+                and self.speed < AT_REST
+                and stamp_of(self.truth[-1]) > stamp_of(self.commands[-1])
+            )
         )
-        return seconds(rest.header.stamp) - begin
+        moving = [number for number, each in enumerate(self.commands) if each.twist.linear.x]
+        begin = stamp_of(self.commands[moving[-1] + 1])
+        rest = next(
+            stamp_of(each)
+            for each in self.truth
+            if stamp_of(each) > begin and abs(each.twist.twist.linear.x) < AT_REST
+        )
+        return rest - begin
 
 
-def seconds(stamp):
-    return stamp.sec + stamp.nanosec / NANOSECONDS
+def stamp_of(message):
+    """When it was made, s of simulated time."""
+    return message.header.stamp.sec + message.header.stamp.nanosec / NANOSECONDS
 
 
 @pytest.fixture
