@@ -3,6 +3,7 @@
 /** `window.amr`: the page in numbers, for tests in a real browser and for the curious. */
 import type { App } from './app';
 import type { Recorder } from './plots/recorder';
+import type { Scene } from './scene/scene';
 import type { StateStream } from './stream';
 import type { View } from './view';
 
@@ -11,6 +12,12 @@ interface Parts {
   stream: StateStream;
   recorder: Recorder;
   view: View;
+}
+
+export interface SceneNumbers {
+  frames: number; // drawn
+  triangles: number; // of the last one
+  trails: Record<string, [truth: number, odometry: number]>; // points, by robot
 }
 
 export interface Inspection {
@@ -27,7 +34,7 @@ export interface Inspection {
   age: number | null; // ms since it came
   samples: number; // kept for the plots
   notices: number;
-  scene: ReturnType<NonNullable<View['scene']>['stats']> | null; // null without WebGL
+  scene: SceneNumbers | null; // null without WebGL
 }
 
 declare global {
@@ -51,8 +58,12 @@ export function inspect({ app, stream, recorder, view }: Parts): void {
         age: stream.latest === null ? null : performance.now() - stream.arrivedAt,
         samples: recorder.length,
         notices: store.notices.length,
-        scene: view.scene?.stats() ?? null,
+        scene: numbersOf(view.scene),
       };
     },
   };
+}
+
+function numbersOf(scene: Scene | null): SceneNumbers | null {
+  return scene === null ? null : { ...scene.stats(), trails: scene.trailSizes() };
 }

@@ -51,7 +51,7 @@ const tabs = new Tabs('tab');
 for (const panel of [
   model,
   new JointsPanel(app),
-  new FramesPanel(app),
+  new FramesPanel(app, () => view.scene?.frames() ?? []),
   new SimulationPanel(app),
   new ControlPanel(app),
   health,

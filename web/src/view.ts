@@ -91,6 +91,7 @@ export class View {
         scene.setWorld({ type: 'world', simulator: '', shapes: [] });
       }
     });
+    scene.onProblem = (text) => store.note('warning', text);
     scene.onSelect = (robot: string, link: string | null) => {
       store.choose(robot);
       store.select({ robot, frame: link });

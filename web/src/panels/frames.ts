@@ -19,7 +19,11 @@ export class FramesPanel implements Panel {
   private readonly values = new Map<string, HTMLElement>();
   private signature = '';
 
-  constructor(private readonly app: App) {
+  /** `choices`: the frames that the scene can hold still. */
+  constructor(
+    private readonly app: App,
+    private readonly choices: () => readonly string[],
+  ) {
     const { store } = app;
     this.fixed.addEventListener('change', () => store.setFixedFrame(this.fixed.value || null));
     this.element.append(
@@ -69,16 +73,15 @@ export class FramesPanel implements Panel {
     this.signature = signature;
     this.rows.clear();
     const roots = layout === null ? [] : rootsOf(layout);
-    const names = [...roots, ...(layout?.frames ?? []).map(({ name }) => name)];
     this.fixed.replaceChildren(
-      h('option', { value: '' }, roots[0] === undefined ? 'none yet' : `automatic (${roots[0]})`),
-      ...names.map((name) => h('option', { value: name }, name)),
+      h('option', { value: '' }, 'automatic'),
+      ...this.choices().map((name) => h('option', { value: name }, name)),
     );
     this.fixed.value = this.app.store.fixedFrame ?? '';
     this.tree.replaceChildren(
       ...(layout === null ? [] : roots.map((root) => this.branch(root, layout))),
     );
-    if (names.length === 0) {
+    if (roots.length === 0) {
       this.tree.replaceChildren(h('li', { class: 'empty' }, 'Nobody publishes transforms.'));
     }
     this.showSelection();
@@ -110,8 +113,8 @@ export class FramesPanel implements Panel {
     }
     this.where.replaceChildren(
       h('p', { class: 'chosen' }, frame),
-      this.poseTable('parent', 'In its parent'),
-      this.poseTable('fixed', 'In the fixed frame'),
+      this.poseTable('parent', 'Relative to'),
+      this.poseTable('fixed', 'Relative to'),
     );
   }
 

@@ -127,6 +127,11 @@ export class Picture {
     this.robots.forEach(({ trails }) => trails.clear());
   }
 
+  trailSizes(): Record<string, [truth: number, odometry: number]> {
+    const sizes = [...this.robots].map(([id, { trails }]) => [id, trails.counts] as const);
+    return Object.fromEntries(sizes);
+  }
+
   /** The robots by their names. */
   views(): Map<string, RobotView> {
     return new Map([...this.robots].map(([id, { view }]) => [id, view]));

@@ -171,6 +171,11 @@ export class Scene {
     return { frames: this.painter.frames, triangles: this.painter.triangles };
   }
 
+  /** How many points the trails have, by robot: of the truth's, and of the odometry's. */
+  trailSizes(): Record<string, [truth: number, odometry: number]> {
+    return this.picture.trailSizes();
+  }
+
   dispose(): void {
     for (const each of [this.picking, this.rig, this.labels, this.picture, this.painter]) {
       each.dispose();
