@@ -28,7 +28,7 @@ function inWorld(anchor: Matrix4 | null, x: number, y: number): number[] {
 }
 
 test('the odometry is laid onto the truth where both are first known, and stays there', () => {
-  const trails = new Trails();
+  const trails = new Trails(false);
   trails.add(robot([5, 6, Math.PI / 2], [1, 0, 0]), 0);
   assert.deepEqual(inWorld(trails.anchorInWorld, 1, 0), [5, 6, 0]);
   assert.deepEqual(inWorld(trails.anchorInWorld, 2, 0), [5, 7, 0]);
@@ -38,7 +38,7 @@ test('the odometry is laid onto the truth where both are first known, and stays 
 });
 
 test('a robot without truth has one trail', () => {
-  const trails = new Trails();
+  const trails = new Trails(false);
   trails.add(robot(UNKNOWN, [0, 0, 0]), 0);
   trails.add(robot(UNKNOWN, [1, 0, 0]), 1);
   assert.equal(trails.anchorInWorld, null);
@@ -46,7 +46,7 @@ test('a robot without truth has one trail', () => {
 });
 
 test('a robot that is put elsewhere begins anew; one that drives fast does not', () => {
-  const trails = new Trails();
+  const trails = new Trails(false);
   trails.add(robot([0, 0, 0], [0, 0, 0]), 0);
   assert.equal(trails.add(robot([4, 0, 0], [4, 0, 0]), 1), false);
   assert.equal(trails.add(robot([0, 3, 0], [4, 0, 0]), 1.02), true);
@@ -55,7 +55,7 @@ test('a robot that is put elsewhere begins anew; one that drives fast does not',
 });
 
 test('cleared, the two agree anew', () => {
-  const trails = new Trails();
+  const trails = new Trails(false);
   trails.add(robot([0, 0, 0], [0, 0, 0]), 0);
   trails.clear();
   assert.deepEqual(trails.counts, [0, 0]);

@@ -22,7 +22,7 @@ export class RobotEntry {
   constructor(model: Model, isShaded: boolean, events: RobotEvents, before?: RobotEntry) {
     this.id = model.robot;
     this.view = new RobotView(model, isShaded, events);
-    this.trails = before?.trails ?? new Trails();
+    this.trails = before?.trails ?? new Trails(!isShaded);
     this.measure();
   }
 

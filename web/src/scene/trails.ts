@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The trails of a robot: where it truly went, and where its odometry says it went. */
 import {
+  BufferAttribute,
+  BufferGeometry,
   Color,
   DynamicDrawUsage,
   Group,
   InstancedInterleavedBuffer,
   InterleavedBufferAttribute,
+  Line,
+  LineBasicMaterial,
   Matrix4,
   Sphere,
 } from 'three';
@@ -19,6 +23,7 @@ import { Trail } from './trail';
 import { readPose } from './tree';
 
 const WIDTH = 3; // CSS pixels
+const SPARSE = { coarse: 1024, fine: 1024, spacing: 0.04 }; // where the processor draws
 const LIFT = 0.004; // m, so that a trail on the ground is seen
 const BIAS = -800; // of depth, so that the ground does not take half of a flat line's width
 const JUMP = 0.5; // m at once, beyond what speed explains: it was put there
@@ -26,24 +31,28 @@ const FASTEST = 10; // m/s
 
 /** A trail, drawn. */
 class TrailLine {
-  readonly trail = new Trail();
-  readonly object: LineSegments2;
-  private readonly buffer: InstancedInterleavedBuffer;
-  private readonly geometry = new LineSegmentsGeometry();
+  readonly trail: Trail;
+  readonly object: LineSegments2 | Line;
+  private readonly buffer: InstancedInterleavedBuffer | BufferAttribute;
 
-  constructor(colour: string, private readonly lift: number) {
-    // Each point is the end of one segment and the start of the next: the two overlap.
+  /**
+   * `lift` in m. Where the processor draws, the line is one pixel wide, of fewer points: a wide one
+   * of 13,000 pieces cost 0.5 s of its time a frame.
+   */
+  constructor(colour: string, private readonly lift: number, isSoftware: boolean) {
+    this.trail = new Trail(isSoftware ? SPARSE : {});
     const { points } = this.trail;
-    this.buffer = new InstancedInterleavedBuffer(points, 3, 1).setUsage(DynamicDrawUsage);
-    this.geometry.setAttribute('instanceStart', new InterleavedBufferAttribute(this.buffer, 3, 0));
-    this.geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(this.buffer, 3, 3));
+    this.buffer = isSoftware
+      ? new BufferAttribute(points, 3)
+      : new InstancedInterleavedBuffer(points, 3, 1);
+    this.buffer.setUsage(DynamicDrawUsage);
     this.buffer.onUpload(() => this.trail.markDrawn());
-    const material = new LineMaterial({ color: new Color(colour).getHex(), linewidth: WIDTH });
-    material.polygonOffset = true;
-    material.polygonOffsetUnits = BIAS;
-    this.object = new LineSegments2(this.geometry, material);
+    this.object =
+      this.buffer instanceof BufferAttribute
+        ? thinLine(this.buffer, colour)
+        : wideLine(this.buffer, colour);
+    this.object.geometry.boundingSphere = new Sphere();
     this.object.frustumCulled = false; // its extent is not followed
-    this.geometry.boundingSphere = new Sphere(); // nor asked for
     this.object.raycast = () => {};
     this.draw();
   }
@@ -60,18 +69,39 @@ class TrailLine {
   }
 
   dispose(): void {
-    this.geometry.dispose();
-    this.object.material.dispose();
+    this.object.geometry.dispose();
+    [this.object.material].flat().forEach((material) => material.dispose());
   }
 
   private draw(): void {
     const { count, firstChanged } = this.trail;
-    this.geometry.instanceCount = Math.max(0, count - 1);
+    const { geometry } = this.object;
+    if (geometry instanceof LineSegmentsGeometry) {
+      geometry.instanceCount = Math.max(0, count - 1);
+    } else {
+      geometry.setDrawRange(0, count);
+    }
     this.object.visible = count > 1;
     this.buffer.clearUpdateRanges();
     this.buffer.addUpdateRange(3 * firstChanged, 3 * (count - firstChanged));
     this.buffer.needsUpdate = true;
   }
+}
+
+function wideLine(buffer: InstancedInterleavedBuffer, colour: string): LineSegments2 {
+  // Each point is the end of one segment and the start of the next: the two overlap.
+  const geometry = new LineSegmentsGeometry();
+  geometry.setAttribute('instanceStart', new InterleavedBufferAttribute(buffer, 3, 0));
+  geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(buffer, 3, 3));
+  const material = new LineMaterial({ color: new Color(colour).getHex(), linewidth: WIDTH });
+  material.polygonOffset = true;
+  material.polygonOffsetUnits = BIAS;
+  return new LineSegments2(geometry, material);
+}
+
+function thinLine(points: BufferAttribute, colour: string): Line {
+  const geometry = new BufferGeometry().setAttribute('position', points);
+  return new Line(geometry, new LineBasicMaterial({ color: colour }));
 }
 
 /**
@@ -83,12 +113,14 @@ class TrailLine {
 export class Trails {
   /** In `world`, or without truth in the frame of the odometry. */
   readonly object = new Group();
-  private readonly truth = new TrailLine(TRUTH_COLOUR, LIFT);
-  private readonly odometry = new TrailLine(ODOMETRY_COLOUR, 2 * LIFT);
+  private readonly truth: TrailLine;
+  private readonly odometry: TrailLine;
   private anchor: Matrix4 | null = null;
   private last: { x: number; y: number; z: number; time: number } | null = null;
 
-  constructor() {
+  constructor(isSoftware: boolean) {
+    this.truth = new TrailLine(TRUTH_COLOUR, LIFT, isSoftware);
+    this.odometry = new TrailLine(ODOMETRY_COLOUR, 2 * LIFT, isSoftware);
     this.object.matrixAutoUpdate = false;
     this.odometry.object.matrixAutoUpdate = false;
     this.object.add(this.truth.object, this.odometry.object);
