@@ -76,6 +76,14 @@ def test_several_robots_keep_what_is_theirs():
     ]
 
 
+def test_a_robot_described_otherwise_is_there_as_long_as_its_truth():
+    there = {'/r1/ground_truth/odom': [ODOMETRY], '/r1/odom': [ODOMETRY]}
+    (found,) = discover(Names(there), ['/r1', '/r2']).robots
+    assert (found.id, found.truth, found.odometry) == ('/r1', '/r1/ground_truth/odom', '/r1/odom')
+    assert discover(Names({'/r1/odom': [ODOMETRY]}), ['/r1']).robots == ()
+    assert discover(Names(there)).robots == ()
+
+
 def test_nothing_is_found_in_nothing():
     found = discover(Names())
     assert (found.robots, found.simulators) == ((), ())
