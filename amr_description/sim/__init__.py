@@ -12,7 +12,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``engine``           the MuJoCo model and its state; integer time; survives a recompile
 ``stepping``         control period → physics step
 ``world_file``       a world's name or path → MuJoCo spec
-``compiling``         what MuJoCo's compiler warns of, as lines of the log
+``compiling``        what MuJoCo's compiler warns of, as lines of the log
 ``silent_friction``  the friction of what a world leaves without
 ``world_settings``   gravity, friction, step, solver: parameters, and the measured defaults
 ``robot_spec``       a URDF → MuJoCo spec of one robot
