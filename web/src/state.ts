@@ -29,7 +29,7 @@ export interface RobotState {
   odometry: Float32Array; // x y z qx qy qz qw, linear x (m/s), angular z (rad/s)
   truth: Float32Array; // the same, in `world`
   command: Float32Array; // linear x (m/s), angular z (rad/s)
-  wheels: Float32Array; // contact (0, 1), normal force (N), slip along, across (m/s), of each wheel
+  wheels: Float32Array; // of each: contact (0, 1), normal force (N), slip along, across (m/s)
 }
 
 /** A frame that is not of the protocol: a fault of one of the two sides, not of the wire. */

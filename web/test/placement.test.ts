@@ -53,7 +53,7 @@ function assertPose(actual: Matrix4 | null, expected: Matrix4): void {
   });
 }
 
-test('a pose is read with its quaternion made a unit one, and not at all if a part is unknown', () => {
+test('a pose is read with a unit quaternion, and not at all if a part is unknown', () => {
   const numbers = new Float32Array([9, 1, 2, 3, 0, 0, 2, 2]);
   const pose = readPose(numbers, 1, new Matrix4());
   const turned = new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2);
@@ -145,7 +145,11 @@ test("a frame below a link goes with the robot's body, fresher than TF", () => {
 });
 
 test('what is not connected to the fixed frame has no place', () => {
-  const tree = treeOf({ 'base < odom': [0, 0, 0], 'tag < camera': [1, 0, 0], 'lost < base': null });
+  const tree = treeOf({
+    'base < odom': [0, 0, 0],
+    'tag < camera': [1, 0, 0],
+    'lost < base': null,
+  });
   const placement = new Placement();
   placement.update(tree, [body('base')], 'odom');
   assert.equal(placement.poseOf('tag'), null);

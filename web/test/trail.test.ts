@@ -17,7 +17,7 @@ test('a robot that stands leaves one point', () => {
   assert.equal(trail.count, 1);
 });
 
-test('creeping is seen: points are far from the last one kept, not from the last one given', () => {
+test('creeping is seen: points are far from the last one kept, not the last one given', () => {
   const trail = new Trail({ spacing: 0.1 });
   for (let i = 0; i <= 1000; i++) {
     trail.add(i * 0.001, 0, 0);

@@ -67,7 +67,10 @@ export class CameraRig {
 
   /** Bring a box into view, from behind and above; an empty one: the origin. */
   frame(box: Box3, margin = MARGIN): void {
-    const ball = box.isEmpty() ? new Sphere(new Vector3(), 1) : box.getBoundingSphere(new Sphere());
+    const ball = new Sphere(new Vector3(), 1);
+    if (!box.isEmpty()) {
+      box.getBoundingSphere(ball);
+    }
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
     const distance = (margin * Math.max(ball.radius, SMALLEST)) / half;
     this.isMoved = false;

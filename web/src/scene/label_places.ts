@@ -77,7 +77,7 @@ const PLACES: readonly Place[] = DISTANCES.flatMap((distance) =>
   }),
 );
 
-/** The label's box where it just lies beyond `distance` from its point, in the place's direction. */
+/** The label's box where it just lies beyond `distance` from its point, in that direction. */
 function boxAt({ x, y, width, height }: Anchor, place: Place): Box {
   const left = x + place.x * (place.distance + width / 2) - width / 2;
   const top = y + place.y * (place.distance + height / 2) - height / 2;

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Names in the scene, written over it in a canvas of their own: always sharp, never in the way. */
+/** Names in the scene, written over it in a canvas of their own: sharp, never in the way. */
 import { Vector3 } from 'three';
 import type { Camera } from 'three';
 import { placeLabels, type Anchor } from './label_places';

@@ -31,7 +31,10 @@ export class Surroundings {
   private readonly floor = new Group(); // at z = 0 of `world`, or of the fixed frame
   private readonly fog = new Fog(0, 10, 100);
   private readonly ground = new Ground(FAR, this.fog);
-  private readonly shadows = new Mesh(new PlaneGeometry(2, 2), new ShadowMaterial({ depthWrite: false }));
+  private readonly shadows = new Mesh(
+    new PlaneGeometry(2, 2),
+    new ShadowMaterial({ depthWrite: false }),
+  );
   private readonly sky: Mesh<SphereGeometry, MeshBasicMaterial>;
   private readonly sun = new DirectionalLight();
   private readonly dome = new HemisphereLight();

@@ -36,8 +36,8 @@ class TrailLine {
   private readonly buffer: InstancedInterleavedBuffer | BufferAttribute;
 
   /**
-   * `lift` in m. Where the processor draws, the line is one pixel wide, of fewer points: a wide one
-   * of 13,000 pieces cost 0.5 s of its time a frame.
+   * `lift` in m. Where the processor draws, the line is one pixel wide, of fewer points: a wide
+   * one of 13,000 pieces cost 0.5 s of its time a frame.
    */
   constructor(colour: string, private readonly lift: number, isSoftware: boolean) {
     this.trail = new Trail(isSoftware ? SPARSE : {});
@@ -127,8 +127,8 @@ export class Trails {
   }
 
   /**
-   * Go on; `time` in s. Returns whether they began anew: the robot was put somewhere else, which is
-   * no drift.
+   * Go on; `time` in s. Returns whether they began anew: the robot was put somewhere else, which
+   * is no drift.
    */
   add(state: RobotState, time: number): boolean {
     const truth = readPose(state.truth, 0, new Matrix4());
