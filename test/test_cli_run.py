@@ -184,13 +184,12 @@ def test_every_program_of_ros2_control_has_a_stand_in():
     assert ours <= {path.name for path in executables_of('amr_description')}
 
 
-def test_what_would_do_instead_of_a_program_with_a_window_is_told(only_ours):
-    command = ('run', 'joint_state_publisher_gui', 'joint_state_publisher_gui')
-    result = ros2(*command, AMENT_PREFIX_PATH=str(only_ours))
+@pytest.mark.parametrize('name', ['joint_state_publisher_gui', 'rviz2'])
+def test_what_would_do_instead_of_a_program_with_a_window_is_told(only_ours, name):
+    result = ros2('run', name, name, AMENT_PREFIX_PATH=str(only_ours))
     assert (result.returncode, result.stdout) == (1, '')
     (line,) = result.stderr.splitlines()
-    assert "'ros2 run joint_state_publisher joint_state_publisher'" in line
-    assert '/joint_state_publisher/set_joint_positions' in line
+    assert "the page of 'ros2 launch amr_description display'" in line
 
 
 @pytest.mark.parametrize(

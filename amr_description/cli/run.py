@@ -49,9 +49,11 @@ STAND_INS = {
 # What nothing of ours takes the part of, and what would do.
 INSTEAD = {
     ('joint_state_publisher_gui', 'joint_state_publisher_gui'): (
-        "it needs a window; run 'ros2 run joint_state_publisher joint_state_publisher' and move "
-        'joints on its topic: ros2 topic pub --once /joint_state_publisher/set_joint_positions '
-        "sensor_msgs/msg/JointState '{name: [JOINT], position: [0.5]}'"
+        "its sliders are on the page of 'ros2 launch amr_description display'"
+    ),
+    ('rviz2', 'rviz2'): (
+        "what it shows is on the page of 'ros2 launch amr_description display', or, beside a "
+        "running robot, of 'ros2 run amr_description viewer'"
     ),
 }
 
