@@ -109,6 +109,6 @@ def _controlled(
             *page(viewer, exited_cleanly(diff_drive_controller)),
         ],
         ready_when=exited_cleanly(diff_drive_controller),
-        next_steps=how_to_drive(),
+        next_steps=how_to_drive(viewer),
         notes=notes_on(files),
     )

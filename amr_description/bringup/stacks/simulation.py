@@ -74,14 +74,15 @@ def simulation(
             *page(viewer, exited_cleanly(diff_drive_controller)),
         ],
         ready_when=exited_cleanly(diff_drive_controller),
-        next_steps=how_to_drive(),
+        next_steps=how_to_drive(viewer),
         notes=notes_on([path_of(urdf), path_of(controllers)]),
     )
 
 
-def how_to_drive() -> str:
-    """What a person would type next."""
-    return f"""drive with, in another shell,
+def how_to_drive(viewer: bool) -> str:
+    """What a person would do next; ``viewer``: whether the page is served."""
+    page = 'open the page whose address comes below, or ' if viewer else ''
+    return f"""{page}drive with, in another shell,
     {other_shell('amr_description', os.environ)}
     ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
         -r /cmd_vel:=/diff_drive_controller/cmd_vel
