@@ -46,7 +46,7 @@ def robot(machine, chapter, line):
     with person(machine, chapter) as shell:
         shell.start(line)
         shell.see(r'\[create-3\]: process has finished cleanly')
-        shell.see(r'ready in \d+\.\d s: drive with')
+        shell.see(r'ready in \d+\.\d s: open the page')
         shell.see(re.escape('Ctrl-C stops all.'))
         yield shell
         shell.press(CTRL_C)

@@ -48,7 +48,7 @@ def stack():
     with terminal(activated=False) as shell:
         assert line_of(README, 'scripts/run ')
         shell.type('scripts/run')
-        shell.see(r'ready in \d+\.\d s: drive with')
+        shell.see(r'ready in \d+\.\d s: open the page')
         shell.see(re.escape('Ctrl-C stops all.'))
         yield shell
         shell.press(CTRL_C)

@@ -23,6 +23,7 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.environment import other_shell
+from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 from amr_description.model.footprint import grid, horizontal_reach
 from amr_description.model.urdf import parse
@@ -47,6 +48,7 @@ def fleet(
     world: Annotated[str, 'world to simulate'] = 'empty',
     rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
     spacing: Annotated[float, 'm between two robots; 0: by their size'] = 0.0,
+    viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """Several robots in MuJoCo, each in its namespace with both controllers, ready to drive."""
     _require(robots >= 1, f'robots:={robots}: a fleet has 1 robot or more')
@@ -76,9 +78,15 @@ def fleet(
     )
     # 3. The robots, side by side.
     members = [_robot(name, place, description) for name, place in places.items()]
+    up = all_of(*(exited_cleanly(spawner) for *_, spawner in members))
     return Stack(
-        [mujoco_sim, map_publisher, *(node for member in members for node in member)],
-        ready_when=all_of(*(exited_cleanly(spawner) for *_, spawner in members)),
+        [
+            mujoco_sim,
+            map_publisher,
+            *(node for member in members for node in member),
+            *page(viewer, up),
+        ],
+        ready_when=up,
         next_steps=_how_to_drive(list(places)),
         notes=notes_on([path_of(urdf), path_of(controllers)]),
     )
