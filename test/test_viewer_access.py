@@ -4,7 +4,7 @@
 
 import pytest
 
-from amr_description.viewer.access import Access, is_loopback
+from amr_description.viewer.access import Access, cookie_name, is_loopback
 
 HOSTS = [
     '127.0.0.1:8080',
@@ -57,13 +57,11 @@ def test_elsewhere_the_token_is_asked():
     assert 'lacks its token' in reason
     assert TOKEN not in reason
     assert refused(access, f'/?token={TOKEN}', Host='robot.lan:8080') is None
-    assert (
-        refused(access, '/ws', Host='robot.lan:8080', Cookie=f'{access.cookie_name}={TOKEN}')
-        is None
-    )
-    for wrong in ('', 'x', f'{TOKEN}x', TOKEN[:-1], 'ü'):
+    name = cookie_name('robot.lan:8080')
+    assert refused(access, '/ws', Host='robot.lan:8080', Cookie=f'{name}={TOKEN}') is None
+    for wrong in ('', 'x', f'{TOKEN}x', TOKEN[:-1], 'ü', '\udcff', '"\udcff"'):
         assert refused(access, f'/?token={wrong}', Host='robot.lan') is not None
-        cookie = f'{access.cookie_name}={wrong}'
+        cookie = f'{cookie_name("robot.lan")}={wrong}'
         assert refused(access, '/', Host='robot.lan', Cookie=cookie) is not None
 
 
@@ -75,11 +73,18 @@ def test_a_foreign_page_may_not_even_with_the_token():
 
 def test_who_comes_with_the_token_gets_a_cookie_that_scripts_cannot_read():
     access = Access(TOKEN)
-    cookie = access.new_cookie(f'/?token={TOKEN}')
-    assert cookie.startswith(f'{access.cookie_name}={TOKEN};')
+    headers = {'Host': 'robot.lan:8080'}
+    cookie = access.new_cookie(f'/?token={TOKEN}', headers)
+    assert cookie.startswith(f'{cookie_name("robot.lan:8080")}={TOKEN};')
     assert {'HttpOnly', 'SameSite=Strict'} <= {part.strip() for part in cookie.split(';')}
-    assert access.new_cookie('/?token=wrong') is None
-    assert Access().new_cookie('/') is None
+    assert access.new_cookie('/?token=wrong', headers) is None
+    assert Access().new_cookie('/', headers) is None
+
+
+def test_two_viewers_of_a_host_do_not_take_each_others_cookies():
+    names = [cookie_name(host) for host in ('robot:8080', 'robot:8081', 'robot', '[::1')]
+    assert len({*names[:3]}) == 3
+    assert names[2] == names[3]
 
 
 def test_loopbacks_are_told_from_other_addresses():

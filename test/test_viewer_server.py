@@ -140,6 +140,18 @@ def test_strangers_are_refused_everywhere(url, path, headers, status, text):
     assert (found, text in body) == (status, True)
 
 
+@pytest.mark.parametrize('name', ['Host', 'Origin', 'Cookie'])
+def test_of_two_headers_none_is_believed(url, name):
+    host = urlsplit(url).netloc
+    own = {'Host': host, 'Origin': f'http://{host}', 'Cookie': 'a=b'}[name]
+    lines = ['GET / HTTP/1.1', *[f'Host: {host}'] * (name != 'Host'), *[f'{name}: {own}'] * 2]
+    with socket.create_connection(address(url), PATIENCE) as stranger:
+        stranger.sendall('\r\n'.join([*lines, '', '']).encode())
+        answer = b''.join(iter(lambda: stranger.recv(65536), b'')).decode()
+    assert answer.startswith('HTTP/1.1 400 ')
+    assert answer.endswith(f'the request has more than one {name}\n')
+
+
 @pytest.mark.parametrize('origin', ['http://evil.example', 'null', 'http://localhost:1'])
 def test_a_foreign_page_gets_no_socket(url, page, origin):
     with pytest.raises(InvalidStatus, match='403'):

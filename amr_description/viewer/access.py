@@ -42,11 +42,6 @@ class Access:
 
     token: str | None = None
 
-    @property
-    def cookie_name(self) -> str:
-        """Of the cookie that holds the token."""
-        return 'amr_viewer_token'
-
     def refusal(self, target: str, headers: Mapping[str, str]) -> Refusal | None:
         """Judge a request by its target (``/path?query``) and headers; None: it may."""
         host = headers.get('Host', '')
@@ -68,18 +63,19 @@ class Access:
             )
         return None
 
-    def new_cookie(self, target: str) -> str | None:
+    def new_cookie(self, target: str, headers: Mapping[str, str]) -> str | None:
         """Return the Set-Cookie header for who comes with the token in the URL."""
         if self.token is None or not self._has_token_in_url(target):
             return None
-        return f'{self.cookie_name}={self.token}; Path=/; HttpOnly; SameSite=Strict'
+        name = cookie_name(headers.get('Host', ''))
+        return f'{name}={self.token}; Path=/; HttpOnly; SameSite=Strict'
 
     def _knows_token(self, target: str, headers: Mapping[str, str]) -> bool:
         try:
             cookies = SimpleCookie(headers.get('Cookie', ''))
         except CookieError:
             cookies = SimpleCookie()
-        morsel = cookies.get(self.cookie_name)
+        morsel = cookies.get(cookie_name(headers.get('Host', '')))
         return self._has_token_in_url(target) or (
             morsel is not None and self._is_token(morsel.value)
         )
@@ -89,7 +85,20 @@ class Access:
         return any(self._is_token(value) for value in values)
 
     def _is_token(self, value: str) -> bool:
-        return hmac.compare_digest(value.encode(), (self.token or '').encode())
+        return hmac.compare_digest(value.encode(errors='replace'), (self.token or '').encode())
+
+
+def cookie_name(host: str) -> str:
+    """
+    Return the name of the cookie that holds the token of the server at a Host header.
+
+    A browser gives a cookie to all ports of a host, so that two viewers need two names.
+    """
+    try:
+        port = urlsplit(f'//{host}').port
+    except ValueError:
+        port = None
+    return f'amr_viewer_token_{port or 80}'
 
 
 def host_name(host: str) -> str:

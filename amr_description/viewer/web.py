@@ -24,6 +24,8 @@ from amr_description.viewer.files import Content, digest, StaticFiles, TYPES
 SOCKET_PATH = '/ws'
 MESH_PATH = '/mesh/'
 _INDEX = '/index.html'
+_ONCE = ('Host', 'Origin', 'Cookie', 'If-None-Match')
+"""Headers that a request has once: of two, each reader may believe another one."""
 
 POLICY = '; '.join(
     (
@@ -65,6 +67,9 @@ class Web:
 
     async def answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Return the response; None: it goes on as a WebSocket."""
+        for name in _ONCE:
+            if len(request.headers.get_all(name)) > 1:
+                return _text(HTTPStatus.BAD_REQUEST, f'the request has more than one {name}')
         refusal = self._access.refusal(request.path, request.headers)
         if refusal is not None:
             return _text(refusal.status, refusal.reason)
@@ -79,7 +84,7 @@ class Web:
                 return _text(HTTPStatus.SERVICE_UNAVAILABLE, _NOT_BUILT)
             return _text(HTTPStatus.NOT_FOUND, f'there is no {path!a} here')
         response = _file(content, request, is_immutable=path.startswith(MESH_PATH))
-        cookie = self._access.new_cookie(request.path)
+        cookie = self._access.new_cookie(request.path, request.headers)
         if cookie is not None:
             response.headers['Set-Cookie'] = cookie
         return response
