@@ -179,6 +179,17 @@ def test_a_drive_that_cannot_be_takes_no_wheel(backend, server):
         assert page.last('driver') is None
 
 
+def test_a_stop_of_what_is_not_there_is_told_to_who_asked(backend, server):
+    with Page(server.url) as asker, Page(server.url) as other:
+        asker.say('stop', robot='/gone')
+        assert asker.wait(lambda: asker.last('notice'))['text'] == 'there is no robot /gone'
+        asker.say('stop', robot=None)
+        other.ask('play', 1, simulator='/s')
+        assert (other.last('notice'), other.of('driver')) == (None, [
+            {'type': 'driver', 'robot': '/', 'client': None}
+        ])  # fmt: skip
+
+
 def test_sliders_go_through(backend, server):
     with Page(server.url) as page:
         page.say('set_joints', robot='/', positions={'a': 1, 'b': -0.5})

@@ -53,7 +53,7 @@ def parts_of(kind):
 def script(kind):
     """A Python type as TypeScript has it; a dataclass is 'object'."""
     if isinstance(kind, typing.TypeAliasType):
-        return kind.__name__
+        return 'number' if kind is requests.Speed else kind.__name__
     origin, arguments = typing.get_origin(kind), typing.get_args(kind)
     if origin is typing.Literal:
         return ' | '.join(f"'{each}'" for each in arguments)
@@ -144,6 +144,7 @@ def test_constants_are_the_same():
     assert {name: int(value) for name, value in there.items()} == {
         'HEADER_BYTES': states.HEADER.size,
         'POSE_FLOATS': states.POSE_FLOATS,
+        'JOINT_FLOATS': states.JOINT_FLOATS,
         'MOTION_FLOATS': states.MOTION_FLOATS,
         'COMMAND_FLOATS': states.COMMAND_FLOATS,
         'WHEEL_FLOATS': states.WHEEL_FLOATS,
@@ -193,6 +194,8 @@ def test_play_and_pause_are_told_apart():
         (ONE.replace('0.5', '"fast"'), "'linear' of 'drive' cannot be \"fast\""),
         (ONE.replace('0.5', 'NaN'), "'linear' of 'drive' cannot be nan"),
         (ONE.replace('0.5', '1e999'), "'linear' of 'drive' cannot be inf"),
+        (ONE.replace('0.5', '-101'), "'linear' of 'drive' cannot be -101"),
+        (ONE.replace('0.5', '1' + '0' * 400), "'linear' of 'drive' cannot be 1000"),
         (ONE.replace('0.5', '9' * 400), "'linear' of 'drive' cannot be 999"),
         (ONE.replace('0.5', 'true'), "'linear' of 'drive' cannot be True"),
         (ONE.replace('"/"', '"\\u001b[2J"'), "'robot' of 'drive' cannot be"),

@@ -36,7 +36,7 @@ class Conversation:
             case Drive():
                 self._drive(page, message)
             case Stop():
-                self._stop(page.name, message.robot)
+                self._hear_stop(page, message.robot)
             case SetJoints():
                 self._attempt(
                     page, lambda: self._backend.set_joints(message.robot, message.positions)
@@ -52,7 +52,7 @@ class Conversation:
     def stop_all(self) -> None:
         """Stop all robots that are driven from here."""
         for robot in self._driving.robots():
-            self._stop('', robot)
+            self._stop(robot, '')
 
     def _drive(self, page: Page, message: Drive) -> None:
         robot, now = message.robot, asyncio.get_running_loop().time()
@@ -72,14 +72,18 @@ class Conversation:
         self._show_driver(robot, before)
         self._await_expiry(now)
 
-    def _stop(self, client: str, robot: str | None) -> None:
+    def _hear_stop(self, page: Page, robot: str | None) -> None:
         """``None``: all, whoever drives them."""
-        now = asyncio.get_running_loop().time()
-        for each in self._backend.robots() if robot is None else [robot]:
-            before = self._driving.driver(each)
-            self._driving.stop(each, client, now)
-            self._bring_to_rest([each])
-            self._show_driver(each, before)
+        known = {*self._backend.robots(), *self._driving.robots()}
+        if robot is None or robot in known:
+            for each in known if robot is None else [robot]:
+                self._stop(each, page.name)
+        else:
+            self._attempt(page, lambda: self._backend.drive(robot, 0.0, 0.0))  # say why not
+
+    def _stop(self, robot: str, client: str) -> None:
+        self._driving.stop(robot, client, asyncio.get_running_loop().time())
+        self._bring_to_rest([robot])
 
     def _bring_to_rest(self, robots: list[str]) -> None:
         """Command zero, once."""

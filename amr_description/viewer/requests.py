@@ -17,6 +17,10 @@ from amr_description.model.frames import Vector
 
 _LARGEST_ID = 2**53  # of JavaScript's whole numbers
 _SHOWN = 80  # characters of what was found
+_FASTEST = 100.0  # m/s or rad/s: whatever is faster is a mistake, of a robot on wheels
+
+type Speed = float
+"""m/s or rad/s, of a robot that is driven by hand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +29,8 @@ class Drive:
 
     types: ClassVar[tuple[str, ...]] = ('drive',)
     robot: str
-    linear: float
-    angular: float
+    linear: Speed
+    angular: Speed
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +172,12 @@ def _number(value: Any) -> float:
     return float(value)
 
 
+def _speed(value: Any) -> float:
+    if abs(value := _number(value)) > _FASTEST:
+        raise ValueError
+    return value
+
+
 def _whole(value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _LARGEST_ID:
         raise ValueError
@@ -207,6 +217,7 @@ _READERS: Mapping[Any, Callable[[Any], Any]] = {
     str: _text,
     int: _whole,
     float: _number,
+    Speed: _speed,
     str | None: _text_or_none,
     Vector: _vector,
     tuple[str, ...]: _texts,
