@@ -7,6 +7,7 @@ from control_msgs.msg import DynamicJointState, InterfaceValue
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from hypothesis import given, strategies as st
 from nav_msgs.msg import Odometry
+from pal_statistics_msgs.msg import StatisticsNames, StatisticsValues
 import pytest
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
@@ -21,6 +22,7 @@ SEVEN = st.tuples(*[NUMBERS] * 7)
 READERS = (
     cdr.read_clock, cdr.read_transforms, cdr.read_joint_state, cdr.read_odometry,
     cdr.read_dynamic_joint_state, cdr.read_twist, cdr.read_twist_stamped,
+    cdr.read_statistics_names, cdr.read_statistics_values,
 )  # fmt: skip
 
 
@@ -92,6 +94,19 @@ def test_commands(frame, linear, angular):
     assert cdr.read_twist_stamped(serialize_message(stamped)) == (linear, angular)
 
 
+@given(TEXTS, st.lists(TEXTS, max_size=4), st.lists(NUMBERS), st.integers(0, 2**32 - 1))
+def test_statistics(frame, names, values, version):
+    named = StatisticsNames(names=names, names_version=version)
+    valued = StatisticsValues(values=values, names_version=version)
+    named.header.frame_id = valued.header.frame_id = frame
+    assert cdr.read_statistics_names(serialize_message(named)) == cdr.StatisticNames(
+        names, version
+    )
+    assert cdr.read_statistics_values(serialize_message(valued)) == cdr.StatisticValues(
+        tuple(values), version
+    )
+
+
 def test_the_other_byte_order():
     data = bytes([0, 0, 0, 0]) + (5).to_bytes(4, 'big') + (7).to_bytes(4, 'big')
     assert cdr.read_clock(data) == 5_000_000_007
@@ -117,6 +132,8 @@ def test_every_message_that_is_cut_off_is_refused(read):
         ),
         cdr.read_twist: Twist(),
         cdr.read_twist_stamped: TwistStamped(),
+        cdr.read_statistics_names: StatisticsNames(names=['a']),
+        cdr.read_statistics_values: StatisticsValues(values=[1.0]),
     }
     data = serialize_message(whole[read])
     read(data)

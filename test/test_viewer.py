@@ -15,6 +15,7 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from running_programs import PATIENCE, Program
 from sensor_msgs.msg import JointState
@@ -112,6 +113,12 @@ def at_rest(host, robot):
     assert robot.velocities.count((0.0, 0.0)) == 1
 
 
+def endpoints(host, robot):
+    """Who publishes commands of a robot, each by its number in DDS."""
+    topic = f'{robot.place}/cmd_vel'
+    return [bytes(each.endpoint_gid) for each in host.node.get_publishers_info_by_topic(topic)]
+
+
 def floats(state):
     return np.frombuffer(state, '<f4', offset=16)
 
@@ -159,7 +166,7 @@ def test_a_page_sees_what_moves(host, url):
         if struct.unpack_from('<H', page.states[-1], 2)[0] != layout['id']:
             return None
         values = floats(page.states[-1])
-        return None if np.isnan(values[:8]).all() or np.isnan(values[15]) else (layout, values)
+        return None if np.isnan(values[:8]).all() or np.isnan(values[19]) else (layout, values)
 
     with Page(url) as page:
         layout, values = host.until(complete)
@@ -167,12 +174,12 @@ def test_a_page_sees_what_moves(host, url):
         joints = layout['robots'][0]['joints']
         assert sorted(joints) == WHEELS
         assert values[:7].tolist() == [3.5, 0, 0, 0, 0, 0, 1]
-        positions, velocities = values[7:11], values[11:15]
+        positions, speeds = values[7:11], values[11:19]
         assert positions[joints.index(WHEELS[1])] == 0.5
         assert np.isnan(positions).sum() == 3
-        assert np.isnan(velocities).all()
-        assert values[15:24].tolist() == [0, -2, 0, 0, 0, 0, 1, 0.25, 0]
-        assert np.isnan(values[24:33]).all()  # no simulator, no truth
+        assert np.isnan(speeds).all()  # neither measured nor commanded
+        assert values[19:28].tolist() == [0, -2, 0, 0, 0, 0, 1, 0.25, 0]
+        assert np.isnan(values[28:37]).all()  # no simulator, no truth
         numbers = [struct.unpack_from('<I', state, 4)[0] for state in page.states]
         assert numbers == sorted(set(numbers))
         now = struct.unpack_from('<d', page.states[-1], 8)[0]
@@ -212,6 +219,29 @@ def test_commands_are_stamped_with_the_time_of_the_simulation(host, url):
             return robot.commands and robot.commands[-1].header.stamp == time.clock
 
         host.until(stamp)
+        host.node.destroy_publisher(clock)  # the simulation ends, the robot is a real one now
+        since = host.node.get_clock().now().nanoseconds
+
+        def stamp_of_now():
+            page.say('drive', robot='/', linear=0.1, angular=0.0)
+            return Time.from_msg(robot.commands[-1].header.stamp).nanoseconds >= since
+
+        host.until(stamp_of_now)
+
+
+def test_a_stop_arrives_while_the_topics_of_the_robot_change(host, url):
+    """The publisher of commands stays: a new one would lose what it says before it is known."""
+    robot = Robot(host.node)
+    with Page(url) as page:
+        host.connected(page, robot)
+        (ours,) = endpoints(host, robot)
+        page.say('drive', robot='/', linear=0.5, angular=0.0)
+        truth = host.node.create_publisher(Odometry, '/ground_truth/odom', 10)
+        host.until(lambda: (g := page.last('graph')['robots']) and g[0]['truth'])
+        page.say('stop', robot='/')
+        host.until(lambda: robot.velocities[-1] == (0.0, 0.0))
+        assert endpoints(host, robot) == [ours]
+        host.node.destroy_publisher(truth)
 
 
 def test_who_wants_a_plain_twist_gets_one(host, url):

@@ -17,6 +17,7 @@ from amr_description.viewer.discovery import (
     ODOMETRY,
     owner,
     SET_SIMULATION_STATE,
+    STATISTICS_VALUES,
     STRING,
     TWISTS,
 )
@@ -35,6 +36,7 @@ def robot(place):
             f'{place}/ground_truth/odom': [ODOMETRY],
             f'{place}/ground_truth/wheels': [DYNAMIC_JOINT_STATE],
             f'{place}/controller_manager/activity': [ACTIVITY],
+            f'{place}/controller_manager/introspection_data/values': [STATISTICS_VALUES],
         },
         {f'{place}/diff_drive_controller/cmd_vel': [STAMPED]},
         {f'{place}/controller_manager/list_controllers': [LIST_CONTROLLERS]},
@@ -62,6 +64,7 @@ def test_a_robot_has_what_lies_in_its_namespace(place):
         'joint_publisher': None,
         'manager': f'{place}/controller_manager',
         'activity': f'{place}/controller_manager/activity',
+        'introspection': f'{place}/controller_manager/introspection_data',
     }
 
 

@@ -27,7 +27,7 @@ def test_the_head_says_kind_layout_number_and_time():
 
 def test_what_is_not_known_is_not_a_number():
     data = StateFrame(LAYOUT).encode(0, 0.0)
-    assert len(data) == 16 + 4 * (2 * 7 + (2 * 2 + 9 + 9 + 2 + 4) + (9 + 9 + 2))
+    assert len(data) == 16 + 4 * (2 * 7 + (3 * 2 + 9 + 9 + 2 + 4) + (9 + 9 + 2))
     assert np.isnan(floats(data)).all()
 
 
@@ -37,14 +37,15 @@ def test_every_part_has_its_place():
     first, second = frame.robots
     first.positions[:] = (14, 15)
     first.velocities[:] = (16, 17)
-    first.odometry[:] = range(18, 27)
-    first.truth[:] = range(27, 36)
-    first.command[:] = (36, 37)
-    first.wheels[0] = (38, 39, 40, 41)
-    second.odometry[:] = range(42, 51)
-    second.truth[:] = range(51, 60)
-    second.command[:] = (60, 61)
-    assert floats(frame.encode(1, 0.0)).tolist() == list(range(62))
+    first.commanded[:] = (18, 19)
+    first.odometry[:] = range(20, 29)
+    first.truth[:] = range(29, 38)
+    first.command[:] = (38, 39)
+    first.wheels[0] = (40, 41, 42, 43)
+    second.odometry[:] = range(44, 53)
+    second.truth[:] = range(53, 62)
+    second.command[:] = (62, 63)
+    assert floats(frame.encode(1, 0.0)).tolist() == list(range(64))
 
 
 def test_a_frame_that_was_encoded_does_not_change_any_more():

@@ -101,6 +101,22 @@ class InterfaceValues:
 
 
 @dataclass(frozen=True, slots=True)
+class StatisticNames:
+    """Of StatisticsNames."""
+
+    names: list[str]
+    version: int
+
+
+@dataclass(frozen=True, slots=True)
+class StatisticValues:
+    """Of StatisticsValues, in the order of the names of the same version."""
+
+    values: tuple[float, ...]
+    version: int
+
+
+@dataclass(frozen=True, slots=True)
 class FramePose:
     """Of a TFMessage: where a frame is in its parent, x y z qx qy qz qw, m."""
 
@@ -144,6 +160,18 @@ def read_dynamic_joint_state(data: bytes) -> InterfaceValues:
         for _ in range(reader.count())
     ]
     return InterfaceValues(names, values)
+
+
+def read_statistics_names(data: bytes) -> StatisticNames:
+    """``pal_statistics_msgs/msg/StatisticsNames``."""
+    reader = _after_header(data)
+    return StatisticNames(reader.texts(), reader.count())
+
+
+def read_statistics_values(data: bytes) -> StatisticValues:
+    """``pal_statistics_msgs/msg/StatisticsValues``."""
+    reader = _after_header(data)
+    return StatisticValues(reader.some_doubles(), reader.count())
 
 
 def read_twist(data: bytes) -> tuple[float, ...]:

@@ -15,6 +15,8 @@ hears     ``joint_states``, odometry          states
 hears     ``ground_truth/odom``, ``…/wheels`` states: the simulator's truth
 both      the command topic                   driving: Twist or TwistStamped, as it is wanted
 publishes ``…/set_joint_positions``           sliders, where joint_state_publisher runs
+hears     ``~/introspection_data/…`` of its   states: velocities that joints are commanded
+          manager
 hears     ``/tf``, ``/tf_static``, ``/clock``,
           ``/diagnostics``, ``~/activity`` of
           managers, ``~/world`` of simulators

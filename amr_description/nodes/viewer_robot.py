@@ -26,6 +26,7 @@ from amr_description.nodes.cdr import (
     read_twist_stamped,
 )
 from amr_description.nodes.polled_topic import PolledTopic
+from amr_description.nodes.viewer_introspection import CommandedVelocities
 from amr_description.viewer.discovery import FoundRobot, TWISTS
 from amr_description.viewer.protocol import RobotLayout
 from amr_description.viewer.states import Floats, RobotFloats
@@ -45,16 +46,19 @@ class RobotTopics:
         self._latest: dict[str, Any] = {}
         self._writers: dict[str, Callable[[Any, RobotFloats], None]] = {
             'joint_states': self._write_joints,
+            'commanded': lambda values, floats: _copy(values, floats.commanded),
             'odometry': lambda motion, floats: _copy(motion, floats.odometry),
             'truth': lambda motion, floats: _copy(motion, floats.truth),
             'wheels': _write_wheels,
             'command': lambda command, floats: _copy(command, floats.command),
         }
-        self._topics = {
+        self._topics: dict[str, PolledTopic[Any] | CommandedVelocities] = {
             part: PolledTopic(node, message_type, topic, read)
             for part, message_type, topic, read in _sources(found)
             if topic is not None
         }
+        if found.introspection is not None:
+            self._topics['commanded'] = CommandedVelocities(node, found.introspection, joints)
 
     def destroy(self) -> None:
         """Listen no more."""

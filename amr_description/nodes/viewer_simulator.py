@@ -10,7 +10,6 @@ from rcl_interfaces.srv import GetParameters, SetParameters
 from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import (
     DeleteEntity,
-    GetAvailableWorlds,
     GetEntities,
     GetSimulationState,
     ResetSimulation,
@@ -48,7 +47,6 @@ _TYPES = {
     'reset_simulation': ResetSimulation,
     'spawn_entity': SpawnEntity,
     'delete_entity': DeleteEntity,
-    'get_available_worlds': GetAvailableWorlds,
     'get_entities': GetEntities,
     'get_parameters': GetParameters,
     'set_parameters': SetParameters,
@@ -77,7 +75,6 @@ class Simulator:
         self.state = 'unknown'
         self.factor: float | None = None
         """Asked for; None: it has no such parameter."""
-        self.worlds: tuple[str, ...] = ()
         self.entities: tuple[str, ...] = ()
         self._services = services
         self._description_of = description_of
@@ -85,7 +82,7 @@ class Simulator:
     @property
     def info(self) -> SimulatorInfo:
         """What pages are told of it."""
-        return SimulatorInfo(self.name, self.worlds, self.entities)
+        return SimulatorInfo(self.name, self.entities)
 
     async def refresh(self) -> None:
         """Ask for what is told of it. Raises ViewerError."""
@@ -98,9 +95,6 @@ class Simulator:
         if self._offers('get_entities'):
             entities = await self._call('get_entities', GetEntities.Request())
             self.entities = tuple(entities.entities)
-        if not self.worlds and self._offers('get_available_worlds'):
-            worlds = await self._call('get_available_worlds', GetAvailableWorlds.Request())
-            self.worlds = tuple(each.name for each in worlds.worlds)
 
     async def answer(self, request: Request) -> str:
         """Do what a page asks; return what was done. Raises ViewerError."""

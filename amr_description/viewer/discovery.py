@@ -20,6 +20,7 @@ ODOMETRY = 'nav_msgs/msg/Odometry'
 DYNAMIC_JOINT_STATE = 'control_msgs/msg/DynamicJointState'
 MARKERS = 'visualization_msgs/msg/MarkerArray'
 ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
+STATISTICS_VALUES = 'pal_statistics_msgs/msg/StatisticsValues'
 LIST_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
 SET_SIMULATION_STATE = 'simulation_interfaces/srv/SetSimulationState'
 
@@ -54,6 +55,8 @@ class FoundRobot:
     joint_publisher: str | None
     manager: str | None
     activity: str | None
+    introspection: str | None
+    """``…/introspection_data`` of its controller manager: below it are ``names``, ``values``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,11 +137,16 @@ def _robot(names: Names, robot: str, owner_of: Callable[[str], str | None]) -> F
         joint_publisher=(_first(publishers) or '').removesuffix('/set_joint_positions') or None,
         manager=manager,
         activity=names.publishes(f'{manager}/activity', ACTIVITY),
+        introspection=_introspection(names, f'{manager}/introspection_data'),
     )
 
 
 def _truth(names: Names, robot: str) -> str | None:
     return names.publishes(f'{robot.rstrip("/")}/ground_truth/odom', ODOMETRY)
+
+
+def _introspection(names: Names, place: str) -> str | None:
+    return place if names.publishes(f'{place}/values', STATISTICS_VALUES) else None
 
 
 def _command(own: Callable[[Types, str], list[str]], names: Names) -> Command | None:

@@ -60,10 +60,9 @@ class RobotInfo:
 
 @dataclass(frozen=True, slots=True)
 class SimulatorInfo:
-    """A simulator, by its node, the worlds that it offers, and who is in its own."""
+    """A simulator, by its node, and who is in its world."""
 
     id: str
-    worlds: tuple[str, ...]
     entities: tuple[str, ...]
 
 

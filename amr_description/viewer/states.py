@@ -8,7 +8,8 @@ The binary frames: what ``web/src/protocol.ts`` calls a state, filled in place.
     0  u8 1 │ 1  u8 0 │ 2  u16 layout │ 4  u32 number │ 8  f64 time │ 16  f32 …
 
 The f32 are, for each frame its pose (7), then for each robot the positions of its joints, their
-velocities, odometry (9), truth (9), command (2), wheels (4 each). NaN: not known.
+velocities, the velocities that they are commanded, odometry (9), truth (9), command (2), wheels
+(4 each). NaN: not known.
 """
 
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from amr_description.viewer.protocol import Layout, RobotLayout
 HEADER = struct.Struct('<BBHId')
 KIND = 1
 POSE_FLOATS = 7
+JOINT_FLOATS = 3
 MOTION_FLOATS = 9
 COMMAND_FLOATS = 2
 WHEEL_FLOATS = 4
@@ -38,6 +40,7 @@ class RobotFloats:
 
     positions: Floats
     velocities: Floats
+    commanded: Floats
     odometry: Floats
     truth: Floats
     command: Floats
@@ -70,7 +73,7 @@ class StateFrame:
 
 def _size(robot: RobotLayout) -> int:
     return (
-        2 * len(robot.joints)
+        JOINT_FLOATS * len(robot.joints)
         + 2 * MOTION_FLOATS
         + COMMAND_FLOATS
         + WHEEL_FLOATS * len(robot.wheels)
@@ -79,6 +82,6 @@ def _size(robot: RobotLayout) -> int:
 
 def _parts(floats: Floats, robot: RobotLayout) -> RobotFloats:
     joints = len(robot.joints)
-    lengths = (joints, joints, MOTION_FLOATS, MOTION_FLOATS, COMMAND_FLOATS)
+    lengths = (*[joints] * JOINT_FLOATS, MOTION_FLOATS, MOTION_FLOATS, COMMAND_FLOATS)
     *parts, wheels = np.split(floats, np.cumsum(lengths))
     return RobotFloats(*parts, wheels.reshape(-1, WHEEL_FLOATS))

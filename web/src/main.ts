@@ -39,7 +39,7 @@ const pilot = new Pilot({
   },
 });
 const app: App = { store, connection, pilot };
-const recorder = new Recorder();
+const recorder = new Recorder((robot) => store.turningJoints(robot));
 const stream = new StateStream(store);
 
 const view = new View(app);

@@ -50,7 +50,6 @@ export interface RobotInfo {
 
 export interface SimulatorInfo {
   id: string; // the node: "/mujoco_sim"
-  worlds: string[]; // what it offers
   entities: string[]; // what is in its world, by the names that `delete` takes
 }
 
@@ -215,7 +214,8 @@ export type ClientMessage = Drive | Stop | SetJoints | Request;
  * and the f32 are: for each frame of the layout its pose in its parent (x y z qx qy qz qw); then
  * for each robot of the layout
  *
- *     position of each joint, then velocity of each joint       2 × joints
+ *     position of each joint, then the velocity of each,
+ *     then the velocity that each is commanded                   3 × joints
  *     odometry: x y z qx qy qz qw, linear x, angular z           9, in the frame of the message
  *     truth: the same                                            9, in `world`
  *     command: linear x, angular z                               2, the last on the command topic
@@ -223,6 +223,7 @@ export type ClientMessage = Drive | Stop | SetJoints | Request;
  */
 export const HEADER_BYTES = 16;
 export const POSE_FLOATS = 7;
+export const JOINT_FLOATS = 3;
 export const MOTION_FLOATS = 9;
 export const COMMAND_FLOATS = 2;
 export const WHEEL_FLOATS = 4;

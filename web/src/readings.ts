@@ -15,6 +15,7 @@ export interface JointReading {
   name: string;
   position: number; // rad or m
   velocity: number; // rad/s or m/s
+  commanded: number; // the velocity that its controller wants
 }
 
 export interface WheelReading {
@@ -47,6 +48,7 @@ export function jointsOf(state: State, robot: RobotState): JointReading[] {
     name,
     position: robot.positions[index],
     velocity: robot.velocities[index],
+    commanded: robot.commanded[index],
   }));
 }
 

@@ -4,6 +4,7 @@
 import {
   COMMAND_FLOATS,
   HEADER_BYTES,
+  JOINT_FLOATS,
   MOTION_FLOATS,
   POSE_FLOATS,
   WHEEL_FLOATS,
@@ -26,6 +27,7 @@ export interface RobotState {
   id: string;
   positions: Float32Array; // of each joint of the layout, rad or m
   velocities: Float32Array; // rad/s or m/s
+  commanded: Float32Array; // the velocity that its controller wants of each, rad/s or m/s
   odometry: Float32Array; // x y z qx qy qz qw, linear x (m/s), angular z (rad/s)
   truth: Float32Array; // the same, in `world`
   command: Float32Array; // linear x (m/s), angular z (rad/s)
@@ -41,7 +43,7 @@ export class BadState extends Error {
 export function stateBytes(layout: Layout): number {
   let floats = POSE_FLOATS * layout.frames.length;
   for (const { joints, wheels } of layout.robots) {
-    floats += 2 * joints.length + 2 * MOTION_FLOATS + COMMAND_FLOATS;
+    floats += JOINT_FLOATS * joints.length + 2 * MOTION_FLOATS + COMMAND_FLOATS;
     floats += WHEEL_FLOATS * wheels.length;
   }
   return HEADER_BYTES + 4 * floats;
@@ -82,6 +84,7 @@ export function decodeState(buffer: ArrayBuffer, layout: Layout): State | null {
       id,
       positions: take(joints.length),
       velocities: take(joints.length),
+      commanded: take(joints.length),
       odometry: take(MOTION_FLOATS),
       truth: take(MOTION_FLOATS),
       command: take(COMMAND_FLOATS),

@@ -78,6 +78,12 @@ export class Store {
     return this.robot === null ? null : (this.models.get(this.robot.id) ?? null);
   }
 
+  /** The joints of a robot that turn without end, as wheels do. */
+  turningJoints(robot: string): string[] {
+    const joints = this.models.get(robot)?.joints ?? [];
+    return joints.filter(({ kind }) => kind === 'continuous').map(({ name }) => name);
+  }
+
   /** Who drives the robot: this page, another one by its name, or nobody. */
   get driver(): { me: boolean; name: string } | null {
     const name = this.robot === null ? null : (this.drivers.get(this.robot.id) ?? null);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { freeName } from '../src/panels/simulation';
 import {
-  FACTOR_COLUMN, FIRST_WHEEL_COLUMN, Recorder, velocityColumn,
+  FACTOR_COLUMN, Recorder, velocityColumn, wheelColumn,
 } from '../src/plots/recorder';
 import { HEADER_BYTES, type Layout } from '../src/protocol';
 import { wheelsOf } from '../src/readings';
@@ -18,8 +18,8 @@ const LAYOUT: Layout = {
 };
 
 /** A state as the node sends it; its floats are 0, 1, 2 … */
-function state(time: number): State {
-  const buffer = new ArrayBuffer(stateBytes(LAYOUT));
+function state(time: number, layout = LAYOUT): State {
+  const buffer = new ArrayBuffer(stateBytes(layout));
   const header = new DataView(buffer);
   header.setUint8(0, 1);
   header.setUint16(2, LAYOUT.id, true);
@@ -28,37 +28,48 @@ function state(time: number): State {
   floats.forEach((_, index) => {
     floats[index] = index;
   });
-  const decoded = decodeState(buffer, LAYOUT);
+  const decoded = decodeState(buffer, layout);
   assert.ok(decoded !== null);
   return decoded;
 }
 
 test('each number of a state stands in its column', () => {
-  const recorder = new Recorder();
+  const recorder = new Recorder(() => []);
   recorder.record(state(1.5), 0.9);
   const record = recorder.of('/');
   assert.deepEqual(record?.wheels, ['left', 'right']);
   const [times, ...columns] = record.history.since(0).map(([first]) => first);
   assert.equal(times, 1.5);
-  // 3 positions, 3 velocities, odometry from 6 on, truth from 15 on, command at 24, wheels.
-  assert.equal(columns[velocityColumn(0, 'linear')], 24);
-  assert.equal(columns[velocityColumn(1, 'linear')], 6 + 7);
-  assert.equal(columns[velocityColumn(1, 'angular')], 6 + 8);
-  assert.equal(columns[velocityColumn(2, 'linear')], 15 + 7);
+  // 3 positions, velocities and commanded ones, odometry from 9 on, truth from 18 on, command at 27.
+  assert.equal(columns[velocityColumn(0, 'linear')], 27);
+  assert.equal(columns[velocityColumn(1, 'linear')], 9 + 7);
+  assert.equal(columns[velocityColumn(1, 'angular')], 9 + 8);
+  assert.equal(columns[velocityColumn(2, 'linear')], 18 + 7);
   assert.ok(Math.abs((columns[FACTOR_COLUMN] ?? 0) - 0.9) < 1e-6);
-  assert.deepEqual(columns.slice(FIRST_WHEEL_COLUMN), [4, 5]);
+  assert.deepEqual(columns.slice(wheelColumn(0, 'measured')), [4, 7, 5, 8]);
+  assert.equal(wheelColumn(1, 'commanded'), columns.length - 1);
 });
 
 test('wheels have their joint’s speed, contact, load and slip', () => {
   const [left, right] = wheelsOf(state(0), state(0).robots[0]);
   assert.deepEqual(left, {
-    name: 'left', speed: 4, contact: true, force: 27, along: 28, across: 29,
+    name: 'left', speed: 4, contact: true, force: 30, along: 31, across: 32,
   });
-  assert.equal(right.force, 31);
+  assert.equal(right.force, 34);
+});
+
+test('where no simulator names wheels, what turns without end is taken for one', () => {
+  const layout = { ...LAYOUT, robots: [{ ...LAYOUT.robots[0], wheels: [] }] };
+  const recorder = new Recorder((robot) => (robot === '/' ? ['right', 'gone'] : []));
+  recorder.record(state(0, layout), null);
+  const record = recorder.of('/');
+  assert.deepEqual(record?.wheels, ['right', 'gone']);
+  const columns = record.history.since(0).slice(1).map(([first]) => first);
+  assert.deepEqual(columns.slice(wheelColumn(0, 'measured')), [5, 8, null, null]);
 });
 
 test('a robot that went, and time that began anew, leave nothing', () => {
-  const recorder = new Recorder();
+  const recorder = new Recorder(() => []);
   recorder.record(state(1), null);
   recorder.keep(['/other']);
   assert.equal(recorder.length, 0);

@@ -38,12 +38,13 @@ test('every number stands where the protocol has it', () => {
   const [one, two] = state.robots;
   assert.deepEqual([...one.positions], [14, 15]);
   assert.deepEqual([...one.velocities], [16, 17]);
-  assert.deepEqual([one.odometry[0], one.odometry[8]], [18, 26]);
-  assert.deepEqual([one.truth[0], one.truth[8]], [27, 35]);
-  assert.deepEqual([...one.command], [36, 37]);
-  assert.deepEqual([...one.wheels], [38, 39, 40, 41]);
+  assert.deepEqual([...one.commanded], [18, 19]);
+  assert.deepEqual([one.odometry[0], one.odometry[8]], [20, 28]);
+  assert.deepEqual([one.truth[0], one.truth[8]], [29, 37]);
+  assert.deepEqual([...one.command], [38, 39]);
+  assert.deepEqual([...one.wheels], [40, 41, 42, 43]);
   assert.equal(two.id, '/two');
-  assert.deepEqual([two.odometry[0], two.truth[0], two.command[1]], [42, 51, 61]);
+  assert.deepEqual([two.odometry[0], two.truth[0], two.command[1]], [44, 53, 63]);
 });
 
 test('the last number is the end of the frame: nothing is left, nothing shared', () => {

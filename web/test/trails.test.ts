@@ -16,7 +16,7 @@ function robot(truth: Pose, odometry: Pose): RobotState {
     new Float32Array([x, y, 0, 0, 0, Math.sin(yaw / 2), Math.cos(yaw / 2), 0, 0]);
   const none = new Float32Array();
   return {
-    id: '/', positions: none, velocities: none, command: none, wheels: none,
+    id: '/', positions: none, velocities: none, commanded: none, command: none, wheels: none,
     truth: motion(truth), odometry: motion(odometry),
   };
 }

@@ -11,10 +11,12 @@ export interface Line {
   name: string;
   colour: string; // the name of a colour of the style sheet
   column: number; // of the table, from 0 behind the time
+  wanted?: number; // the column of what it ought to be, drawn dashed
 }
 
 const LEAST_HEIGHT = 60; // px
 const LEAST_SPAN = 0.2; // of the values, so that noise at rest does not fill the plot
+const NONE = { show: false };
 const KEY_STEP = 0.02; // share of the width that an arrow key moves the cursor
 
 export class Chart {
@@ -63,7 +65,7 @@ export class Chart {
 
   /** Show what is in a table from the first to the second time (s). */
   show(table: Table, range: [number, number]): void {
-    this.table = [table[0], ...this.lines.map(({ column }) => table[column + 1] ?? [])];
+    this.table = [table[0], ...this.columns().map((column) => table[column + 1] ?? [])];
     this.range = range;
     if (this.plot === null) {
       this.rebuild();
@@ -137,13 +139,8 @@ export class Chart {
       ],
       series: [
         { label: 't', value: (_plot, time) => (time === null ? UNKNOWN : clock(time)) },
-        ...this.lines.map(({ name, colour: stroke }) => ({
-          label: name,
-          stroke: colour(stroke),
-          width: 1.5,
-          points: { show: false },
-          value: (_plot: uPlot, value: number | null) => fixed(value, 2),
-        })),
+        ...this.lines.map((line) => this.solid(line)),
+        ...this.withWanted().map(dashed),
       ],
       cursor: { y: false, drag: { x: false, y: false }, sync: { key: 'amr' } },
       legend: {
@@ -153,6 +150,24 @@ export class Chart {
     };
   }
 
+  private withWanted(): Line[] {
+    return this.lines.filter(({ wanted }) => wanted !== undefined);
+  }
+
+  /** What is drawn, in the order of the series: the lines, then what they ought to be. */
+  private columns(): number[] {
+    return [...this.lines.map(({ column }) => column), ...this.withWanted().map(wantedOf)];
+  }
+
+  private solid(line: Line): uPlot.Series {
+    const wanted = this.withWanted().indexOf(line);
+    const value = (plot: uPlot, is: number | null, _series: number, at: number | null): string => {
+      const ought = plot.data[1 + this.lines.length + wanted]?.[at ?? -1];
+      return wanted < 0 ? fixed(is, 2) : `${fixed(is, 2)} / ${fixed(ought, 2)}`;
+    };
+    return { label: line.name, stroke: colour(line.colour), width: 1.5, points: NONE, value };
+  }
+
   /** Somewhat more than the values take, and never less than LEAST_SPAN. */
   private spanOf(least: number | null, most: number | null): [number, number] {
     const low = Math.min(least ?? 0, this.always?.[0] ?? Infinity);
@@ -160,6 +175,16 @@ export class Chart {
     const more = Math.max((high - low) * 0.08, (LEAST_SPAN - (high - low)) / 2);
     return [low - more, high + more];
   }
+}
+
+/** Beside its line there is no room for it in the legend, and it needs none. */
+function dashed(line: Line): uPlot.Series {
+  const stroke = colour(line.colour);
+  return { class: 'wanted', stroke, width: 1, dash: [4, 4], points: NONE };
+}
+
+function wantedOf({ wanted, column }: Line): number {
+  return wanted ?? column;
 }
 
 function label(time: number): string {

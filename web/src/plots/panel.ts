@@ -12,7 +12,7 @@ import { toCsv } from './csv';
 import type { Table } from './history';
 import { toPng } from './png';
 import {
-  FACTOR_COLUMN, FIRST_WHEEL_COLUMN, SPAN, velocityColumn, type Record, type Recorder,
+  FACTOR_COLUMN, SPAN, velocityColumn, wheelColumn, type Record, type Recorder,
 } from './recorder';
 
 const WINDOWS = [10, 30, 60, 120, SPAN]; // s
@@ -36,7 +36,7 @@ export class PlotsPanel implements Panel {
     this.charts = [
       new Chart('Linear velocity', 'm/s', velocities('linear')),
       new Chart('Angular velocity', 'rad/s', velocities('angular')),
-      new Chart('Wheel speeds', 'rad/s', []),
+      new Chart('Wheel speeds', 'rad/s, dashed: commanded', []),
       new Chart('Real-time factor', '×', [
         { name: 'real', colour: 'accent', column: FACTOR_COLUMN },
       ], [0, 1]),
@@ -149,7 +149,8 @@ function wheelLines(wheels: readonly string[]): Line[] {
   return wheels.map((name, index) => ({
     name: name.replace(/^(joint_)?(wheel_)?/, '').replace(/(_wheel)?(_joint)?$/, ''),
     colour: `wheel-${index % WHEEL_COLOURS}`,
-    column: FIRST_WHEEL_COLUMN + index,
+    column: wheelColumn(index, 'measured'),
+    wanted: wheelColumn(index, 'commanded'),
   }));
 }
 
@@ -157,6 +158,6 @@ function columnNames(wheels: readonly string[]): string[] {
   return [
     ...SOURCES.flatMap((source) => [`${source}_linear_m_s`, `${source}_angular_rad_s`]),
     'real_time_factor',
-    ...wheels.map((name) => `${name}_rad_s`),
+    ...wheels.flatMap((name) => [`${name}_rad_s`, `${name}_commanded_rad_s`]),
   ];
 }
