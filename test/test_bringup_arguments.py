@@ -99,6 +99,33 @@ def test_a_type_that_nobody_can_type_is_refused():
         declared(strange)
 
 
+def test_a_signature_that_nobody_can_meet_is_refused():
+    def none(name: str = None):  # noqa: ANN202, RUF013
+        pass
+
+    def number(size: Literal[1, 2] = 1):  # noqa: ANN202
+        pass
+
+    def unknown(size: 'Size'):  # noqa: ANN202, F821
+        pass
+
+    def positional(size: int, /):  # noqa: ANN202
+        pass
+
+    def several(*sizes: int):  # noqa: ANN202
+        pass
+
+    for function, text in (
+        (none, "argument 'name' of the stack is None by default, which is no str"),
+        (number, r'annotated typing.Literal\[1, 2\]; it can be str'),
+        (unknown, "the annotations of 'unknown': name 'Size' is not defined"),
+        (positional, "argument 'size: int' of the stack can not be given by its name"),
+        (several, r"argument '\*sizes: int' of the stack can not be given by its name"),
+    ):
+        with pytest.raises(BringupError, match=text):
+            declared(function)
+
+
 def test_show_args_reads_as_launch_prints_it():
     assert show(declared(stack)[:1] + declared(stack)[4:5]) == (
         "Arguments (pass arguments as '<name>:=<value>'):\n"

@@ -5,6 +5,7 @@
 import json
 import re
 import signal
+import sys
 
 from fixtures.bringup.running import Bringup, STACKS
 import pytest
@@ -54,6 +55,31 @@ def test_it_may_start_several_and_whole_groups():
     group = Group([third], start_when=on_request())
     progress = ended(lambda _: [first, group], first, second, group)
     assert progress.startable() == [first, third]
+
+
+@pytest.mark.parametrize(
+    ('reaction', 'text'),
+    [
+        ('stop', "'stop' stands in a stack"),
+        (5, '5 stands in a stack'),
+        (Shutdown, 'Shutdown'),
+        (False, 'False stands in a stack'),
+    ],
+)
+def test_what_is_no_reaction_stops_the_stack(reaction, text):
+    progress = ended(lambda _: reaction)
+    assert progress.over
+    assert progress.shutdown.exit_code == 1
+    assert progress.shutdown.reason.startswith('on_exit returned what is no reaction: ')
+    assert text in progress.shutdown.reason
+
+
+def test_a_handler_that_leaves_python_stops_the_stack():
+    progress = ended(lambda _: sys.exit(9))
+    assert re.fullmatch(
+        r'on_exit failed: SystemExit: 9 \(test_bringup_handlers.py, line \d+\)',
+        progress.shutdown.reason,
+    )
 
 
 def test_it_may_want_nothing():

@@ -29,7 +29,7 @@ def toys(tmp_path, monkeypatch):
         ([CHATTY, 'text:=x', 'code:=y'], 2, "code:=y: 'y' is not an integer"),
         ([CHATTY], 1, "missing required argument 'text'"),
         ([str(STACKS / 'stubborn.py'), 'role:=x'], 1, 'Argument "role" provided value "x" is not'),
-        ([str(STACKS / '../running.py')], 1, "has no function 'running' that returns its Stack"),
+        ([str(STACKS / '../running.py')], 1, "has no function 'running' that returns a Stack; kn"),
     ],
 )
 def test_one_line_and_the_right_exit_code(capsys, tmp_path, words, exit_code, text):

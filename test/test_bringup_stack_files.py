@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stacks in files of users, in other stacks, and printed."""
 
+import re
+
 from fixtures.bringup.running import install_toys, STACKS
 import pytest
 
@@ -56,6 +58,47 @@ def test_what_is_no_stack_is_refused(tmp_path):
     (tmp_path / 'nothing.py').write_text('def nothing(): pass')
     with pytest.raises(BringupError, match=r"nothing.py' returned None; a stack's function"):
         include(tmp_path / 'nothing.py')
+
+
+@pytest.mark.parametrize(
+    ('lines', 'text'),
+    [
+        (['import nomodule'], "ModuleNotFoundError: No module named 'nomodule' (arm.py, line 1)"),
+        (['def arm(:'], 'SyntaxError: invalid syntax (arm.py, line 1)'),
+        (['def arm():', '    raise ValueError("a\\nb")'], 'ValueError: a b (arm.py, line 2)'),
+        (['def arm():', '    return arm()'], 'RecursionError: maximum recursion depth exceeded'),
+        (['class arm: pass'], "has no function 'arm' that returns a Stack; known: none"),
+        (['def amr(): pass'], "that returns a Stack; did you mean 'amr'? known: amr"),
+        (
+            ['from amr_description.bringup import Node', 'def arm():', '    Node("a", name=3)'],
+            "Node('a', name=3): it takes a name of letters, digits and _ (arm.py, line 3)",
+        ),
+        (
+            ['from amr_description.bringup import include', 'include("mock", viewer=None)'],
+            "include('mock', viewer=None): it takes a text, a number, True, False or a path",
+        ),
+    ],
+)
+def test_a_mistake_in_a_file_is_told_with_its_place(tmp_path, lines, text):
+    (tmp_path / 'arm.py').write_text('\n'.join(lines))
+    with pytest.raises(BringupError, match=re.escape(text)) as caught:
+        include(tmp_path / 'arm.py')
+    assert str(caught.value).count('\n') == 0
+
+
+def test_a_mistake_is_told_with_its_innermost_place_alone(tmp_path):
+    words = 'from amr_description.bringup import include, Stack\n'
+    outer = f'{words}\ndef outer():\n    return include({str(tmp_path / "inner.py")!r})\n'
+    (tmp_path / 'outer.py').write_text(outer)
+    (tmp_path / 'inner.py').write_text(f'{words}def inner():\n    return Stack([])\n')
+    with pytest.raises(BringupError, match=r'at least one node \(inner.py, line 3\)$'):
+        include(tmp_path / 'outer.py')
+
+
+def test_a_file_that_can_have_no_function_of_its_name_is_refused(tmp_path):
+    (tmp_path / 'my-arm.py').touch()
+    with pytest.raises(BringupError, match="my-arm.py': a stack's file is called as its function"):
+        include(tmp_path / 'my-arm.py')
 
 
 def test_a_stack_that_includes_itself_is_refused(tmp_path):

@@ -20,6 +20,7 @@ What stands where:
 
 ====================== ============================================================================
 description.py         pure: Node, Group, Stack and Respawn, the words of a stack
+kinds.py               pure: what kind of value each word takes
 conditions.py          pure: when a node starts: what a condition is, how they combine
 node_conditions.py     pure: by what became of the other nodes, and what they wrote
 outside_conditions.py  pure: by what is on the ROS graph, and by files
@@ -29,6 +30,7 @@ placement.py           pure: the tree of groups and stacks, flattened
 arguments.py           pure: name:=value, from the signature of the stack's function
 progress.py            pure: what may start now, what failed, when it is ready or over
 waits.py               pure: how long each wait may take
+blame.py               pure: where in a user's code an error arose
 packages.py            where the ament index has packages, executables and shared files
 parameter_file.py      pure: parameters as the YAML that rcl reads
 urdf_text.py           the text of a description; xacro runs in a child process

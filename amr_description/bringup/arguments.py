@@ -51,7 +51,10 @@ class Argument:
 
 def declared(function: Callable[..., object]) -> list[Argument]:
     """Return the arguments that the signature of a stack's function declares."""
-    hints = get_type_hints(function, include_extras=True)
+    try:
+        hints = get_type_hints(function, include_extras=True)
+    except NameError as error:
+        raise BringupError(f"the annotations of '{function.__name__}': {error}") from None
     return [
         _argument(parameter, hints.get(name, str))
         for name, parameter in inspect.signature(function).parameters.items()
@@ -85,22 +88,32 @@ def with_arguments_of[F: Callable[..., object]](other: Callable[..., object]) ->
 
 
 def _argument(parameter: inspect.Parameter, hint: Any) -> Argument:
+    if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
+        raise BringupError(f"argument '{parameter}' of the stack can not be given by its name")
     help_text = ''
     if get_origin(hint) is Annotated:
         hint, *notes = get_args(hint)
         help_text = ' '.join(note for note in notes if isinstance(note, str))
     choices = get_args(hint) if get_origin(hint) is Literal else ()
     kind = str if choices else hint
-    if kind not in (str, float, int, bool):
+    if kind not in (str, float, int, bool) or not all(isinstance(c, str) for c in choices):
         raise BringupError(
             f"argument '{parameter.name}' of the stack is annotated {hint!r}; "
             'it can be str, float, int, bool or a Literal of strings'
         )
-    return Argument(parameter.name, kind, _typed_default(parameter), choices, help_text)
+    return Argument(parameter.name, kind, _typed_default(parameter, kind), choices, help_text)
 
 
-def _typed_default(parameter: inspect.Parameter) -> str | None:
-    return None if parameter.default is parameter.empty else as_typed(parameter.default)
+def _typed_default(parameter: inspect.Parameter, kind: type) -> str | None:
+    default = parameter.default
+    if default is parameter.empty:
+        return None
+    if not isinstance(default, (int, float) if kind is float else kind):
+        raise BringupError(
+            f"argument '{parameter.name}' of the stack is {default!r} by default, "
+            f'which is no {kind.__name__}'
+        )
+    return as_typed(default)
 
 
 def as_typed(value: object) -> str:

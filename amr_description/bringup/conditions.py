@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 import enum
 from typing import TYPE_CHECKING
 
+from amr_description.bringup.kinds import Kind, NUMBER, require
 from amr_description.bringup.situation import Situation
 from amr_description.errors import BringupError
 
@@ -87,6 +88,11 @@ class Condition(ABC):
         return self
 
 
+CONDITION = Kind(
+    'a condition, as exited_cleanly(node)', lambda value: isinstance(value, Condition)
+)
+
+
 def leaves(condition: Condition | None) -> Iterator[Condition]:
     """Yield a condition, or what it is made of, innermost first."""
     if condition is not None:
@@ -98,6 +104,11 @@ def leaves(condition: Condition | None) -> Iterator[Condition]:
 @dataclass(frozen=True)
 class _Combined(Condition):
     conditions: tuple[Condition, ...]
+
+    def __post_init__(self) -> None:
+        """Refuse what is no condition."""
+        for condition in self.conditions:
+            require('all_of(…) or any_of(…), %s', condition, CONDITION)
 
     @property
     def parts(self) -> tuple[Condition, ...]:
@@ -208,6 +219,8 @@ class _Ready(Condition):
 
 def after(seconds: float, condition: Condition | None = None) -> Condition:
     """Hold so long after the condition came to hold; after the stack began, if there is none."""
+    require('after(%s)', seconds, NUMBER)
+    require('after(…, %s)', condition, CONDITION.or_none())
     if not 0 <= seconds < float('inf'):
         raise BringupError(f'after({seconds!r}): it takes 0 s or more')
     return After(seconds, condition)
@@ -220,9 +233,12 @@ def all_of(*conditions: Condition) -> Condition:
 
 def any_of(*conditions: Condition) -> Condition:
     """Hold once one of the conditions holds."""
+    if not conditions:
+        raise BringupError('any_of(): it takes one condition or more')
     return _AnyOf(conditions)
 
 
 def ready(stack: 'Stack') -> Condition:
     """Hold once a stack that stands in this one is ready."""
+    require('ready(%s)', stack, Kind('a Stack', lambda value: hasattr(value, 'readiness')))
     return _Ready(stack)

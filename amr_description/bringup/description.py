@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, KW_ONLY
 from pathlib import Path
 from typing import Literal
 
-from amr_description.bringup.conditions import all_of, Condition, ready
+from amr_description.bringup import kinds
+from amr_description.bringup.conditions import all_of, CONDITION, Condition, ready
 from amr_description.bringup.console import Level
 from amr_description.bringup.handlers import ExitHandler, StopHandler
 from amr_description.bringup.node_conditions import may_never_hold, settled
@@ -20,6 +21,15 @@ type Member = Node | Group | Stack
 
 PATIENCE = 60.0
 """s"""
+
+_MEMBERS = kinds.a_list('nodes, groups and stacks')
+_COMMON_KINDS = {
+    'namespace': kinds.NAMESPACE.or_none(),
+    'environment': kinds.ENVIRONMENT,
+    'parameters': kinds.PARAMETERS,
+    'remappings': kinds.REMAPPINGS,
+    'start_when': CONDITION.or_none(),
+}
 
 
 @dataclass(frozen=True)
@@ -37,11 +47,37 @@ class Respawn:
 
     def __post_init__(self) -> None:
         """Refuse what would start it without a pause, or never."""
+        numbers = dict.fromkeys(('delay', 'backoff', 'steady'), kinds.NUMBER)
+        kinds.require_fields('Respawn(…', self, {**numbers, 'limit': kinds.NUMBER.or_none()})
         if not (self.delay > 0 and self.backoff >= 1 and (self.limit is None or self.limit > 0)):
             raise BringupError(f'{self}: it takes delay > 0, backoff >= 1 and limit > 0 (or None)')
 
 
-@dataclass(frozen=True, eq=False)
+_NODE_KINDS = {
+    'package': kinds.FILE_NAME,
+    'name': kinds.NAME.or_none(),
+    **_COMMON_KINDS,
+    'arguments': kinds.ARGUMENTS,
+    'prefix': kinds.TEXT,
+    'patience': kinds.NUMBER.or_none(),
+    'required': kinds.TRUTH,
+    'respawn': kinds.Kind('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
+    'on_exit': kinds.Kind(
+        "'continue', 'shutdown' or a function",
+        lambda value: value in ('continue', 'shutdown') or callable(value),
+    ),
+    'terminal': kinds.TRUTH,
+}
+_STACK_KINDS = {
+    'ready_when': CONDITION.or_none(),
+    'patience': kinds.NUMBER,
+    'on_shutdown': kinds.FUNCTION.or_none(),
+    'next_steps': kinds.TEXT,
+    'notes': kinds.a_list("pairs, as [('INFO', 'a text')]", kinds.is_pair),
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Node:
     """
     One process of a stack; each Node is its own identity, so ``start_when`` can refer to it.
@@ -79,9 +115,15 @@ class Node:
     """Whether it reads keys: it gets the terminal itself (see terminal.py); one of a stack may."""
 
     def __post_init__(self) -> None:
-        """Refuse a patience that nobody can have."""
+        """Refuse what could not be started so."""
+        kinds.require('Node(%s)', self.executable, kinds.FILE_NAME)
+        kinds.require_fields(f'Node({self.executable!r}', self, _NODE_KINDS)
         if self.patience is not None:
             _check_patience(self.patience)
+
+    def __repr__(self) -> str:
+        """Return what a person knows it by."""
+        return f'Node({self.executable!r})'
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +144,11 @@ class Group:
     remappings: Sequence[tuple[str, str]] = ()
     start_when: Condition | None = None
     """What every member waits for, beside what it waits for itself."""
+
+    def __post_init__(self) -> None:
+        """Refuse what no member could have."""
+        kinds.require('Group(%s)', self.members, _MEMBERS)
+        kinds.require_fields('Group(…', self, _COMMON_KINDS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,15 +174,14 @@ class Stack:
 
     def __post_init__(self) -> None:
         """Refuse a stack that could not run as it is written."""
+        kinds.require('Stack(%s)', self.nodes, _MEMBERS)
+        kinds.require_fields('Stack(…', self, _STACK_KINDS)
         nodes = list(nodes_of(self.nodes))
         if not nodes:
             raise BringupError('a stack needs at least one node')
         if len(set(nodes)) < len(nodes):
             twice = next(n for n in nodes if nodes.count(n) > 1)
-            raise BringupError(
-                f"the same Node('{twice.executable}') stands twice in the stack; "
-                'make a second Node'
-            )
+            raise BringupError(f'the same {twice} stands twice in the stack; make a second Node')
         with_terminal = [node.executable for node in nodes if node.terminal]
         if len(with_terminal) > 1:
             raise BringupError(
@@ -145,7 +191,7 @@ class Stack:
             for node in condition.nodes if condition else ():
                 if node not in nodes:
                     raise BringupError(
-                        f"a condition waits for Node('{node.executable}'), "
+                        f'a condition waits for {kinds.brief(node)}, '
                         'which is not in the list of the stack'
                     )
         _check_patience(self.patience)
@@ -190,7 +236,7 @@ def nodes_of(members: 'Sequence[Member]', *, into_stacks: bool = True) -> Iterat
                 yield from nodes_of(member.nodes) if into_stacks else ()
             case _:
                 raise BringupError(
-                    f'{member!r} stands in a stack; there can be Node, Group, Stack'
+                    f'{kinds.brief(member)} stands in a stack; there can be Node, Group, Stack'
                 )
 
 

@@ -20,9 +20,9 @@ found before anything starts. Handlers are called by the supervisor: they must b
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-import traceback
 from typing import TYPE_CHECKING
+
+from amr_description.bringup import blame, kinds
 
 if TYPE_CHECKING:
     from amr_description.bringup.description import Group, Node
@@ -47,13 +47,23 @@ class Stopping:
     """That of the whole, as it is known now."""
 
 
+_EXIT_CODE = kinds.Kind(
+    'a whole number from 0 to 255', lambda value: isinstance(value, int) and 0 <= value <= 255
+)
+
+
 @dataclass(frozen=True)
 class Shutdown:
     """The wish of a handler that all be stopped."""
 
     reason: str
     exit_code: int = 0
-    """That of the whole."""
+    """That of the whole, 0 to 255."""
+
+    def __post_init__(self) -> None:
+        """Refuse what can be no exit code."""
+        kinds.require('Shutdown(%s)', self.reason, kinds.TEXT)
+        kinds.require('Shutdown(…, exit_code=%s)', self.exit_code, _EXIT_CODE)
 
 
 type Reaction = 'None | Shutdown | Node | Group | Sequence[Node | Group]'
@@ -74,17 +84,15 @@ def call_exit_handler(handler: ExitHandler, event: Exited) -> Wishes:
     """Return what a handler wants; one that fails wants the stack to stop."""
     try:
         reaction = handler(event)
-    except Exception as error:  # whatever a stranger's code raises must not end the supervisor
+    except (Exception, SystemExit) as error:  # a stranger's must not end the supervisor
         return Wishes(shutdown=Shutdown(complaint('on_exit', error), exit_code=1))
     if reaction is None:
         return Wishes()
     if isinstance(reaction, Shutdown):
         return Wishes(shutdown=reaction)
-    return Wishes(tuple(reaction) if isinstance(reaction, Sequence) else (reaction,))
+    return Wishes(tuple(reaction) if isinstance(reaction, list | tuple) else (reaction,))
 
 
-def complaint(name: str, error: Exception) -> str:
+def complaint(name: str, error: BaseException) -> str:
     """Return one line on what a handler raised, and where."""
-    *_, last = traceback.extract_tb(error.__traceback__)
-    where = f'{Path(last.filename).name}, line {last.lineno}'
-    return f'{name} failed: {type(error).__name__}: {error} ({where})'
+    return f'{name} failed: {blame.told(error)}'

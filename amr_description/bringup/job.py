@@ -9,7 +9,7 @@ import re
 import shlex
 import shutil
 
-from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.description import Node, ParameterValue, Stack
 from amr_description.bringup.packages import executable_of, path_of
 from amr_description.bringup.parameter_file import node_key, yaml_text
 from amr_description.bringup.placement import Placed, Placement
@@ -121,8 +121,15 @@ def _job(placed: Placed, number: int, folder: Path, prefix: LaunchPrefix) -> Job
     for index, entry in enumerate(placed.parameters, start=1):
         if isinstance(entry, Mapping):
             path = folder / f'{name}-parameters-{index}.yaml'
-            files.append((path, yaml_text(node_key(node.name, placed.namespace), entry)))
+            files.append((path, _parameters(name, placed, entry)))
         else:
             files.append((path_of(str(entry)), None))
     executable = executable_of(node.package, node.executable)
     return Job(placed, name, executable, files, prefix.of(node.executable))
+
+
+def _parameters(name: str, placed: Placed, table: Mapping[str, ParameterValue]) -> str:
+    try:
+        return yaml_text(node_key(placed.node.name, placed.namespace), table)
+    except BringupError as error:
+        raise BringupError(f'{name}: {error}') from None

@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from amr_description.bringup.conditions import Condition, leaves, NameOf, Verdict
+from amr_description.bringup.kinds import require, TEXT
 from amr_description.bringup.situation import Situation
 from amr_description.errors import BringupError
 
@@ -89,6 +90,7 @@ class Logged(_OfNode):
 
     def __post_init__(self) -> None:
         """Refuse what is no regular expression."""
+        require('logged(…, %s)', self.pattern, TEXT)
         try:
             re.compile(self.pattern)
         except re.error as error:

@@ -137,7 +137,7 @@ class Orchestrator:
         for handler in self._stop_handlers:
             try:
                 handler(Stopping(self._result))
-            except Exception as error:  # a stranger's code must not keep processes alive
+            except (Exception, SystemExit) as error:  # must not keep processes alive
                 self._narrator.handler_failed(complaint('on_shutdown', error))
 
     def _look(self) -> None:

@@ -10,14 +10,20 @@ in. They say what there is instead, near names first.
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 import difflib
+from os import PathLike
 from pathlib import Path
 import re
 
 from amr_description.bringup.conditions import Condition, NameOf, Scope, Verdict
+from amr_description.bringup.kinds import Kind, require, TEXT, TOKEN
 from amr_description.bringup.situation import Situation
 from amr_description.errors import BringupError
 
-_NAME = re.compile(r'/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*', re.ASCII)
+_NAME = re.compile(f'/?{TOKEN}(/{TOKEN})*')
+_TYPE = Kind(
+    'a type as std_msgs/msg/String',
+    lambda value: isinstance(value, str) and bool(re.fullmatch(f'{TOKEN}/msg/{TOKEN}', value)),
+)
 _MOST_NAMES = 8  # in a message
 # Every node has these, so they say nothing about what there is.
 _OF_EVERY_NODE = re.compile(
@@ -34,6 +40,7 @@ class OnGraph(Condition):
 
     def __post_init__(self) -> None:
         """Refuse what can be no name in ROS."""
+        require('the name of a topic, a service or a node, %s', self.name, TEXT)
         if not _NAME.fullmatch(self.name):
             raise BringupError(
                 f"'{self.name}' is not the name of a topic, a service or a node; "
@@ -146,6 +153,7 @@ def topic(name: str, type: str | None = None) -> Condition:  # noqa: A002 - as R
 
     :param type: If given, only as this type, ``nav_msgs/msg/Odometry``.
     """
+    require('topic(…, %s)', type, _TYPE.or_none())
     return _Topic(name, type)
 
 
@@ -161,4 +169,5 @@ def ros_node(name: str) -> Condition:
 
 def path_exists(path: str | Path) -> Condition:
     """Hold while there is a file, a folder or a device: ``path_exists('/dev/ttyUSB0')``."""
+    require('path_exists(%s)', path, Kind('a path', lambda v: isinstance(v, str | PathLike)))
     return PathExists(str(Path(path).expanduser().absolute()))

@@ -37,6 +37,8 @@ def yaml_text(key: str, parameters: Mapping[str, ParameterValue]) -> str:
 def flat(parameters: Mapping[str, ParameterValue]) -> Iterator[tuple[str, ParameterValue]]:
     """Yield (dotted name, value) of every parameter of a nested table."""
     for name, value in parameters.items():
+        if not isinstance(name, str):
+            raise BringupError(f'the name of a parameter is {name!r}, which is no text')
         if isinstance(value, Mapping):
             yield from ((f'{name}.{below}', v) for below, v in flat(value))
         else:

@@ -16,6 +16,7 @@ from amr_description.bringup.node_conditions import Logged, OnRequest, waits_for
 from amr_description.bringup.placement import Placement
 from amr_description.bringup.situation import Graph, NodeState, PathLook, Situation
 from amr_description.bringup.waits import Expired, Wait, Waits
+from amr_description.errors import BringupError
 
 
 @dataclass(frozen=True)
@@ -177,11 +178,15 @@ class Progress:
     def _obey(self, wishes: Wishes) -> None:
         """Note what a handler wants."""
         self.shutdown = wishes.shutdown
-        nodes = list(nodes_of(wishes.members))
+        try:
+            nodes = list(nodes_of(wishes.members))
+        except BringupError as error:
+            self.shutdown = Shutdown(f'on_exit returned what is no reaction: {error}', exit_code=1)
+            return
         for node in nodes:
             if not waits_for_request(self._conditions.get(node)):
                 self.shutdown = Shutdown(
-                    f"on_exit asks for Node('{node.executable}'), which is not in the stack with "
+                    f'on_exit asks for {node}, which is not in the stack with '
                     'start_when=on_request()',
                     exit_code=1,
                 )

@@ -2,15 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where stacks are: in the table of the ready-made ones, or in a Python file of a user."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+import contextlib
 import importlib.util
+import inspect
 from pathlib import Path
+import sys
+from types import ModuleType
 
+from amr_description.bringup import blame
 from amr_description.bringup.arguments import as_typed, declared, resolve, suggestion
 from amr_description.bringup.description import Stack
+from amr_description.bringup.kinds import brief, require, VALUE
 from amr_description.bringup.packages import path_of
 from amr_description.bringup.stacks import STACKS
-from amr_description.errors import BringupError, UsageError
+from amr_description.errors import AmrError, BringupError, UsageError
 from amr_description.registry import resolve as import_target
 
 type StackFunction = Callable[..., Stack]
@@ -27,12 +33,40 @@ def find_stack(name: str) -> StackFunction:
         raise UsageError(f"unknown stack '{name}'{suggestion(name, list(STACKS))}")
     if not path.is_file():
         raise UsageError(f"no stack: there is no file '{name}'")
+    if not path.stem.isidentifier():
+        raise BringupError(
+            f"'{name}': a stack's file is called as its function, by letters, digits and _"
+        )
+    with _blaming(name):
+        module = _import(path)
+    function = getattr(module, path.stem, None)
+    if not callable(function) or inspect.isclass(function):
+        functions = inspect.getmembers(module, inspect.isfunction)
+        there = suggestion(path.stem, [n for n, f in functions if f.__module__ == path.stem])
+        raise BringupError(f"'{name}' has no function '{path.stem}' that returns a Stack{there}")
+    return function
+
+
+def _import(path: Path) -> ModuleType:
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
+    sys.modules.setdefault(path.stem, module)  # dataclasses look for the module of a class there
     spec.loader.exec_module(module)
-    if not callable(getattr(module, path.stem, None)):
-        raise BringupError(f"'{name}' has no function '{path.stem}' that returns its Stack")
-    return getattr(module, path.stem)
+    return module
+
+
+@contextlib.contextmanager
+def _blaming(name: str) -> Iterator[None]:
+    """Have what the code of a user raises, and what it is refused, told in one line."""
+    try:
+        yield
+    except AmrError as error:
+        if name not in STACKS and not getattr(error, 'is_placed', False):
+            error.args = (f'{error}{blame.place(error)}',)
+            error.is_placed = True
+        raise
+    except Exception as error:
+        raise BringupError(f"'{name}' failed: {blame.told(error)}") from error
 
 
 def include(name: str | Path, **values: object) -> Stack:
@@ -49,6 +83,8 @@ def include(name: str | Path, **values: object) -> Stack:
     :param values: Its arguments; they are checked as if they were typed.
     """
     found = str(name) if name in STACKS else str(path_of(str(name)))
+    for each, value in values.items():
+        require(f"include('{name}', {each}=%s)", value, VALUE)
     return make_stack(found, {each: as_typed(value) for each, value in values.items()})
 
 
@@ -61,9 +97,10 @@ def make_stack(name: str, given: Mapping[str, str]) -> Stack:
     values = resolve(declared(function), given)
     _making.append(name)
     try:
-        stack = function(**values)
+        with _blaming(name):
+            stack = function(**values)
     finally:
         _making.pop()
     if not isinstance(stack, Stack):
-        raise BringupError(f"'{name}' returned {stack!r}; a stack's function returns a Stack")
+        raise BringupError(f"'{name}' returned {brief(stack)}; a stack's function returns a Stack")
     return stack

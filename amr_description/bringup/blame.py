@@ -1,0 +1,30 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is told of an error in the code of a user: one line, with its place there."""
+
+from pathlib import Path
+import sysconfig
+import traceback
+
+_NOT_OF_USERS = (
+    str(Path(__file__).parents[1]),
+    *(sysconfig.get_path(name) for name in ('stdlib', 'purelib')),
+    '<',  # frozen, or generated
+)
+
+
+def told(error: BaseException) -> str:
+    """Return ``ValueError: no such arm (my_arm.py, line 7)``; of errors on purpose no type."""
+    text = ' '.join(str(error).split())
+    name = type(error).__name__
+    return f'{name}: {text}{place(error)}' if text else f'{name}{place(error)}'
+
+
+def place(error: BaseException) -> str:
+    """Return `` (my_arm.py, line 7)``: the innermost place that is not of a library."""
+    if isinstance(error, SyntaxError) and error.filename:
+        return ''  # its text says it
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if not frame.filename.startswith(_NOT_OF_USERS):
+            return f' ({Path(frame.filename).name}, line {frame.lineno})'
+    return ''
