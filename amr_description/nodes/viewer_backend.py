@@ -239,8 +239,10 @@ class GraphBackend(Audience):
     def _now(self) -> int:
         """ROS time, ns: of /clock, where there is one, as of just now."""
         scene = self._states.scene
-        if scene is not None and scene.clock.time is not None:
-            return scene.clock.time
+        if scene is not None:
+            scene.clock.look()
+            if scene.clock.time is not None:
+                return scene.clock.time
         return self._node.get_clock().now().nanoseconds
 
     def _list_controllers(self, robot: str) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from controller_manager_msgs.msg import ControllerManagerActivity
 from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -42,7 +43,7 @@ class RobotLink:
     ) -> None:
         self.found = found
         self.described: DescribedRobot | None = None
-        self.topics: RobotTopics | None = None
+        self.topics = RobotTopics(node, found, ())
         self._node = node
         self._on_change = on_change
         self._on_activity = on_activity
@@ -52,7 +53,9 @@ class RobotLink:
         self._activity: Any = None
         self._commands: Publisher | None = None
         self._joints: Publisher | None = None
-        self._connect()
+        self._open_commands()
+        self._open_joints()
+        self._listen_to_activity()
 
     @property
     def info(self) -> RobotInfo:
@@ -71,25 +74,41 @@ class RobotLink:
         )
 
     def follow(self, found: FoundRobot) -> None:
-        """Its topics have changed."""
-        self._disconnect()
-        self.found = found
-        self._connect()
+        """
+        Its topics have changed.
+
+        What is published where it was stays: a new publisher loses what it says before others
+        know it, such as a stop.
+        """
+        before, self.found = self.found, found
+        if found.command != before.command:
+            self._open_commands()
+        if found.joint_publisher != before.joint_publisher:
+            self._open_joints()
+        if found.activity != before.activity:
+            self._listen_to_activity()
+        self._listen()
 
     def destroy(self) -> None:
         """It is gone."""
-        self._disconnect()
-        self._node.destroy_subscription(self._description)
+        for publisher in (self._commands, self._joints):
+            if publisher is not None:
+                self._node.destroy_publisher(publisher)
+        self._commands = self._joints = None
+        for subscription in (self._description, self._activity):
+            if subscription is not None:
+                self._node.destroy_subscription(subscription)
+        self.topics.destroy()
 
     def drive(self, linear: float, angular: float, time: int) -> None:
         """Publish a command, m/s and rad/s, stamped ``time`` (ns); on any thread."""
-        command, publisher = self.found.command, self._commands
-        if command is None or publisher is None:
+        publisher = self._commands
+        if publisher is None:
             raise ViewerError(
                 f'nothing hears velocity commands of {self.found.id}; is its drive controller '
                 'active?'
             )
-        message = COMMAND_TYPES[command.message]()
+        message = publisher.msg_type()
         twist = message
         if isinstance(message, TwistStamped):
             fill_stamp(time, message.header.stamp)
@@ -97,7 +116,7 @@ class RobotLink:
             twist = message.twist
         assert isinstance(twist, Twist), 'the only other type'
         twist.linear.x, twist.angular.z = linear, angular
-        publisher.publish(message)
+        self._publish(publisher, message)
 
     def set_joints(self, positions: Mapping[str, float], time: int) -> None:
         """Have joint_state_publisher publish these, rad or m; on any thread."""
@@ -109,46 +128,53 @@ class RobotLink:
             )
         message = JointState(name=list(positions), position=list(positions.values()))
         fill_stamp(time, message.header.stamp)
-        publisher.publish(message)
+        self._publish(publisher, message)
 
-    def _connect(self) -> None:
-        node, found = self._node, self.found
-        if found.command is not None:
-            message_type = COMMAND_TYPES[found.command.message]
-            self._commands = node.create_publisher(message_type, found.command.topic, 10)
-        if found.joint_publisher is not None:
-            topic = f'{found.joint_publisher}/set_joint_positions'
-            self._joints = node.create_publisher(JointState, topic, 10)
-        if found.activity is not None:
-            self._activity = node.create_subscription(
-                ControllerManagerActivity,
-                found.activity,
-                lambda _: self._on_activity(self),
-                LATCHED,
-            )
-        joints = self.described.joints if self.described else ()
-        self.topics = RobotTopics(node, found, joints)
+    def _publish(self, publisher: Publisher, message: Any) -> None:
+        try:
+            publisher.publish(message)
+        except InvalidHandle:  # the ROS thread has just destroyed it
+            raise ViewerError(f'{self.found.id} is just going') from None
 
-    def _disconnect(self) -> None:
-        publishers = [each for each in (self._commands, self._joints) if each is not None]
-        self._commands = self._joints = None
-        for publisher in publishers:
-            self._node.destroy_publisher(publisher)
+    def _open_commands(self) -> None:
+        command = self.found.command
+        kind, topic = (COMMAND_TYPES[command.message], command.topic) if command else (None, None)
+        self._commands = _instead_of(self._commands, self._node, kind, topic)
+
+    def _open_joints(self) -> None:
+        node = self.found.joint_publisher
+        topic = node and f'{node}/set_joint_positions'
+        self._joints = _instead_of(self._joints, self._node, JointState, topic)
+
+    def _listen_to_activity(self) -> None:
+        topic = self.found.activity
         if self._activity is not None:
             self._node.destroy_subscription(self._activity)
-            self._activity = None
-        if self.topics is not None:
-            self.topics.destroy()
+        self._activity = topic and self._node.create_subscription(
+            ControllerManagerActivity, topic, lambda _: self._on_activity(self), LATCHED
+        )
+
+    def _listen(self) -> None:
+        self.topics.destroy()
+        joints = self.described.joints if self.described else ()
+        self.topics = RobotTopics(self._node, self.found, joints)
 
     def describe(self, text: str) -> None:
         """Take a description."""
         if self.described is not None and self.described.message.urdf == text:
             return
         self.described = describe_robot(self.found.id, text)
-        assert self.topics is not None, 'it is connected from the start'
-        self.topics.destroy()
-        self.topics = RobotTopics(self._node, self.found, self.described.joints)
+        self._listen()
         self._on_change(self)
+
+
+def _instead_of(
+    publisher: Publisher | None, node: Node, kind: Any, topic: str | None
+) -> Publisher | None:
+    """Destroy a publisher, and return the one for this topic, if there is one."""
+    if publisher is not None:
+        node.destroy_publisher(publisher)
+    return node.create_publisher(kind, topic, 10) if topic else None
 
 
 class WorldLink:

@@ -109,11 +109,21 @@ class Stage:
 
     def _look(self) -> None:
         """See whether the graph has changed."""
+        self._forget_dead_clock()
         found = discover(names_in(self._node), self._described)
         if found != self.found:
             self._follow(found)
             self._set_scene()
             self.audience.graph_changed()
+
+    def _forget_dead_clock(self) -> None:
+        """Let no command carry the time of a simulation that is gone: robots take it for old."""
+        clock = self._clock
+        if clock is None or clock.time is None or self._node.count_publishers('/clock'):
+            return
+        self._clock = RosClock(self._node)
+        self._set_scene()
+        clock.destroy()
 
     def _follow(self, found: Found) -> None:
         self._services.keep(_clients(found))
@@ -122,6 +132,7 @@ class Stage:
         self.links, self.found = links, found
         for link in gone:
             link.destroy()
+            self._described.pop(link.found.id, None)
         for name, link in links.items():
             if link.described is None and name in self._described:
                 link.describe(self._described[name])
@@ -160,7 +171,7 @@ class Stage:
 
     def _set_scene(self) -> None:
         assert self._clock and self._frames, 'they are there while it is open'
-        robots = tuple(link.topics for link in self.links.values() if link.topics)
+        robots = tuple(link.topics for link in self.links.values())
         self._states.scene = Scene(self._clock, self._frames, robots)
 
 

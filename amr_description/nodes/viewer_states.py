@@ -36,6 +36,7 @@ class RosClock:
         qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=qos)
         self._heard: deque[tuple[float, int]] = deque()
+        self._is_back = False
         self.time: int | None = None
         """ns; None: nobody tells the time."""
 
@@ -44,19 +45,24 @@ class RosClock:
         self._topic.destroy()
 
     def take(self) -> bool:
-        """Look at the topic; True: time went back."""
+        """Look at the topic; True: time went back since the last call."""
+        self.look()
+        is_back, self._is_back = self._is_back, False
+        return is_back
+
+    def look(self) -> None:
+        """Have :attr:`time` as of now."""
         heard = self._topic.take()
         if heard is None:
-            return False
+            return
         before, self.time = self.time, heard
-        is_back = before is not None and heard < before
-        if is_back:
+        if before is not None and heard < before:
+            self._is_back = True
             self._heard.clear()
         now = time.monotonic()
         self._heard.append((now, heard))
         while now - self._heard[0][0] > _WINDOW and len(self._heard) > 2:  # noqa: PLR2004
             self._heard.popleft()
-        return is_back
 
     @property
     def factor(self) -> float | None:
@@ -88,6 +94,7 @@ class States:
         self._frame: StateFrame | None = None
         self._indices: dict[str, int] = {}
         self._layouts = self._number = 0
+        self._last: int | None = None
 
     def take(self) -> tuple[Sequence[ServerMessage], bytes | None]:
         """Return what is new: messages, then a state."""
@@ -95,7 +102,6 @@ class States:
         if scene is None:
             return (), None
         messages: list[ServerMessage] = []
-        last = scene.clock.time
         if scene.clock.take():
             messages.append(TimeReset((scene.clock.time or 0) / NANOSECONDS))
         moved, tree_changed = scene.frames.take()
@@ -106,8 +112,9 @@ class States:
             messages.append(self._lay_out(scene))
         elif moved or any(new):
             self._write(scene, moved, new)
-        elif scene.clock.time == last:
+        elif scene.clock.time == self._last:
             return messages, None
+        self._last = scene.clock.time
         assert self._frame is not None, 'there is a layout as soon as there is a scene'
         self._number += 1
         return messages, self._frame.encode(self._number, self._time(scene))
