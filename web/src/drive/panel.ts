@@ -104,6 +104,7 @@ export class DrivePanel implements Panel {
     } else {
       setText(this.topic, command.topic);
     }
+    this.topic.classList.toggle('topic', command !== null && deaf === null);
     this.topic.classList.toggle('deaf', deaf !== null);
     this.topic.title = command === null ? '' : `${command.message} on ${command.topic}`;
   }

@@ -79,9 +79,10 @@ export class JointsPanel implements Panel {
     const [unit, speed] = angle ? ['rad', 'rad/s'] : ['m', 'm/s'];
     const other = h('span', { class: 'fine' }, UNKNOWN);
     const motion = ({ position, velocity, commanded }: JointReading): string => {
-      const turned = angle ? `${degrees(position)}  ` : '';
-      const wanted = Number.isNaN(commanded) ? '' : `, commanded ${fixed(commanded, 2)}`;
-      return Number.isNaN(velocity) ? turned : `${turned}${fixed(velocity, 2)} ${speed}${wanted}`;
+      const turned = angle ? [degrees(position)] : [];
+      const moves = Number.isNaN(velocity) ? [] : [`${fixed(velocity, 2)} ${speed}`];
+      const wanted = Number.isNaN(commanded) ? [] : [`commanded ${fixed(commanded, 2)}`];
+      return [...turned, ...moves, ...wanted].join('  ');
     };
     const head = h('span', { class: 'joint-name', title: joint.kind }, joint.name);
     if (!slides) {

@@ -36,11 +36,13 @@ export class PlotsPanel implements Panel {
     this.charts = [
       new Chart('Linear velocity', 'm/s', velocities('linear')),
       new Chart('Angular velocity', 'rad/s', velocities('angular')),
-      new Chart('Wheel speeds', 'rad/s, dashed: commanded', []),
+      new Chart('Wheel speeds', 'rad/s, commanded dashed', []),
       new Chart('Real-time factor', '×', [
         { name: 'real', colour: 'accent', column: FACTOR_COLUMN },
       ], [0, 1]),
     ];
+    this.charts[2].element.classList.add('wide'); // its legend has two numbers a wheel
+    this.charts[3].element.classList.add('narrow');
     this.element = h(
       'section',
       { class: 'plots', 'aria-label': 'Plots' },
