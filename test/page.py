@@ -8,20 +8,14 @@ import threading
 
 from ros_processes import PATIENCE
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 
+from amr_description.viewer.client import page_socket
 from amr_description.viewer.protocol import SUBPROTOCOL
 
 
 def open_socket(url, subprotocols=(SUBPROTOCOL,), **options):
     """The WebSocket of the page at this address, a context manager."""
-    return connect(
-        url.replace('http', 'ws', 1) + 'ws',
-        subprotocols=subprotocols,
-        max_size=None,
-        open_timeout=PATIENCE,
-        **options,
-    )
+    return page_socket(url, subprotocols, open_timeout=PATIENCE, **options)
 
 
 class Page:

@@ -30,6 +30,7 @@ from amr_description.nodes.fleet_benchmark import fleet_figures
 from amr_description.nodes.runtime import program, ros
 from amr_description.nodes.startup_stages import stages_of, table
 from amr_description.nodes.transform_benchmark import transform_figures
+from amr_description.nodes.viewer_benchmark import viewer_figures
 from amr_description.sim.bare_loop import bare_real_time_factor
 from amr_description.sim.resources import package_share
 
@@ -143,6 +144,8 @@ def benchmark(options: argparse.Namespace) -> int:
             stages = stages_of(run.lines)
             print('the ros2 command ...', flush=True)
             commands = command_figures(node, options.seconds)
+            print('the page ...', flush=True)
+            page = viewer_figures(node, options.seconds)
         print('robot_state_publisher ...', flush=True)
         transforms = transform_figures(node, options.seconds)
         after = bare_real_time_factor(urdf, options.seconds / 2)
@@ -162,7 +165,9 @@ full stack / mj_step alone           {full / bare:8.3f}
 
 {commands}
 
-{transforms}""")
+{transforms}
+
+{page}""")
     return 0
 
 

@@ -70,10 +70,10 @@ def _measured(node: Node, pid: int, seconds: float) -> tuple[float, float]:
     try:
         wait_until(node, lambda: stamps or None, lambda: None, every=1.0, timeout=20.0)
         stamps.clear()
-        before, begin = _processor_time(pid), time.monotonic()
+        before, begin = processor_time(pid), time.monotonic()
         end = begin + seconds
         wait_until(node, lambda: time.monotonic() >= end or None, lambda: None, every=seconds)
-        load = (_processor_time(pid) - before) / (time.monotonic() - begin)
+        load = (processor_time(pid) - before) / (time.monotonic() - begin)
     finally:
         node.destroy_subscription(subscription)
     if len(stamps) < 2:
@@ -81,7 +81,7 @@ def _measured(node: Node, pid: int, seconds: float) -> tuple[float, float]:
     return (len(stamps) - 1) / (stamps[-1] - stamps[0]), 100.0 * load
 
 
-def _processor_time(pid: int) -> float:
+def processor_time(pid: int) -> float:
     """What a process has spent so far, in s (proc(5): utime and stime)."""
     with open(f'/proc/{pid}/stat', encoding='ascii', errors='replace') as file:
         fields = file.read().rpartition(')')[2].split()

@@ -15,6 +15,7 @@ The browser page's server; knows no ROS, and is the only package that imports we
 ``files``      … found by name in one folder
 ``access``     who may talk to the server
 ``driving``    who drives, and until when
+``client``     a page without a browser, for measurements and tests
 =============  ================================================================================
 
 ``static/`` is the built page; its sources are in ``web/`` at the top.

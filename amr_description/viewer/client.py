@@ -1,0 +1,62 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A page without a browser: the other end of the WebSocket, for measurements and tests."""
+
+from collections.abc import Sequence
+import json
+import threading
+from typing import Any, Self
+from urllib.parse import urlsplit
+
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
+
+from amr_description.viewer.protocol import SUBPROTOCOL
+from amr_description.viewer.web import SOCKET_PATH
+
+
+def page_socket(
+    url: str, subprotocols: Sequence[str] | None = (SUBPROTOCOL,), **options: Any
+) -> ClientConnection:
+    """Open the WebSocket of the page at an address as the viewer prints it; a context manager."""
+    parts = urlsplit(url)
+    query = f'?{parts.query}' if parts.query else ''
+    return connect(
+        f'ws://{parts.netloc}{SOCKET_PATH}{query}',
+        subprotocols=subprotocols,  # type: ignore[arg-type]
+        max_size=None,
+        **options,
+    )
+
+
+class Onlooker:
+    """A page that counts the states and remembers the graph; a thread of its own reads."""
+
+    def __init__(self, url: str) -> None:
+        self.states = 0
+        self.robots: tuple[dict[str, Any], ...] = ()
+        """Of the last message about the graph."""
+        self._socket = page_socket(url)
+        self._reader = threading.Thread(target=self._read, name='page')
+        self._reader.start()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._socket.close()
+        self._reader.join()
+
+    def say(self, kind: str, **fields: Any) -> None:
+        """Send a text frame."""
+        self._socket.send(json.dumps({'type': kind, **fields}))
+
+    def _read(self) -> None:
+        try:
+            for frame in self._socket:
+                if isinstance(frame, bytes):
+                    self.states += 1
+                elif (message := json.loads(frame))['type'] == 'graph':
+                    self.robots = tuple(message['robots'])
+        except ConnectionClosed:
+            pass  # the viewer has ended
