@@ -10,7 +10,8 @@ with exit code 130 as programs do on SIGINT. What the program itself does with C
 its ``main``; what it leaves to Python ends quietly, too.
 
 Before it lies what no module can reach: the start of Python itself, and the few lines of the
-script that setuptools writes, some 50 ms.
+script that setuptools writes, some 50 ms. Who starts the program can hold SIGINT back until then
+by starting it with that signal blocked, as the bring-up does.
 """
 
 from collections.abc import Callable
@@ -54,6 +55,9 @@ def run(
     if is_heard:
         # Not by an exception: out of an import it would be lost, or told by who catches it.
         signal.signal(signal.SIGINT, lambda *_: os._exit(interrupted))
+    # A bring-up starts programs of this package with SIGINT blocked, so that its own Ctrl-C waits
+    # until here: before, Python itself would tell of it.
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     main = find()
     try:
         if is_heard:

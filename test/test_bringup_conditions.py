@@ -182,6 +182,7 @@ def test_time_after_what_never_happens_never_passes():
         (service('/list'), None, 'the service /list is not there; there are /robot/list'),
         (ros_node('/sim'), None, 'the node /sim is not there; there are /robot/sim'),
         (path_exists('/dev/ttyUSB0'), None, 'there is no /dev/ttyUSB0; /dev has ttyUSB1'),
+        (path_exists('/dev/board'), None, 'there is no /dev/board; /dev has ttyUSB1'),
         (path_exists('/x/y'), None, 'there is no /x/y; /x has nothing like it'),
         (after(3), None, '3.0 s are left'),
         (
@@ -192,7 +193,8 @@ def test_time_after_what_never_happens_never_passes():
     ],
 )
 def test_what_is_lacking_and_what_is_there_instead(condition, state, text):
-    paths = {'/dev/ttyUSB0': PathLook(False, frozenset({'ttyUSB1', 'null'}))}
+    dev = PathLook(False, frozenset({'ttyUSB1', 'null'}))
+    paths = {'/dev/ttyUSB0': dev, '/dev/board': dev}
     assert lack(condition, state, graph=GRAPH, paths=paths) == text
 
 

@@ -76,6 +76,17 @@ def test_a_real_board():
     assert hardware(made).parameters['port'] == '/dev/ttyUSB0'
 
 
+def test_a_port_that_is_not_there_is_told_soon():
+    progress = Progress(stack(serial, port='/dev/nonsense'))
+    progress.at(0.0)
+    assert progress.next_time() == 10.0
+    progress.see(paths={'/dev/nonsense': PathLook(False, frozenset({'ttyACM0', 'null'}))})
+    progress.at(10.0)
+    assert progress.failure.text(lambda node: node.executable) == (
+        'ros2_control_node waited 10 s in vain: there is no /dev/nonsense; /dev has ttyACM0'
+    )
+
+
 @pytest.mark.parametrize('function', [mock, serial])
 def test_their_hardware_is_known(function):
     assert HARDWARE.find(hardware(stack(function)).plugin)

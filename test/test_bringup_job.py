@@ -46,6 +46,29 @@ def test_command_line(prefix, tmp_path):
     assert yaml.read_text() == ''
 
 
+def test_only_programs_of_ours_take_sigint_later(prefix):
+    (prefix / 'share/ament_index/resource_index/packages/amr_description').touch()
+    (prefix / 'lib/amr_description').symlink_to('toys')
+    nodes = [
+        Node('step'), Node('step', package='toys'), Node('step', prefix='nice'),
+    ]  # fmt: skip
+    jobs = jobs_of(Stack(nodes), prefix)
+    assert [job.takes_sigint_later for job in jobs] == [True, False, False]
+    (job,) = jobs_of(Stack(nodes[:1]), prefix, LaunchPrefix('nice'))
+    assert not job.takes_sigint_later
+
+
+def test_of_a_script_the_missing_interpreter_is_named(prefix):
+    step = prefix / 'lib/toys/step'
+    (job,) = jobs_of(Stack([Node('step', package='toys')]), prefix)
+    missing = FileNotFoundError(2, 'No such file or directory', str(step))
+    assert job.why_not(missing) == str(missing)
+    step.write_text('#!/nowhere/python3\n')
+    assert job.why_not(missing) == f'{step} begins with #!/nowhere/python3, which is not there'
+    step.unlink()
+    assert job.why_not(missing) == str(missing)
+
+
 def refuses(text, **changes):
     with pytest.raises(BringupError, match=text):
         jobs_of(Stack([Node(**{'executable': 'step', 'package': 'toys', **changes})]), None)

@@ -4,6 +4,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,7 +13,7 @@ from fixtures.bringup.running import Bringup, ends, install_toys, STACKS
 import pytest
 from running_programs import PATIENCE
 
-from amr_description.bringup import Group, Node, Stack, unique_names
+from amr_description.bringup import Group, Node, run_commands, Stack, unique_names
 from amr_description.bringup.job import jobs_of
 from amr_description.bringup.process_usage import Process, start_time, tree, usages
 from amr_description.bringup.run_registry import RunRecord, runs
@@ -159,10 +160,11 @@ def test_a_broken_file_is_no_run(tmp_path, text):
     assert runs(tmp_path) == []
 
 
-def test_a_pid_that_came_again_is_another_process(tmp_path):
+@pytest.mark.parametrize('other', [{'start_time': 1}, {'boot': 'another'}])
+def test_a_pid_that_came_again_is_another_process(tmp_path, other):
     record(tmp_path, 'run')
     path = tmp_path / 'run.json'
-    path.write_text(json.dumps(json.loads(path.read_text()) | {'start_time': 1}))
+    path.write_text(json.dumps(json.loads(path.read_text()) | other))
     assert runs(tmp_path) == []
     assert not path.exists()
 
@@ -172,6 +174,40 @@ def test_a_registry_that_cannot_be_written_costs_the_status_only(tmp_path):
     run = record(tmp_path / 'file/runs', 'run')
     run.take({'event': 'ready', 'seconds': 1.0})
     run.leave()
+
+
+def rows(folder):
+    """The lines of ``status`` but the first ones and the last, of the run that there is."""
+    (state,) = runs(folder)
+    return run_commands.table(state, {})
+
+
+def test_what_a_node_does_is_told_also_between_two_starts(tmp_path):
+    run = record(tmp_path, 'run')
+    ended = {'event': 'exited', 'node': 'a-1', 'pid': 5, 'time': 1.0}
+    run.take({'event': 'begun', 'log_folder': '/logs'})
+    run.take({'event': 'waiting', 'node': 'a-1', 'condition': None, 'time': 0.0})
+    for end, told in (({'signal': 'SIGKILL'}, 'died of SIGKILL'), ({'exit_code': 0}, 'done')):
+        run.take({'event': 'started', 'node': 'a-1', 'pid': 5, 'time': 0.0})
+        (state,) = runs(tmp_path)
+        assert state['nodes']['a-1'] == {
+            'state': 'running', 'condition': None, 'pid': 5, 'since': 0.0,
+        }  # fmt: skip
+        run.take(ended | end)
+        assert re.search(rf'^a-1 +{told}$', '\n'.join(rows(tmp_path)), re.MULTILINE)
+        run.take({'event': 'respawn', 'node': 'a-1', 'seconds': 2.0, 'restarts': 1, 'time': 1.0})
+        again = rf'^a-1 +{told}, starts again at 1970-01-01 \d\d:\d\d$'
+        assert re.search(again, '\n'.join(rows(tmp_path)), re.MULTILINE)
+
+
+def test_a_run_that_never_gets_ready_says_so_until_it_stops(tmp_path):
+    run = record(tmp_path, 'run')
+    run.take({'event': 'begun', 'log_folder': '/logs'})
+    assert rows(tmp_path)[0].startswith('run: starting, pid')
+    run.take({'event': 'never_ready', 'condition': 'a-1 failed'})
+    assert rows(tmp_path)[0].startswith('run: never gets ready (needs that a-1 failed), pid')
+    run.take({'event': 'shutdown', 'reason': 'enough'})
+    assert rows(tmp_path)[0].startswith('run: stopping, pid')
 
 
 def test_names_that_there_can_be_only_one_of(tmp_path, monkeypatch):

@@ -9,7 +9,7 @@ import signal
 import sys
 import time
 
-from fixtures.bringup.running import Bringup, ends, STACKS
+from fixtures.bringup.running import Bringup, ends, install_toys, STACKS
 import pytest
 from running_programs import PATIENCE
 
@@ -178,3 +178,22 @@ def test_orphans_are_adopted_and_reaped(tmp_path):
             assert time.monotonic() < deadline, 'the zombie stays'
             os.sched_yield()
         assert bringup.end(signal.SIGTERM) == 0
+
+
+def test_what_has_just_begun_ends_without_a_word(tmp_path):
+    (tmp_path / 'early.py').write_text(
+        'from amr_description.bringup import Node, Stack\n'
+        'def early():\n'
+        "    return Stack([Node('talker'), Node('step', package='toys')])\n"
+    )
+    install_toys(tmp_path / 'prefix')
+    step = tmp_path / 'prefix/lib/toys/step'
+    step.write_text('#!/nowhere/python3\n')
+    path = os.pathsep.join([str(tmp_path / 'prefix'), os.environ['AMENT_PREFIX_PATH']])
+    with Bringup(tmp_path, str(tmp_path / 'early.py'), AMENT_PREFIX_PATH=path) as bringup:
+        assert bringup.end() == 126
+        assert 'Traceback' not in bringup.output
+        assert '[talker-1] ' not in bringup.output.replace('[INFO] [talker-1]: ', '')
+        assert 'ready in' not in bringup.output
+        reason = f'could not be started: {step} begins with #!/nowhere/python3, which is not there'
+        assert bringup.lines[-1].endswith(f'step-2 ended with exit code 126: {reason}')

@@ -23,6 +23,13 @@ def test_ctrl_c_during_an_import_ends_it_quietly():
         assert program.lines == ['importing']
 
 
+def test_a_blocked_ctrl_c_waits_for_it_and_ends_it_quietly():
+    early = 'import os, signal; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); '
+    with Program.of(f'{early}os.kill(os.getpid(), signal.SIGINT); {SLOW}', 'import') as program:
+        assert program.end() == 130
+        assert program.output == ''
+
+
 def test_ctrl_c_that_a_program_leaves_to_python_ends_it_quietly_after_its_clean_up():
     with Program.of(SLOW, 'main') as program:
         program.expect('in main\n')

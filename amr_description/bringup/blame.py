@@ -6,6 +6,8 @@ from pathlib import Path
 import sysconfig
 import traceback
 
+from amr_description.errors import AmrError
+
 _NOT_OF_USERS = (
     str(Path(__file__).parents[1]),
     *(sysconfig.get_path(name) for name in ('stdlib', 'purelib')),
@@ -16,6 +18,8 @@ _NOT_OF_USERS = (
 def told(error: BaseException) -> str:
     """Return ``ValueError: no such arm (my_arm.py, line 7)``; of errors on purpose no type."""
     text = ' '.join(str(error).split())
+    if isinstance(error, AmrError):
+        return f'{text}{place(error)}'
     name = type(error).__name__
     return f'{name}: {text}{place(error)}' if text else f'{name}{place(error)}'
 

@@ -4,7 +4,7 @@
 
 import asyncio
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 import contextlib
 import fcntl
 import os
@@ -16,6 +16,21 @@ from amr_description.bringup.line_splitter import LineSplitter
 
 LAST_LINES = 20  # kept for the post-mortem
 _READ_SIZE = 65_536  # bytes, the capacity of a pipe
+
+
+@contextlib.contextmanager
+def held_back(number: signal.Signals) -> Iterator[None]:
+    """
+    Have a signal wait while inside.
+
+    For a process that is started here it waits until that process takes it: what is blocked is
+    inherited.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [number])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class RunningProcess:

@@ -25,6 +25,7 @@ event              of                                  more keys
 ``respawn``        a node that is to be started again  in ``seconds``; ``restarts`` in a row
 ``never``          a node that can never start         ``condition``
 ``ready``          the run                             ``seconds`` it took
+``never_ready``    the run, which goes on              ``condition`` that it lacks
 ``stop_requested`` the run                             ``signal``
 ``shutdown``       the run, which a handler stops      ``reason``
 ``signal_sent``    a node                              ``pid``, ``signal``

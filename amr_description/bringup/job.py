@@ -3,13 +3,16 @@
 """A node made ready to run: what can be wrong with it is found before the first start."""
 
 from collections.abc import Mapping, Sequence
+import contextlib
 from dataclasses import dataclass
+import os
 from pathlib import Path
 import re
 import shlex
 import shutil
 
 from amr_description.bringup.description import Node, ParameterValue, Stack
+from amr_description.bringup.environment import interpreter_of
 from amr_description.bringup.packages import executable_of, path_of
 from amr_description.bringup.parameter_file import node_key, yaml_text
 from amr_description.bringup.placement import Placed, Placement
@@ -55,6 +58,21 @@ class Job:
         for source, target in self.placed.remappings:
             words += ['-r', f'{source}:={target}']
         return words
+
+    @property
+    def takes_sigint_later(self) -> bool:
+        """Whether it is a program of ours: it unblocks SIGINT once it can take it (entry.py)."""
+        return self.node.package == 'amr_description' and not (
+            self.node.prefix or self.launch_prefix
+        )
+
+    def why_not(self, error: OSError) -> str:
+        """Say why it could not be started; of a script the kernel tells only that it was not."""
+        with contextlib.suppress(OSError):
+            interpreter = interpreter_of(self.executable, os.environ)
+            if interpreter and not interpreter.exists():
+                return f'{self.executable} begins with #!{interpreter}, which is not there'
+        return str(error)
 
     @property
     def command_text(self) -> str:

@@ -97,9 +97,10 @@ class Narrator:
         if lost and not progress.over and 'ready' not in self._told:
             self._told.add('ready')
             needs = lost.describe(self._name_of)
+            self._note('never_ready', condition=needs)
             self._console.say('WARNING', LAUNCH, f'never gets ready: needs that {needs}')
             self._status.end()
-        if progress.ready and 'ready' not in self._told:
+        if progress.ready and progress.failure is None and 'ready' not in self._told:
             self._told.add('ready')
             self._status.end()
             took = time.monotonic() - self._begin
@@ -186,9 +187,11 @@ class Narrator:
         self._console.say('ERROR', name, text)
 
     def failure(self, progress: Progress, last_lines: Mapping[Node, Collection[str]]) -> None:
-        """Say, last of all, which failure stopped the stack, and why."""
-        failure = progress.failure
+        """Say, last of all, which failure stopped the stack, if one did, and why."""
+        failure, wish = progress.failure, progress.shutdown
         if failure is None:
+            if wish and wish.exit_code:
+                self._console.say('ERROR', LAUNCH, f'stopped because {wish.reason}')
             return
         waiting = [self._name_of(node) for node in progress.waiting()]
         if isinstance(failure, Expired):

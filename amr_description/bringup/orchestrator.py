@@ -16,10 +16,11 @@ signal: Ctrl-C is its ordinary end.
 import asyncio
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 import contextlib
+import functools
 import signal
 import time
 
-from amr_description.bringup.child import Child, RunningProcess
+from amr_description.bringup.child import Child, held_back, RunningProcess
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
@@ -83,8 +84,7 @@ class Orchestrator:
             finally:
                 await self._stop_all()
                 await self._end_the_rest()
-        if self._progress.failure is not None:
-            self._narrator.failure(self._progress, self._last_lines)
+        self._narrator.failure(self._progress, self._last_lines)
         return self._result
 
     @property
@@ -171,7 +171,7 @@ class Orchestrator:
             job.write_parameter_files()
             child = self._child(job, environment | self._lifeline.variables)
         except OSError as error:
-            reason = f'could not be started: {error}'
+            reason = f'could not be started: {job.why_not(error)}'
             self._narrator.not_started(node, reason)
             self._last_lines[node] = [reason]
             self._progress.end(node, CANNOT_START, [reason])
@@ -186,7 +186,10 @@ class Orchestrator:
 
     def _child(self, job: Job, environment: Mapping[str, str]) -> RunningProcess:
         reader, narrator = self._lifeline.reader, self._narrator
-        if job.node.terminal:
+        with held_back(signal.SIGINT) if job.takes_sigint_later else contextlib.nullcontext():
+            if not job.node.terminal:
+                hear = functools.partial(self._hear, job.node)
+                return Child(job.command, environment, reader, hear)
             narrator.progress(self._progress)  # as long as all of it can be seen
             narrator.lends_terminal(job.node)
             try:
@@ -194,7 +197,6 @@ class Orchestrator:
             except OSError:
                 narrator.terminal_lent(False)
                 raise
-        return Child(job.command, environment, reader, lambda line: self._hear(job.node, line))
 
     def _hear(self, node: Node, line: str) -> None:
         self._narrator.output(node, line)
@@ -203,7 +205,8 @@ class Orchestrator:
 
     def _spawn_watch(self, on_line: Callable[[str], None]) -> Child:
         environment = {**self._environment, 'PYTHONUNBUFFERED': '1', **self._lifeline.variables}
-        return Child(COMMAND, environment, self._lifeline.reader, on_line)
+        with held_back(signal.SIGINT):
+            return Child(COMMAND, environment, self._lifeline.reader, on_line)
 
     def _collect(self) -> None:
         """Take note of all processes that have ended."""

@@ -20,7 +20,13 @@ from amr_description.bringup.outside_conditions import OnGraph, PathExists
 from amr_description.bringup.situation import Graph, PathLook
 
 GRAPH_WATCH = 'graph_watch'
-COMMAND = (sys.executable, '-P', '-m', 'amr_description.nodes.graph_watch')
+COMMAND = (
+    sys.executable,
+    '-P',
+    '-c',
+    'import sys; from amr_description.entry import nodes; sys.exit(nodes.graph_watch.main())',
+)
+"""By way of entry.py, so that an early SIGINT ends it without a word."""
 _LOOK_PERIOD = 0.1  # s
 _FIRST_DELAY, _LONGEST_DELAY = 1.0, 30.0  # s before the watch is started again
 

@@ -7,7 +7,7 @@ Names that do not begin with a slash are of the namespace of the group that the 
 in. They say what there is instead, near names first.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 import difflib
 from os import PathLike
@@ -25,6 +25,7 @@ _TYPE = Kind(
     lambda value: isinstance(value, str) and bool(re.fullmatch(f'{TOKEN}/msg/{TOKEN}', value)),
 )
 _MOST_NAMES = 8  # in a message
+_SERIAL_PORT = re.compile(r'tty(USB|ACM|AMA|THS)\d+|rfcomm\d+')  # with a device; of ttyS few have
 # Every node has these, so they say nothing about what there is.
 _OF_EVERY_NODE = re.compile(
     '.*/((describe|get|list|set)_(parameters|parameter_types|parameters_atomically)'
@@ -125,8 +126,14 @@ class PathExists(Condition):
         path = Path(self.path)
         beside = sorted(look.beside) if look else []
         near = difflib.get_close_matches(path.name, beside, n=_MOST_NAMES)
-        others = ', '.join(near) or 'nothing like it'
-        return f'there is no {path}; {path.parent} has {others}'
+        if path.parent == Path('/dev'):
+            near = list(dict.fromkeys([*near, *filter(_SERIAL_PORT.fullmatch, beside)]))
+            return f'there is no {path}; /dev has {_list(near) or "no port of a USB device"}'
+        return f'there is no {path}; {path.parent} has {_list(near) or "nothing like it"}'
+
+
+def _list(names: Sequence[str]) -> str:
+    return ', '.join(names[:_MOST_NAMES])
 
 
 def _others(name: str, names: Collection[str]) -> str:

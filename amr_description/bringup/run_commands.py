@@ -41,7 +41,7 @@ def status(args: Sequence[str]) -> int:
     if options.json:
         print(json.dumps([_with_usage(run, used) for run in chosen], indent=2))
     else:
-        print('\n\n'.join('\n'.join(_table(run, used)) for run in chosen))
+        print('\n\n'.join('\n'.join(table(run, used)) for run in chosen))
     return 0
 
 
@@ -94,11 +94,10 @@ def _numbers(usage: Usage | None) -> State:
     return {'cpu': round(usage.cpu, 3), 'memory': usage.memory} if usage else {}
 
 
-def _table(run: State, used: dict[int, Usage]) -> list[str]:
-    phase = f'ready after {run["ready_after"]:.1f} s' if 'ready_after' in run else 'starting'
-    phase = 'stopping' if run['phase'] == 'stopping' else phase
+def table(run: State, used: dict[int, Usage]) -> list[str]:
+    """Return what ``status`` prints of a run; ``used``: what its processes use, by pid."""
     rows = [
-        f'{run["stack"]}: {phase}, pid {run["pid"]}, ROS domain {run["domain"]}, '
+        f'{run["stack"]}: {_phase(run)}, pid {run["pid"]}, ROS domain {run["domain"]}, '
         f'since {clock(run["since"])} ({_duration(time.time() - run["since"])})',
         f'logs: {with_tilde(run["log_folder"])}',
         _COLUMNS.format('', 'STATE', 'PID', 'SINCE', 'CPU', 'MEMORY'),
@@ -107,6 +106,17 @@ def _table(run: State, used: dict[int, Usage]) -> list[str]:
         rows.append(_row(name, _state_of(node), node['pid'], node.get('since'), used))
     rows.append(_row('all, and the bring-up', '', run['pid'], run['since'], used))
     return [row.rstrip() for row in rows]
+
+
+def _phase(run: State) -> str:
+    match run:
+        case {'phase': 'stopping'}:
+            return 'stopping'
+        case {'ready_after': seconds}:
+            return f'ready after {seconds:.1f} s'
+        case {'needs': condition}:
+            return f'never gets ready (needs that {condition})'
+    return 'starting'
 
 
 def _row(
@@ -121,6 +131,8 @@ def _row(
 
 def _state_of(node: State) -> str:
     match node:
+        case {'state': 'respawning', 'restart_at': when}:
+            return f'{_state_of(node | {"state": "ended"})}, starts again at {clock(when)}'
         case {'state': 'waiting', 'condition': str() as condition}:
             return f'waits until {condition}'
         case {'state': 'never', 'condition': str() as condition}:

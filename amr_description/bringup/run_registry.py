@@ -6,7 +6,7 @@ The runs of this user on this host: a file of state for each, which any shell ca
 The files are in ``$ROS_HOME/runs`` (``~/.ros/runs``), for the owner only. A run writes its own at
 each of its events, and removes it at its end. One that was killed leaves its file; that is told
 by its process being gone, or another one (the number of a process comes again, its time of start
-does not), and the next to look removes it.
+since the boot does not), and the next to look removes it.
 """
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -42,11 +42,20 @@ def runs(folder: Path) -> list[State]:
             state = json.loads(path.read_text('utf-8'))
             if state['host'] != socket.gethostname():  # a home that hosts share
                 continue
-            if start_time(state['pid']) == state['start_time']:
+            here = (_boot(), start_time(state['pid']))
+            if here == (state['boot'], state['start_time']):
                 found.append(state)
             else:
                 path.unlink(missing_ok=True)
     return sorted(found, key=lambda state: state['since'])
+
+
+def _boot() -> str:
+    """Return what each boot of the machine has another of; empty: it cannot be told."""
+    try:
+        return Path('/proc/sys/kernel/random/boot_id').read_text().strip()
+    except OSError:
+        return ''
 
 
 class RunRecord:
@@ -63,7 +72,8 @@ class RunRecord:
         self._path = folder / f'{run}.json'
         self._is_entered = False
         pid = os.getpid()
-        identity = {'pid': pid, 'start_time': start_time(pid), 'host': socket.gethostname()}
+        process = {'pid': pid, 'start_time': start_time(pid), 'boot': _boot()}
+        identity = {**process, 'host': socket.gethostname()}
         self._state: State = {'run': run, **identity, 'phase': 'starting', 'nodes': {}}
 
     def enter(
@@ -89,13 +99,17 @@ class RunRecord:
         name, nodes = event.get('node'), self._state['nodes']
         if name is not None:
             node = nodes.setdefault(name, {'state': 'waiting', 'pid': None})
+            if event['event'] == 'started':  # what was before, counts no more
+                node = nodes[name] = {key: node[key] for key in ('condition',) if key in node}
             node |= _news_of_node(event)
         match event['event']:
             case 'begun':
                 self._state['log_folder'] = event['log_folder']
             case 'ready':
                 self._state |= {'phase': 'ready', 'ready_after': event['seconds']}
-            case 'stop_requested' | 'failure' | 'signal_sent':
+            case 'never_ready':
+                self._state['needs'] = event['condition']
+            case 'stop_requested' | 'shutdown' | 'failure' | 'signal_sent':
                 self._state['phase'] = 'stopping'
             case 'stopped':
                 self.leave()
@@ -150,6 +164,8 @@ def _news_of_node(event: Event) -> State:
         case 'exited':
             end = {key: event[key] for key in ('exit_code', 'signal') if key in event}
             return {'state': 'ended', 'pid': None, **end}
+        case 'respawn':
+            return {'state': 'respawning', 'restart_at': event['time'] + event['seconds']}
         case 'not_started':
             return {'state': 'ended', 'reason': event['reason']}
         case 'never':

@@ -22,14 +22,14 @@ While it has the terminal the console shows only warnings and errors of the othe
 """
 
 import asyncio
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import contextlib
 import os
 import signal
 import subprocess
 import termios
 
-from amr_description.bringup.child import RunningProcess
+from amr_description.bringup.child import held_back, RunningProcess
 from amr_description.errors import UsageError
 
 type _Settings = list[int | list[bytes | int]]  # as termios.tcgetattr() returns them
@@ -51,14 +51,9 @@ def require_terminal(program: str, package: str) -> None:
         )
 
 
-@contextlib.contextmanager
-def as_foreground() -> Iterator[None]:
+def as_foreground() -> contextlib.AbstractContextManager[None]:
     """Use the terminal, while inside, also as what it takes for a background job."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTTOU])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    return held_back(signal.SIGTTOU)
 
 
 class TerminalChild(RunningProcess):

@@ -27,6 +27,9 @@ from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
 from amr_description.bringup.stacks.simulation import CONTROLLERS, how_to_drive, URDF
 from amr_description.model.hardware_swap import swap_hardware
 
+_PATIENCE_WITH_PORT = 10.0
+"""s; a board that was just plugged in takes two or three."""
+
 
 def mock(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
@@ -57,8 +60,9 @@ def serial(
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot behind a serial port: a real motor board, or a simulated one."""
-    boards = []
+    boards, patience = [], _PATIENCE_WITH_PORT
     if not port:
+        patience = None
         port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))
         boards = [Node('motor_board', arguments=['--link', port], required=False)]
     description = swap_hardware(
@@ -67,7 +71,7 @@ def serial(
         {'port': port, 'left_joints': left, 'right_joints': right},
     )
     files = [path_of(urdf), path_of(controllers)]
-    return _controlled(description, files, viewer, boards, path_exists(port))
+    return _controlled(description, files, viewer, boards, path_exists(port), patience)
 
 
 def _controlled(
@@ -76,6 +80,7 @@ def _controlled(
     viewer: bool,
     before: Sequence[Node] = (),
     start_when: Condition | None = None,
+    patience: float | None = None,
 ) -> Stack:
     """
     The manager by itself, the description, and the controllers one after the other.
@@ -84,9 +89,14 @@ def _controlled(
     :param viewer: Whether to serve the page.
     :param before: What is started first.
     :param start_when: What the manager needs.
+    :param patience: How long that may take, s; None: as everything else.
     """
     ros2_control_node = Node(
-        'ros2_control_node', parameters=[files[1]], on_exit='shutdown', start_when=start_when
+        'ros2_control_node',
+        parameters=[files[1]],
+        on_exit='shutdown',
+        start_when=start_when,
+        patience=patience,
     )
     robot_state_publisher = Node(
         'robot_state_publisher', parameters=[{'robot_description': description}]
