@@ -3,9 +3,10 @@
 """
 The pages that are connected.
 
-Nothing waits for a page: what is sent goes to its write buffer. A page that does not read is
-spared states at once, and dropped when too much else waits for it; one that does not answer pings
-is dropped by websockets.
+Nothing waits for a page: what is sent goes to its write buffer. A page is spared states while
+anything is there, so that what it gets is never old (the system takes little more than it sends,
+see ``server``); it is dropped when too much else waits for it, and by websockets when it does not
+answer pings.
 """
 
 from collections.abc import Iterable
@@ -16,8 +17,6 @@ from websockets.asyncio.server import ServerConnection
 from amr_description.viewer.protocol import encode, ServerMessage
 
 MOST_PAGES = 32
-_STATES_WAIT = 32 * 1024
-"""Bytes in the write buffer from which on a page gets no more states."""
 _TOO_MUCH_WAITS = 64 * 1024 * 1024
 """Bytes in the write buffer from which on a page is dropped."""
 
@@ -103,11 +102,8 @@ class Pages:
         self._board.clear()
 
     def send_state(self, state: bytes) -> None:
-        """Send a state to all who keep up."""
-        broadcast(
-            [page.connection for page in self._pages.values() if page.waiting < _STATES_WAIT],
-            state,
-        )
+        """Send a state to all who have taken what was sent before."""
+        broadcast([page.connection for page in self._pages.values() if not page.waiting], state)
 
     def _send(self, frame: str) -> None:
         for page in [*self._pages.values()]:

@@ -47,6 +47,8 @@ _OPEN_TIMEOUT = 20.0
 """s for a request and its answer, as large as a mesh may be."""
 _MOST_UNDECIDED = 64
 """Sockets that have not asked for anything yet; of more, the oldest goes."""
+_MOST_UNSENT = 8 * 1024
+"""Bytes that the system takes ahead of sending; by default megabytes, a minute of states."""
 _PING = 10.0
 _CLOSE_TIMEOUT = 1.0
 _REASON_BYTES = 123
@@ -274,13 +276,17 @@ def _bind(host: str, port: int) -> socket.socket:
     last = min(port + _PORTS, 65535) if port else 0
     for each in range(port, last + 1):
         try:
-            return socket.create_server((host, each), family=family, backlog=128)
+            bound = socket.create_server((host, each), family=family, backlog=128)
         except OSError as error:
             if error.errno != errno.EADDRINUSE:
                 raise ViewerError(
                     f'cannot listen on {host}:{each}: {error.strerror or error}; -p host:=… and '
                     '-p port:=… choose where'
                 ) from error
+        else:
+            # What it accepts inherits this.
+            bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, _MOST_UNSENT)
+            return bound
     raise ViewerError(
         f'ports {port} to {last} of {host} are all taken; -p port:=… chooses another, 0 any that '
         'is free'
