@@ -221,6 +221,7 @@ def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
     other.wait_until(f"document.body.innerText.match('{name} drives')")
     other.click('.stop')
     assert ears.has_stopped() < STOPS_WITHIN
+    page.wait_until('!amr.now.driving')  # though the key is still down
     page.key_up('KeyW')
     other.close()
 

@@ -52,8 +52,8 @@ def test_who_leaves_gives_all_wheels_back():
 def test_everybody_may_stop():
     driving = Driving(0.4)
     driving.drive('/', 'a', 0.0)
-    driving.stop('/', 'b', 0.1)
-    driving.stop('/', 'b', 0.1)
+    assert driving.stop('/', 'b', 0.1) == 'a'
+    assert driving.stop('/', 'b', 0.1) is None
     assert driving.driver('/') is None
     assert driving.drive('/', 'b', 0.1)
 
@@ -78,7 +78,7 @@ def test_who_was_stopped_by_another_and_stops_has_let_go():
 def test_who_stops_may_drive_at_once():
     driving = Driving(0.4)
     driving.drive('/', 'a', 0.0)
-    driving.stop('/', 'a', 0.1)
+    assert driving.stop('/', 'a', 0.1) is None
     assert driving.drive('/', 'a', 0.1)
 
 

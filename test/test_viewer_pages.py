@@ -106,6 +106,19 @@ def test_a_page_that_does_not_read_is_spared_states_and_others_get_them_all(back
         assert 0 < waiting['page 1'] <= len(LARGE) + 32 * 1024
 
 
+def test_no_old_states_wait_for_a_page_that_reads_late(backend):
+    """Neither here nor in the system, which would take 4 MB."""
+    with serving(backend, rate=240.0) as server, deaf(server.url) as late:
+        late.settimeout(PATIENCE)
+        with Page(server.url) as page:
+            backend.frame = bytes(10_000)
+            page.wait(lambda: len(page.states) > 200)  # 2 MB
+            backend.frame = None
+        late.shutdown(socket.SHUT_WR)
+        read = sum(map(len, iter(lambda: late.recv(65536), b'')))
+        assert read < 500_000
+
+
 def test_a_page_that_lets_too_much_else_wait_is_dropped(server):
     with deaf(server.url), Page(server.url) as page:
         for count in range(30):  # 120 MB
@@ -186,7 +199,7 @@ def test_a_stop_of_what_is_not_there_is_told_to_who_asked(backend, server):
         asker.say('stop', robot=None)
         other.ask('play', 1, simulator='/s')
         assert (other.last('notice'), other.of('driver')) == (None, [
-            {'type': 'driver', 'robot': '/', 'client': None}
+            {'type': 'driver', 'robot': '/', 'client': None, 'stopped': None}
         ])  # fmt: skip
 
 

@@ -152,8 +152,10 @@ def test_constants_are_the_same():
 
 
 def test_a_message_is_json_with_its_type():
-    frame = protocol.encode(protocol.Driver('/', 'page 1'))
-    assert json.loads(frame) == {'type': 'driver', 'robot': '/', 'client': 'page 1'}
+    frame = protocol.encode(protocol.Driver('/', None, 'page 1'))
+    assert json.loads(frame) == {
+        'type': 'driver', 'robot': '/', 'client': None, 'stopped': 'page 1'
+    }  # fmt: skip
 
 
 def test_what_is_no_number_is_null_for_the_page():

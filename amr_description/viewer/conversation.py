@@ -82,17 +82,17 @@ class Conversation:
             self._attempt(page, lambda: self._backend.drive(robot, 0.0, 0.0))  # say why not
 
     def _stop(self, robot: str, client: str) -> None:
-        self._driving.stop(robot, client, asyncio.get_running_loop().time())
-        self._bring_to_rest([robot])
+        stopped = self._driving.stop(robot, client, asyncio.get_running_loop().time())
+        self._bring_to_rest([robot], stopped)
 
-    def _bring_to_rest(self, robots: list[str]) -> None:
-        """Command zero, once."""
+    def _bring_to_rest(self, robots: list[str], stopped: str | None = None) -> None:
+        """Command zero, once; ``stopped``: the page that must let go."""
         for robot in robots:
             try:
                 self._backend.drive(robot, 0.0, 0.0)
             except AmrError as error:  # it is gone, and with it who would hear
                 self._pages.tell(Notice('warning', str(error)))
-            self._pages.show(robot, Driver(robot, self._driving.driver(robot)))
+            self._pages.show(robot, Driver(robot, self._driving.driver(robot), stopped))
 
     def _await_expiry(self, now: float) -> None:
         due = self._driving.next_expiry()

@@ -54,12 +54,14 @@ class Driving:
         self._drives[robot] = _Drive(client, time + self._timeout)
         return True
 
-    def stop(self, robot: str, client: str, time: float) -> None:
-        """Take the wheel from whoever has it, as ``client`` asks."""
+    def stop(self, robot: str, client: str, time: float) -> str | None:
+        """Take the wheel from whoever has it, as ``client`` asks; return who must let go."""
         drive = self._drives.pop(robot, None)
         self._stopped.pop((robot, client), None)
-        if drive is not None and drive.client != client:
-            self._stopped[robot, drive.client] = time + self._timeout
+        if drive is None or drive.client == client:
+            return None
+        self._stopped[robot, drive.client] = time + self._timeout
+        return drive.client
 
     def leave(self, client: str) -> list[str]:
         """Take the wheel from a page that is gone."""

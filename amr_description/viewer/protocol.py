@@ -229,11 +229,12 @@ class Diagnostics:
 
 @dataclass(frozen=True, slots=True)
 class Driver:
-    """Who drives a robot; None: nobody."""
+    """Who drives a robot; None: nobody. ``stopped``: who drove, until another page stopped it."""
 
     type: ClassVar[str] = 'driver'
     robot: str
     client: str | None
+    stopped: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,7 +49,7 @@ export function inspect({ app, stream, recorder, view }: Parts): void {
     get now(): Inspection {
       return {
         link: store.link.state,
-        client: store.hello?.client ?? null,
+        client: store.client,
         robot: store.robot?.id ?? null,
         driver: store.driver?.name ?? null,
         driving: pilot.driving,

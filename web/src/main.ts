@@ -76,7 +76,7 @@ store.watch(['graph'], () => recorder.keep((store.graph?.robots ?? []).map(({ id
 store.watch(['reset'], () => recorder.clear());
 store.watch(['driver', 'robot', 'graph'], () => {
   const { driver } = store;
-  pilot.hearDriver(driver === null ? 'nobody' : driver.me ? 'me' : 'other');
+  pilot.setTaken(driver !== null && !driver.me);
 });
 pilot.onRefused = () => {
   store.note('warning', `${store.driver?.name} drives; STOP stops it for everybody.`);
@@ -92,8 +92,8 @@ connection.onLink = (link) => {
   store.setLink(link);
 };
 connection.onMessage = (message) => {
-  if (message.type === 'reply' && !message.ok) {
-    pilot.halt(); // only a refused `drive` is answered without having been asked
+  if (message.type === 'driver' && message.stopped !== null && message.stopped === store.client) {
+    pilot.halt();
   }
   store.take(message);
 };

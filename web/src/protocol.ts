@@ -139,6 +139,7 @@ export interface Driver {
   type: 'driver';
   robot: string;
   client: string | null; // null: nobody
+  stopped: string | null; // who drove until another page stopped the robot: it must let go
 }
 
 /** The answer to a request, by its `id`. */

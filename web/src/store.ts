@@ -65,6 +65,11 @@ export class Store {
     return chosen ?? robots.find(({ command }) => command !== null) ?? robots[0] ?? null;
   }
 
+  /** The name of this page, as the node knows it. */
+  get client(): string | null {
+    return this.hello?.client ?? null;
+  }
+
   get simulator(): SimulatorInfo | null {
     return this.graph?.simulators[0] ?? null;
   }
@@ -87,7 +92,7 @@ export class Store {
   /** Who drives the robot: this page, another one by its name, or nobody. */
   get driver(): { me: boolean; name: string } | null {
     const name = this.robot === null ? null : (this.drivers.get(this.robot.id) ?? null);
-    return name === null ? null : { me: name === this.hello?.client, name };
+    return name === null ? null : { me: name === this.client, name };
   }
 
   /** The controller that hears the commands, where it is known and does not run. */

@@ -164,29 +164,17 @@ test('a closed connection lets go', () => {
 test('when somebody else stops our robot, a held key does not drive on', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);
-  pilot.hearDriver('me');
   outside.pass(1000);
-  pilot.hearDriver('nobody');
+  pilot.halt();
   const count = outside.sent.length;
   outside.pass(1000);
   assert.equal(pilot.driving, false);
   assert.equal(outside.sent.length, count, 'a stop is not answered by a stop');
-});
-
-test('a page that was late, so that the node gave it up, drives on while the key is held', () => {
-  const { outside, pilot } = piloting();
-  pilot.set('keys', AHEAD);
-  pilot.hearDriver('me');
-  outside.pass(1000);
-  outside.time += 600; // nothing on this page ran: its timers are late
-  pilot.hearDriver('nobody');
-  assert.equal(pilot.driving, true);
-  outside.pass(1);
-  pilot.hearDriver('me');
+  pilot.set('keys', LEFT);
+  assert.equal(pilot.driving, false, 'held from before');
+  pilot.set('keys', null);
+  pilot.set('keys', LEFT);
   assert.equal(outside.last?.type, 'drive');
-  outside.pass(1000);
-  pilot.hearDriver('nobody');
-  assert.equal(pilot.driving, false, 'in time again, so it was somebody');
 });
 
 test('drives go out between late timers, but no more often for it', () => {
@@ -203,31 +191,19 @@ test('drives go out between late timers, but no more often for it', () => {
   assert.equal(outside.sent.length, 2);
 });
 
-test('the answer to our own stop does not take the wheel from the next press', () => {
-  const { outside, pilot } = piloting();
-  pilot.set('keys', AHEAD);
-  pilot.hearDriver('me');
-  pilot.set('keys', null);
-  pilot.set('keys', LEFT);
-  outside.pass(30);
-  pilot.hearDriver('nobody');
-  pilot.hearDriver('me');
-  assert.equal(pilot.driving, true);
-});
-
 test('what another page drives is not driven from here, and it is said once', () => {
   const { outside, pilot } = piloting();
   let refusals = 0;
   pilot.onRefused = () => {
     refusals += 1;
   };
-  pilot.hearDriver('other');
+  pilot.setTaken(true);
   pilot.set('stick', AHEAD);
   pilot.set('stick', LEFT);
   outside.pass(1000);
   assert.deepEqual(outside.sent, []);
   assert.equal(refusals, 1);
-  pilot.hearDriver('nobody');
+  pilot.setTaken(false);
   pilot.set('stick', AHEAD);
   assert.deepEqual(outside.sent, [], 'held from before');
   pilot.set('stick', null);
@@ -238,8 +214,7 @@ test('what another page drives is not driven from here, and it is said once', ()
 test('when another page takes the wheel, ours lets go without a stop', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);
-  pilot.hearDriver('me');
-  pilot.hearDriver('other');
+  pilot.setTaken(true);
   outside.pass(1000);
   assert.equal(outside.sent.length, 1);
   assert.equal(pilot.driving, false);

@@ -51,7 +51,7 @@ test('of several robots, one that can be driven is the first choice', () => {
 
 test('what belongs to a robot goes with it', () => {
   const store = connected('/', '/robot1');
-  store.take({ type: 'driver', robot: '/robot1', client: 'page 2' });
+  store.take({ type: 'driver', robot: '/robot1', client: 'page 2', stopped: null });
   store.take({ type: 'diagnostics', robot: '/robot1', items: [] });
   store.select({ robot: '/robot1', frame: 'base_link' });
   store.take(graph('/'));
@@ -62,11 +62,11 @@ test('what belongs to a robot goes with it', () => {
 test('who drives is told from who looks', () => {
   const store = connected('/');
   assert.equal(store.driver, null);
-  store.take({ type: 'driver', robot: '/', client: 'page 2' });
+  store.take({ type: 'driver', robot: '/', client: 'page 2', stopped: null });
   assert.deepEqual(store.driver, { me: false, name: 'page 2' });
-  store.take({ type: 'driver', robot: '/', client: 'page 1' });
+  store.take({ type: 'driver', robot: '/', client: 'page 1', stopped: null });
   assert.deepEqual(store.driver, { me: true, name: 'page 1' });
-  store.take({ type: 'driver', robot: '/', client: null });
+  store.take({ type: 'driver', robot: '/', client: null, stopped: null });
   assert.equal(store.driver, null);
 });
 

@@ -12,11 +12,6 @@ import { mix, toVelocity, type Demand, type Limits, type Velocity } from './mixi
 
 const LEAST_GAP = 1000 / 60; // ms between two `drive`
 const REPEAT = 1000 / 30; // ms
-const LATE = 250; // ms between two `drive` after which the node, at 400 ms, may give us up
-const OWN_STOP = 500; // ms in which "nobody drives" is the answer to a stop of our own
-
-/** Who has the wheel of a robot. */
-export type Wheel = 'me' | 'other' | 'nobody';
 
 /** What a pilot needs of the world outside. */
 export interface PilotPort {
@@ -36,10 +31,7 @@ export class Pilot {
   private readonly hands = new Map<string, Demand>();
   private readonly blocked = new Set<string>(); // hands that must let go before they count again
   private sentAt = -Infinity;
-  private lateAt = -Infinity; // when this page last drove with too long a gap
-  private stoppedAt = -Infinity;
-  private repeats = false; // a `drive` has gone out since the hands took hold
-  private driver: Wheel = 'nobody'; // as the node has said
+  private taken = false; // another page drives our robot
   private cancel: (() => void) | null = null;
 
   constructor(private readonly port: PilotPort) {}
@@ -78,7 +70,7 @@ export class Pilot {
       }
     } else if (this.blocked.has(hand)) {
       return;
-    } else if (this.driver === 'other') {
+    } else if (this.taken) {
       this.blocked.add(hand);
       this.onRefused();
     } else if (!same(this.hands.get(hand), demand)) {
@@ -104,7 +96,7 @@ export class Pilot {
     this.onChange(null);
   }
 
-  /** The node refused, or the connection went: nothing is sent; hands must let go to drive. */
+  /** Another page stopped us, or the connection went: nothing is sent; hands must let go. */
   halt(): void {
     const driving = this.driving;
     this.letGo();
@@ -113,17 +105,10 @@ export class Pilot {
     }
   }
 
-  /**
-   * The node says who drives our robot. If that was us, and we neither gave the wheel back nor
-   * were late, somebody stopped the robot, and a hand that still holds must not drive on.
-   */
-  hearDriver(driver: Wheel): void {
-    const now = this.port.now();
-    const ours = now - this.stoppedAt <= OWN_STOP;
-    const late = now - this.lateAt <= OWN_STOP || (this.driving && now - this.sentAt > LATE);
-    const lost = this.driver === 'me' && driver === 'nobody' && !ours && !late;
-    this.driver = driver;
-    if (lost || driver === 'other') {
+  /** Whether another page drives our robot: then no hand of this one does. */
+  setTaken(taken: boolean): void {
+    this.taken = taken;
+    if (taken) {
       this.halt();
     }
   }
@@ -133,7 +118,7 @@ export class Pilot {
    * this wherever the page gets to do something.
    */
   keepUp(): void {
-    if (this.repeats && this.port.now() - this.sentAt >= REPEAT) {
+    if (this.driving && this.port.now() - this.sentAt >= REPEAT) {
       this.sendDrive();
     }
   }
@@ -143,7 +128,6 @@ export class Pilot {
       this.blocked.add(hand);
     }
     this.hands.clear();
-    this.repeats = false;
     this.cancel?.();
     this.cancel = null;
   }
@@ -172,13 +156,8 @@ export class Pilot {
     if (this.robot === null || velocity === null) {
       return;
     }
-    const now = this.port.now();
-    if (this.repeats && now - this.sentAt > LATE) {
-      this.lateAt = now;
-    }
-    this.sentAt = now;
+    this.sentAt = this.port.now();
     if (this.port.send({ type: 'drive', robot: this.robot, ...velocity })) {
-      this.repeats = true;
       this.schedule(REPEAT);
     } else {
       this.halt();
@@ -186,7 +165,6 @@ export class Pilot {
   }
 
   private sendStop(robot: string | null): void {
-    this.stoppedAt = this.port.now();
     this.port.send({ type: 'stop', robot });
   }
 
