@@ -121,8 +121,8 @@ class Program:
             while self._read(deadline):
                 pass
         code = self.process.wait(PATIENCE)
-        while self._master is not None and self._read(time.monotonic()):
-            pass  # a terminal keeps what was written to it
+        while self._read(time.monotonic()):
+            pass  # its last words: a terminal keeps them, and so does a pipe, after the deadline
         return code
 
     def _read(self, deadline):

@@ -61,7 +61,7 @@ def robot(tmp_path_factory):
             '\ndrive:', '\n/one/drive:'
         )
     )
-    options = f'-p real_time_factor:=8.0 -p controllers:={path}'.split()
+    options = f'-p real_time_factor:=5.0 -p controllers:={path}'.split()
     with running('mujoco_sim', '--ros-args', *options, until='waiting for robots'):
         assert run('create', '-string', URDF, '--ros-args', '-r', '__ns:=/one').returncode == 0
         assert run('spawner', 'drive', '-c', '/one/controller_manager').returncode == 0
