@@ -15,7 +15,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
 from amr_description.errors import ParameterError
@@ -292,13 +292,15 @@ def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
 def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
     node = Node('speaker')
     outgoing = Outgoing(node.get_logger())
-    gone, there = (node.create_publisher(String, name, 1) for name in ('gone', 'there'))
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    gone, there = (node.create_publisher(String, name, latched) for name in ('gone', 'there'))
     filled = []
     for publisher in (gone, there):
-        outgoing.send(lambda sample, _: filled.append(sample), 'word', String(), publisher)
+        name = publisher.topic_name
+        outgoing.send(lambda sample, _: filled.append(sample), name, String(), publisher)
     node.destroy_publisher(gone)
     outgoing.publish(0)
-    assert filled == ['word', 'word']
+    assert filled == ['/there']
     node.destroy_node()
 
 

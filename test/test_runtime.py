@@ -14,12 +14,21 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 from running_programs import Program
 from std_msgs.msg import String
 
 from amr_description.errors import ParameterError, UsageError
 from amr_description.nodes.clients import wait_until
-from amr_description.nodes.runtime import argument_errors, program, ros, run, spin, spinning
+from amr_description.nodes.runtime import (
+    argument_errors,
+    ExecutorThread,
+    program,
+    ros,
+    run,
+    spin,
+    spinning,
+)
 from amr_description.nodes.stop_requests import StopRequests
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
@@ -236,6 +245,44 @@ def test_spinning_serves_a_node_in_a_thread_and_ends_it(context):
     assert 'spinning' not in [thread.name for thread in threading.enumerate()]
     with pytest.raises(InvalidHandle, match='destr'), node.handle:
         pass
+
+
+def test_a_thread_serves_its_nodes_and_ends_though_a_coroutine_awaits_for_ever(listener):
+    begun, ended = threading.Event(), threading.Event()
+
+    async def wait_for_ever():
+        begun.set()
+        try:
+            await Future()
+        finally:
+            ended.set()
+
+    listener.create_timer(0.01, wait_for_ever)
+    thread = ExecutorThread('served', on_failure=lambda: None)
+    thread.executor.add_node(listener)
+    thread.start()
+    assert begun.wait(20.0)
+    thread.end()
+    assert ended.is_set()
+    assert 'served' not in [each.name for each in threading.enumerate()]
+    thread.executor.shutdown()
+
+
+@pytest.mark.parametrize('error', [LookupError('mine'), SystemExit(4)])
+def test_a_thread_whose_callback_raises_says_so(listener, error, capfd):
+    failed = threading.Event()
+
+    def fail():
+        raise error
+
+    listener.create_timer(0.01, fail)
+    thread = ExecutorThread('served', failed.set)
+    thread.executor.add_node(listener)
+    thread.start()
+    assert failed.wait(20.0)
+    thread.end()
+    thread.executor.shutdown()
+    assert type(error).__name__ in capfd.readouterr().err
 
 
 def phases(body, **options):

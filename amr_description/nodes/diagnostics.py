@@ -53,7 +53,9 @@ class DiagnosticsTopic:
         manager = self.manager
         measured = None
         if manager is not None:
-            measured = await self._owner.submit(lambda: take_measurements(manager))
+            measured = await self._owner.submit(
+                lambda: take_measurements(manager), self._node.executor
+            )
         found = reports(
             measured,
             self.thresholds,

@@ -1,15 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the services of a controller manager do: coroutines of the ROS thread.
+What the services of a controller manager do: coroutines of the thread that serves its node.
 
 Nodes and topics are made here, the rest is asked of the owner, whom a coroutine awaits: nothing
 here ever blocks the executor.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from rclpy.node import Node
+from rclpy.task import Future
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
@@ -80,7 +81,7 @@ class ManagerRequests:
         self.controllers[name] = bridge
         self.node.executor.add_node(bridge.node)
         try:
-            await self._owner.submit(
+            await self._ask(
                 lambda: self.manager.load(
                     bridge.controller, entry.type, entry.fallback_controllers, bridge.watch
                 )
@@ -104,11 +105,11 @@ class ManagerRequests:
         self.log(Severity.INFO, f"Configuring controller: '{name}'")
         parameters = bridge.parameters()
         try:
-            configuring = await self._owner.submit(lambda: self.manager.begin_configure(name))
+            configuring = await self._ask(lambda: self.manager.begin_configure(name))
             await run_in_thread(
                 lambda: configuring.run(parameters), self.node.executor, f'configure {name}'
             )
-            await self._owner.submit(lambda: self.manager.finish_configure(configuring))
+            await self._ask(lambda: self.manager.finish_configure(configuring))
         except AmrError:
             states = {each.name: each.state for each in self.manager.snapshot.controllers}
             if states.get(name) is LifecycleState.UNCONFIGURED:
@@ -127,13 +128,13 @@ class ManagerRequests:
 
     async def cleanup(self, name: str) -> None:
         """Bring a controller back to unconfigured, without topics. Raises ControllerError."""
-        await self._owner.submit(lambda: self.manager.cleanup(name))
+        await self._ask(lambda: self.manager.cleanup(name))
         if name in self.controllers:  # and was not unloaded since
             self.controllers[name].disconnect()
 
     async def unload(self, name: str) -> None:
         """Remove a controller and its node. Raises ControllerError."""
-        await self._owner.submit(lambda: self.manager.unload(name))
+        await self._ask(lambda: self.manager.unload(name))
         self._forget(name)
 
     async def reload_libraries(self, *, force: bool) -> None:
@@ -145,7 +146,7 @@ class ManagerRequests:
                 f'{", ".join(active)}; deactivate them, or ask with force_kill'
             )
         if active:
-            await self._owner.submit(
+            await self._ask(
                 lambda: self.manager.switch([], active, Strictness.STRICT, self._owner.loop.time)
             )
         for name in list(self.controllers):
@@ -164,7 +165,7 @@ class ManagerRequests:
             return self.manager.switch(activate, deactivate, strictness, time, timeout)
 
         try:
-            message = await self._owner.submit(switch)
+            message = await self._ask(switch)
         finally:
             self._disconnect_what_was_cleaned_up()
         self.log(Severity.INFO, message)
@@ -178,9 +179,13 @@ class ManagerRequests:
 
     async def set_component_state(self, name: str, state: LifecycleState) -> None:
         """Bring a hardware component to a state. Raises HardwareError."""
-        await self._owner.submit(
+        await self._ask(
             lambda: self.manager.set_component_state(name, state, self._owner.loop.time)
         )
+
+    def _ask[Result](self, call: Callable[[], Result]) -> Future:
+        """Have the owner make a call; see :meth:`Owner.submit`."""
+        return self._owner.submit(call, self.node.executor)
 
     def _make(self, name: str, entry: ControllerEntry) -> ControllerNode:
         """Make a controller and its node. Raises ControllerError, ParameterError, or foreign."""

@@ -9,6 +9,7 @@ of a core for three nodes. Their clocks are set here, before anything is publish
 """
 
 from collections.abc import Callable, Sequence
+import threading
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -131,6 +132,7 @@ class SimulatedOutgoing(Outgoing):
         """``node`` publishes ``/clock`` and lends its logger."""
         super().__init__(node.get_logger())
         self._clocks: list[ROSClock] = []
+        self._changing_clocks = threading.Lock()
         self._message = Clock()
         self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
         self._receipts = Receipts(node)
@@ -145,11 +147,13 @@ class SimulatedOutgoing(Outgoing):
         source.ros_time_is_active = True
         node.destroy_subscription(source._clock_sub)
         source._clock_sub = None
-        self._clocks = [*self._clocks, node.get_clock()]
+        with self._changing_clocks:
+            self._clocks = [*self._clocks, node.get_clock()]
 
     def release(self, node: Node) -> None:
         """Forget the node's clock."""
-        self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
+        with self._changing_clocks:
+            self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
 
     def confirm(self, topic: str, number: int) -> None:
         """Say so, to whoever drives in lock-step."""

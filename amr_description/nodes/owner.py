@@ -118,6 +118,7 @@ class Owner:
 
     def __init__(self, mailbox: Mailbox, executor: Executor) -> None:
         self.failed = False
+        """What keeps the robots going has ended by a bug; so shall the process."""
         self.on_failure: Callable[[], None] = executor.wake
         self.on_start: Callable[[], None] = lambda: None
         """Called in the owner's thread, before the first turn."""
@@ -135,13 +136,22 @@ class Owner:
             self._mailbox.put(self.loop.stop)
             self._thread.join()
 
-    def submit[Result](self, call: Callable[[], Result]) -> Future:
+    def fail(self) -> None:
+        """End the process instead of letting it stand still; from the thread that found a bug."""
+        self.failed = True
+        self.on_failure()
+
+    def submit[Result](
+        self, call: Callable[[], Result], executor: Executor | None = None
+    ) -> Future:
         """
         Have the owner make a call between two turns; await the result in an async callback.
 
-        What the call raises, the future raises.
+        What the call raises, the future raises. ``executor``: that of the callback; None: the one
+        that the owner was made with.
         """
-        future = Future(executor=self._executor)
+        executor = executor or self._executor
+        future = Future(executor=executor)
 
         def make() -> None:
             try:
@@ -150,7 +160,7 @@ class Owner:
                 future.set_exception(error)
             else:
                 future.set_result(result)
-            self._executor.wake()  # a task that awaits is looked at only when the executor wakes
+            executor.wake()  # a task that awaits is looked at only when the executor wakes
 
         self._mailbox.put(make)
         return future
@@ -179,8 +189,7 @@ class Owner:
             self.loop.run()
         except BaseException:  # sys.exit() in a stranger's class, too: nobody else would see it
             traceback.print_exc()
-            self.failed = True
-            self.on_failure()
+            self.fail()
         finally:
             for manager in self.loop.managers:
                 self._shut_down(manager)

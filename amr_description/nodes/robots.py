@@ -7,13 +7,12 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 import enum
 from pathlib import Path
 
 from rclpy.executors import Executor
-from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.foreign_errors import describe
@@ -32,7 +31,8 @@ from amr_description.nodes.node_log import LogThread
 from amr_description.nodes.outgoing import Outgoing
 from amr_description.nodes.owner import Owner
 from amr_description.nodes.parameter_files import read_parameter_file
-from amr_description.nodes.runtime import argument_errors
+from amr_description.nodes.runtime import argument_errors, ExecutorThread
+from amr_description.nodes.threads import run_in_thread
 from amr_description.sim.resources import package_share
 from amr_description.sim.robot_spec import WORLD_LINK
 from amr_description.sim.spawning import check_name, free_name, SpawnCode
@@ -67,6 +67,8 @@ class Entity:
     info: Info
     manager: ControllerManagerNode | None
     """Of a robot that asks for control."""
+    thread: ExecutorThread | None
+    """Serves the manager, its components and controllers."""
 
 
 class Robots:
@@ -149,12 +151,9 @@ class Robots:
             if node is not None:
                 node.destroy()
             raise
-        if node is not None:
-            self._executor.add_node(node.node)
-            DescriptionSource(node.node, node.log, robot=robot)
-            node.start()
+        thread = self._serve(node, robot, given) if node is not None else None
         self._ground_truth.add(given, namespace)
-        self._entities[given] = Entity(given, Info(_category_of(robot)), node)
+        self._entities[given] = Entity(given, Info(_category_of(robot)), node, thread)
         return given
 
     async def remove(self, name: str) -> None:
@@ -165,15 +164,11 @@ class Robots:
         """
         self.find(name)
         entity = self._entities.pop(name)
-        manager = entity.manager
-        nodes = manager.nodes() if manager is not None else []
-        for node in nodes:
-            self._executor.remove_node(node)
-        self._cancel_callbacks(nodes)
         self._ground_truth.remove(name)
+        if entity.thread is not None:
+            await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
         await self._owner.submit(lambda: self._take_out(entity))
-        if manager is not None:
-            manager.destroy()
+        _destroy(entity)
 
     async def remove_all(self) -> int:
         """Remove every robot; return how many."""
@@ -183,21 +178,24 @@ class Robots:
             count += 1
         return count
 
-    def _cancel_callbacks(self, nodes: Collection[Node]) -> None:
-        """
-        End those of ``nodes`` that have begun, or were about to; nobody else would.
-
-        The executor goes on with the tasks of its own nodes only, and keeps the others for ever.
-        """
-        for task, _, node in list(self._executor._tasks):
-            if node in nodes:
-                task.cancel()
-
     def destroy(self) -> None:
         """Remove all nodes; the owner has stopped."""
+        threads = [each.thread for each in self._entities.values() if each.thread is not None]
+        for thread in threads:
+            thread.ask_to_end()  # all at once: each may have a callback to finish
+        for thread in threads:
+            thread.end()
         for entity in self._entities.values():
-            if entity.manager is not None:
-                entity.manager.destroy()
+            _destroy(entity)
+
+    def _serve(self, node: ControllerManagerNode, robot: Robot, name: str) -> ExecutorThread:
+        """Make the services of a robot's manager, in a thread that serves them."""
+        thread = ExecutorThread(name, self._owner.fail)
+        thread.executor.add_node(node.node)
+        DescriptionSource(node.node, node.log, robot=robot)
+        node.start()
+        thread.start()
+        return thread
 
     # --- on the owner's thread ----------------------------------------------------------------
 
@@ -296,6 +294,14 @@ class Robots:
         for finding in drive_warnings(robot, paths):
             self._log(Severity.WARN, finding.text)
         return [argument for path in paths for argument in ('--params-file', path)]
+
+
+def _destroy(entity: Entity) -> None:
+    """Remove the nodes of a robot that its thread serves no longer, and the owner neither."""
+    if entity.manager is not None:
+        entity.manager.destroy()
+    if entity.thread is not None:
+        entity.thread.executor.shutdown()
 
 
 def _category_of(robot: Robot) -> Category:

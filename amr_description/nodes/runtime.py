@@ -46,10 +46,11 @@ from pathlib import Path
 import re
 import sys
 import threading
+import traceback
 
 import rclpy
 from rclpy.exceptions import NameValidationException, ParameterException
-from rclpy.executors import Executor, ExternalShutdownException
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
@@ -175,6 +176,49 @@ def spinning(
         thread.join()
         server.shutdown()
         node.destroy_node()
+
+
+class ExecutorThread:
+    """
+    A thread that serves the nodes of one robot among many; they are added to its ``executor``.
+
+    SingleThreadedExecutor looks at every entity it has at each wake-up: some 100 a robot, 1.5 ms.
+    With ten robots in one executor each message would cost ten times that.
+    """
+
+    def __init__(self, name: str, on_failure: Callable[[], object]) -> None:
+        """``on_failure``: called in the thread when a callback has raised, which is a bug."""
+        self.executor = SingleThreadedExecutor()
+        self._on_failure = on_failure
+        self._ending = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=name)
+
+    def start(self) -> None:
+        """Begin to serve."""
+        self._thread.start()
+
+    def ask_to_end(self) -> None:
+        """Let no other callback begin."""
+        self._ending.set()
+        self.executor.wake()
+
+    def end(self) -> None:
+        """
+        Wait for the callback that runs, and cancel the coroutines that await something.
+
+        Whatever they await may still wake the executor: shut it down after that.
+        """
+        self.ask_to_end()
+        self._thread.join()
+        for task, *_ in self.executor._tasks:
+            task.cancel()  # the executor would keep them for ever
+
+    def _run(self) -> None:
+        try:
+            spin(self.executor, self._ending.is_set)
+        except BaseException:  # sys.exit() in a stranger's class, too: nobody else would see it
+            traceback.print_exc()
+            self._on_failure()
 
 
 @contextmanager
