@@ -104,6 +104,31 @@ def test_textures_are_served_too(tmp_path):
     assert describe_robot('/', text).message.meshes == {uri: f'/mesh/{digest(b"png")}.png'}
 
 
+def test_textures_that_a_collada_file_names_are_served_by_their_place_beside_it(tmp_path):
+    (tmp_path / 'meshes').mkdir()
+    (tmp_path / 'a&b.png').write_bytes(b'png')
+    names = ('../a&amp;b.png', './gone.jpg', 'image_id', '/etc/passwd', 'file:///x.png', 'p.dae')
+    images = ''.join(f'<image><init_from>\n {each} </init_from></image>' for each in names)
+    mesh = tmp_path / 'meshes' / 'part.dae'
+    mesh.write_text(f'<COLLADA>{images}</COLLADA>')
+    folder = f'file://{tmp_path}/meshes/'
+    message = describe_robot('/', urdf(drawn(f'{folder}part.dae'))).message
+    assert message.meshes == {
+        f'{folder}part.dae': f'/mesh/{digest(mesh.read_bytes())}.dae',
+        f'{folder}../a&b.png': f'/mesh/{digest(b"png")}.png',
+    }
+    assert [each.text.split()[0] for each in message.findings if 'drawn' in each.text] == [
+        f'{folder}gone.jpg'
+    ]
+
+
+def test_a_mesh_that_the_page_cannot_read_is_told(tmp_path):
+    (tmp_path / 'part.glb').write_bytes(b'glTF')
+    message = describe_robot('/', urdf(drawn(f'file://{tmp_path}/part.glb'))).message
+    assert message.meshes == {}
+    assert any("not '.glb'" in each.text for each in message.findings)
+
+
 @pytest.fixture
 def static(tmp_path):
     folder = tmp_path / 'static'

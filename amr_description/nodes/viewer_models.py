@@ -4,21 +4,25 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from html import unescape
 import math
 from pathlib import Path
+import re
 
 from amr_description.errors import SimulationError
 from amr_description.model import findings
 from amr_description.model.checks import examine
 from amr_description.model.robot import Joint, JointType, Mesh, Robot
 from amr_description.sim.resources import resolve_uri
-from amr_description.viewer.files import digest, TYPES
+from amr_description.viewer.files import digest
 from amr_description.viewer.protocol import Finding, JointInfo, Model
 
 SOURCE = 'robot_description'
 _LARGEST_MESH = 256 * 1024 * 1024
-_SUFFIXES = {'.stl', '.obj', '.dae', '.gltf', '.glb', '.png', '.jpg', '.jpeg'} & {*TYPES}
-"""Of what is served at all, whatever a description names."""
+_MESHES = {'.stl', '.obj', '.dae'}
+_IMAGES = {'.png', '.jpg', '.jpeg'}
+"""Nothing else is served, whatever a description names."""
+_IMAGE_OF_COLLADA = re.compile(r'<init_from>\s*(?:<ref>\s*)?([^<]+?)\s*</')
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,13 +45,23 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
     model, told = examination.robot, [_finding(each) for each in examination.findings]
     meshes: dict[str, str] = {}
     files: dict[str, Path] = {}
-    for uri in dict.fromkeys(_files_of(model)) if model else ():
+    tried: set[str] = set()
+    wanted = [*_files_of(model)] if model else []
+    while wanted:
+        uri = wanted.pop(0)
+        if uri in tried:
+            continue
+        tried.add(uri)
         try:
-            name, file = _served(uri)
+            file = resolve_uri(uri)
+            data = _read(file)
         except SimulationError as error:
             told.append(Finding('warning', None, f'{uri} cannot be drawn: {error}', ''))
             continue
+        name = f'{digest(data)}{file.suffix.lower()}'
         meshes[uri], files[name] = f'/mesh/{name}', file
+        if file.suffix.lower() == '.dae':
+            wanted += _images_of_collada(uri, data)
     message = Model(
         robot=robot,
         urdf=text,
@@ -72,17 +86,26 @@ def _textures(robot: Robot) -> Iterable[str]:
     return [look.texture for look in looks if look and look.texture]
 
 
-def _served(uri: str) -> tuple[str, Path]:
-    """Return the name in the URL and the file. Raises SimulationError."""
-    file = resolve_uri(uri)
+def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
+    """The images that a COLLADA file names, beside it; what it has not is drawn without."""
+    folder = uri[: uri.rindex('/') + 1]
+    for found in _IMAGE_OF_COLLADA.findall(data.decode(errors='replace')):
+        name = unescape(found)
+        if Path(name).suffix.lower() in _IMAGES and not name.startswith('/') and '://' not in name:
+            yield folder + name.removeprefix('./')
+
+
+def _read(file: Path) -> bytes:
+    """Read a file that a page draws. Raises SimulationError."""
     suffix = file.suffix.lower()
-    if suffix not in _SUFFIXES:
-        raise SimulationError(f'the page draws {", ".join(sorted(_SUFFIXES))}, not {suffix!a}')
+    if suffix not in _MESHES | _IMAGES:
+        kinds = ', '.join(sorted(_MESHES | _IMAGES))
+        raise SimulationError(f'the page draws {kinds}, not {suffix!a}')
     try:
         size = file.stat().st_size
         if size > _LARGEST_MESH:
             raise SimulationError(f'it has {size} bytes, more than {_LARGEST_MESH}')
-        return f'{digest(file.read_bytes())}{suffix}', file
+        return file.read_bytes()
     except (OSError, ValueError) as error:
         raise SimulationError(f'{file}: {getattr(error, "strerror", None) or error}') from error
 

@@ -23,8 +23,6 @@ TYPES = {
     '.stl': 'model/stl',
     '.obj': 'model/obj',
     '.dae': 'model/vnd.collada+xml',
-    '.gltf': 'model/gltf+json',
-    '.glb': 'model/gltf-binary',
 }
 """Content types by suffix; nothing else is served."""
 
