@@ -16,6 +16,7 @@ from running_programs import PATIENCE
 from amr_description.bringup.guardian import processes
 
 IN_ORDER = str(STACKS / 'in_order.py')
+CHATTY = str(STACKS / 'chatty.py')
 STUBBORN = str(STACKS / 'stubborn.py')
 
 
@@ -163,6 +164,22 @@ def test_a_reader_that_goes_away_ends_the_stack(tmp_path):
         assert bringup.left() == []
         log = (bringup.logs / run / 'launch.log').read_text()
         assert "sending signal 'SIGINT' to process[worker-2]" in log
+
+
+def test_a_reader_that_never_was_there_ends_the_stack(tmp_path):
+    piped = ['bash', '-o', 'pipefail', '-c', '"$@" | true', 'bash']
+    with Bringup(tmp_path, IN_ORDER, launcher=piped) as bringup:
+        assert bringup.end() == 128 + signal.SIGPIPE
+        assert bringup.left() == []
+
+
+@pytest.mark.parametrize('streams', ['>&-', '2>&- >&- <&-', '>/dev/full', '2>/dev/full >&2'])
+def test_what_nobody_can_read_costs_nothing_else(tmp_path, streams):
+    closing = ['sh', '-c', f'exec "$@" {streams}', 'sh']
+    with Bringup(tmp_path, CHATTY, 'text:=hello', 'code:=3', launcher=closing) as bringup:
+        assert bringup.end() == 3
+        assert 'Traceback' not in bringup.output
+        assert (bringup.logs / 'latest/step-1.log').read_text() == 'hello\n'
 
 
 def test_orphans_are_adopted_and_reaped(tmp_path):

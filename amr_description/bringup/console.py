@@ -4,6 +4,7 @@
 
 from collections.abc import Callable, Mapping
 import contextlib
+import errno
 import io
 import itertools
 import re
@@ -74,8 +75,8 @@ class Console:
         self._screen: TextIO | None = _with_buffer(screen)
         self._folder = folder
         self._colour = colour
-        self.on_screen_lost: Callable[[], None] = lambda: None
-        """Called once, when nobody reads the screen any more (``| head``)."""
+        self._nobody_reads = False
+        self._on_reader_gone: Callable[[], None] | None = None
         self._name_colours: dict[str, str] = {}
         self._free_colours = itertools.cycle(_NAME_COLOURS)
         self._log_failure_told = False
@@ -85,6 +86,12 @@ class Console:
         self._is_lent = False
         with contextlib.suppress(AttributeError):  # not a TextIOWrapper
             self._screen.reconfigure(errors='backslashreplace')
+
+    def when_reader_is_gone(self, do: Callable[[], None]) -> None:
+        """Call ``do`` once, when nobody reads the screen any more (``| head``), or now."""
+        self._on_reader_gone = do
+        if self._nobody_reads:
+            do()
 
     def say(self, level: Level, name: str, text: str) -> None:
         """Print ``[INFO] [name]: text``."""
@@ -144,9 +151,11 @@ class Console:
                 self._screen.flush()
         except BlockingIOError:  # a terminal that another program made non-blocking is busy
             pass
-        except OSError:
+        except OSError as error:  # a full disk costs what is said, never the robot
             self._screen = None
-            self.on_screen_lost()
+            self._nobody_reads = error.errno in (errno.EPIPE, errno.EIO)
+            if self._nobody_reads and self._on_reader_gone:
+                self._on_reader_gone()
 
     def _named(self, name: str, text: str) -> str:
         if name == LAUNCH:

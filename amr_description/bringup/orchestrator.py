@@ -73,7 +73,7 @@ class Orchestrator:
         self._stop_handlers = stack.stop_handlers
         self._stop_requests = 0
         self._exit_code = 0
-        console.on_screen_lost = self._on_screen_lost
+        console.when_reader_is_gone(self._on_reader_gone)
 
     async def run(self) -> int:
         """Run the stack to its end and return the exit code; nothing is left when it returns."""
@@ -114,7 +114,7 @@ class Orchestrator:
         self._narrator.stop_requested(number, again=self._stop_requests > 0)
         self._request_stop()
 
-    def _on_screen_lost(self) -> None:
+    def _on_reader_gone(self) -> None:
         self._exit_code = _NOBODY_READS
         self._request_stop()
 
