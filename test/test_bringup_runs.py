@@ -4,6 +4,7 @@
 
 import json
 import os
+from pathlib import Path
 import re
 import signal
 import subprocess
@@ -158,6 +159,18 @@ def test_only_the_same_name_in_the_same_domain_clashes(tmp_path):
 def test_a_broken_file_is_no_run(tmp_path, text):
     (tmp_path / 'x.json').write_text(text, encoding='latin-1')
     assert runs(tmp_path) == []
+
+
+def test_a_state_that_is_being_written_is_no_second_run(tmp_path, monkeypatch):
+    run = record(tmp_path, 'run')
+    with monkeypatch.context() as disk:
+        disk.setattr(Path, 'replace', lambda *_: (_ for _ in ()).throw(OSError('full')))
+        run.take({'event': 'ready', 'seconds': 1.0})
+    assert len(list(tmp_path.iterdir())) == 3  # with the lock
+    (state,) = runs(tmp_path)
+    assert state['phase'] == 'starting'
+    run.leave()
+    assert [path.name for path in tmp_path.iterdir()] == ['.lock']
 
 
 @pytest.mark.parametrize('other', [{'start_time': 1}, {'boot': 'another'}])

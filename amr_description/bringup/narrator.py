@@ -7,6 +7,7 @@ import signal
 import time
 
 from amr_description.bringup.child import RunningProcess
+from amr_description.bringup.conditions import Condition
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.event_log import EventLog
@@ -80,26 +81,12 @@ class Narrator:
         """Say that the stack is ready, what it waits for, and what of it can never start."""
         self._status.follow(progress)
         for expired in progress.gave_up:
-            if expired.node not in self._told:
-                self._told.add(expired.node)
-                self._note('never', expired.node, condition=self._condition_of(expired.node))
-                text = f'never starts: {expired.text(self._name_of)}'
-                self._console.say('WARNING', self._name_of(expired.node), text)
-        for node in progress.unreachable():
-            condition = progress.waits_for(node)
-            if node not in self._told and not progress.over and not may_never_hold(condition):
-                self._told.add(node)
-                self._note('never', node, condition=self._condition_of(node))
-                needs = condition.describe(self._name_of)
-                text = f'never starts: needs that {needs}'
-                self._console.say('WARNING', self._name_of(node), text)
-        lost = progress.never_ready
-        if lost and not progress.over and 'ready' not in self._told:
-            self._told.add('ready')
-            needs = lost.describe(self._name_of)
-            self._note('never_ready', condition=needs)
-            self._console.say('WARNING', LAUNCH, f'never gets ready: needs that {needs}')
-            self._status.end()
+            self._never_starts(expired.node, expired.text(self._name_of))
+        if not progress.over:
+            for node in progress.unreachable():
+                if not may_never_hold(progress.waits_for(node)):
+                    self._never_starts(node, f'needs that {self._condition_of(node)}')
+            self._never_ready(progress.never_ready)
         if progress.ready and progress.failure is None and 'ready' not in self._told:
             self._told.add('ready')
             self._status.end()
@@ -109,6 +96,20 @@ class Narrator:
                 self._console.say('INFO', LAUNCH, steps_text(self._steps))
             steps = f': {self._stack.all_next_steps}' if self._stack.all_next_steps else ''
             self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
+
+    def _never_starts(self, node: Node, why: str) -> None:
+        if node not in self._told:
+            self._told.add(node)
+            self._note('never', node, condition=self._condition_of(node))
+            self._console.say('WARNING', self._name_of(node), f'never starts: {why}')
+
+    def _never_ready(self, lost: Condition | None) -> None:
+        if lost is not None and 'ready' not in self._told:
+            self._told.add('ready')
+            needs = lost.describe(self._name_of)
+            self._note('never_ready', condition=needs)
+            self._console.say('WARNING', LAUNCH, f'never gets ready: needs that {needs}')
+            self._status.end()
 
     def lends_terminal(self, node: Node) -> None:
         """Say that from here on the screen is that of its process."""

@@ -175,6 +175,12 @@ class Progress:
         self._ready = self._ready or self._ready_when.judge(self._situation) is Verdict.HOLDS
         return self._ready
 
+    @property
+    def never_ready(self) -> Condition | None:
+        """What the stack needs to be ready and can no longer have; None: it still may."""
+        lost = not self.ready and self._ready_when.judge(self._situation) is Verdict.NEVER
+        return self._ready_when if lost else None
+
     def _obey(self, wishes: Wishes) -> None:
         """Note what a handler wants."""
         self.shutdown = wishes.shutdown
@@ -197,12 +203,6 @@ class Progress:
 
     def _asked_of(self, node: Node) -> list[Logged]:
         return [part for part in self._logged if part.node is node]
-
-    @property
-    def never_ready(self) -> Condition | None:
-        """What the stack needs to be ready and can no longer have; None: it still may."""
-        lost = not self.ready and self._ready_when.judge(self._situation) is Verdict.NEVER
-        return self._ready_when if lost else None
 
     def _pending(self) -> Iterator[Wait]:
         """Yield who waits and what for; None: the stack itself, to be ready."""

@@ -47,6 +47,7 @@ def runs(folder: Path) -> list[State]:
                 found.append(state)
             else:
                 path.unlink(missing_ok=True)
+                _draft(path).unlink(missing_ok=True)
     return sorted(found, key=lambda state: state['since'])
 
 
@@ -111,8 +112,6 @@ class RunRecord:
                 self._state['needs'] = event['condition']
             case 'stop_requested' | 'shutdown' | 'failure' | 'signal_sent':
                 self._state['phase'] = 'stopping'
-            case 'stopped':
-                self.leave()
         if self._is_entered and event['event'] not in _UNSEEN:
             self._write()
 
@@ -121,6 +120,7 @@ class RunRecord:
         self._is_entered = False
         with contextlib.suppress(OSError):
             self._path.unlink(missing_ok=True)
+            _draft(self._path).unlink(missing_ok=True)
 
     def _refuse_clash(self, others: Sequence[State]) -> None:
         for other in others:
@@ -146,12 +146,17 @@ class RunRecord:
 
     def _write(self) -> None:
         """Replace the file in one step; a full disk costs the state, not the run."""
-        fresh = self._path.with_name(f'.{self._path.name}')
+        draft = _draft(self._path)
         with contextlib.suppress(OSError):
-            descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+            descriptor = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
             with open(descriptor, 'w', encoding='utf-8') as file:
                 json.dump(self._state, file)
-            fresh.replace(self._path)
+            draft.replace(self._path)
+
+
+def _draft(path: Path) -> Path:
+    """Return where the next state is written, which no reader takes for a run."""
+    return path.with_suffix('.draft')
 
 
 def _news_of_node(event: Event) -> State:
