@@ -4,6 +4,7 @@
 
 from contextlib import contextmanager
 from queue import SimpleQueue
+import re
 import socket
 from urllib.parse import urlsplit
 
@@ -62,7 +63,7 @@ class Backend:
 def serving(backend, **settings):
     """A server on any port, and what it has to complain of."""
     said = SimpleQueue()
-    server = Server(Settings(port=0, **settings), backend, said.put)
+    server = Server(Settings(**{'port': 0} | settings), backend, said.put)
     server.start()
     server.said = said
     try:
@@ -95,6 +96,21 @@ def deaf(url):
         ).encode()
     )
     return stranger
+
+
+def test_a_port_that_is_taken_is_passed_over(backend):
+    with socket.create_server(('127.0.0.1', 0)) as taken:
+        port = taken.getsockname()[1]
+        with serving(backend, port=port) as server, Page(server.url) as page:
+            assert port < urlsplit(server.url).port <= port + 20
+            page.wait(lambda: page.last('hello'))
+
+
+@pytest.mark.parametrize('host', ['192.0.2.1', 'no such host'])
+def test_where_it_cannot_listen_is_told(backend, host):
+    told = f'cannot listen on {re.escape(host)}:8080: .* -p host:='
+    with pytest.raises(ViewerError, match=told):
+        Server(Settings(host=host), backend, print)
 
 
 def test_a_page_that_does_not_read_is_spared_states_and_others_get_them_all(backend, server):

@@ -297,23 +297,11 @@ def test_too_many_questions_at_once_are_refused(page):
     page.wait(lambda: len(page.of('reply')) == 1000)
 
 
-def test_a_port_that_is_taken_is_passed_over():
-    with socket.create_server(('127.0.0.1', 0)) as taken:
-        port = taken.getsockname()[1]
-        with viewer(f'port:={port}') as program:
-            found = urlsplit(url_of(program)).port
-            assert port < found <= port + 20
-            assert program.end(signal.SIGINT) == 0
-
-
 @pytest.mark.parametrize(
     ('parameter', 'text'),
     [
         ('host:=192.0.2.1', r'cannot listen on 192\.0\.2\.1:'),
-        ('host:=no such host', 'cannot listen on no such host:'),
         ('port:=-1', 'port'),
-        ('port:=eighty', 'port'),
-        ('rate:=0.0', 'rate'),
     ],
 )
 def test_what_cannot_be_served_is_one_line(parameter, text):
@@ -342,26 +330,16 @@ def test_elsewhere_only_who_has_the_address_may():
         assert program.end(signal.SIGINT) == 0
 
 
-@pytest.mark.parametrize('signum', [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
-def test_it_ends_with_pages_and_strangers_connected(signum):
+def test_it_ends_with_pages_and_strangers_connected_and_pages_come_back_to_the_next():
     with viewer() as program:
         url = url_of(program)
         with Page(url) as page, socket.create_connection(address(url)):
             page.wait(lambda: page.last('graph'))
-            assert program.end(signum) == 0
+            assert program.end(signal.SIGTERM) == 0
             assert page.wait_closed() == (1012, 'the viewer has ended')
         assert len(program.lines) == 1, program.output
-
-
-def test_a_page_comes_back_to_a_server_that_is_started_again():
-    with viewer() as program:
-        url = url_of(program)
-        with Page(url) as page:
-            page.wait(lambda: page.last('hello'))
-            assert program.end(signal.SIGTERM) == 0
-            page.wait_closed()
     with viewer(f'port:={urlsplit(url).port}') as program:
         assert url_of(program) == url
         with Page(url) as page:
             assert page.wait(lambda: page.last('hello'))['client'] == 'page 1'
-        assert program.end(signal.SIGTERM) == 0
+            assert program.end(signal.SIGHUP) == 0

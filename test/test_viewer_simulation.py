@@ -4,6 +4,7 @@
 
 from contextlib import contextmanager
 import math
+import signal
 import struct
 
 from fixtures.sim.driving import AMR
@@ -134,6 +135,12 @@ def place(page, name):
     return None if math.isnan(x) else (x, y)
 
 
+def speed(page, name):
+    """How fast the robot truly goes ahead, m/s, by the last state; not a number: not known."""
+    found = last_state(page, name)
+    return float(found[1][3 * len(found[0]['joints']) + 16]) if found else math.nan
+
+
 def commanded(page, name):
     """What the joints are commanded by the last state, rad/s; empty: not known."""
     found = last_state(page, name)
@@ -149,14 +156,19 @@ def distance(page, name, start):
     return math.dist(place(page, name) or start, start)
 
 
-def drive_until(page, name, condition):
-    """Drive until something is so, at the pace of the states that come."""
+def drive_on_until(page, name, condition):
+    """Drive until something is so, at the pace of the states that come, and do not stop."""
 
     def drive_on():
         page.say('drive', robot=name, linear=0.3, angular=0.0)
         return condition()
 
     page.wait(drive_on)
+
+
+def drive_until(page, name, condition):
+    """Drive until something is so, and stop."""
+    drive_on_until(page, name, condition)
     page.say('stop', robot=name)
 
 
@@ -197,6 +209,16 @@ def test_a_page_sees_what_wheels_are_commanded(page, driven):
 def test_a_page_drives_the_robot_in_truth(page, driven):
     start = page.wait(lambda: place(page, '/'))
     drive_until(page, '/', lambda: distance(page, '/', start) > 0.05)
+
+
+def test_a_robot_stops_by_itself_when_the_viewer_is_killed(page, driven):
+    """Nobody says stop: the time-out of the robot's controller is the last that is left."""
+    with viewer() as killed, Page(url_of(killed)) as driver:
+        driver.wait(lambda: driver.last('model') and robot(driver, '/')['command'])
+        drive_on_until(driver, '/', lambda: speed(page, '/') > 0.1)
+        killed.signal(signal.SIGKILL)
+        driver.wait_closed()
+    page.wait(lambda: abs(speed(page, '/')) < 0.01)
 
 
 def test_a_page_switches_controllers(page, ask, driven):
