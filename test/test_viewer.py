@@ -144,6 +144,7 @@ def test_a_page_sees_what_moves(host, url):
     transform = TransformStamped(child_frame_id='base_footprint')
     transform.header.frame_id = 'odom'
     transform.transform.translation.x = 3.5
+    transform.transform.translation.z = 1e300  # not logged either
     odometry = Odometry()
     odometry.pose.pose.position.y = -2.0
     odometry.twist.twist.linear.x = 0.25
@@ -173,7 +174,7 @@ def test_a_page_sees_what_moves(host, url):
         assert layout['frames'] == [{'name': 'base_footprint', 'parent': 'odom'}]
         joints = layout['robots'][0]['joints']
         assert sorted(joints) == WHEELS
-        assert values[:7].tolist() == [3.5, 0, 0, 0, 0, 0, 1]
+        assert values[:7].tolist() == [3.5, 0, np.inf, 0, 0, 0, 1]
         positions, speeds = values[7:11], values[11:19]
         assert positions[joints.index(WHEELS[1])] == 0.5
         assert np.isnan(positions).sum() == 3

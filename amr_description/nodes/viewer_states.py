@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import time
 
+import numpy as np
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
@@ -128,6 +129,7 @@ class States:
         self._write(scene, self._indices, [None] * len(scene.robots))
         return layout
 
+    @np.errstate(over='ignore')  # what is too large for float32 is infinite then
     def _write(self, scene: Scene, moved: object, new: Sequence[Sequence[str] | None]) -> None:
         """Write frames by name, and of each robot these parts; None: all."""
         frame = self._frame
