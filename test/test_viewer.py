@@ -191,6 +191,21 @@ def test_a_page_sees_what_moves(host, url):
         host.until(lambda: publish() or len(page.states) > count)
 
 
+def test_frames_of_a_robot_with_a_tf_of_its_own_are_called_after_it(host, url):
+    """As Nav2 has them, of several robots: /tf is remapped to tf, and all say 'odom'."""
+    transform = TransformStamped(child_frame_id='base_footprint')
+    transform.header.frame_id = 'odom'
+    for place in ('/r1', '/r2'):
+        Robot(host.node, place)
+        publisher = host.node.create_publisher(TFMessage, f'{place}/tf_static', LATCHED)
+        publisher.publish(TFMessage(transforms=[transform]))
+    with Page(url) as page:
+        frames = [
+            {'name': f'{name}/base_footprint', 'parent': f'{name}/odom'} for name in ('r1', 'r2')
+        ]
+        host.until(lambda: (layout := page.last('layout')) and layout['frames'] == frames)
+
+
 def test_a_page_drives_and_stops(host, url):
     robot = Robot(host.node)
     with Page(url) as page:

@@ -19,6 +19,7 @@ from amr_description.viewer.discovery import (
     SET_SIMULATION_STATE,
     STATISTICS_VALUES,
     STRING,
+    TF,
     TWISTS,
 )
 from amr_description.viewer.protocol import Command
@@ -164,3 +165,9 @@ def test_a_simulator_is_who_serves_its_state():
 def test_a_name_is_owned_by_the_deepest_namespace(name, expected):
     assert owner(name, ['/', '/r1', '/r1/arm']) == expected
     assert owner('/x', ['/r1']) is None
+
+
+def test_namespaces_with_a_tf_of_their_own_are_told():
+    topics = ('/tf', '/tf_static', '/r2/tf', '/r1/tf', '/r1/tf_static', '/r3/tf_old')
+    found = discover(names(published={each: [TF] for each in topics} | {'/r4/tf': [STRING]}))
+    assert found.trees == ('/r1', '/r2')

@@ -1,6 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""/tf and /tf_static, as the tree of frames and their poses that a page draws."""
+"""
+/tf and /tf_static, as the tree of frames and their poses that a page draws.
+
+Robots that have a TF of their own, such as ``/robot1/tf``, call their frames all the same: the
+page's are called ``robot1/odom`` and so on, as they would be on one ``/tf``.
+"""
+
+from collections.abc import Sequence
 
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -10,36 +17,42 @@ from amr_description.nodes.cdr import read_transforms
 from amr_description.nodes.polled_topic import PolledTopic
 from amr_description.viewer.protocol import FrameInfo
 
-_STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_STATIC = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Frames:
     """Made and destroyed on the ROS thread, read on the server's."""
 
-    def __init__(self, node: Node) -> None:
-        self._topics = (
-            PolledTopic(node, TFMessage, '/tf_static', read_transforms, qos=_STATIC_QOS),
-            PolledTopic(node, TFMessage, '/tf', read_transforms, depth=100),
-        )
+    def __init__(self, node: Node, trees: Sequence[str] = ()) -> None:
+        """``trees``: namespaces with a TF of their own."""
+        self._topics = [
+            (f'{place[1:]}/' if place else '', topic)
+            for place in ('', *trees)
+            for topic in (
+                PolledTopic(node, TFMessage, f'{place}/tf_static', read_transforms, qos=_STATIC),
+                PolledTopic(node, TFMessage, f'{place}/tf', read_transforms, depth=100),
+            )
+        ]
         self._poses: dict[str, tuple[float, ...]] = {}
         self._parents: dict[str, str] = {}
 
     def destroy(self) -> None:
         """Listen no more."""
-        for topic in self._topics:
+        for _, topic in self._topics:
             topic.destroy()
 
     def take(self) -> tuple[set[str], bool]:
         """Look at the topics; return the frames that have moved, and whether the tree changed."""
         moved: set[str] = set()
         is_changed = False
-        for topic in self._topics:
+        for prefix, topic in self._topics:
             while (transforms := topic.take()) is not None:
                 for each in transforms:
-                    is_changed |= self._parents.get(each.name) != each.parent
-                    self._parents[each.name] = each.parent
-                    self._poses[each.name] = each.pose
-                    moved.add(each.name)
+                    name, parent = _within(prefix, each.name), _within(prefix, each.parent)
+                    is_changed |= self._parents.get(name) != parent
+                    self._parents[name] = parent
+                    self._poses[name] = each.pose
+                    moved.add(name)
         return moved, is_changed
 
     def pose(self, name: str) -> tuple[float, ...]:
@@ -59,3 +72,7 @@ class Frames:
             frames += [FrameInfo(name, parent) for name in below]
             pending += below
         return tuple(frames)
+
+
+def _within(prefix: str, name: str) -> str:
+    return name if name.startswith(prefix) else f'{prefix}{name}'

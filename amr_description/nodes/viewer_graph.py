@@ -13,6 +13,7 @@ from amr_description.viewer.discovery import (
     ODOMETRY,
     STATISTICS_VALUES,
     STRING,
+    TF,
     TWISTS,
 )
 
@@ -24,6 +25,7 @@ _PUBLISHED = {
     ODOMETRY,
     STATISTICS_VALUES,
     STRING,
+    TF,
 }
 _HEARD = {JOINT_STATE, *TWISTS}
 

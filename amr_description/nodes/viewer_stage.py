@@ -129,6 +129,7 @@ class Stage:
         self._services.keep(_clients(found))
         links = {each.id: self._link(each) for each in found.robots}
         gone = [link for name, link in self.links.items() if name not in links]
+        is_other_tree = bool(gone) or found.trees != self.found.trees
         self.links, self.found = links, found
         for link in gone:
             link.destroy()
@@ -143,10 +144,10 @@ class Stage:
         for name, topic in worlds.items():
             if name not in self._worlds:
                 self._worlds[name] = WorldLink(self._node, topic, self._teller(name))
-        if gone and self._timer is not None:  # its frames would stay for ever
+        if is_other_tree and self._timer is not None:  # frames that are gone would stay for ever
             assert self._frames is not None, 'they are there while it is open'
             self._frames.destroy()
-            self._frames = Frames(self._node)
+            self._frames = Frames(self._node, found.trees)
 
     def _link(self, found: FoundRobot) -> RobotLink:
         link = self.links.get(found.id)

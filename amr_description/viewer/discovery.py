@@ -18,6 +18,7 @@ TWISTS = ('geometry_msgs/msg/TwistStamped', 'geometry_msgs/msg/Twist')
 JOINT_STATE = 'sensor_msgs/msg/JointState'
 ODOMETRY = 'nav_msgs/msg/Odometry'
 DYNAMIC_JOINT_STATE = 'control_msgs/msg/DynamicJointState'
+TF = 'tf2_msgs/msg/TFMessage'
 MARKERS = 'visualization_msgs/msg/MarkerArray'
 ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 STATISTICS_VALUES = 'pal_statistics_msgs/msg/StatisticsValues'
@@ -70,10 +71,15 @@ class FoundSimulator:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """All robots and simulators, by name."""
+    """
+    All robots and simulators, by name.
+
+    ``trees``: namespaces with a TF of their own, such as ``/robot1`` of ``/robot1/tf``.
+    """
 
     robots: tuple[FoundRobot, ...] = ()
     simulators: tuple[FoundSimulator, ...] = ()
+    trees: tuple[str, ...] = ()
 
 
 def discover(names: Names, described: Iterable[str] = ()) -> Found:
@@ -99,13 +105,22 @@ def discover(names: Names, described: Iterable[str] = ()) -> Found:
         for service, types in sorted(names.services.items())
         if SET_SIMULATION_STATE in types
     )
-    return Found(robots, simulators)
+    return Found(robots, simulators, _trees(names))
 
 
 def owner(name: str, ids: Iterable[str]) -> str | None:
     """Return the robot whose namespace a name is in; of several, the deepest."""
     fitting = [each for each in ids if each == '/' or name.startswith(f'{each}/')]
     return max(fitting, key=len, default=None)
+
+
+def _trees(names: Names) -> tuple[str, ...]:
+    places = {
+        topic.rpartition('/')[0]
+        for topic, types in names.published.items()
+        if TF in types and topic.rpartition('/')[2] in ('tf', 'tf_static')
+    }
+    return tuple(sorted(places - {''}))
 
 
 def _robot(names: Names, robot: str, owner_of: Callable[[str], str | None]) -> FoundRobot:
