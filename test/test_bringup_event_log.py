@@ -2,11 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The log of events: what happened, for programs."""
 
+import io
 import json
 
-from fixtures.bringup.running import Bringup, STACKS
+from fixtures.bringup.running import Bringup, install_toys, STACKS
 
+from amr_description.bringup import Node, Stack, started
+from amr_description.bringup.console import Console
 from amr_description.bringup.event_log import EventLog, json_line
+from amr_description.bringup.job import jobs_of
+from amr_description.bringup.log_folder import LogFolder
+from amr_description.bringup.narrator import Narrator
 
 IN_ORDER = str(STACKS / 'in_order.py')
 
@@ -77,3 +83,20 @@ def test_a_line_is_one_line_whatever_is_said():
     line = json_line({'event': 'failure', 'reason': 'one\ntwo \x1b[31m "ä"'})
     assert '\n' not in line
     assert json.loads(line)['reason'] == 'one\ntwo \x1b[31m "ä"'
+
+
+def test_a_condition_comes_to_hold_once_however_often_its_node_is_started(tmp_path, monkeypatch):
+    install_toys(tmp_path)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+    worker = Node('worker', package='toys')
+    stack = Stack([worker, Node('step', package='toys', start_when=started(worker))])
+    console = Console(io.StringIO(), LogFolder(tmp_path, 'run'), colour=False)
+    events = []
+    narrator = Narrator(stack, jobs_of(stack, tmp_path), console, EventLog(events.append))
+    _, step = stack.nodes
+    narrator.not_started(step, 'was busy')
+    narrator.started(step, 5)
+    narrator.started(step, 6)
+    assert [event['event'] for event in events if event.get('node') == 'step-2'] == [
+        'waiting', 'condition_held', 'not_started', 'started', 'started',
+    ]  # fmt: skip

@@ -33,6 +33,8 @@ def test_a_stack_comes_up_however_late_its_simulator_is(late):
         bringup.expect(r'\[create-3\] \[WARN\] .* Waiting for service')
         assert 'spawner-4]: process started' not in bringup.output
         let_it_go()
+        for step in ('create-3', 'spawner-4', 'spawner-5'):
+            bringup.expect(rf'\[{step}\]: process has finished cleanly')
         bringup.expect('ready in')
         told = re.findall(r'\[([a-z]+-\d)\]: process (started|has fin)', bringup.output)
         assert told[-5:] == [

@@ -42,6 +42,8 @@ def test_a_stack_for_another_robot_takes_ten_lines():
 def test_the_other_robot_comes_up_and_what_stands_beside_it(folder):
     prefixes = {'AMENT_PREFIX_PATH': os.environ['AMENT_PREFIX_PATH']}
     with Bringup(folder, str(folder / 'my_lab.py'), 'rtf:=0', **prefixes) as up:
+        for step in ('create-3', 'spawner-4'):
+            up.expect(rf'\[{step}\]: process has finished cleanly')
         up.expect('ready in')
         up.expect(r'\[listener-6\].* I heard: "Hello World')
         assert up.end(signal.SIGINT) == 0

@@ -13,7 +13,7 @@ from teleop_host import robot_node, XTERM
 
 from amr_description.bringup.guardian import processes
 
-BRINGUP = (sys.executable, '-m', 'amr_description.bringup.main', 'teleop')
+BRINGUP = (sys.executable, '-m', 'amr_description.bringup.main', 'teleop', 'viewer:=false')
 
 
 @pytest.mark.parametrize('way_out', ['\x03', signal.SIGTERM], ids=['Ctrl-C', 'SIGTERM'])
@@ -25,6 +25,8 @@ def test_a_key_drives_and_the_end_of_teleop_is_the_end_of_all(way_out):
         robot.create_subscription(
             Odometry, '/odom', lambda odometry: positions.append(odometry.pose.pose.position.x), 10
         )
+        for step in ('create-3', 'spawner-4', 'spawner-5'):
+            program.expect(rf'{step}\S*\]: process has finished cleanly')
         program.expect('currently:\tspeed 0.5')
         assert program.output.index('ready in') < program.output.index('Moving around')
         robot.until(lambda: program.type('i') or (positions and positions[-1] > 0.1))

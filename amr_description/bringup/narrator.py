@@ -43,6 +43,7 @@ class Narrator:
             self._note('waiting', node, condition=self._condition_of(node))
         self._begin = time.monotonic()
         self._told: set[object] = set()
+        self._held_once: set[Node] = set()
 
     def output(self, node: Node, line: str) -> None:
         """Show a line that the process of the node wrote."""
@@ -51,15 +52,22 @@ class Narrator:
     def started(self, node: Node, pid: int) -> None:
         """Say that its process runs."""
         self._started_at[node] = time.monotonic()
-        if condition := self._condition_of(node):
-            self._note('condition_held', node, condition=condition)
+        self._held(node)
         self._note('started', node, pid=pid)
         self._console.say('INFO', self._name_of(node), f'process started with pid [{pid}]')
 
     def not_started(self, node: Node, reason: str) -> None:
         """Say that its process could not be started."""
+        self._held(node)
         self._note('not_started', node, reason=reason)
         self._console.say('ERROR', self._name_of(node), f'process {reason}')
+
+    def _held(self, node: Node) -> None:
+        """Note that its condition held, at its first start."""
+        condition = self._condition_of(node)
+        if condition and node not in self._held_once:
+            self._held_once.add(node)
+            self._note('condition_held', node, condition=condition)
 
     def ended(self, node: Node, child: RunningProcess) -> None:
         """Say how its process ended; launch calls it an error, too, if it did as it was told."""
