@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the running simulator does when the physics goes wrong: it says so, and stops if asked."""
 
+import re
+
 import pytest
 import rclpy
 from rclpy.node import Node
@@ -17,9 +19,16 @@ from simulation_interfaces.srv import (
 )
 
 from amr_description.nodes.clients import call, wait_until
+from amr_description.nodes.stage_watch import CONTROLLERS, PHYSICS, PUBLISHING
 
 GHOST = """<robot name="ghost"><link name="ghost"><inertial><mass value="1"/>
     <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""
+SLOW_WORLD = """<mujoco><option timestep="1e-5"/><worldbody>
+    <geom type="plane" size="0 0 1"/></worldbody></mujoco>"""
+TOO_SLOW = (
+    r'real time is not kept: factor (\S+) instead of 1e\+06\. Of the time goes to (.+%)\. (.+)\. '
+    'Results are right all the same'
+)
 FALLEN = r"robot 'ghost' is below the ground: its root is at z = -0\.\d+ m at \d\.\d+ s\. Likely"
 
 
@@ -63,6 +72,20 @@ def test_a_fault_pauses_if_asked_and_a_reset_lets_it_come_again(node, tmp_path):
         assert state(node) == SimulationState.STATE_PLAYING
         assert 'paused' not in sim.output[since:]
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_factor_that_cannot_be_kept_is_told_with_the_stage_that_takes_the_time(tmp_path):
+    world = tmp_path / 'slow.xml'
+    world.write_text(SLOW_WORLD)
+    options = ('--ros-args', '-p', f'world:={world}', '-p', 'real_time_factor:=1e6')
+    with Program.module('mujoco_sim', *options) as sim:
+        factor, shares, cause = sim.expect(TOO_SLOW).groups()
+    assert 0.0 < float(factor) < 1e6
+    stages = dict(part.rsplit(' ', 1) for part in shares.split(', '))
+    assert next(iter(stages)) == PHYSICS
+    assert set(stages) == {PHYSICS, CONTROLLERS, PUBLISHING}
+    # On a busy machine the cause is another one.
+    assert re.match('Most goes to physics: fewer robots|The loop has the processor for ', cause)
 
 
 def test_another_word_for_on_fault_is_refused():
