@@ -171,8 +171,8 @@ export type ServerMessage =
 export interface Drive {
   type: 'drive';
   robot: string;
-  linear: number; // m/s ahead
-  angular: number; // rad/s to the left
+  linear: number; // m/s ahead; more than 100 either way is refused
+  angular: number; // rad/s to the left, of the same bounds
 }
 
 /** Stop a robot, whoever drives it: everybody may. Null: all robots. */
