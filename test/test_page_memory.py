@@ -11,7 +11,14 @@ import pytest
 from test_viewer_pages import Backend, serving
 
 from amr_description.nodes.viewer_models import describe_robot
-from amr_description.viewer.protocol import FrameInfo, Graph, Layout, RobotInfo, RobotLayout
+from amr_description.viewer.protocol import (
+    Command,
+    FrameInfo,
+    Graph,
+    Layout,
+    RobotInfo,
+    RobotLayout,
+)
 from amr_description.viewer.states import StateFrame
 
 HOUR = 3600.0  # s
@@ -40,14 +47,10 @@ class LongDrive(Backend):
             (RobotLayout('/', joints, joints),),
         )
         self.frame = StateFrame(layout)
-        topics = dict.fromkeys(
-            ('command', 'odometry', 'truth', 'wheels', 'joint_states', 'joint_publisher')
-        )
-        self.known = (
-            Graph((RobotInfo('/', described.name, manager=None, **topics),), (), None),
-            described.message,
-            layout,
-        )
+        command = Command('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
+        topics = ('/odom', '/ground_truth/odom', '/ground_truth/wheels', '/joint_states')
+        robot = RobotInfo('/', described.name, command, *topics, None, None)
+        self.known = (Graph((robot,), (), None), described.message, layout)
         self.count = 0
 
     def opened(self):
