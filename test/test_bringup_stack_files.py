@@ -95,6 +95,18 @@ def test_a_mistake_is_told_with_its_innermost_place_alone(tmp_path):
         include(tmp_path / 'outer.py')
 
 
+def test_a_path_may_have_any_characters(tmp_path):
+    with pytest.raises(BringupError, match=r"100%d/arm.py', arm=None\): it takes a text, a num"):
+        include(_copy(tmp_path / '100%d'), arm=None)
+    assert include(_copy(tmp_path / 'a b'), text='x').nodes[0].executable == 'step'
+
+
+def _copy(folder):
+    folder.mkdir()
+    (folder / 'arm.py').write_text(CHATTY.read_text().replace('def chatty', 'def arm'))
+    return folder / 'arm.py'
+
+
 def test_a_file_that_can_have_no_function_of_its_name_is_refused(tmp_path):
     (tmp_path / 'my-arm.py').touch()
     with pytest.raises(BringupError, match="my-arm.py': a stack's file is called as its function"):

@@ -37,13 +37,13 @@ class Kind:
 def require(what: str, value: object, kind: Kind) -> None:
     """Raise BringupError unless the value is of the kind; ``what``: ``Node('arm', name=%s)``."""
     if not kind.fits(value):
-        raise BringupError(f'{what % brief(value)}: it takes {kind.text}')
+        raise BringupError(f'{what.replace("%s", brief(value), 1)}: it takes {kind.text}')
 
 
 def require_fields(begin: str, word: object, kinds: Mapping[str, Kind]) -> None:
     """Require what each field of a word takes; ``begin``: ``Node('talker'``."""
     for name, kind in kinds.items():
-        require(f'{begin.replace("%", "%%")}, {name}=%s)', getattr(word, name), kind)
+        require(f'{begin}, {name}=%s)', getattr(word, name), kind)
 
 
 def brief(value: object) -> str:
