@@ -3,8 +3,10 @@
 """A robot's description as a page gets it: joints, findings, and only those files it names."""
 
 import math
+from xml.sax.saxutils import escape
 
 from fixtures.sim.driving import AMR
+from hypothesis import example, given, settings, strategies as st
 import pytest
 
 from amr_description.nodes.viewer_models import describe_robot
@@ -95,6 +97,24 @@ def test_no_file_is_served_that_is_no_mesh_whatever_a_description_names(tmp_path
         described = describe_robot('/', urdf(drawn(uri)))
         assert (described.message.meshes, described.files) == ({}, {})
         assert any('cannot be drawn' in each.text for each in described.message.findings)
+
+
+@given(
+    st.sampled_from(['', 'file://', 'package://', 'package://amr_description/', '//', 'model://']),
+    st.text(st.characters(exclude_categories=['Cs', 'Cc']), max_size=9),
+)
+@example('file://', '[')
+def test_any_name_of_a_mesh_is_a_file_or_a_finding(scheme, rest):
+    described = describe_robot('/', urdf(drawn(escape(scheme + rest, {'"': '&quot;'}))))
+    assert described.message.meshes == {}
+    assert described.message.findings
+
+
+@settings(max_examples=50)
+@given(st.integers(0, len(AMR)), st.integers(0, 200), st.text(max_size=9))
+def test_any_text_is_a_description_or_has_findings(at, count, text):
+    message = describe_robot('/', AMR[:at] + text + AMR[at + count :]).message
+    assert message.root or message.findings
 
 
 def test_textures_are_served_too(tmp_path):

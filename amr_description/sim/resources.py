@@ -39,7 +39,12 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     A relative plain path is looked up in ``folder`` (that of the description, when it is known).
     The file need not exist. Raises SimulationError for an unknown package or scheme.
     """
-    parts = urlsplit(uri)
+    try:
+        parts = urlsplit(uri)
+    except ValueError as error:
+        raise SimulationError(
+            f'{uri!a} is no URI: {error}; package://, file:// or a path will do'
+        ) from error
     path = unquote(parts.path)
     match parts.scheme:
         case 'package':
