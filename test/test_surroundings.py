@@ -3,6 +3,7 @@
 """The static surroundings of a world: as shapes, as markers, and as a page draws them."""
 
 import math
+import operator
 
 import mujoco
 import pytest
@@ -169,6 +170,14 @@ def test_markers_of_strangers_that_have_no_shape_are_left_out():
     message.markers[1].ns = 'stranger'
     (seen,) = shapes_of(message)
     assert (seen.name, seen.kind, seen.orientation) == ('stranger/0', 'box', (0, 0, 0, 1))
+
+
+@pytest.mark.parametrize('number', [math.nan, math.inf])
+def test_markers_of_strangers_whose_numbers_are_none_are_left_out(number):
+    for place in ('scale', 'pose.position', 'pose.orientation'):
+        marker = Marker(type=Marker.CUBE)
+        operator.attrgetter(place)(marker).x = number
+        assert shapes_of(MarkerArray(markers=[marker])) == ()
 
 
 def test_the_world_is_told_to_who_comes_late():

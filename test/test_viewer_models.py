@@ -3,6 +3,7 @@
 """A robot's description as a page gets it: joints, findings, and only those files it names."""
 
 import math
+import os
 from xml.sax.saxutils import escape
 
 from fixtures.sim.driving import AMR
@@ -115,6 +116,15 @@ def test_any_name_of_a_mesh_is_a_file_or_a_finding(scheme, rest):
 def test_any_text_is_a_description_or_has_findings(at, count, text):
     message = describe_robot('/', AMR[:at] + text + AMR[at + count :]).message
     assert message.root or message.findings
+
+
+def test_what_has_no_end_is_not_read(tmp_path):
+    os.mkfifo(tmp_path / 'pipe.stl')
+    (tmp_path / 'zero.png').symlink_to('/dev/zero')
+    for name in ('pipe.stl', 'zero.png'):
+        message = describe_robot('/', urdf(drawn(f'file://{tmp_path}/{name}'))).message
+        assert message.meshes == {}
+        assert any('is no regular file' in each.text for each in message.findings)
 
 
 def test_textures_are_served_too(tmp_path):

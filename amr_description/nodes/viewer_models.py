@@ -8,6 +8,7 @@ from html import unescape
 import math
 from pathlib import Path
 import re
+from stat import S_ISREG
 
 from amr_description.errors import SimulationError
 from amr_description.model import findings
@@ -102,9 +103,11 @@ def _read(file: Path) -> bytes:
         kinds = ', '.join(sorted(_MESHES | _IMAGES))
         raise SimulationError(f'the page draws {kinds}, not {suffix!a}')
     try:
-        size = file.stat().st_size
-        if size > _LARGEST_MESH:
-            raise SimulationError(f'it has {size} bytes, more than {_LARGEST_MESH}')
+        status = file.stat()
+        if not S_ISREG(status.st_mode):  # a pipe or a device may have no end
+            raise SimulationError(f'{file} is no regular file')
+        if status.st_size > _LARGEST_MESH:
+            raise SimulationError(f'it has {status.st_size} bytes, more than {_LARGEST_MESH}')
         return file.read_bytes()
     except (OSError, ValueError) as error:
         raise SimulationError(f'{file}: {getattr(error, "strerror", None) or error}') from error

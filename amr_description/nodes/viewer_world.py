@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Markers of a world, ours (nodes/surroundings_topic.py) or a stranger's, as a page draws them."""
 
+import math
 from typing import Any
 
 from visualization_msgs.msg import Marker, MarkerArray
@@ -20,12 +21,18 @@ _KINDS = {
 
 
 def shapes_of(message: MarkerArray) -> tuple[protocol.Shape, ...]:
-    """Return what a page draws for a message, of ours or of a stranger."""
-    return tuple(
+    """Return what a page draws for a message; nothing where a number is none."""
+    shapes = (
         _drawn(marker)
         for marker in message.markers
         if marker.action == Marker.ADD and marker.type in _KINDS
     )
+    return tuple(shape for shape in shapes if _is_finite(shape))
+
+
+def _is_finite(shape: protocol.Shape) -> bool:
+    numbers = (shape.size, shape.position, shape.orientation, shape.colour, shape.points)
+    return all(math.isfinite(number) for each in numbers for number in each)
 
 
 def _drawn(marker: Any) -> protocol.Shape:
