@@ -253,7 +253,6 @@ def test_a_busy_process_uses_the_processor():
     try:
         used = usages([busy.pid], 0.3)[busy.pid]
         assert used.cpu > 0.05  # also where many share it
-        assert used.processes == 1
         assert used.memory > 1_000_000
     finally:
         busy.kill()

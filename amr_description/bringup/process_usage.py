@@ -33,7 +33,6 @@ class Usage:
     """Share of one core, 1.0 is all of it; over the time that was looked at."""
     memory: int
     """bytes; what several processes share is counted once, shared out among them (PSS)."""
-    processes: int
 
 
 def read(pid: int) -> Process | None:
@@ -95,4 +94,4 @@ def _usage(
     elapsed: float,
 ) -> Usage:
     used = sum(after[pid].cpu - (before[pid].cpu if pid in before else 0.0) for pid in pids)
-    return Usage(used / elapsed, sum(map(memory, pids)), len(pids))
+    return Usage(used / elapsed, sum(map(memory, pids)))
