@@ -243,6 +243,11 @@ def test_commands_are_stamped_with_the_time_of_the_simulation(host, url):
             return Time.from_msg(robot.commands[-1].header.stamp).nanoseconds >= since
 
         host.until(stamp_of_now)
+        assert page.last('reset') is None
+        clock = host.node.create_publisher(Clock, '/clock', 10)
+        time.clock.sec = 3  # another simulation
+        host.until(lambda: clock.publish(time) or page.last('reset'))
+        host.until(stamp)
 
 
 def test_a_stop_arrives_while_the_topics_of_the_robot_change(host, url):

@@ -118,12 +118,8 @@ class Stage:
 
     def _forget_dead_clock(self) -> None:
         """Let no command carry the time of a simulation that is gone: robots take it for old."""
-        clock = self._clock
-        if clock is None or clock.time is None or self._node.count_publishers('/clock'):
-            return
-        self._clock = RosClock(self._node)
-        self._set_scene()
-        clock.destroy()
+        if self._clock is not None and not self._node.count_publishers('/clock'):
+            self._clock.time = None
 
     def _follow(self, found: Found) -> None:
         self._services.keep(_clients(found))

@@ -38,8 +38,9 @@ class RosClock:
         self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=qos)
         self._heard: deque[tuple[float, int]] = deque()
         self._is_back = False
+        self._last: int | None = None
         self.time: int | None = None
-        """ns; None: nobody tells the time."""
+        """ns; None: nobody tells the time, or no longer, as the ROS thread may say."""
 
     def destroy(self) -> None:
         """Listen no more."""
@@ -56,7 +57,7 @@ class RosClock:
         heard = self._topic.take()
         if heard is None:
             return
-        before, self.time = self.time, heard
+        before, self.time, self._last = self._last, heard, heard
         if before is not None and heard < before:
             self._is_back = True
             self._heard.clear()
