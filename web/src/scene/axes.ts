@@ -50,11 +50,6 @@ export class Axes {
     this.axes.commit();
     this.tree.commit();
   }
-
-  dispose(): void {
-    this.axes.dispose();
-    this.tree.dispose();
-  }
 }
 
 /** The names of frames, to be written where they are. */

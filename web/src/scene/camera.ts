@@ -26,7 +26,7 @@ export class CameraRig {
 
   /** `changed` is told when the camera has been moved, `goHome` that Home was pressed. */
   constructor(
-    private readonly canvas: HTMLCanvasElement,
+    canvas: HTMLCanvasElement,
     private readonly changed: () => void,
     private readonly goHome: () => void,
   ) {
@@ -110,11 +110,6 @@ export class CameraRig {
   update(dt: number, pose: Matrix4 | null): boolean {
     const moved = this.isFollowing && pose !== null && this.follow(pose, dt);
     return this.controls.update(dt) || moved;
-  }
-
-  dispose(): void {
-    this.canvas.removeEventListener('keydown', this.onKey);
-    this.controls.dispose();
   }
 
   private follow(pose: Matrix4, dt: number): boolean {

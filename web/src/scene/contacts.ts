@@ -88,13 +88,6 @@ export class Contacts {
     this.arrows.commit();
   }
 
-  dispose(): void {
-    this.discs.geometry.dispose();
-    this.discs.material.dispose();
-    this.discs.dispose();
-    this.arrows.dispose();
-  }
-
   private footingOf(view: RobotView, name: string): Footing | null {
     const joint = view.joint(name);
     const radius = this.radiusOf(view, name);

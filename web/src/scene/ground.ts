@@ -121,11 +121,6 @@ export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
     (major.value as Color).set(palette.gridMajor);
     (horizon.value as Color).set(palette.horizon);
   }
-
-  override dispose(): void {
-    this.geometry.dispose();
-    this.material.dispose();
-  }
 }
 
 /** A square in cells that are the smaller the nearer they are to its middle, m. */

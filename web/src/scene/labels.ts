@@ -74,10 +74,6 @@ export class Labels {
     this.isBlank = labels.length === 0;
   }
 
-  dispose(): void {
-    this.canvas.remove();
-  }
-
   private anchorsOf(
     labels: readonly Label[], camera: Camera, width: number, height: number,
   ): Anchor[] {

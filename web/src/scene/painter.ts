@@ -82,12 +82,6 @@ export class Painter {
     this.frames++;
   }
 
-  dispose(): void {
-    cancelAnimationFrame(this.request);
-    this.canvas.removeEventListener('webglcontextrestored', this.onRestored);
-    this.renderer.dispose();
-  }
-
   private get gl(): WebGL2RenderingContext {
     return this.renderer.getContext() as WebGL2RenderingContext;
   }

@@ -15,7 +15,6 @@ export interface Picked {
 
 export class Picking {
   private readonly caster = new Raycaster();
-  private readonly abort = new AbortController();
   private down: { x: number; y: number; time: number; id: number } | null = null;
 
   constructor(
@@ -24,13 +23,8 @@ export class Picking {
     private readonly views: () => Iterable<[string, RobotView]>,
     private readonly picked: (what: Picked | null) => void,
   ) {
-    const { signal } = this.abort;
-    canvas.addEventListener('pointerdown', (event) => this.onDown(event), { signal });
-    canvas.addEventListener('pointerup', (event) => this.onUp(event), { signal });
-  }
-
-  dispose(): void {
-    this.abort.abort();
+    canvas.addEventListener('pointerdown', (event) => this.onDown(event));
+    canvas.addEventListener('pointerup', (event) => this.onUp(event));
   }
 
   private onDown(event: PointerEvent): void {

@@ -190,13 +190,6 @@ export class Picture {
     this.placeContacts();
   }
 
-  dispose(): void {
-    [...this.robots.keys()].forEach((robot) => this.removeRobot(robot));
-    for (const each of [this.axes, this.contacts, this.world, this.surroundings]) {
-      each.dispose();
-    }
-  }
-
   /** Let odometry and truth of a robot agree anew. */
   private forgetAnchor(robot: string): void {
     const base = this.robots.get(robot)?.body?.base;

@@ -31,7 +31,6 @@ export class Scene {
   private readonly labels: Labels;
   private readonly painter: Painter;
   private readonly rig: CameraRig;
-  private readonly picking: Picking;
   private palette = PALETTES.light;
   private followed: string | null = null;
   private picked: Picked | null = null;
@@ -46,7 +45,8 @@ export class Scene {
     this.painter = new Painter(canvas, isSoftware, this.step, this.onResize);
     this.rig = new CameraRig(canvas, this.painter.dirty, () => this.resetView());
     const views = (): Iterable<[string, RobotView]> => this.picture.views();
-    this.picking = new Picking(canvas, this.rig.camera, views, this.onPick);
+    // It listens for as long as there is a canvas.
+    new Picking(canvas, this.rig.camera, views, this.onPick);
     this.setTheme('light');
     this.resize();
   }
@@ -98,20 +98,9 @@ export class Scene {
     this.invalidate();
   }
 
-  /** The frame that stands still now. */
-  currentFixedFrame(): string {
-    return this.picture.fixedFrame;
-  }
-
   /** The frames to choose from. */
   frames(): string[] {
     return this.picture.frames();
-  }
-
-  /** Frames that have no place in the fixed frame, and are not drawn. */
-  unconnectedFrames(): string[] {
-    const connected = new Set(this.picture.placed.map(({ name }) => name));
-    return this.frames().filter((name) => !connected.has(name));
   }
 
   show(options: Partial<SceneOptions>): void {
@@ -174,12 +163,6 @@ export class Scene {
   /** How many points the trails have, by robot: of the truth's, and of the odometry's. */
   trailSizes(): Record<string, [truth: number, odometry: number]> {
     return this.picture.trailSizes();
-  }
-
-  dispose(): void {
-    for (const each of [this.picking, this.rig, this.labels, this.picture, this.painter]) {
-      each.dispose();
-    }
   }
 
   private invalidate(): void {

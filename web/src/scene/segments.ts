@@ -59,12 +59,6 @@ export class Segments {
     }
   }
 
-  dispose(): void {
-    this.object.removeFromParent();
-    this.geometry.dispose();
-    this.object.material.dispose();
-  }
-
   private grow(count: number): void {
     const resize = (old: Float32Array): Float32Array<ArrayBuffer> => {
       const grown = new Float32Array(FLOATS * count);

@@ -111,15 +111,6 @@ export class Surroundings {
     this.sky.geometry.setAttribute('color', new Float32BufferAttribute(colours, 3));
   }
 
-  dispose(): void {
-    for (const { geometry, material } of [this.sky, this.shadows]) {
-      geometry.dispose();
-      material.dispose();
-    }
-    this.ground.dispose();
-    this.sun.dispose();
-  }
-
   private castShadows(pixels: number): void {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(pixels, pixels);

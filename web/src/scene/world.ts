@@ -63,12 +63,6 @@ export class WorldView {
     this.edges.opacity = palette.edgeOpacity;
   }
 
-  dispose(): void {
-    disposeTree(this.object);
-    this.object.removeFromParent();
-    this.edges.dispose();
-  }
-
   private draw(shape: Shape): Mesh {
     const [r, g, b, a] = shape.colour;
     const mesh = new Mesh(
