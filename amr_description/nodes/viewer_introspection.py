@@ -40,19 +40,25 @@ class CommandedVelocities:
 
     def take(self) -> tuple[float, ...] | None:
         """Return the latest, rad/s or m/s, NaN without such an interface; None: nothing new."""
-        names = self._names.take()
-        if names is not None:
-            places = {name: place for place, name in enumerate(names.names)}
-            self._places = [places.get(name) for name in self._wanted]
-            self._version = names.version
         latest = self._values.take()
-        if latest is None or latest.version != self._version:
+        if latest is None:
             return None
+        if latest.version != self._version:
+            self._read_names()
+        if latest.version != self._version:
+            return None  # they are still on their way
         count = len(latest.values)
         return tuple(
             latest.values[place] if place is not None and place < count else math.nan
             for place in self._places
         )
+
+    def _read_names(self) -> None:
+        names = self._names.take()
+        if names is not None:
+            places = {name: place for place, name in enumerate(names.names)}
+            self._places = [places.get(name) for name in self._wanted]
+            self._version = names.version
 
     def destroy(self) -> None:
         """Listen no more."""
