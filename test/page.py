@@ -4,7 +4,9 @@
 
 from contextlib import ExitStack
 import json
+import socket
 import threading
+from urllib.parse import urlsplit
 
 from ros_processes import PATIENCE
 from websockets.exceptions import ConnectionClosed
@@ -16,6 +18,20 @@ from amr_description.viewer.protocol import SUBPROTOCOL
 def open_socket(url, subprotocols=(SUBPROTOCOL,), **options):
     """The WebSocket of the page at this address, a context manager."""
     return page_socket(url, subprotocols, open_timeout=PATIENCE, **options)
+
+
+def deaf(url):
+    """A page's socket that nobody reads."""
+    parts = urlsplit(url)
+    stranger = socket.create_connection((parts.hostname, parts.port), PATIENCE)
+    stranger.sendall(
+        (
+            f'GET /ws HTTP/1.1\r\nHost: {parts.netloc}\r\nUpgrade: websocket\r\n'
+            'Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n'
+            f'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SUBPROTOCOL}\r\n\r\n'
+        ).encode()
+    )
+    return stranger
 
 
 class Page:

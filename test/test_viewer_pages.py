@@ -8,12 +8,12 @@ import re
 import socket
 from urllib.parse import urlsplit
 
-from page import Page
+from page import deaf, Page
 import pytest
 from running_programs import PATIENCE
 
 from amr_description.errors import ViewerError
-from amr_description.viewer.protocol import Driver, Notice, SUBPROTOCOL, TimeReset
+from amr_description.viewer.protocol import Driver, Notice, TimeReset
 from amr_description.viewer.server import Server, Settings
 
 LARGE = bytes(500_000)
@@ -82,20 +82,6 @@ def server(backend):
     with serving(backend) as server:
         yield server
     assert server.said.empty()
-
-
-def deaf(url):
-    """A page's socket that nobody reads."""
-    parts = urlsplit(url)
-    stranger = socket.create_connection((parts.hostname, parts.port), PATIENCE)
-    stranger.sendall(
-        (
-            f'GET /ws HTTP/1.1\r\nHost: {parts.netloc}\r\nUpgrade: websocket\r\n'
-            'Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n'
-            f'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SUBPROTOCOL}\r\n\r\n'
-        ).encode()
-    )
-    return stranger
 
 
 def test_a_port_that_is_taken_is_passed_over(backend):

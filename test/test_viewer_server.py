@@ -9,13 +9,12 @@ import signal
 import socket
 from urllib.parse import urlsplit
 
-from page import open_socket, Page
+from page import deaf, open_socket, Page
 import pytest
 from running_programs import PATIENCE, Program
 from websockets.exceptions import InvalidHandshake, InvalidStatus
 
 from amr_description.viewer.pages import MOST_PAGES
-from amr_description.viewer.protocol import SUBPROTOCOL
 from amr_description.viewer.server import STATIC
 
 URL = re.compile(r'The page is at (http://\S+)')
@@ -249,17 +248,7 @@ def test_too_many_pages_are_told_why(url, page):
 
 def test_who_never_reads_is_no_burden(url, page):
     """Neither his states nor his answers keep another page waiting."""
-    deaf = socket.create_connection(address(url), PATIENCE)
-    deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-    host, port = address(url)
-    deaf.sendall(
-        (
-            f'GET /ws HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\n'
-            'Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n'
-            f'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SUBPROTOCOL}\r\n\r\n'
-        ).encode()
-    )
-    with deaf:
+    with deaf(url):
         for number in range(200):
             assert page.ask('pause', number, simulator='/nobody')['id'] == number
 
