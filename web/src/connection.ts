@@ -20,7 +20,7 @@ export type Asked = Request extends infer R ? (R extends Request ? Omit<R, 'id'>
 /** What is used of a WebSocket. */
 export type Socket = Pick<
   WebSocket,
-  'binaryType' | 'readyState' | 'send' | 'close' | 'onopen' | 'onclose' | 'onmessage'
+  'binaryType' | 'readyState' | 'send' | 'onopen' | 'onclose' | 'onmessage'
 >;
 
 /** What a connection needs of the world outside. */
@@ -50,7 +50,6 @@ export class Connection {
   private nextId = 1;
   private readonly waiting = new Map<number, (reply: Reply) => void>();
   private cancelRetry: (() => void) | null = null;
-  private ended = false;
 
   constructor(
     private readonly url: string,
@@ -71,13 +70,6 @@ export class Connection {
     socket.onmessage = (event) => this.receive(event.data);
     socket.onclose = (event) => this.closed(event.reason);
     this.socket = socket;
-  }
-
-  /** Close for good. */
-  close(): void {
-    this.ended = true;
-    this.cancelRetry?.();
-    this.socket?.close();
   }
 
   /** Whether the message could be given to the socket. */
@@ -129,9 +121,6 @@ export class Connection {
     this.socket = null;
     for (const id of [...this.waiting.keys()]) {
       this.answer(refusal(id, 'The connection to the node was lost.'));
-    }
-    if (this.ended) {
-      return;
     }
     const wait = Math.min(FIRST_WAIT * GROWTH ** this.attempt, LONGEST_WAIT);
     this.attempt += 1;

@@ -12,7 +12,7 @@ export interface Pose {
 const HERE: Pose = { position: [0, 0, 0], orientation: [0, 0, 0, 1] };
 
 /** The pose of the frame at an index of the layout, in its parent. */
-export function poseAt(state: State, index: number): Pose {
+function poseAt(state: State, index: number): Pose {
   const [x, y, z, qx, qy, qz, qw] = state.poses.subarray(index * POSE_FLOATS);
   return { position: [x, y, z], orientation: [qx, qy, qz, qw] };
 }

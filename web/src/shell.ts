@@ -10,7 +10,7 @@ import { recall, remember } from './remember';
 import type { State } from './state';
 import type { Tabs } from './tabs';
 
-export const PHONE = '(max-width: 760px)';
+const PHONE = '(max-width: 760px)';
 
 interface Parts {
   view: { element: HTMLElement };

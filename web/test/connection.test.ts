@@ -154,12 +154,6 @@ test('nothing goes into a connection that is not open', async () => {
   assert.equal(reply.ok, false);
 });
 
-test('closed for good is not opened again', () => {
-  const { outside, connection } = opened();
-  connection.close();
-  assert.equal(outside.timers.length, 0);
-});
-
 test('the token of the page goes with the socket', () => {
   const at = { protocol: 'http:', host: '127.0.0.1:8080', search: '?token=a1' };
   assert.equal(socketUrl(at), 'ws://127.0.0.1:8080/ws?token=a1');
