@@ -62,7 +62,7 @@ one sample: on a busy machine some are lost.
 FASTEST = 0.55
 """m/s; what the robot is told, and a little."""
 SLIP = 0.5**2 / (2.0 * 9.81) + 0.003
-"""m; the wheels turn at 0.5 m/s at once, the robot follows by friction (1): v²/2µg, and a little."""
+"""m; the wheels turn at 0.5 m/s at once, friction (1) takes the robot along: v²/2µg and more."""
 
 
 @pytest.fixture(scope='module')
