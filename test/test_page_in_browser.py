@@ -180,7 +180,7 @@ def test_the_other_keys(page, ears):
     'happening',
     [
         "window.dispatchEvent(new Event('blur'))",
-        "Object.defineProperty(document, 'visibilityState', {value: 'hidden'});"
+        "Object.defineProperty(document, 'hidden', {value: true});"
         "document.dispatchEvent(new Event('visibilitychange'))",
         "window.dispatchEvent(new Event('pagehide'))",
     ],
