@@ -14,9 +14,9 @@ from amr_description.nodes.robots import Category, Entity, Info
 from amr_description.sim.entity_state import Box
 
 ENTITIES = [
-    Entity('amr_1', Info(Category.ROBOT, tags=('fast', 'red')), None),
-    Entity('amr_2', Info(Category.ROBOT, tags=('red',)), None),
-    Entity('crate', Info(Category.DYNAMIC_OBJECT), None),
+    Entity('amr_1', Info(Category.ROBOT, tags=('fast', 'red')), None, None),
+    Entity('amr_2', Info(Category.ROBOT, tags=('red',)), None, None),
+    Entity('crate', Info(Category.DYNAMIC_OBJECT), None, None),
 ]
 UNIT = Box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
 eighths = integers(-24, 24).map(lambda n: n / 8)  # sums of their squares are exact
