@@ -17,11 +17,12 @@ examples:
 from argparse import ArgumentParser, Namespace
 import sys
 
-from amr_description.bringup import discovery, unique_names
-
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
+    # Here, as every `ros2 --help` imports this file.
+    from amr_description.bringup import discovery, unique_names
+
     parser.add_argument(
         '-n',
         '--noninteractive',
@@ -84,6 +85,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Become the bring-up; return its exit code."""
+    from amr_description.bringup import discovery
     from amr_description.bringup.main import main as bringup
     from amr_description.cli.launch_files import find_launch_file
 
