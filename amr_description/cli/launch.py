@@ -20,6 +20,23 @@ import sys
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
+    _add_options(parser)
+    parser.add_argument(
+        'package_name',
+        help='Name of the ROS package which contains the launch file, or path of a file',
+    )
+    parser.add_argument(
+        'launch_file_name', nargs='?', help='Name of the stack, or of the launch file'
+    )
+    parser.add_argument(
+        'launch_arguments',
+        nargs='*',
+        metavar='name:=value',
+        help='Arguments of the stack; for duplicates, the last one wins',
+    )
+
+
+def _add_options(parser: ArgumentParser) -> None:
     # Here, as every `ros2 --help` imports this file.
     from amr_description.bringup import discovery, unique_names
 
@@ -67,19 +84,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar='REGEX',
         default='',
         help='Regular expression; only executables whose names match it get the prefix',
-    )
-    parser.add_argument(
-        'package_name',
-        help='Name of the ROS package which contains the launch file, or path of a file',
-    )
-    parser.add_argument(
-        'launch_file_name', nargs='?', help='Name of the stack, or of the launch file'
-    )
-    parser.add_argument(
-        'launch_arguments',
-        nargs='*',
-        metavar='name:=value',
-        help='Arguments of the stack; for duplicates, the last one wins',
     )
 
 
