@@ -44,10 +44,18 @@ class Robot:
             node.create_publisher(Odometry, f'{place}/odom', 10),
         ]
         self.description, self.joint_states, self.odometry = self._ends
-        self._heard = node.create_subscription(
-            command, f'{place}/cmd_vel', self.commands.append, 100
-        )
+        self._heard = None
+        self.hear_commands(command)
         self.description.publish(String(data=AMR))
+
+    def hear_commands(self, kind):
+        """Hear commands of this type, and no others."""
+        if self._heard is not None:
+            self.node.destroy_subscription(self._heard)
+        self.commands.clear()
+        self._heard = self.node.create_subscription(
+            kind, f'{self.place}/cmd_vel', self.commands.append, 100
+        )
 
     @property
     def velocities(self):
@@ -92,7 +100,7 @@ class Host:
 def url():
     with viewer() as program:
         yield url_of(program)
-        assert program.end(signal.SIGINT) == 0
+        assert program.end(signal.SIGINT) == 0, program.output
         assert len(program.lines) == 1, program.output
 
 
@@ -271,6 +279,17 @@ def test_who_wants_a_plain_twist_gets_one(host, url):
         host.connected(page, robot)
         page.say('drive', robot='/', linear=0.5, angular=0.0)
         host.until(lambda: (0.5, 0.0) in robot.velocities)
+
+
+def test_a_robot_that_wants_another_type_from_now_on_gets_it(host, url):
+    robot = Robot(host.node)
+    with Page(url) as page:
+        host.connected(page, robot)
+        robot.hear_commands(Twist)
+        host.until(
+            lambda: page.say('drive', robot='/', linear=0.5, angular=0.0)
+            or (0.5, 0.0) in robot.velocities
+        )
 
 
 @pytest.mark.parametrize('ending', ['silence', 'close', 'vanish', 'rubbish', 'stop all'])

@@ -81,6 +81,7 @@ class RobotLink:
         know it, such as a stop.
         """
         before, self.found = self.found, found
+        self.topics.destroy()  # first: in one process a topic cannot have two types at a time
         if found.command != before.command:
             self._open_commands()
         if found.joint_publisher != before.joint_publisher:
