@@ -6,7 +6,9 @@ from contextlib import contextmanager
 from queue import SimpleQueue
 import re
 import socket
+from urllib.error import HTTPError
 from urllib.parse import urlsplit
+from urllib.request import urlopen
 
 from page import deaf, Page
 import pytest
@@ -14,7 +16,7 @@ from running_programs import PATIENCE
 
 from amr_description.errors import ViewerError
 from amr_description.viewer.protocol import Driver, Notice, TimeReset
-from amr_description.viewer.server import Server, Settings
+from amr_description.viewer.server import Server, Settings, STATIC
 
 LARGE = bytes(500_000)
 
@@ -60,10 +62,10 @@ class Backend:
 
 
 @contextmanager
-def serving(backend, **settings):
+def serving(backend, static=STATIC, **settings):
     """A server on any port, and what it has to complain of."""
     said = SimpleQueue()
-    server = Server(Settings(**{'port': 0} | settings), backend, said.put)
+    server = Server(Settings(**{'port': 0} | settings), backend, said.put, static)
     server.start()
     server.said = said
     try:
@@ -218,3 +220,11 @@ def test_a_driver_of_a_server_that_ends_is_stopped(backend):
         page.wait(lambda: (1.0, 0.5) in backend.calls)
         server.stop()
         assert backend.calls[-2:] == [(0.0, 0.0), 'closed']
+
+
+def test_a_page_that_is_not_built_says_how_to_build_it(tmp_path):
+    with serving(Backend(), static=tmp_path) as server:
+        with pytest.raises(HTTPError, match='503') as refused:
+            urlopen(server.url, timeout=PATIENCE)
+        with refused.value as answer:
+            assert 'npm ci && npm run build' in answer.read().decode()
