@@ -8,6 +8,7 @@ Every error that this package raises on purpose.
     AmrError
     ├── DescriptionError     a URDF, or one of its <ros2_control> blocks, cannot be used
     ├── ParameterError       a parameter, or a parameter file, cannot be used
+    ├── ResourceError        a package, its executable, or the file of a URI is not found
     ├── ControlError         ros2_control refuses or fails
     │   ├── InterfaceError   an interface is unknown, unavailable or claimed
     │   ├── ControllerError  a controller is unknown, in the wrong state, or failed
@@ -46,6 +47,10 @@ class DescriptionError(AmrError):
 
 class ParameterError(AmrError):
     """A parameter or a parameter file cannot be used."""
+
+
+class ResourceError(AmrError):
+    """A package, an executable of it, or the file that a URI names is not found."""
 
 
 class ControlError(AmrError):

@@ -15,7 +15,7 @@ import tempfile
 from hypothesis import settings
 import pytest
 
-from amr_description.testing.domains import take_domain
+from amr_description.testing.program import take_domain
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces')]  # their parts are tested too

@@ -8,6 +8,7 @@ import json
 import math
 from pathlib import Path
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
     Controller,
     ControllerContext,
@@ -21,7 +22,6 @@ from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
     LifecycleState,
-    NANOSECONDS,
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager

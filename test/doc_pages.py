@@ -9,9 +9,9 @@ import sys
 from control_fakes import FakeLog
 import yaml
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.controller_manager import ControllerManager
-from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import Strictness
 from amr_description.controllers import CONTROLLERS

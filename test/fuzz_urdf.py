@@ -23,12 +23,12 @@ from lxml import etree
 
 from amr_description.cli.check_urdf import exit_code
 from amr_description.cli.urdf_report import refusal, to_json, tree_lines
+from amr_description.controllers.drive_files import read_drives
 from amr_description.errors import AmrError
 from amr_description.model import checks, frames, urdf
+from amr_description.model.checks.context import Surroundings
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.subject import Surroundings
-from amr_description.nodes.drive_files import read_drives
-from amr_description.sim.drop import drop_test
+from amr_description.sim.drop_test import drop_test
 
 ROOT = Path(__file__).resolve().parent.parent
 FIXTURES = ROOT / 'test/fixtures'

@@ -12,12 +12,12 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from amr_description.control.loop import Loop
+from amr_description.control.ros.client import ManagerClient
+from amr_description.control.ros.controller_manager_node import ControllerManagerNode
+from amr_description.control.ros.loop_publisher import SimulatedOutgoing
+from amr_description.control.ros.loop_thread import Mailbox, Owner, WallPacer
 from amr_description.model.hardware_info import HardwareInfo, HardwareType
-from amr_description.nodes.controller_manager_node import ControllerManagerNode
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.outgoing import SimulatedOutgoing
-from amr_description.nodes.owner import Mailbox, Owner, WallPacer
+from amr_description.ros.log_thread import LogThread
 
 PERIOD = 10_000_000
 YAML = f"""

@@ -6,8 +6,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from threading import Event, Thread
 
+from amr_description.bringup.stacks.hardware import swap_hardware
 from amr_description.hardware.simulated_motor_board import MotorConstants, SimulatedMotorBoard
-from amr_description.model.hardware_swap import swap_hardware
 from amr_description.nodes.motor_board import linked, PseudoTerminal, serve
 
 AMR = (Path(__file__).parents[1] / 'urdf' / 'amr.urdf').read_text()

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from ros_processes import command, environment, PATIENCE, run
 
-from amr_description.nodes.clients import call
+from amr_description.ros.service_calls import call
 
 YAML = """
 controller_manager:

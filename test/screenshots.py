@@ -11,7 +11,7 @@ from ament_index_python.packages import get_package_prefix
 import chromium
 from running_programs import Program
 
-from amr_description.testing.domains import own_domain
+from amr_description.testing.program import own_domain
 
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 IMAGES = Path(__file__).resolve().parents[1] / 'docs' / 'images'

@@ -13,8 +13,8 @@ from ros_processes import PATIENCE, ROOT, running
 from rosgraph_msgs.msg import Clock
 from simulation_interfaces.msg import Result
 
-from amr_description.control.interfaces import NANOSECONDS
-from amr_description.nodes.clients import call_with, wait_until
+from amr_description.clock import NANOSECONDS
+from amr_description.ros.service_calls import call_with, wait_until
 
 URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
 SIMULATOR = '/mujoco_sim'

@@ -11,7 +11,7 @@ import rclpy
 from rclpy.node import Node
 from running_programs import Program
 
-from amr_description.nodes.clients import wait_until
+from amr_description.ros.service_calls import wait_until
 
 COMMAND = f'{sys.executable} -m amr_description.nodes.teleop_twist_keyboard'
 ONE_KEY_ONE_MESSAGE = ('-p', 'repeat_rate:=0.0', '-p', 'key_timeout:=0.0')

@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / 'amr_description'
 HEADER = ['# Copyright 2026 The amr_description authors', '# SPDX-License-Identifier: Apache-2.0']
-MOST_LINES_OF_A_FILE = 400
+MOST_LINES_OF_A_FILE = 600
 MOST_LINES_OF_A_FUNCTION = 60
 
 # part -> parts it may import; arrows point one way.

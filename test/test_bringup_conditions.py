@@ -21,9 +21,8 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.conditions import Verdict
-from amr_description.bringup.progress import Progress
-from amr_description.bringup.situation import Graph, NodeState, PathLook, Situation
+from amr_description.bringup.conditions import Graph, NodeState, PathLook, Situation, Verdict
+from amr_description.bringup.scheduler import Progress
 from amr_description.errors import BringupError
 
 HOLDS, NOT_YET, NEVER = Verdict.HOLDS, Verdict.NOT_YET, Verdict.NEVER

@@ -7,7 +7,7 @@ import os
 
 import pytest
 
-from amr_description.bringup.discovery import add_options, exports, told, variables, words
+from amr_description.bringup.environment import add_options, exports, told, variables, words
 from amr_description.bringup.main import main as bringup_main
 from amr_description.cli import ros2
 from amr_description.errors import UsageError

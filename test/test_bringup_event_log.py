@@ -8,11 +8,10 @@ import json
 from fixtures.bringup.running import Bringup, install_toys, STACKS
 
 from amr_description.bringup import Node, Stack, started
+from amr_description.bringup.command_line import jobs_of
 from amr_description.bringup.console import Console
-from amr_description.bringup.event_log import EventLog, json_line
-from amr_description.bringup.job import jobs_of
-from amr_description.bringup.log_folder import LogFolder
-from amr_description.bringup.narrator import Narrator
+from amr_description.bringup.reporter import Narrator
+from amr_description.bringup.run_log import EventLog, json_line, LogFolder
 
 IN_ORDER = str(STACKS / 'in_order.py')
 

@@ -8,7 +8,7 @@ import shutil
 
 import pytest
 
-from amr_description.bringup.file_notes import notes_on
+from amr_description.bringup.input_files import notes_on
 
 URDF = '<robot name="cart"><link name="base"/></robot>'
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from amr_description.bringup.arguments import declared, resolve
-from amr_description.bringup.progress import Progress
+from amr_description.bringup.scheduler import Progress
 from amr_description.bringup.stacks.fleet import fleet
 from amr_description.errors import AmrError
-from amr_description.model.footprint import horizontal_reach
+from amr_description.model.shapes import horizontal_reach
 from amr_description.model.urdf import load, parse
 
 ROOT = Path(__file__).parents[1]

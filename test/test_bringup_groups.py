@@ -17,9 +17,9 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.job import jobs_of
+from amr_description.bringup.command_line import jobs_of
 from amr_description.bringup.placement import Placement
-from amr_description.bringup.progress import Progress
+from amr_description.bringup.scheduler import Progress
 from amr_description.errors import BringupError
 
 

@@ -19,7 +19,7 @@ from amr_description.bringup import (
     Shutdown,
     Stack,
 )
-from amr_description.bringup.progress import Progress
+from amr_description.bringup.scheduler import Progress
 
 
 def ended(on_exit, *others, code=0, required=False):

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from amr_description.bringup.arguments import declared, resolve
-from amr_description.bringup.progress import Progress
-from amr_description.bringup.situation import PathLook
+from amr_description.bringup.conditions import PathLook
+from amr_description.bringup.scheduler import Progress
 from amr_description.bringup.stacks.hardware import mock, serial
 from amr_description.errors import AmrError
 from amr_description.hardware import HARDWARE

@@ -6,7 +6,7 @@ from fixtures.bringup.running import install_toys
 import pytest
 
 from amr_description.bringup import Node, path_of, Stack
-from amr_description.bringup.job import jobs_of, LaunchPrefix
+from amr_description.bringup.command_line import jobs_of, LaunchPrefix
 from amr_description.errors import BringupError, UsageError
 
 

@@ -24,7 +24,7 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.job import jobs_of
+from amr_description.bringup.command_line import jobs_of
 from amr_description.errors import BringupError
 
 NODE = Node('talker')

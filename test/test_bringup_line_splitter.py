@@ -4,7 +4,7 @@
 
 import pytest
 
-from amr_description.bringup.line_splitter import LineSplitter
+from amr_description.bringup.process import LineSplitter
 
 TEXT = 'one\n\ntwo ä€🤖\r\nunfinished'
 

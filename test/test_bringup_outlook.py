@@ -11,9 +11,9 @@ from fixtures.bringup.running import Bringup, STACKS
 import pytest
 
 from amr_description.bringup import path_exists, topic
+from amr_description.bringup.conditions import Graph, PathLook
+from amr_description.bringup.graph_watcher import GraphWatch, look_at, Outlook
 from amr_description.bringup.guardian import processes
-from amr_description.bringup.outlook import GraphWatch, look_at, Outlook
-from amr_description.bringup.situation import Graph, PathLook
 from amr_description.nodes.graph_watch import changes
 
 WAITING = str(STACKS / 'waiting.py')

@@ -7,7 +7,7 @@ import math
 import pytest
 import rclpy
 
-from amr_description.bringup.parameter_file import node_key, yaml_text
+from amr_description.bringup.command_line import node_key, yaml_text
 from amr_description.errors import BringupError
 
 PARAMETERS = {

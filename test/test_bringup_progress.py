@@ -7,8 +7,8 @@ import itertools
 import pytest
 
 from amr_description.bringup import all_of, exited_cleanly, Node, Stack, started
-from amr_description.bringup.post_mortem import post_mortem
-from amr_description.bringup.progress import Failure, Progress
+from amr_description.bringup.reporter import post_mortem
+from amr_description.bringup.scheduler import Failure, Progress
 from amr_description.errors import BringupError
 
 

@@ -21,9 +21,8 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.conditions import Verdict
-from amr_description.bringup.progress import Progress
-from amr_description.bringup.situation import Graph
+from amr_description.bringup.conditions import Graph, Verdict
+from amr_description.bringup.scheduler import Progress
 
 PATIENCE = 10.0
 """s"""

@@ -14,8 +14,8 @@ from fixtures.bringup.running import Bringup, ends, install_toys, STACKS
 import pytest
 from running_programs import PATIENCE
 
-from amr_description.bringup import Group, Node, run_commands, Stack, unique_names
-from amr_description.bringup.job import jobs_of
+from amr_description.bringup import Group, Node, run_commands, run_registry, Stack
+from amr_description.bringup.command_line import jobs_of
 from amr_description.bringup.process_usage import Process, start_time, tree, usages
 from amr_description.bringup.run_registry import RunRecord, runs
 from amr_description.errors import BringupError
@@ -229,7 +229,7 @@ def test_names_that_there_can_be_only_one_of(tmp_path, monkeypatch):
     named = Node('worker', package='toys', name='left', namespace='arm')
     nodes = [Node('mujoco_sim'), named, Node('worker', package='toys'), Node('spawner')]
     robot = Group([Node('ros2_control_node'), Node('robot_state_publisher')], namespace='r1')
-    assert unique_names.of(jobs_of(Stack([*nodes, robot]), tmp_path)) == {
+    assert run_registry.of(jobs_of(Stack([*nodes, robot]), tmp_path)) == {
         '/mujoco_sim', '/controller_manager', '/arm/left',
         '/r1/controller_manager', '/r1/robot_state_publisher',
     }  # fmt: skip

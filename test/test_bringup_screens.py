@@ -9,7 +9,7 @@ import yaml
 
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.description import nodes_of
-from amr_description.bringup.progress import Progress
+from amr_description.bringup.scheduler import Progress
 from amr_description.bringup.stacks.display import display
 from amr_description.bringup.stacks.hardware import mock
 from amr_description.bringup.stacks.simulation import simulation

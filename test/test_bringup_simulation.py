@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amr_description.bringup.arguments import declared, resolve
-from amr_description.bringup.progress import Progress
+from amr_description.bringup.scheduler import Progress
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.errors import AmrError
 from amr_description.model.description_file import description_text

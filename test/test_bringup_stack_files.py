@@ -16,8 +16,8 @@ from amr_description.bringup import (
     Respawn,
     Stack,
 )
-from amr_description.bringup.job import jobs_of
-from amr_description.bringup.listing import listing
+from amr_description.bringup.command_line import jobs_of
+from amr_description.bringup.main import listing
 from amr_description.bringup.placement import Placement
 from amr_description.errors import BringupError, UsageError
 

@@ -156,7 +156,7 @@ SIGNALLED = """
 from pathlib import Path
 import signal, sys
 from amr_description.bringup.console import Console
-from amr_description.bringup.log_folder import LogFolder
+from amr_description.bringup.run_log import LogFolder
 
 console = Console(sys.stdout, LogFolder(Path(sys.argv[1]), 'run'), colour=False)
 signal.signal(signal.SIGALRM, lambda *_: print('signal', file=sys.stderr))

@@ -10,10 +10,9 @@ import pytest
 
 from amr_description.bringup import exited_cleanly, Node, Stack
 from amr_description.bringup.console import Console
-from amr_description.bringup.log_folder import LogFolder
-from amr_description.bringup.narrator import steps_text
-from amr_description.bringup.progress import Progress
-from amr_description.bringup.start_status import StartStatus
+from amr_description.bringup.reporter import StartStatus, steps_text
+from amr_description.bringup.run_log import LogFolder
+from amr_description.bringup.scheduler import Progress
 
 ERASED = '\r\x1b[K'
 LATE = str(STACKS / 'late.py')

@@ -14,7 +14,7 @@ import pytest
 from running_programs import PATIENCE, Program
 
 from amr_description.bringup.console import Console
-from amr_description.bringup.log_folder import LogFolder
+from amr_description.bringup.run_log import LogFolder
 
 STACK = str(STACKS / 'with_terminal.py')
 COMMAND = shlex.join([sys.executable, '-m', 'amr_description.bringup.main', STACK])

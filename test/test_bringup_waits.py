@@ -18,8 +18,8 @@ from amr_description.bringup import (
     Stack,
     topic,
 )
-from amr_description.bringup.progress import Failure, Progress
-from amr_description.bringup.situation import Graph
+from amr_description.bringup.conditions import Graph
+from amr_description.bringup.scheduler import Failure, Progress
 from amr_description.errors import BringupError
 
 

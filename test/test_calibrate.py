@@ -15,12 +15,12 @@ from running_programs import PATIENCE, Program
 from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
-from amr_description.control.interfaces import NANOSECONDS
+from amr_description.clock import NANOSECONDS
 from amr_description.controllers.drive_calibration import Geometry, Run, Travel
 from amr_description.nodes.calibrate import manoeuvres, patch, report
-from amr_description.nodes.calibration_drive import Track
-from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.converters import fill_stamp
+from amr_description.nodes.calibrate.drive import Track
+from amr_description.ros.messages import fill_stamp
+from amr_description.ros.service_calls import call, wait_until
 
 # Shorter and wider than the shipped robot; and the parameters believe in larger wheels.
 URDF = (

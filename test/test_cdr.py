@@ -18,7 +18,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from amr_description.nodes import cdr
+from amr_description.ros import cdr
 
 TEXTS = st.text(st.characters(blacklist_characters='\0', blacklist_categories=('Cs',)), max_size=9)
 NUMBERS = st.floats(allow_nan=False)

@@ -7,7 +7,7 @@ from doc_pages import install, Page
 from manager_host import Host, ros_in_this_process, YAML
 import pytest
 
-from amr_description.nodes.clients import call
+from amr_description.ros.service_calls import call
 
 DRIVE = 'diff_drive_controller'
 CLASS, _ = Page('chain_a_controller.md').blocks('python')
@@ -53,9 +53,7 @@ def listed(manager, name):
 
 
 def test_a_chain_is_listed_as_ros2_control_lists_it(manager):
-    assert manager(
-        'SwitchController', activate_controllers=['circle', DRIVE], strictness=2
-    ).ok
+    assert manager('SwitchController', activate_controllers=['circle', DRIVE], strictness=2).ok
     names = [controller.name for controller in manager('ListControllers').controller]
     assert names.index('circle') < names.index(DRIVE)
     circle, drive = listed(manager, 'circle'), listed(manager, DRIVE)

@@ -11,9 +11,9 @@ import pytest
 
 from amr_description.errors import DescriptionError
 from amr_description.model import checks
+from amr_description.model.checks.context import Surroundings
+from amr_description.model.checks.inertia import principal_moments
 from amr_description.model.robot import Inertia
-from amr_description.model.rules_mass import principal_moments
-from amr_description.model.subject import Surroundings
 
 ROOT = Path(__file__).parent.parent
 AMR = (ROOT / 'urdf/amr.urdf').read_text()

@@ -52,7 +52,7 @@ def test_a_goal_that_succeeds():
         'Waiting for an action server to become available...\n'
         'Sending goal:\n     steps: 2\n\n'
         'Goal accepted with ID: N\n\n'
-        "Result:\n    result:\n  result: 0\n  error_message: 2 steps\n\n"
+        'Result:\n    result:\n  result: 0\n  error_message: 2 steps\n\n'
         'Goal finished with status: SUCCEEDED\n'
     )
 

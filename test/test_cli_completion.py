@@ -16,7 +16,7 @@ import pytest
 from running_programs import Program
 
 from amr_description.cli.completers import COMPLETERS
-from amr_description.cli.program import LazyParser
+from amr_description.cli.lazy_parser import LazyParser
 from amr_description.cli.ros2 import COMMANDS
 from amr_description.registry import resolve
 

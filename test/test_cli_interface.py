@@ -13,7 +13,7 @@ from amr_description.cli.interface.definition import Comments, Definition, expan
 from amr_description.cli.interface.index import all_interfaces, interfaces_of, read_definition
 from amr_description.errors import AmrError
 
-OUTER = '''\
+OUTER = """\
 # An outer one.
 
 Inner  inner  # what it holds
@@ -22,7 +22,7 @@ other_msgs/Leaf[<=3] leaves
 int8 LIMIT=3 # a constant
 
 #
-string<=5 name "x" # a default'''
+string<=5 name "x" # a default"""
 INNER = '# An inner one.\nLeaf leaf\n\nbool[2] flags # both\n'
 LEAF = 'float64 x # m'
 DEFINITIONS = {

@@ -65,7 +65,12 @@ def test_a_package_of_our_name_with_launch_files_of_its_own_is_heeded(share):
         ('amr_description', 'rviz.launch.py', AmrError, "no stack 'rviz.launch.py'.*simul"),
         ('amr_description', 'simulaton', AmrError, "did you mean 'simulation'"),
         ('amr_description', '*', AmrError, r"no stack '\*'"),
-        ('amr_description', None, UsageError, 'which one of .*: ros2 launch amr_description displ'),
+        (
+            'amr_description',
+            None,
+            UsageError,
+            'which one of .*: ros2 launch amr_description displ',
+        ),
         ('amr_description', 'rtf:=0', UsageError, "which one of 'amr_description'"),
         ('simulation', None, UsageError, "'simulation' is a stack; .* amr_description simulation"),
         ('nopkg', 'x.launch.py', AmrError, "Package 'nopkg' not found"),

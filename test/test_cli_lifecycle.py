@@ -87,9 +87,7 @@ def test_an_unknown_transition_is_told_what_there_is():
 def test_an_unknown_node_gets_one_line(words):
     code, output, error = lifecycle(words[0], '/nope', *words[1:])
     assert (code, output) == (1, '')
-    assert error == (
-        "Node not found: '/nope' is not there; those with a lifecycle are /managed\n"
-    )
+    assert error == ("Node not found: '/nope' is not there; those with a lifecycle are /managed\n")
 
 
 def test_why_a_node_is_not_found():

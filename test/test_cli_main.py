@@ -10,9 +10,9 @@ from types import SimpleNamespace
 from fixtures.cli.commands import python
 import pytest
 
-from amr_description.cli import main as entry
+from amr_description.cli import main
 from amr_description.errors import AmrError, UsageError
-from amr_description.nodes.stop_requests import StopRequested
+from amr_description.ros.signals import StopRequested
 
 # A stand-in for a command; the program under test is what surrounds it.
 RUN = """\
@@ -36,7 +36,7 @@ def command(monkeypatch):
 
     def install(function):
         monkeypatch.setitem(sys.modules, 'command', SimpleNamespace(main=function))
-        monkeypatch.setitem(entry.PROGRAMS, 'command', 'command')
+        monkeypatch.setitem(main.PROGRAMS, 'command', 'command')
 
     return install
 
@@ -55,7 +55,7 @@ def test_errors_become_exit_codes(command, capsys, error, code):
         raise error
 
     command(fail)
-    assert entry.main('command', []) == code
+    assert main.main('command', []) == code
     said = capsys.readouterr()
     assert said.out == ''
     assert said.err == (f'{error}\n' if isinstance(error, AmrError) else '')
@@ -67,7 +67,7 @@ def test_a_bug_is_not_hidden(command):
 
     command(fail)
     with pytest.raises(ZeroDivisionError, match='a bug'):
-        entry.main('command', [])
+        main.main('command', [])
 
 
 def test_each_line_is_written_at_once():

@@ -7,9 +7,7 @@ import pytest
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
-from amr_description.cli.bandwidth_meter import BandwidthMeter
-from amr_description.cli.delay_meter import DelayMeter
-from amr_description.cli.spread import Spread
+from amr_description.cli.meters import BandwidthMeter, DelayMeter, Spread
 from amr_description.cli.topic.delay import stamp_reader
 from amr_description.errors import AmrError
 

@@ -120,7 +120,7 @@ def test_what_is_wrong_is_told_in_one_line(arm, args, said):
 
 def test_the_end_of_the_line_helps(arm):
     assert param('set', ARM, 'gains.p', '1')[2].endswith('; it is a double: write 1.0\n')
-    assert param('set', ARM, 'title', '5')[2].endswith("; it is a string: write '\"5\"'\n")
+    assert param('set', ARM, 'title', '5')[2].endswith('; it is a string: write \'"5"\'\n')
     assert param('set', ARM, 'titel', 'x')[2].endswith("'titel'; did you mean title?\n")
 
 

@@ -5,7 +5,7 @@
 from fixtures.cli.commands import ros2
 import pytest
 
-MANIFEST = '''\
+MANIFEST = """\
 <?xml version="1.0"?>
 <!-- a comment -->
 <package format="3">
@@ -17,7 +17,7 @@ MANIFEST = '''\
     <build_type>ament_python</build_type>
   </export>
 </package>
-'''
+"""
 
 
 @pytest.fixture(scope='module')

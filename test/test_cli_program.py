@@ -10,7 +10,7 @@ from fixtures.cli.commands import python, ros2
 import pytest
 
 from amr_description.cli import qos_arguments
-from amr_description.cli.program import LazyParser, run
+from amr_description.cli.lazy_parser import LazyParser, run
 from amr_description.cli.ros2 import COMMANDS
 from amr_description.cli.topic import VERBS
 

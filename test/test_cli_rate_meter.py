@@ -4,7 +4,7 @@
 
 import pytest
 
-from amr_description.cli.rate_meter import RateMeter
+from amr_description.cli.meters import RateMeter
 
 MS = 1_000_000  # ns
 

@@ -9,7 +9,7 @@ import sys
 from fixtures.cli.commands import ros2, started
 import pytest
 
-from amr_description.cli.packages import executables_of, packages, prefix_of
+from amr_description.ament_index import executables_of, package_prefix, packages
 from amr_description.cli.run import STAND_INS
 from amr_description.errors import AmrError
 
@@ -262,9 +262,9 @@ def test_packages_are_those_of_the_index(in_prefix, prefix):
         'books': prefix,
         'toys': prefix,
     }
-    assert str(prefix_of('toys')) == prefix
+    assert str(package_prefix('toys')) == prefix
     with pytest.raises(AmrError, match="Package 'nope' not found"):
-        prefix_of('nope')
+        package_prefix('nope')
 
 
 def test_executables_may_be_executed_and_are_not_hidden(in_prefix):

@@ -13,7 +13,7 @@ from rclpy.task import Future
 from ros_processes import PATIENCE
 from std_srvs.srv import Trigger
 
-from amr_description.nodes.clients import ask_until_answered, call, NoAnswerError
+from amr_description.ros.service_calls import ask_until_answered, call, NoAnswerError
 
 
 class Server(Node):

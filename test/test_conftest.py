@@ -9,12 +9,12 @@ import conftest
 import pytest
 
 from amr_description.errors import SimulationError
-from amr_description.testing import domains
+from amr_description.testing import program
 
 
 @pytest.fixture
 def taken():
-    found = [domains.take_domain() for _ in range(5)]
+    found = [program.take_domain() for _ in range(5)]
     yield [domain for domain, _ in found]
     for _, lock in found:
         os.close(lock)
@@ -25,17 +25,17 @@ def test_no_domain_is_taken_twice(taken):
 
 
 def test_a_domain_given_back_can_be_taken_but_not_by_whose_shell_has_it(taken, monkeypatch):
-    monkeypatch.setattr(domains, 'DOMAINS', taken[:1])
+    monkeypatch.setattr(program, 'DOMAINS', taken[:1])
     with pytest.raises(SimulationError, match='all ROS domains from'):
-        domains.take_domain()
-    monkeypatch.setattr(domains, 'DOMAINS', [free := max(taken) + 1_000])
-    domain, lock = domains.take_domain()
+        program.take_domain()
+    monkeypatch.setattr(program, 'DOMAINS', [free := max(taken) + 1_000])
+    domain, lock = program.take_domain()
     os.close(lock)
-    (domains.LOCKS / f'ros_domain_{free}.lock').unlink()
+    (program.LOCKS / f'ros_domain_{free}.lock').unlink()
     assert domain == free
     monkeypatch.setenv('ROS_DOMAIN_ID', str(free))
     with pytest.raises(SimulationError, match='all ROS domains from'):
-        domains.take_domain()
+        program.take_domain()
 
 
 def test_files_known_to_take_long_start_first_where_several_run():

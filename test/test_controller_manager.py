@@ -312,9 +312,7 @@ def test_a_controller_that_fails_is_deactivated_and_the_others_go_on(error):
     texts = log.texts(Severity.ERROR)
     assert "'bad': no, thanks" in texts[0]
     assert ('Caught exception of type : ZeroDivisionError' in texts[0]) == (error is ERRORS[1])
-    assert texts[1] == (
-        'Deactivating controllers : [ bad ] as their update resulted in an error!'
-    )
+    assert texts[1] == ('Deactivating controllers : [ bad ] as their update resulted in an error!')
 
 
 @pytest.mark.parametrize('error', ERRORS)

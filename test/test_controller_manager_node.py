@@ -18,10 +18,10 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
+from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.loop_thread import Mailbox, Owner
 from amr_description.errors import ParameterError
-from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.outgoing import Outgoing
-from amr_description.nodes.owner import Mailbox, Owner
+from amr_description.ros.service_calls import call, wait_until
 
 FIXTURES = Path(__file__).parent / 'fixtures' / 'nodes'
 

@@ -10,7 +10,7 @@ from rcl_interfaces.srv import SetLoggerLevels
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
 from amr_description.control.contracts import Severity
-from amr_description.nodes.clients import call, wait_until
+from amr_description.ros.service_calls import call, wait_until
 
 
 @pytest.fixture

@@ -13,6 +13,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64MultiArray
 
 from amr_description.control.contracts import ControllerContext
+from amr_description.control.ros import converters
 from amr_description.control.samples import (
     CommandsSample,
     DynamicJointStateSample,
@@ -23,10 +24,9 @@ from amr_description.control.samples import (
     TwistSample,
 )
 from amr_description.controllers import CONTROLLERS
-from amr_description.nodes import converters
-from amr_description.nodes.message_types import message_type
 from amr_description.parameters import build
 from amr_description.registry import resolve
+from amr_description.ros.message_types import message_type
 
 STAMP = 3_000_000_007
 LAYOUT = DynamicLayout('base', ('wheel', 'imu'), (('position', 'velocity'), ('gyro.x',)))

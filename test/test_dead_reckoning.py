@@ -7,10 +7,9 @@ import math
 from control_fakes import MS
 import pytest
 
-from amr_description.control.interfaces import NANOSECONDS, StateInterface
-from amr_description.controllers.dead_reckoning import DeadReckoning
-from amr_description.controllers.odometry import Odometry
-from amr_description.controllers.wheel_side import WheelSide
+from amr_description.clock import NANOSECONDS
+from amr_description.control.interfaces import StateInterface
+from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelSide
 from amr_description.errors import ControllerError
 
 LATE = 1_000_000 * NANOSECONDS

@@ -14,12 +14,12 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros_processes import run
 from std_msgs.msg import String
 
+from amr_description.bringup.stacks.hardware import swap_hardware
+from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareError
-from amr_description.model.hardware_swap import swap_hardware
 from amr_description.model.urdf import parse
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.description_source import DescriptionSource
 from amr_description.nodes.ros2_control_node import StandAlone
+from amr_description.ros.service_calls import wait_until
 
 URDF = Path(__file__).parents[1] / 'urdf' / 'amr.urdf'
 GOOD = """<robot name="cart"><link name="base"/><ros2_control name="Cart" type="system"><hardware>

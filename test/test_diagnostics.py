@@ -8,11 +8,10 @@ import math
 from control_fakes import FakeController, FakeHardware, make_manager, MS, start
 import pytest
 
-from amr_description.control.diagnostics import Level, Report, reports
+from amr_description.control.diagnostic_thresholds import Diagnostics
+from amr_description.control.diagnostics import Level, Report, reports, take_measurements
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.measurements import take_measurements
 from amr_description.control.switching import Strictness
-from amr_description.control.thresholds import Diagnostics
 from amr_description.model.hardware_info import HardwareType
 
 US = 1000
@@ -133,9 +132,7 @@ def test_slow_and_uneven_updates_are_named(durations, level):
 
 
 def test_the_worst_controller_gives_the_level_and_all_are_named():
-    manager = running(
-        FakeHardware(['j']), controllers=[FakeController('a'), FakeController('b')]
-    )
+    manager = running(FakeHardware(['j']), controllers=[FakeController('a'), FakeController('b')])
     for loaded, duration in zip(manager.loaded, [1500.0, 2500.0], strict=True):
         fill(loaded.statistic, [duration])
     report = reports_on(manager)[CONTROLLERS]

@@ -15,11 +15,11 @@ from control_fakes import collect, FakeLog, MS, nan_for_none, VECTORS
 from hypothesis import given, settings, strategies as st
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import ControllerContext, Severity
 from amr_description.control.interfaces import (
     Claim,
     CommandInterface,
-    NANOSECONDS,
     NO_INTERFACES,
     StateInterface,
 )
@@ -80,9 +80,7 @@ class Bench:
 
     def refer(self, linear, angular):
         """Command as a preceding controller does."""
-        for reference, value in zip(
-            self.controller.references(), (linear, angular), strict=True
-        ):
+        for reference, value in zip(self.controller.references(), (linear, angular), strict=True):
             reference.value = value
 
     def send_unstamped(self, linear, angular=0.0):
@@ -165,9 +163,7 @@ def test_odometry_of_random_commands_equals_its_closed_form(legs, values, feedba
         assert found.stamp == bench.time
         bench.drive(0.0)
         found = bench.odom[-1]
-    position, heading = closed_form(
-        [(v, w, ticks * PERIOD / NANOSECONDS) for v, w, ticks in legs]
-    )
+    position, heading = closed_form([(v, w, ticks * PERIOD / NANOSECONDS) for v, w, ticks in legs])
     assert (found.x, found.y) == pytest.approx((position.real, position.imag), abs=1e-9)
     assert found.heading == pytest.approx(heading, abs=1e-9)
     assert (found.linear, found.angular) == pytest.approx(legs[-1][:2], abs=1e-9)

@@ -9,8 +9,8 @@ from doc_pages import install, mocked, Page, Robot, ROOT
 import pytest
 import yaml
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
-from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.samples import TwistSample
 from amr_description.errors import ControllerError
 

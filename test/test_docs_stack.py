@@ -16,8 +16,8 @@ from amr_description.bringup import Exited, exited_cleanly, Shutdown, topic
 from amr_description.bringup.conditions import leaves
 from amr_description.bringup.description import nodes_of, PATIENCE
 from amr_description.bringup.placement import Placement
+from amr_description.bringup.scheduler import TIMED_OUT
 from amr_description.bringup.stack_files import make_stack
-from amr_description.bringup.waits import TIMED_OUT
 
 PAGE = Page('write_your_own_stack.md')
 MY_ARM, MY_DRIVER, MY_LAB = PAGE.blocks('python')

@@ -7,7 +7,7 @@ import re
 
 from doc_pages import Page, ROOT
 
-from amr_description.bringup import event_log
+from amr_description.bringup import run_log
 from amr_description.bringup.run_commands import COMMANDS
 from amr_description.bringup.stacks import STACKS
 
@@ -32,7 +32,7 @@ def test_the_events_are_those_that_the_code_notes():
 
 
 def test_the_page_and_the_module_name_the_same_events():
-    documented = re.findall(r'^``(\w+)`` ', event_log.__doc__.split('event  ')[-1], re.MULTILINE)
+    documented = re.findall(r'^``(\w+)`` ', run_log.__doc__.split('event  ')[-1], re.MULTILINE)
     assert set(documented) == events_of_page().keys()
 
 

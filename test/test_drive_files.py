@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from amr_description.controllers.drive_files import DIFF_DRIVE, drive_warnings, read_drives
 from amr_description.errors import ParameterError
 from amr_description.model import urdf
-from amr_description.nodes.drive_files import DIFF_DRIVE, drive_warnings, read_drives
 
 ROOT = Path(__file__).parent.parent
 WHEELS = """\

@@ -9,9 +9,9 @@ import pytest
 from simulation_interfaces.msg import Bounds, EntityCategory, EntityFilters, TagsFilter
 
 from amr_description.errors import RequestError
-from amr_description.nodes.entity_filters import check_bounds, chosen, has_tags, overlaps
-from amr_description.nodes.robots import Category, Entity, Info
 from amr_description.sim.entity_state import Box
+from amr_description.sim.ros.entities import Category, Entity, Info
+from amr_description.sim.ros.entity_services import check_bounds, chosen, has_tags, overlaps
 
 ENTITIES = [
     Entity('amr_1', Info(Category.ROBOT, tags=('fast', 'red')), None, None),

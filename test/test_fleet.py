@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 import yaml
 
 from amr_description.model.frames import Transform
-from amr_description.testing.message_readings import motion_of_entity
+from amr_description.testing.readings import motion_of_entity
 from amr_description.testing.simulation import Simulation
 
 NAMES = [f'robot{number}' for number in range(1, 11)]

@@ -9,7 +9,8 @@ from pathlib import Path
 from hypothesis import given, strategies as st
 import pytest
 
-from amr_description.model.footprint import grid, horizontal_reach, REACH_OF_A_MESH
+from amr_description.bringup.stacks.fleet import grid
+from amr_description.model.shapes import horizontal_reach, REACH_OF_A_MESH
 from amr_description.model.urdf import load, parse
 
 ROOT = Path(__file__).parents[1]

@@ -7,9 +7,16 @@ import xml.etree.ElementTree as ElementTree
 
 from hypothesis import given, strategies as st
 
-from amr_description.model.frame_tree import FrameRecord
-from amr_description.nodes.frame_drawing import Box, draw, LETTER_WIDTH, Line, Text
-from amr_description.nodes.frame_files import as_pdf, as_svg
+from amr_description.nodes.view_frames.drawing import (
+    as_pdf,
+    as_svg,
+    Box,
+    draw,
+    LETTER_WIDTH,
+    Line,
+    Text,
+)
+from amr_description.tf2_ros.frame_graph import FrameRecord
 
 SVG = '{http://www.w3.org/2000/svg}'
 

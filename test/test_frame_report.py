@@ -5,21 +5,21 @@
 import pytest
 import yaml
 
-from amr_description.model.frame_report import (
+from amr_description.clock import NANOSECONDS
+from amr_description.tf2_ros.frame_graph import (
     as_dot,
     as_tree,
     average_rate,
+    FrameRecord,
     frames_as_string,
     frames_as_yaml,
     tree_order,
 )
-from amr_description.model.frame_tree import FrameRecord
-from amr_description.model.transform_cache import SECOND
 
-START = 1_638_875_729 * SECOND
+START = 1_638_875_729 * NANOSECONDS
 
 
-def moving(name, parent, samples=5, length=2 * SECOND):
+def moving(name, parent, samples=5, length=2 * NANOSECONDS):
     return FrameRecord(name, parent, '/ekf', False, samples, START + length, START)
 
 
@@ -37,7 +37,7 @@ def test_the_list_is_that_of_tf2():
 
 
 def test_the_yaml_is_that_of_tf2():
-    assert frames_as_yaml([moving('turtle1', 'world', 314, 5 * SECOND)]) == (
+    assert frames_as_yaml([moving('turtle1', 'world', 314, 5 * NANOSECONDS)]) == (
         'turtle1: \n'
         "  parent: 'world'\n"
         "  broadcaster: '/ekf'\n"
@@ -50,7 +50,7 @@ def test_the_yaml_is_that_of_tf2():
 
 
 def test_the_yaml_can_be_read_and_tells_the_delay():
-    read = yaml.safe_load(frames_as_yaml(ROBOT, START + 3 * SECOND))
+    read = yaml.safe_load(frames_as_yaml(ROBOT, START + 3 * NANOSECONDS))
     assert list(read) == ['odom', 'laser', 'base']
     assert read['odom']['transform_delay'] == 1.0
     assert read['laser'] | {'transform_delay': 0} == {

@@ -13,7 +13,7 @@ from ros_processes import PATIENCE, run
 from simulation_interfaces.srv import DeleteEntity, SpawnEntity
 from simulator import simulator, URDF
 
-from amr_description.nodes.manager_client import ManagerClient
+from amr_description.control.ros.client import ManagerClient
 
 YAML = """
 /**/cm:

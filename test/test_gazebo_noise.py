@@ -5,8 +5,7 @@
 import pytest
 
 from amr_description.errors import DescriptionError
-from amr_description.model.gazebo_noise import Noise
-from amr_description.model.gazebo_sensors import gazebo_sensors_of
+from amr_description.model.gazebo import gazebo_sensors_of, Noise
 from amr_description.model.urdf import parse
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from amr_description.errors import DescriptionError
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_sensors import gazebo_sensors_of, GazeboSensor
+from amr_description.model.gazebo import gazebo_sensors_of, GazeboSensor
 from amr_description.model.urdf import parse
 
 

@@ -13,12 +13,12 @@ import rclpy
 from rclpy.node import Node
 from running_programs import PATIENCE
 
-from amr_description.control.interfaces import NANOSECONDS
+from amr_description.clock import NANOSECONDS
+from amr_description.control.ros.loop_publisher import SimulatedOutgoing
 from amr_description.model.frames import rotate, Transform
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.converters import nanoseconds, transform_of
-from amr_description.nodes.ground_truth import GroundTruth
-from amr_description.nodes.outgoing import SimulatedOutgoing
+from amr_description.ros.messages import nanoseconds, transform_of
+from amr_description.ros.service_calls import wait_until
+from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.world import MujocoWorld
 
 WEIGHT = 7.0 * 9.81

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from amr_description.bringup.stacks.hardware import swap_hardware
 from amr_description.errors import DescriptionError
-from amr_description.model.hardware_swap import swap_hardware
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 

@@ -8,7 +8,7 @@ import pytest
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.nodes.heard_clock import HeardClock
+from amr_description.control.ros.pacing import HeardClock
 
 PERIOD = 10 * MS
 

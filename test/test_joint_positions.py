@@ -11,13 +11,13 @@ import pytest
 from amr_description.errors import DescriptionError, ParameterError
 from amr_description.model.description_file import description_text
 from amr_description.model.urdf import parse
-from amr_description.nodes.joint_options import (
+from amr_description.nodes.joint_state_publisher.joint_positions import (
     Dependence,
     dependent_joints_of,
     JointOptions,
+    JointPositions,
     zeros_of,
 )
-from amr_description.nodes.joint_positions import JointPositions
 
 GRIPPER = Path(__file__).parent / 'fixtures/urdf/gripper.urdf.xacro'
 

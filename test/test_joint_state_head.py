@@ -10,7 +10,7 @@ import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 
-from amr_description.nodes.joint_state_head import HeadReader, JointStateHead
+from amr_description.ros.cdr import HeadReader, JointStateHead
 
 names = strategies.lists(strategies.text(strategies.characters(exclude_categories=['Cs', 'Cc'])))
 words = strategies.text(strategies.characters(exclude_categories=['Cs', 'Cc']))

@@ -15,9 +15,9 @@ from running_programs import Program
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-from amr_description.nodes.clients import wait_until
 from amr_description.nodes.joint_state_publisher import JointStatePublisher
-from amr_description.nodes.runtime import spinning
+from amr_description.ros.runtime import spinning
+from amr_description.ros.service_calls import wait_until
 
 GRIPPER = Path(__file__).parent / 'fixtures/urdf/gripper.urdf.xacro'
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

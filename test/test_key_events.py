@@ -5,8 +5,13 @@
 from hypothesis import example, given, strategies as st
 import pytest
 
-from amr_description.nodes.key_events import CTRL_C, CTRL_Z, KeyEvent, KeyParser
-from amr_description.nodes.teleop_keys import MOVES, SPEEDS
+from amr_description.nodes.teleop_twist_keyboard.keyboard import (
+    CTRL_C,
+    CTRL_Z,
+    KeyEvent,
+    KeyParser,
+)
+from amr_description.nodes.teleop_twist_keyboard.keys import MOVES, SPEEDS
 
 BOUND = {*MOVES, *SPEEDS}
 

@@ -9,17 +9,19 @@ from control_fakes import FakeController, FakeHardware, FakeLog, make_manager, M
 from hypothesis import given, settings, strategies as st
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager
-from amr_description.control.interfaces import CommandInterface, NANOSECONDS, StateInterface
-from amr_description.control.joint_limits import JointLimits, limits_of
-from amr_description.control.limits import (
+from amr_description.control.interfaces import CommandInterface, StateInterface
+from amr_description.control.joint_limits import (
     JointLimiter,
+    JointLimits,
     JointState,
     limit_acceleration,
     limit_effort,
     limit_position,
     limit_velocity,
+    limits_of,
 )
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import HardwareError

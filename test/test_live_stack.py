@@ -16,7 +16,7 @@ import rclpy
 from rclpy.node import Node
 from running_stack import Graph, running_stack
 
-from amr_description.nodes.clients import wait_until
+from amr_description.ros.service_calls import wait_until
 
 LIVE = json.loads((Path(__file__).parent / 'fixtures' / 'control' / 'live_stack.json').read_text())
 

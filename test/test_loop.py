@@ -8,8 +8,8 @@ import random
 from control_fakes import collect, FakeController, FakeLog, make_manager, MS, output, start
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
-from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import SimulationError

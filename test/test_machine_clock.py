@@ -5,8 +5,8 @@
 from control_fakes import FakeLog, MS
 import pytest
 
-from amr_description.nodes import machine_clock
-from amr_description.nodes.machine_clock import MachineClock
+from amr_description.control.ros import pacing
+from amr_description.control.ros.pacing import MachineClock
 
 PERIOD = 10 * MS
 EPOCH = 1_700_000_000_000_000_000
@@ -45,7 +45,7 @@ class Machine:
 @pytest.fixture
 def machine(monkeypatch):
     machine = Machine()
-    monkeypatch.setattr(machine_clock, 'time', machine)
+    monkeypatch.setattr(pacing, 'time', machine)
     return machine
 
 

@@ -14,10 +14,10 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 
+from amr_description.control.ros import absence_diagnosis
+from amr_description.control.ros.client import ManagerClient
 from amr_description.errors import ControllerError
-from amr_description.nodes import manager_search
-from amr_description.nodes.clients import NoAnswerError
-from amr_description.nodes.manager_client import ManagerClient
+from amr_description.ros.service_calls import NoAnswerError
 
 TIMED_OUT = 'Switch controller timed out after 5 seconds!'
 
@@ -70,7 +70,7 @@ def manager():
 @pytest.fixture
 def client(manager, monkeypatch):
     """Made while the manager answers."""
-    monkeypatch.setattr(manager_search, '_CLOCK_PATIENCE', 1.0)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 1.0)
     monkeypatch.setattr(manager, 'switches', [])
     node = Node('asker')
     yield ManagerClient(node, 'controller_manager', call_timeout=0.5)
@@ -127,7 +127,7 @@ def test_a_parameter_that_is_refused_is_told(client):
 
 def test_a_manager_that_never_answers_keeps_nobody(manager, monkeypatch):
     monkeypatch.setattr(manager, 'silent', True)
-    monkeypatch.setattr(manager_search, '_CLOCK_PATIENCE', 1.0)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 1.0)
     node = Node('hopeful')
     with pytest.raises(NoAnswerError, match='after 3 attempts'):
         ManagerClient(node, '/controller_manager', call_timeout=0.1)

@@ -7,9 +7,9 @@ import pytest
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError, ParameterError
-from amr_description.nodes.manager_parameters import ManagerParameters
 
 
 @pytest.fixture

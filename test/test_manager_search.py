@@ -16,13 +16,19 @@ from rosgraph_msgs.msg import Clock
 from simulation_interfaces.srv import SpawnEntity
 from std_msgs.msg import String
 
+from amr_description.control.ros import (
+    absence_diagnosis,
+    client,
+)
+from amr_description.control.ros.absence_diagnosis import (
+    DescriptionSight,
+    errors_of,
+    ManagerSearch,
+)
+from amr_description.control.ros.client import ManagerClient
 from amr_description.errors import ControllerError
-from amr_description.nodes import manager_client, manager_search
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.manager_search import errors_of, ManagerSearch
-from amr_description.nodes.missing_manager import DescriptionSight
-from amr_description.nodes.runtime import argument_errors
+from amr_description.ros.runtime import argument_errors
+from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 SIM_TIME = [Parameter('use_sim_time', value=True)]
@@ -37,8 +43,8 @@ def ros():
 
 @pytest.fixture
 def seeker(monkeypatch):
-    monkeypatch.setattr(manager_search, '_DISCOVERY', 0.3)
-    monkeypatch.setattr(manager_search, '_CLOCK_PATIENCE', 0.5)
+    monkeypatch.setattr(absence_diagnosis, '_DISCOVERY', 0.3)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 0.5)
     node = Node('seeker')
     yield node
     node.destroy_node()
@@ -155,7 +161,7 @@ def test_a_clock_that_stands_still_and_one_that_runs(seeker):
 
 
 def test_a_wait_that_goes_on_tells_each_time_what_is_missing(seeker, monkeypatch, capfd):
-    monkeypatch.setattr(manager_client, '_EVERY', 0.1)
+    monkeypatch.setattr(client, '_EVERY', 0.1)
     service = f'{NAME}/list_controllers'
     with pytest.raises(ControllerError) as error:
         ManagerClient(seeker, NAME, timeout=0.3)

@@ -15,9 +15,9 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.diagnostics import DiagnosticsTopic
-from amr_description.nodes.manager_parameters import ManagerParameters
+from amr_description.control.ros.parameters import ManagerParameters
+from amr_description.control.ros.status_topics import DiagnosticsTopic
+from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE = 20.0
@@ -101,9 +101,7 @@ def test_activity_is_told_while_time_stands_still(host):
             host, ControllerManagerActivity, '/controller_manager/activity', LATCHED
         ) as h:
             host.activate('joint_state_broadcaster')
-            found = latest(
-                host, h, lambda m: [c.state.label for c in m.controllers] == ['active']
-            )
+            found = latest(host, h, lambda m: [c.state.label for c in m.controllers] == ['active'])
             time = host.owner.loop.time
             assert found.header.stamp.sec * 10**9 + found.header.stamp.nanosec == time
     finally:

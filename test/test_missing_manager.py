@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from amr_description.nodes.missing_manager import (
+from amr_description.control.ros.absence_diagnosis import (
     clock_fault,
     ClockSight,
     DescriptionSight,

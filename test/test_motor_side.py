@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 import pytest
 
 from amr_description.errors import HardwareDeactivationError, HardwareError
-from amr_description.hardware.motor_side import MotorSide
+from amr_description.hardware.serial_base_system import MotorSide
 from amr_description.model.hardware_info import ComponentInfo, ComponentType, InterfaceInfo
 
 TICKS = 1000

@@ -14,7 +14,7 @@ from ros_processes import command, environment, PATIENCE, ROOT, run, running
 from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 
-from amr_description.nodes.clients import call, wait_until
+from amr_description.ros.service_calls import call, wait_until
 from amr_description.sim.spawning import SpawnCode
 
 URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')

@@ -14,7 +14,7 @@ import pytest
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, Float64MultiArray
 
-from amr_description.nodes.clients import wait_until
+from amr_description.ros.service_calls import wait_until
 
 FIXTURES = Path(__file__).parent / 'fixtures' / 'nodes'
 PARAMETERS = f"""

@@ -7,8 +7,8 @@ import rclpy
 from rclpy.node import Node
 from ros_processes import PATIENCE
 
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.node_ending import destroy_node
+from amr_description.ros.runtime import destroy_node
+from amr_description.ros.service_calls import wait_until
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ import threading
 import pytest
 
 from amr_description.control.contracts import Severity
-from amr_description.nodes import node_log
-from amr_description.nodes.node_log import LogThread
+from amr_description.ros import log_thread
+from amr_description.ros.log_thread import LogThread
 
 
 class Logger:
@@ -51,7 +51,7 @@ def test_whatever_is_said_the_lines_behind_it_come_too(said, text):
 
 
 def test_a_storm_is_cut_short_and_that_is_said(monkeypatch):
-    monkeypatch.setattr(node_log, '_MOST_WAITING', 10)
+    monkeypatch.setattr(log_thread, '_MOST_WAITING', 10)
     logger, logs = Logger(), LogThread()
     log = logs.log_of(logger)
     for number in range(1000):
@@ -71,7 +71,7 @@ def test_a_storm_is_cut_short_and_that_is_said(monkeypatch):
 
 
 def test_a_terminal_that_takes_nothing_does_not_keep_the_process_from_ending(monkeypatch):
-    monkeypatch.setattr(node_log, '_PATIENCE', 0.01)
+    monkeypatch.setattr(log_thread, '_PATIENCE', 0.01)
     logger, logs = Logger(), LogThread()
     logs.log_of(logger)(Severity.INFO, 'never written')
     logs.stop()

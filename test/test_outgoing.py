@@ -9,8 +9,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros_processes import PATIENCE
 from std_msgs.msg import String
 
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.outgoing import Outgoing
+from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 

@@ -8,10 +8,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from amr_description.nodes import owner
-from amr_description.nodes.owner import Mailbox, Owner, WallPacer
-
-SECOND = 1_000_000_000
+from amr_description.clock import NANOSECONDS
+from amr_description.control.ros import loop_thread
+from amr_description.control.ros.loop_thread import Mailbox, Owner, WallPacer
 
 
 class WallClock:
@@ -32,7 +31,7 @@ class WallClock:
 
 def paced(monkeypatch, factor):
     clock = WallClock()
-    monkeypatch.setattr(owner, 'time', clock)
+    monkeypatch.setattr(loop_thread, 'time', clock)
     pacer = WallPacer(factor, clock)
     pacer.resume(0)
     return clock, pacer
@@ -71,18 +70,18 @@ def test_the_pace_is_absolute_so_that_errors_do_not_add_up(monkeypatch):
     clock, pacer = paced(monkeypatch, factor=2.0)
     for tick in range(1, 101):
         clock.now += 0.001  # the work of a turn
-        pacer.pace(tick * SECOND // 100)
+        pacer.pace(tick * NANOSECONDS // 100)
     assert abs(clock.now - (100.0 + 0.5)) < 1e-9
 
 
 def test_a_late_turn_is_made_good_but_a_stop_of_the_machine_is_not(monkeypatch):
     clock, pacer = paced(monkeypatch, factor=1.0)
     clock.now += 0.05
-    pacer.pace(SECOND // 100)
+    pacer.pace(NANOSECONDS // 100)
     assert clock.slept == []
     clock.now += 10.0
-    pacer.pace(2 * SECOND // 100)
-    pacer.pace(3 * SECOND // 100)
+    pacer.pace(2 * NANOSECONDS // 100)
+    pacer.pace(3 * NANOSECONDS // 100)
     assert clock.slept[-1] > 0.0099
 
 
@@ -91,17 +90,17 @@ def test_as_fast_as_possible_still_yields_now_and_then():
     pacer.resume(0)
     begin = time.monotonic()
     for tick in range(1000):
-        pacer.pace(tick * SECOND)
+        pacer.pace(tick * NANOSECONDS)
     assert time.monotonic() - begin < 1000.0  # a thousand simulated seconds, not waited for
 
 
 def test_another_factor_counts_from_now_on(monkeypatch):
     clock, pacer = paced(monkeypatch, factor=0.001)
-    pacer.set_factor(10.0, SECOND)
+    pacer.set_factor(10.0, NANOSECONDS)
     before = clock.now
-    assert pacer.pace(SECOND)
+    assert pacer.pace(NANOSECONDS)
     assert clock.now == before
-    pacer.pace(2 * SECOND)
+    pacer.pace(2 * NANOSECONDS)
     assert clock.now == pytest.approx(before + 0.1)
 
 
@@ -114,7 +113,7 @@ def test_a_call_ends_the_sleep_of_slow_motion():
     pacer = WallPacer(1e-9, box)
     pacer.resume(0)
     box.put(print)
-    assert pacer.pace(SECOND) is False
+    assert pacer.pace(NANOSECONDS) is False
 
 
 class Manager:

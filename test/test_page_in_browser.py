@@ -23,9 +23,9 @@ from rclpy.node import Node
 from running_programs import PATIENCE, Program
 from sensor_msgs.msg import JointState
 
-from amr_description.control.interfaces import NANOSECONDS
-from amr_description.nodes.clients import wait_until
-from amr_description.testing.domains import own_domain
+from amr_description.clock import NANOSECONDS
+from amr_description.ros.service_calls import wait_until
+from amr_description.testing.program import own_domain
 
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 AT_REST = 0.01  # m/s

@@ -10,7 +10,6 @@ from needs import need
 import pytest
 from test_viewer_pages import Backend, serving
 
-from amr_description.nodes.viewer_models import describe_robot
 from amr_description.viewer.protocol import (
     Command,
     FrameInfo,
@@ -19,6 +18,7 @@ from amr_description.viewer.protocol import (
     RobotInfo,
     RobotLayout,
 )
+from amr_description.viewer.ros.description import describe_robot
 from amr_description.viewer.states import StateFrame
 
 HOUR = 3600.0  # s

@@ -19,8 +19,8 @@ from sensor_msgs.msg import JointState
 from test_page_memory import LongDrive
 from test_viewer_pages import serving
 
-from amr_description.nodes.clients import wait_until
-from amr_description.testing.domains import own_domain
+from amr_description.ros.service_calls import wait_until
+from amr_description.testing.program import own_domain
 
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 MESHED = Path(__file__).parent / 'fixtures' / 'urdf_good' / 'meshed.urdf'

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amr_description.errors import ParameterError
-from amr_description.nodes.parameter_files import read_parameter_file
+from amr_description.parameter_files import read_parameter_file
 
 
 def test_nodes_may_stand_below_their_namespaces(tmp_path):

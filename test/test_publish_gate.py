@@ -5,8 +5,8 @@
 from control_fakes import VECTORS
 import pytest
 
-from amr_description.control.interfaces import NANOSECONDS
-from amr_description.controllers.publish_gate import PublishGate
+from amr_description.clock import NANOSECONDS
+from amr_description.controllers.diff_drive_controller import PublishGate
 
 SCHEDULES = [
     (name, [int(number) for number in name.removeprefix('update').split('_pub')], indices)

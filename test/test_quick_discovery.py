@@ -6,7 +6,7 @@ import os
 
 from running_programs import Program
 
-from amr_description.nodes.quick_discovery import PROFILE, use_quick_discovery, use_whole_graph
+from amr_description.ros.discovery import PROFILE, use_quick_discovery, use_whole_graph
 
 VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
 

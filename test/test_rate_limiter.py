@@ -128,11 +128,11 @@ def test_without_limits_everything_passes():
 CALLS = {
     'limit': lambda limiter, r: limiter.limit(r['v'], r['v0'], r['v1'], r['dt']),
     'limit_value': lambda limiter, r: limiter.limit_value(r['v']),
-    'limit_first_derivative': lambda limiter, r: (
-        limiter.limit_acceleration(r['v'], r['v0'], r['dt'])
+    'limit_first_derivative': lambda limiter, r: limiter.limit_acceleration(
+        r['v'], r['v0'], r['dt']
     ),
-    'limit_second_derivative': lambda limiter, r: (
-        limiter.limit_jerk(r['v'], r['v0'], r['v1'], r['dt'])
+    'limit_second_derivative': lambda limiter, r: limiter.limit_jerk(
+        r['v'], r['v0'], r['v1'], r['dt']
     ),
 }
 

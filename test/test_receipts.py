@@ -8,8 +8,8 @@ from geometry_msgs.msg import TwistStamped
 import pytest
 from ros_processes import ROOT
 
-from amr_description.nodes.clients import call
-from amr_description.nodes.receipts import QOS
+from amr_description.control.ros.loop_publisher import QOS
+from amr_description.ros.service_calls import call
 
 pytest_plugins = ['amr_description.testing.fixtures']
 

@@ -9,6 +9,7 @@ from control_fakes import bring_up, FakeHardware, FakeLog, MS
 from hypothesis import given, settings, strategies as st
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.interfaces import (
@@ -16,12 +17,11 @@ from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
     LifecycleState,
-    NANOSECONDS,
     NO_INTERFACES,
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.taking_snapshots import take_snapshot
+from amr_description.control.snapshot import take_snapshot
 from amr_description.errors import HardwareDeactivationError, HardwareError, InterfaceError
 from amr_description.model.hardware_info import (
     ComponentInfo,
@@ -158,7 +158,7 @@ def test_a_component_is_made_by_the_class_of_its_plugin():
 def test_async_is_said_to_run_in_the_loop():
     resources = bring_up(FakeHardware(['j'], is_async=True))
     (text,) = resources.log.texts(Severity.WARN)
-    assert "'hardware' has is_async=\"true\": it is read and written in the control loop" in text
+    assert '\'hardware\' has is_async="true": it is read and written in the control loop' in text
 
 
 @pytest.mark.parametrize(

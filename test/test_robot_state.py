@@ -15,7 +15,7 @@ import yourdfpy
 from amr_description.model.description_file import description_text
 from amr_description.model.frames import Transform
 from amr_description.model.urdf import load, parse
-from amr_description.nodes.robot_state import period_of, RobotState, Throttle
+from amr_description.nodes.robot_state_publisher.robot_state import period_of, RobotState, Throttle
 
 ROOT = Path(__file__).parents[1]
 FIXTURES = ROOT / 'test/fixtures/urdf'

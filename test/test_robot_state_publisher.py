@@ -18,9 +18,9 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from amr_description.nodes.clients import wait_until
 from amr_description.nodes.robot_state_publisher import RobotStatePublisher
-from amr_description.nodes.runtime import spinning
+from amr_description.ros.runtime import spinning
+from amr_description.ros.service_calls import wait_until
 
 AMR = Path(__file__).parents[1] / 'urdf/amr.urdf'
 GRIPPER = Path(__file__).parent / 'fixtures/urdf/gripper.urdf.xacro'

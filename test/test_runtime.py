@@ -19,8 +19,7 @@ from running_programs import Program
 from std_msgs.msg import String
 
 from amr_description.errors import ParameterError, UsageError
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.runtime import (
+from amr_description.ros.runtime import (
     argument_errors,
     ExecutorThread,
     program,
@@ -29,13 +28,14 @@ from amr_description.nodes.runtime import (
     spin,
     spinning,
 )
-from amr_description.nodes.stop_requests import StopRequests
+from amr_description.ros.service_calls import wait_until
+from amr_description.ros.signals import StopRequests
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 
 NODE = """
 import sys
-from amr_description.nodes.runtime import run
+from amr_description.ros.runtime import run
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
@@ -62,7 +62,7 @@ sys.exit(run(Fixture, sys.argv[2:], executor=globals()[sys.argv[1]]))
 OWN_LOOP = """
 import sys, threading
 import rclpy
-from amr_description.nodes.runtime import program, ros
+from amr_description.ros.runtime import program, ros
 
 def body():
     with ros([]) as stop:
@@ -76,7 +76,7 @@ sys.exit(program(body))
 # No ROS in it, so it is quick: what a request does by where the program is.
 PHASES = """
 import os, signal, sys, threading
-from amr_description.nodes.stop_requests import StopRequested, StopRequests
+from amr_description.ros.signals import StopRequested, StopRequests
 
 def say(*words):  # a line at a time, from any thread
     os.write(1, (' '.join(words) + os.linesep).encode())

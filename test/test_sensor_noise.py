@@ -7,8 +7,8 @@ from statistics import fmean, pstdev
 
 import pytest
 
-from amr_description.hardware.sensor_noise import SensorNoise
-from amr_description.model.gazebo_noise import Noise
+from amr_description.hardware.simulated_imu import SensorNoise
+from amr_description.model.gazebo import Noise
 
 COUNT = 20_000
 

@@ -20,13 +20,14 @@ from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareDeactivationError, HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.serial_base_system import SerialBaseSystem
-from amr_description.hardware.serial_lines import encode, LineReader
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
     Disarm,
+    encode,
     Get,
     Hello,
+    LineReader,
     Mode,
     Refused,
     Set,

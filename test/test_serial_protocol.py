@@ -11,15 +11,17 @@ import pytest
 
 from amr_description.errors import HardwareError
 from amr_description.hardware import serial_protocol
-from amr_description.hardware.serial_lines import decode, encode, LineReader
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
+    decode,
     Disarm,
+    encode,
     Error,
     Get,
     GREATEST_VELOCITY,
     Hello,
+    LineReader,
     LONGEST_LINE,
     LONGEST_WATCHDOG,
     Mode,

@@ -21,9 +21,9 @@ from rclpy.node import Node
 from ros_processes import command, environment, PATIENCE
 from running_stack import NAMES, running_stack
 
-from amr_description.model.hardware_swap import swap_hardware
-from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.manager_client import ManagerClient
+from amr_description.bringup.stacks.hardware import swap_hardware
+from amr_description.control.ros.client import ManagerClient
+from amr_description.ros.service_calls import call, wait_until
 
 URDF = (Path(__file__).parents[1] / 'urdf' / 'amr.urdf').read_text()
 UNCONFIGURED, ACTIVE = 'unconfigured', 'active'
@@ -49,12 +49,8 @@ class Driver(Node):
         super().__init__('driver')
         self.manager = ManagerClient(self, 'controller_manager', timeout=PATIENCE)
         self.odometry = []
-        self.create_subscription(
-            Odometry, '/diff_drive_controller/odom', self.odometry.append, 50
-        )
-        self.publisher = self.create_publisher(
-            TwistStamped, '/diff_drive_controller/cmd_vel', 1
-        )
+        self.create_subscription(Odometry, '/diff_drive_controller/odom', self.odometry.append, 50)
+        self.publisher = self.create_publisher(TwistStamped, '/diff_drive_controller/cmd_vel', 1)
 
     def wait(self, condition):
         assert wait_until(

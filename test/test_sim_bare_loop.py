@@ -7,8 +7,8 @@ from itertools import count
 from fixtures.sim.driving import AMR
 import pytest
 
-from amr_description.sim.bare_loop import bare_real_time_factor, fleet_pose
 from amr_description.sim.world import MujocoWorld
+from benchmarks.bare_loop import bare_real_time_factor, fleet_pose
 
 
 def test_counts_simulated_against_wall_time():

@@ -9,7 +9,7 @@ import re
 import pytest
 
 from amr_description.model import urdf
-from amr_description.sim.drop import drop_test, ROLL_SPEED, ROLL_TIME
+from amr_description.sim.drop_test import drop_test, ROLL_SPEED, ROLL_TIME
 
 ROOT = Path(__file__).parent.parent
 AMR = (ROOT / 'urdf/amr.urdf').read_text()

@@ -7,10 +7,10 @@ from statistics import mean
 from fixtures.sim.driving import AMR, Lines, ROOT
 import pytest
 
-from amr_description.sim.link_friction import link_frictions
+from amr_description.sim.friction import link_frictions
 from amr_description.sim.spawning import read_description
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_settings import WorldSettings
+from amr_description.sim.world_file import WorldSettings
 
 TWO_WHEELS = (ROOT / 'test' / 'fixtures' / 'sim' / 'two_wheels.urdf').read_text()
 

@@ -12,11 +12,11 @@ from statistics import pstdev
 from fixtures.sim.driving import AMR, Drive, SEPARATION, WHEEL_RADIUS
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_settings import WorldSettings
+from amr_description.sim.world_file import WorldSettings
 
-SECOND = 1_000_000_000
 GRAVITY = 9.81
 
 
@@ -47,7 +47,7 @@ def test_free_fall_is_that_of_a_point():
 
 def test_drop_comes_to_rest_within_a_second(dropped):
     world, robot = dropped
-    assert world.time == SECOND
+    assert world.time == NANOSECONDS
     # Measured: at rest after 0.49 s.
     assert at_rest(robot)
     # Measured: 1e-9 mm off; a wheel that sinks or floats falsifies the wheel radius.
@@ -116,7 +116,7 @@ def test_skid_steer_turns_by_coulombs_ratio(friction):
 def vertical_accelerations(drive, seconds):
     """Of the chassis, m/s²: the difference of its vertical velocity over each physics step."""
     accelerations = []
-    timestep = drive.world.timestep / SECOND
+    timestep = drive.world.timestep / NANOSECONDS
     before = drive.robot.velocity('base_link')[0][2]
     for _ in range(round(seconds / timestep)):
         drive.world.step(1)

@@ -8,7 +8,8 @@ from fixtures.sim.arm import follow, GRAVITY
 from fixtures.sim.driving import AMR, Lines, ROOT
 import pytest
 
-from amr_description.model.frames import link_poses, Transform
+from amr_description.model.frames import Transform
+from amr_description.model.kinematics import link_poses
 from amr_description.sim.world import MujocoWorld
 
 URDF = (ROOT / 'test' / 'fixtures' / 'sim' / 'six_axes.urdf').read_text()

@@ -14,7 +14,7 @@ import pytest
 
 from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_settings import WorldSettings
+from amr_description.sim.world_file import WorldSettings
 
 GRAVITY = 9.81
 WHEELS = [*LEFT, *RIGHT]

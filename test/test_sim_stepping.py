@@ -5,7 +5,7 @@
 import pytest
 
 from amr_description.errors import SimulationError
-from amr_description.sim.stepping import physics_stepping, Stepping, steps_in
+from amr_description.sim.engine import physics_stepping, Stepping, steps_in
 
 MS = 1_000_000
 

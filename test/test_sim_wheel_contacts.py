@@ -8,7 +8,7 @@ from fixtures.sim.driving import AMR, Drive, LEFT, RIGHT, SEPARATION
 import pytest
 
 from amr_description.model.frames import Transform
-from amr_description.sim.wheel_contacts import WheelContacts
+from amr_description.sim.wheel_slip import WheelContacts
 from amr_description.sim.world import MujocoWorld
 
 MASS = 7.0

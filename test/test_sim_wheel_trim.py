@@ -10,12 +10,12 @@ from fixtures.sim.driving import AMR, Lines, ROOT
 import pytest
 
 from amr_description.model.frames import Transform
-from amr_description.sim.contact import WHEEL_CONTACT
 from amr_description.sim.robot_spec import build_robot
 from amr_description.sim.spawning import read_description, say_nothing
+from amr_description.sim.wheel_contact import WHEEL_CONTACT
 from amr_description.sim.wheel_trim import trimmed_contacts
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_settings import WorldSettings
+from amr_description.sim.world_file import WorldSettings
 
 TWO_WHEELS = (ROOT / 'test' / 'fixtures' / 'sim' / 'two_wheels.urdf').read_text()
 RADIUS, SEPARATION = 0.05, 0.34

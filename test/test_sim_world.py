@@ -9,7 +9,8 @@ import pytest
 
 from amr_description.control.world import JointGroup, World
 from amr_description.errors import SimulationError, SpawnError
-from amr_description.model.frames import link_poses, Transform
+from amr_description.model.frames import Transform
+from amr_description.model.kinematics import link_poses
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.world import MujocoWorld
 

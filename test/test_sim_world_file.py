@@ -5,16 +5,12 @@
 from fixtures.sim.driving import AMR, ROOT
 import pytest
 
+from amr_description.ament_index import package_share, resolve_uri
 from amr_description.errors import DescriptionError, SimulationError
+from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
-from amr_description.sim.resources import (
-    description_at,
-    package_share,
-    resolve_uri,
-    shipped_worlds,
-)
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import load_world
+from amr_description.sim.world_file import load_world, shipped_worlds
 
 WHEELS = [f'joint_wheel_{end}_{side}' for end in ('front', 'back') for side in ('left', 'right')]
 

@@ -11,10 +11,9 @@ import pytest
 from amr_description.errors import ParameterError
 from amr_description.model.frames import Transform
 from amr_description.parameters import build, specs
-from amr_description.sim.stepping import LONGEST_STEP
+from amr_description.sim.engine import LONGEST_STEP
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import load_world
-from amr_description.sim.world_settings import WorldSettings
+from amr_description.sim.world_file import load_world, WorldSettings
 
 
 @pytest.fixture

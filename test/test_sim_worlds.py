@@ -6,9 +6,8 @@ from fixtures.sim.driving import AMR, Drive
 import pytest
 
 from amr_description.model.frames import Transform
-from amr_description.sim.resources import shipped_worlds
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import static_surfaces
+from amr_description.sim.world_file import shipped_worlds, static_surfaces
 
 WORLDS = ('empty', 'kerbs', 'ramp', 'walls', 'warehouse')
 

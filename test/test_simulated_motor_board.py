@@ -7,14 +7,15 @@ import math
 from hypothesis import given, strategies as st
 import pytest
 
-from amr_description.hardware.serial_lines import encode, LineReader
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
     Disarm,
+    encode,
     Error,
     Get,
     Hello,
+    LineReader,
     Mode,
     Reason,
     Set,

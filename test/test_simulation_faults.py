@@ -18,8 +18,8 @@ from simulation_interfaces.srv import (
     SpawnEntity,
 )
 
-from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.stage_watch import CONTROLLERS, PHYSICS, PUBLISHING
+from amr_description.ros.service_calls import call, wait_until
+from amr_description.sim.ros.loop_timing import CONTROLLERS, PHYSICS, PUBLISHING
 
 GHOST = """<robot name="ghost"><link name="ghost"><inertial><mass value="1"/>
     <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""

@@ -32,9 +32,9 @@ from simulation_interfaces.srv import (
 from simulator import simulator, URDF
 from tf2_msgs.msg import TFMessage
 
-from amr_description.control.interfaces import NANOSECONDS
-from amr_description.nodes.converters import nanoseconds
-from amr_description.nodes.manager_client import ManagerClient
+from amr_description.clock import NANOSECONDS
+from amr_description.control.ros.client import ManagerClient
+from amr_description.ros.messages import nanoseconds
 
 MS = 1_000_000
 CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')

@@ -48,7 +48,7 @@ from simulation_interfaces.srv import (
 )
 from simulator import SIMULATOR, simulator, URDF
 
-from amr_description.nodes.clients import call
+from amr_description.ros.service_calls import call
 
 STEP = 2_000_000  # ns, of the physics
 S = SimulationState

@@ -12,10 +12,10 @@ from rcl_interfaces.srv import GetParameters
 from ros_processes import command, environment, PATIENCE, run
 from running_programs import Program
 
+from amr_description.control.ros.spawner import Spawner
+from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import ControllerError, ParameterError
-from amr_description.nodes.clients import call, NoAnswerError
-from amr_description.nodes.spawner import Spawner
-from amr_description.nodes.spawner_arguments import parse
+from amr_description.ros.service_calls import call, NoAnswerError
 
 JOINTS, DRIVE = 'joint_state_broadcaster', 'diff_drive_controller'
 TYPE = 'diff_drive_controller/DiffDriveController'

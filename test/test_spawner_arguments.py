@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
+from amr_description.control.ros.spawner_arguments import ControllerPlan, parse, SpawnOptions
 from amr_description.errors import ParameterError
-from amr_description.nodes.spawner_arguments import ControllerPlan, parse, SpawnOptions
 
 DEFAULTS = SpawnOptions(
     plans=(ControllerPlan('a'),),

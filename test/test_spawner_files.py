@@ -5,14 +5,14 @@
 import pytest
 import yaml
 
-from amr_description.errors import ParameterError
-from amr_description.nodes.spawner_files import (
+from amr_description.control.ros.spawner import (
     controller_entries,
     files_in_arguments,
     manager_parameters,
     not_found,
     parameters_of,
 )
+from amr_description.errors import ParameterError
 
 ENTRY = {'ros__parameters': {'type': 'a/Type', 'gain': 1.0}}
 

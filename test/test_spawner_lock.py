@@ -9,8 +9,8 @@ from manager_host import ros_in_this_process
 import pytest
 from rclpy.node import Node
 
-from amr_description.nodes import spawner_lock
-from amr_description.nodes.spawner_lock import alone_with
+from amr_description.control.ros import spawner
+from amr_description.control.ros.spawner import alone_with
 
 MANAGER = '/left/controller_manager'
 
@@ -53,7 +53,7 @@ def test_a_lock_is_for_one_controller_of_one_manager_in_one_domain(node, home):
 
 
 def test_whoever_waits_says_for_whom_and_goes_on_when_that_one_ends(node, home, monkeypatch):
-    monkeypatch.setattr(spawner_lock, '_EVERY', 0.05)
+    monkeypatch.setattr(spawner, '_EVERY', 0.05)
     with alone_with(node, MANAGER, ['a']):
         (path,) = (home / 'locks').iterdir()
     lines = []

@@ -26,10 +26,10 @@ from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import GetEntityState
 from tf2_msgs.msg import TFMessage
 
-from amr_description.control.interfaces import NANOSECONDS
+from amr_description.clock import NANOSECONDS
+from amr_description.control.ros.client import ManagerClient
 from amr_description.model.frames import yaw_of
-from amr_description.nodes.clients import call, wait_until
-from amr_description.nodes.manager_client import ManagerClient
+from amr_description.ros.service_calls import call, wait_until
 from amr_description.sim.actuators import FASTEST_JOINT
 
 PERIOD = 0.05

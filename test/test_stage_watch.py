@@ -6,7 +6,7 @@ from fixtures.sim.driving import Lines
 import pytest
 
 from amr_description.control.loop import Loop
-from amr_description.nodes.stage_watch import StageWatch
+from amr_description.sim.ros.loop_timing import StageWatch
 
 MILLISECOND = 1_000_000
 TURN = 10 * MILLISECOND

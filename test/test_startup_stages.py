@@ -5,7 +5,7 @@
 import pytest
 
 from amr_description.errors import BringupError
-from amr_description.nodes.startup_stages import Stage, stages_of, table
+from benchmarks.startup import Stage, stages_of, table
 
 LINES = [
     (0.1, '[INFO] [mujoco_sim-1]: process started with pid [10]'),

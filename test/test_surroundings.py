@@ -13,13 +13,12 @@ from running_programs import PATIENCE
 from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.surroundings_topic import ENDLESS, LATCHED, markers, publish_world
-from amr_description.nodes.viewer_world import shapes_of
-from amr_description.sim.resources import shipped_worlds
-from amr_description.sim.surroundings import Kind, surroundings
+from amr_description.ros.service_calls import wait_until
+from amr_description.sim.ros.world_markers import ENDLESS, LATCHED, markers, publish_world
+from amr_description.sim.static_geometry import Kind, surroundings
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import load_world
+from amr_description.sim.world_file import load_world, shipped_worlds
+from amr_description.viewer.ros.markers import shapes_of
 
 GEOMS = """
 <mujoco>

@@ -155,9 +155,7 @@ faults = st.one_of(
     st.lists(st.tuples(names, st.just('activate')), min_size=1, max_size=2),
     st.lists(st.tuples(names, methods), min_size=1, max_size=2),
     st.tuples(
-        st.tuples(
-            st.just('hardware'), st.sampled_from(('prepare', 'perform', 'read', 'write'))
-        )
+        st.tuples(st.just('hardware'), st.sampled_from(('prepare', 'perform', 'read', 'write')))
     ),
 )
 

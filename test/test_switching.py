@@ -17,9 +17,8 @@ from control_fakes import (
 import pytest
 
 from amr_description.control.contracts import Input, Port, Severity
-from amr_description.control.controller_manager import ControllerManager
+from amr_description.control.controller_manager import ControllerManager, ManagerDefaults
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.manager_defaults import ManagerDefaults
 from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness
 from amr_description.errors import ControllerError, HardwareDeactivationError, HardwareError
 
@@ -104,9 +103,7 @@ def test_claims_are_conserved_whatever_is_switched_and_whatever_fails(seed):
                 for method in ('activate', 'update', 'deactivate')
                 if dice.random() < 0.05
             }
-        bench.hardware.faults = (
-            {'prepare': HardwareError('no')} if dice.random() < 0.05 else {}
-        )
+        bench.hardware.faults = {'prepare': HardwareError('no')} if dice.random() < 0.05 else {}
         action = dice.random()
         try:
             if action < 0.8:

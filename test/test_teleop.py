@@ -16,19 +16,19 @@ from rclpy.parameter import Parameter, parameter_value_to_python
 from running_programs import Program
 from teleop_host import COMMAND, connect, driving, ONE_KEY_ONE_MESSAGE, robot_node, XTERM
 
-from amr_description.nodes.clients import call
-from amr_description.nodes.teleop_keys import MOVES, SPEEDS
+from amr_description.nodes.teleop_twist_keyboard.keys import MOVES, SPEEDS
+from amr_description.ros.service_calls import call
 
 FAULTY = """
-from amr_description.nodes import teleop_twist_keyboard as teleop
+from amr_description.nodes import teleop_twist_keyboard
 
-class FaultyHold(teleop.Hold):
+class FaultyHold(teleop_twist_keyboard.Hold):
     def press(self, key, now, **options):
         if key == '!':
             raise ZeroDivisionError('a bug')
 
-teleop.Hold = FaultyHold
-teleop.main([])
+teleop_twist_keyboard.Hold = FaultyHold
+teleop_twist_keyboard.main([])
 """
 STAMPED_TOPIC = '/diff_drive_controller/cmd_vel'
 

@@ -4,8 +4,15 @@
 
 import pytest
 
-from amr_description.nodes.key_events import CTRL_Z
-from amr_description.nodes.teleop_keys import HELP, Hold, MOVES, SPEEDS, Teleop, Velocity
+from amr_description.nodes.teleop_twist_keyboard.keyboard import CTRL_Z
+from amr_description.nodes.teleop_twist_keyboard.keys import (
+    HELP,
+    Hold,
+    MOVES,
+    SPEEDS,
+    Teleop,
+    Velocity,
+)
 
 REST = Velocity()
 CONTROLLER_TIMEOUT = 0.5  # s, of diff_drive_controller

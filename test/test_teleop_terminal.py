@@ -18,8 +18,13 @@ import pytest
 from running_programs import ENVIRONMENT, PATIENCE, Program
 from teleop_host import COMMAND, driving, robot_node, XTERM
 
-from amr_description.nodes.key_events import ASK, BEGIN_REPORTS, END_REPORTS, KeyEvent
-from amr_description.nodes.keyboard import Keyboard
+from amr_description.nodes.teleop_twist_keyboard.keyboard import (
+    ASK,
+    BEGIN_REPORTS,
+    END_REPORTS,
+    Keyboard,
+    KeyEvent,
+)
 
 IDENTITY = '\x1b[?62;4c'
 KNOWS_THE_PROTOCOL = f'\x1b[?0u{IDENTITY}'

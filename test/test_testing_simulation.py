@@ -17,7 +17,7 @@ from rclpy.context import Context
 from running_programs import PATIENCE, Program
 
 from amr_description.errors import AmrError, SimulationError
-from amr_description.testing.domains import own_domain
+from amr_description.testing.program import own_domain
 from amr_description.testing.simulation import Simulation
 
 ROOT = Path(__file__).parents[1]

@@ -4,7 +4,7 @@
 
 import pytest
 
-from amr_description.control.time_going_back import TimeGoingBack
+from amr_description.clock import TimeJumpFilter
 
 MILLISECOND = 1_000_000
 
@@ -19,45 +19,45 @@ MILLISECOND = 1_000_000
     ],
 )
 def test_only_what_was_sent_before_time_went_back_is_left_out(stamps):
-    clock = TimeGoingBack()
+    clock = TimeJumpFilter()
     assert not clock.observe(220 * MILLISECOND)
-    assert not clock.has_overtaken(220 * MILLISECOND)
+    assert not clock.is_stale(220 * MILLISECOND)
     assert clock.observe(0)
-    kept = [stamp for stamp in stamps if not clock.has_overtaken(stamp * MILLISECOND)]
+    kept = [stamp for stamp in stamps if not clock.is_stale(stamp * MILLISECOND)]
     assert kept == [stamp for stamp in stamps if stamp < 200]
 
 
 def test_the_time_that_begins_anew_may_reach_that_of_before():
-    clock = TimeGoingBack()
+    clock = TimeJumpFilter()
     clock.observe(220 * MILLISECOND)
     clock.observe(0)
     for now in range(0, 400, 10):
         assert not clock.observe(now * MILLISECOND)
-        assert not clock.has_overtaken((now + 10) * MILLISECOND)
+        assert not clock.is_stale((now + 10) * MILLISECOND)
 
 
 def test_a_source_that_is_ahead_for_good_is_heard_again():
     """Its clock is another one: what is on its way is not as old as that, nor as new."""
     for stamp in (2000, 7000):
-        clock = TimeGoingBack()
+        clock = TimeJumpFilter()
         clock.observe(5000 * MILLISECOND)
         clock.observe(0)
-        assert not clock.has_overtaken(stamp * MILLISECOND)
+        assert not clock.is_stale(stamp * MILLISECOND)
 
 
 def test_one_that_was_sent_since_does_not_hide_another_of_before():
-    clock = TimeGoingBack()
+    clock = TimeJumpFilter()
     clock.observe(5000 * MILLISECOND)
     clock.observe(0)
     for stamp, is_of_before in ((4990, True), (10, False), (5000, True), (5200, False)):
-        assert clock.has_overtaken(stamp * MILLISECOND) is is_of_before
+        assert clock.is_stale(stamp * MILLISECOND) is is_of_before
 
 
 def test_after_a_second_nothing_is_on_its_way_any_more():
-    clock = TimeGoingBack()
+    clock = TimeJumpFilter()
     clock.observe(5000 * MILLISECOND)
     clock.observe(0)
     assert clock.is_recent
     clock.observe(1001 * MILLISECOND)
     assert not clock.is_recent
-    assert not clock.has_overtaken(5000 * MILLISECOND)
+    assert not clock.is_stale(5000 * MILLISECOND)

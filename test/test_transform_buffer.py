@@ -9,23 +9,18 @@ from hypothesis import given, strategies as st
 import numpy as np
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import (
     ConnectivityException,
     ExtrapolationException,
     InvalidArgumentException,
     LookupException,
 )
-from amr_description.model.frames import (
-    joint_transform,
-    link_poses,
-    normalize,
-    quaternion_from_yaw,
-    Transform,
-)
-from amr_description.model.transform_buffer import TransformBuffer
-from amr_description.model.transform_cache import SECOND
-from amr_description.model.transform_input import StampedTransform
+from amr_description.model.frames import normalize, quaternion_from_yaw, Transform
+from amr_description.model.kinematics import joint_transform, link_poses
 from amr_description.model.urdf import load
+from amr_description.tf2_ros.buffer_core import TransformBuffer
+from amr_description.tf2_ros.time_cache import StampedTransform
 
 ROOT = Path(__file__).parent.parent
 coordinates = st.floats(-5.0, 5.0)
@@ -101,17 +96,19 @@ def test_a_chain_goes_from_neighbour_to_neighbour(tree, chosen):
         assert parents.get(one) == other or parents.get(other) == one
 
 
-@given(transforms, transforms, st.integers(0, SECOND))
+@given(transforms, transforms, st.integers(0, NANOSECONDS))
 def test_at_a_time_between_a_chain_is_the_product_of_its_parts(start, end, passed):
     base = [
-        StampedTransform('odom', 'base', (1 + i) * SECOND, t) for i, t in enumerate((start, end))
+        StampedTransform('odom', 'base', (1 + i) * NANOSECONDS, t)
+        for i, t in enumerate((start, end))
     ]
     arm = [
-        StampedTransform('base', 'hand', (1 + i) * SECOND, t) for i, t in enumerate((end, start))
+        StampedTransform('base', 'hand', (1 + i) * NANOSECONDS, t)
+        for i, t in enumerate((end, start))
     ]
     buffer = buffer_of(*base, *arm)
-    time = SECOND + passed
-    ratio = passed / SECOND
+    time = NANOSECONDS + passed
+    ratio = passed / NANOSECONDS
     whole = buffer.lookup('odom', 'hand', time)
     assert (whole.time, whole.parent, whole.child) == (time, 'odom', 'hand')
     same(whole.transform, start.interpolate(end, ratio) @ end.interpolate(start, ratio))
@@ -130,7 +127,7 @@ def test_a_robot_stands_as_forward_kinematics_says(path, seed):
     buffer = TransformBuffer()
     for joint in robot.joints:
         pose = poses[joint.parent].inverse() @ poses[joint.child]
-        stamped = StampedTransform(joint.parent, joint.child, SECOND, pose)
+        stamped = StampedTransform(joint.parent, joint.child, NANOSECONDS, pose)
         buffer.set_transform(stamped, static=not joint.has_position)
         if joint.name in positions:
             same(pose, joint_transform(joint, positions[joint.name]))
@@ -141,27 +138,27 @@ def test_a_robot_stands_as_forward_kinematics_says(path, seed):
 
 def test_the_latest_is_the_latest_that_all_on_the_way_know():
     buffer = buffer_of(
-        at_x('odom', 'base', 1.0, 1 * SECOND),
-        at_x('odom', 'base', 3.0, 3 * SECOND),
-        at_x('base', 'hand', 0.0, 1 * SECOND),
-        at_x('base', 'hand', 4.0, 2 * SECOND),
+        at_x('odom', 'base', 1.0, 1 * NANOSECONDS),
+        at_x('odom', 'base', 3.0, 3 * NANOSECONDS),
+        at_x('base', 'hand', 0.0, 1 * NANOSECONDS),
+        at_x('base', 'hand', 4.0, 2 * NANOSECONDS),
         static=[at_x('hand', 'camera', 0.5)],
     )
-    assert buffer.latest_common_time('odom', 'camera') == 2 * SECOND
+    assert buffer.latest_common_time('odom', 'camera') == 2 * NANOSECONDS
     found = buffer.lookup('odom', 'camera')
-    assert (found.time, found.transform.translation) == (2 * SECOND, (6.5, 0.0, 0.0))
+    assert (found.time, found.transform.translation) == (2 * NANOSECONDS, (6.5, 0.0, 0.0))
     assert buffer.lookup('hand', 'camera').time == 0
 
 
 def test_what_lies_above_the_meeting_of_the_ways_does_not_matter():
     """The map is late; the laser in the base can be had all the same."""
     buffer = buffer_of(
-        at_x('map', 'odom', 1.0, 1 * SECOND),
-        at_x('odom', 'base', 1.0, 9 * SECOND),
-        at_x('base', 'left', 1.0, 9 * SECOND),
-        at_x('base', 'right', -1.0, 9 * SECOND),
+        at_x('map', 'odom', 1.0, 1 * NANOSECONDS),
+        at_x('odom', 'base', 1.0, 9 * NANOSECONDS),
+        at_x('base', 'left', 1.0, 9 * NANOSECONDS),
+        at_x('base', 'right', -1.0, 9 * NANOSECONDS),
     )
-    found = buffer.lookup('left', 'right', 9 * SECOND)
+    found = buffer.lookup('left', 'right', 9 * NANOSECONDS)
     assert found.transform.translation == (-2.0, 0.0, 0.0)
 
 
@@ -169,14 +166,14 @@ def test_the_full_lookup_goes_through_a_frame_that_stands_still():
     """A ball a metre before the robot at 1 s; the robot has turned left by 2 s, on the spot."""
     left = Transform((1.0, 0.0, 0.0), quaternion_from_yaw(math.pi / 2))
     buffer = buffer_of(
-        at_x('odom', 'base', 1.0, 1 * SECOND),
-        StampedTransform('odom', 'base', 2 * SECOND, left),
+        at_x('odom', 'base', 1.0, 1 * NANOSECONDS),
+        StampedTransform('odom', 'base', 2 * NANOSECONDS, left),
         static=[at_x('base', 'laser', 0.5)],
     )
-    found = buffer.lookup_full('base', 2 * SECOND, 'laser', 1 * SECOND, 'odom')
+    found = buffer.lookup_full('base', 2 * NANOSECONDS, 'laser', 1 * NANOSECONDS, 'odom')
     ball_in_laser = (0.5, 0.0, 0.0)
     assert found.transform.apply(ball_in_laser) == pytest.approx((0.0, -1.0, 0.0), abs=1e-12)
-    assert (found.parent, found.child, found.time) == ('base', 'laser', 2 * SECOND)
+    assert (found.parent, found.child, found.time) == ('base', 'laser', 2 * NANOSECONDS)
     with pytest.raises(LookupException, match='"world" passed to .* argument fixed_frame does'):
         buffer.lookup_full('base', 0, 'laser', 0, 'world')
 
@@ -191,14 +188,14 @@ def test_a_frame_in_itself_is_nowhere_else():
 
 def test_a_thing_that_is_taken_has_a_new_parent_from_then_on():
     buffer = buffer_of(
-        at_x('world', 'table', 1.0, 1 * SECOND),
-        at_x('world', 'table', 1.0, 3 * SECOND),
-        at_x('world', 'hand', 9.0, 1 * SECOND),
-        at_x('world', 'hand', 9.0, 3 * SECOND),
-        at_x('table', 'cup', 0.5, 1 * SECOND),
-        at_x('hand', 'cup', 0.0, 3 * SECOND),
+        at_x('world', 'table', 1.0, 1 * NANOSECONDS),
+        at_x('world', 'table', 1.0, 3 * NANOSECONDS),
+        at_x('world', 'hand', 9.0, 1 * NANOSECONDS),
+        at_x('world', 'hand', 9.0, 3 * NANOSECONDS),
+        at_x('table', 'cup', 0.5, 1 * NANOSECONDS),
+        at_x('hand', 'cup', 0.0, 3 * NANOSECONDS),
     )
-    assert buffer.lookup('world', 'cup', 2 * SECOND).transform.translation == (1.5, 0.0, 0.0)
+    assert buffer.lookup('world', 'cup', 2 * NANOSECONDS).transform.translation == (1.5, 0.0, 0.0)
     assert buffer.lookup('world', 'cup').transform.translation == (9.0, 0.0, 0.0)
 
 
@@ -274,10 +271,10 @@ def test_trees_without_a_common_root_are_named():
 
 def test_the_transform_that_is_late_is_named():
     buffer = buffer_of(
-        at_x('map', 'odom', 1.0, 1 * SECOND),
-        at_x('map', 'odom', 1.0, 2 * SECOND),
-        at_x('odom', 'base', 1.0, 1 * SECOND),
-        at_x('odom', 'base', 1.0, 9 * SECOND),
+        at_x('map', 'odom', 1.0, 1 * NANOSECONDS),
+        at_x('map', 'odom', 1.0, 2 * NANOSECONDS),
+        at_x('odom', 'base', 1.0, 1 * NANOSECONDS),
+        at_x('odom', 'base', 1.0, 9 * NANOSECONDS),
     )
     said = (
         '^Lookup would require extrapolation into the future.  Requested time 2.500000 but the '
@@ -286,16 +283,16 @@ def test_the_transform_that_is_late_is_named():
     )
     for target, source in (('map', 'base'), ('base', 'map')):
         with pytest.raises(ExtrapolationException, match=said.format(source, target)):
-            buffer.lookup(target, source, 2 * SECOND + SECOND // 2)
+            buffer.lookup(target, source, 2 * NANOSECONDS + NANOSECONDS // 2)
 
 
-@pytest.mark.parametrize('time', [0, SECOND])
+@pytest.mark.parametrize('time', [0, NANOSECONDS])
 def test_a_loop_is_named_and_does_not_hang(time):
     buffer = buffer_of(
-        at_x('b', 'a', 1.0, SECOND),
-        at_x('c', 'b', 1.0, SECOND),
-        at_x('b', 'c', 1.0, SECOND),
-        at_x('map', 'camera', 1.0, SECOND),
+        at_x('b', 'a', 1.0, NANOSECONDS),
+        at_x('c', 'b', 1.0, NANOSECONDS),
+        at_x('b', 'c', 1.0, NANOSECONDS),
+        at_x('map', 'camera', 1.0, NANOSECONDS),
     )
     for target, source in (('a', 'camera'), ('camera', 'a')):
         with pytest.raises(LookupException, match='contains a loop: b is in c is in b$'):
@@ -304,11 +301,11 @@ def test_a_loop_is_named_and_does_not_hang(time):
 
 
 def test_a_refusal_is_told_and_changes_nothing():
-    buffer = buffer_of(at_x('odom', 'base', 1.0, 100 * SECOND))
+    buffer = buffer_of(at_x('odom', 'base', 1.0, 100 * NANOSECONDS))
     for stamped, kind in (
         (at_x('base', '/base', 1.0), 'TF_SELF_TRANSFORM'),
         (at_x('odom', 'base', math.nan), 'TF_NAN_INPUT'),
-        (at_x('odom', 'base', 1.0, SECOND), 'TF_OLD_DATA'),
+        (at_x('odom', 'base', 1.0, NANOSECONDS), 'TF_OLD_DATA'),
     ):
         remark = buffer.set_transform(stamped, 'someone')
         assert remark.is_refused
@@ -319,9 +316,13 @@ def test_a_refusal_is_told_and_changes_nothing():
 
 def test_records_tell_what_is_known():
     buffer = TransformBuffer()
-    buffer.set_transform(at_x('odom', 'base', 1.0, 1 * SECOND), 'wheels')
-    buffer.set_transform(at_x('odom', 'base', 1.0, 3 * SECOND), 'odometry')
+    buffer.set_transform(at_x('odom', 'base', 1.0, 1 * NANOSECONDS), 'wheels')
+    buffer.set_transform(at_x('odom', 'base', 1.0, 3 * NANOSECONDS), 'odometry')
     (record,) = buffer.records()
     assert (record.name, record.parent, record.authority) == ('base', 'odom', 'odometry')
-    assert (record.samples, record.oldest_time, record.latest_time) == (2, SECOND, 3 * SECOND)
+    assert (record.samples, record.oldest_time, record.latest_time) == (
+        2,
+        NANOSECONDS,
+        3 * NANOSECONDS,
+    )
     assert buffer.names == ['odom', 'base']

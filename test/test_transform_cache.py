@@ -7,11 +7,12 @@ import math
 from hypothesis import given, strategies as st
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import ExtrapolationException
 from amr_description.model.frames import quaternion_from_yaw, Transform, yaw_of
-from amr_description.model.transform_cache import MovingFrame, Sample, SECOND, seconds, StaticFrame
+from amr_description.tf2_ros.time_cache import MovingFrame, Sample, seconds, StaticFrame
 
-KEPT = 10 * SECOND
+KEPT = 10 * NANOSECONDS
 times = st.integers(1, KEPT)
 
 
@@ -41,11 +42,11 @@ def test_samples_may_come_in_any_order(stamps, chance):
 @given(st.lists(times, min_size=2, max_size=6, unique=True), st.floats(0.0, 1.0))
 def test_between_two_samples_the_way_is_straight(stamps, ratio):
     """A frame whose x is its time, in s, is there at every time."""
-    frame = frame_of([at_x(stamp, stamp / SECOND) for stamp in stamps])
+    frame = frame_of([at_x(stamp, stamp / NANOSECONDS) for stamp in stamps])
     time = min(stamps) + round(ratio * (max(stamps) - min(stamps)))
     found = frame.at(time)
     assert found.time == time
-    assert found.transform.translation[0] == pytest.approx(time / SECOND, rel=1e-12)
+    assert found.transform.translation[0] == pytest.approx(time / NANOSECONDS, rel=1e-12)
 
 
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(0.0, 1.0))
@@ -54,11 +55,11 @@ def test_rotations_turn_evenly_on_the_shorter_arc(start, turn, ratio):
     frame = frame_of(
         [
             Sample(1, 'odom', Transform(rotation=quaternion_from_yaw(start))),
-            Sample(1 + SECOND, 'odom', Transform(rotation=quaternion_from_yaw(end))),
+            Sample(1 + NANOSECONDS, 'odom', Transform(rotation=quaternion_from_yaw(end))),
         ]
     )
-    moved = 1 + round(ratio * SECOND)
-    expected = start + turn * (moved - 1) / SECOND
+    moved = 1 + round(ratio * NANOSECONDS)
+    expected = start + turn * (moved - 1) / NANOSECONDS
     error = yaw_of(frame.at(moved).transform.rotation) - expected
     assert math.remainder(error, math.tau) == pytest.approx(0.0, abs=1e-9)
 
@@ -86,10 +87,10 @@ def test_a_second_sample_of_one_time_replaces_the_first():
 
 
 def test_the_past_is_kept_as_long_as_asked_for():
-    frame = frame_of([at_x(time * SECOND, 0.0) for time in range(1, 30)])
-    assert (frame.oldest_time, frame.latest_time) == (19 * SECOND, 29 * SECOND)
-    assert not frame.insert(at_x(19 * SECOND - 1, 0.0))
-    assert frame.insert(at_x(19 * SECOND + 1, 0.0))
+    frame = frame_of([at_x(time * NANOSECONDS, 0.0) for time in range(1, 30)])
+    assert (frame.oldest_time, frame.latest_time) == (19 * NANOSECONDS, 29 * NANOSECONDS)
+    assert not frame.insert(at_x(19 * NANOSECONDS - 1, 0.0))
+    assert frame.insert(at_x(19 * NANOSECONDS + 1, 0.0))
 
 
 def test_between_two_parents_the_frame_is_where_the_earlier_sample_says():
@@ -122,28 +123,28 @@ def test_between_two_parents_the_frame_is_where_the_earlier_sample_says():
     ],
 )
 def test_beyond_what_is_known_is_an_error_in_the_words_of_tf2(stamps, time, said):
-    frame = frame_of([at_x(stamp * SECOND, 0.0) for stamp in stamps])
+    frame = frame_of([at_x(stamp * NANOSECONDS, 0.0) for stamp in stamps])
     with pytest.raises(ExtrapolationException, match=f'^{said}$'):
-        frame.at(time * SECOND)
-    assert frame.gap_to(time * SECOND) == SECOND
+        frame.at(time * NANOSECONDS)
+    assert frame.gap_to(time * NANOSECONDS) == NANOSECONDS
 
 
 def test_time_that_went_back_is_a_new_life():
-    frame = frame_of([at_x(100 * SECOND, 0.0)])
-    taken = [frame.insert(at_x(time * SECOND, float(time))) for time in (1, 2, 3, 4)]
+    frame = frame_of([at_x(100 * NANOSECONDS, 0.0)])
+    taken = [frame.insert(at_x(time * NANOSECONDS, float(time))) for time in (1, 2, 3, 4)]
     assert taken == [False, False, True, True]
-    assert (frame.oldest_time, frame.latest_time) == (SECOND, 4 * SECOND)
+    assert (frame.oldest_time, frame.latest_time) == (NANOSECONDS, 4 * NANOSECONDS)
 
 
 def test_late_messages_are_no_new_life():
     """Neither when new ones come in between, nor when they are not in order."""
-    frame = frame_of([at_x(100 * SECOND, 0.0)])
+    frame = frame_of([at_x(100 * NANOSECONDS, 0.0)])
     for time in (1, 2, 3, 4):
-        assert not frame.insert(at_x(time * SECOND, 0.0))
-        assert frame.insert(at_x((100 + time) * SECOND, 0.0))
+        assert not frame.insert(at_x(time * NANOSECONDS, 0.0))
+        assert frame.insert(at_x((100 + time) * NANOSECONDS, 0.0))
     for time in (4, 3, 2, 1):
-        assert not frame.insert(at_x(time * SECOND, 0.0))
-    assert frame.latest_time == 104 * SECOND
+        assert not frame.insert(at_x(time * NANOSECONDS, 0.0))
+    assert frame.latest_time == 104 * NANOSECONDS
 
 
 def test_a_static_frame_is_there_at_all_times():
@@ -170,5 +171,5 @@ def test_the_memory_does_not_grow_for_ever():
     """The oldest goes as the newest comes: a day at 100 Hz is still 10 s of memory."""
     frame = MovingFrame(at_x(0, 0.0), KEPT)
     for tick in range(1, 3000):
-        frame.insert(at_x(tick * SECOND // 100, 0.0))
+        frame.insert(at_x(tick * NANOSECONDS // 100, 0.0))
         assert len(frame) <= 1001

@@ -6,10 +6,11 @@ import math
 
 import pytest
 
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import InvalidArgumentException
 from amr_description.model.frames import quaternion_from_yaw, Transform
-from amr_description.model.transform_cache import SECOND
-from amr_description.model.transform_input import checked, ParentWatch, StampedTransform
+from amr_description.tf2_ros.buffer_core import checked, ParentWatch
+from amr_description.tf2_ros.time_cache import StampedTransform
 
 UP = (0.0, 0.0, 0.0, 1.0)
 
@@ -49,9 +50,9 @@ def test_a_quaternion_of_about_length_one_is_made_so():
     assert math.hypot(*checked(stamped(turn=turn), 'me').transform.rotation) == pytest.approx(1.0)
 
 
-def warnings(*sides, step=SECOND // 10):
+def warnings(*sides, step=NANOSECONDS // 10):
     """What is said as (parent, authority, static) follow one another every 0.1 s."""
-    watch = ParentWatch(10 * SECOND)
+    watch = ParentWatch(10 * NANOSECONDS)
     said = []
     for index, (parent, authority, static) in enumerate(sides):
         message = stamped(parent, time=index * step)
@@ -85,7 +86,7 @@ def test_a_thing_that_is_taken_and_put_down_is_none():
 
 
 def test_turns_that_take_minutes_are_none():
-    assert set(warnings(*[ODOM, MAP] * 3, step=60 * SECOND)) == {''}
+    assert set(warnings(*[ODOM, MAP] * 3, step=60 * NANOSECONDS)) == {''}
 
 
 @pytest.mark.parametrize(

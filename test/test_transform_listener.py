@@ -16,6 +16,7 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 
+from amr_description import tf2_ros
 from amr_description.errors import (
     ConnectivityException,
     ExtrapolationException,
@@ -23,16 +24,11 @@ from amr_description.errors import (
     TransformException,
 )
 from amr_description.model.frames import Transform
-from amr_description.model.transform_input import StampedTransform
-from amr_description.nodes import tf2_ros
-from amr_description.nodes.clients import ask_until_answered, wait_until
-from amr_description.nodes.transform_broadcaster import (
-    StaticTransformBroadcaster,
-    TransformBroadcaster,
-)
-from amr_description.nodes.transform_buffer import Buffer
-from amr_description.nodes.transform_listener import publishers_of, TransformListener
-from amr_description.nodes.transform_messages import stamped_transform, transform_message
+from amr_description.ros.service_calls import ask_until_answered, wait_until
+from amr_description.tf2_ros.broadcaster import StaticTransformBroadcaster, TransformBroadcaster
+from amr_description.tf2_ros.buffer import Buffer, stamped_transform, transform_message
+from amr_description.tf2_ros.listener import publishers_of, TransformListener
+from amr_description.tf2_ros.time_cache import StampedTransform
 
 PATIENCE = Duration(seconds=30)
 
@@ -113,7 +109,7 @@ def test_what_is_known_is_told_as_by_tf2(buffer):
 
 def test_a_wait_ends_the_moment_the_transform_comes(context, buffer, monkeypatch):
     """It is woken, rather than to look now and then."""
-    monkeypatch.setattr('amr_description.nodes.transform_buffer._SLICE', 3600.0)
+    monkeypatch.setattr('amr_description.tf2_ros.buffer._SLICE', 3600.0)
     found = []
 
     def wait():

@@ -4,10 +4,10 @@
 
 import pytest
 
-from amr_description.model.transform_cache import SECOND
-from amr_description.nodes.transform_statistics import Delays, TransformStatistics
+from amr_description.clock import NANOSECONDS
+from amr_description.tf2_ros.statistics import Delays, TransformStatistics
 
-NOW = 1_000 * SECOND
+NOW = 1_000 * NANOSECONDS
 
 
 def test_delays_are_of_the_last_thousand():
@@ -16,7 +16,7 @@ def test_delays_are_of_the_last_thousand():
     delays.add(NOW, 100.0)
     assert delays.frequency == 0.0
     for tick in range(1000):
-        delays.add(NOW + tick * SECOND // 50, 0.25)
+        delays.add(NOW + tick * NANOSECONDS // 50, 0.25)
     assert delays.average == delays.maximum == 0.25
     assert delays.frequency == pytest.approx(50.0)
 
@@ -33,9 +33,9 @@ def statistics():
     made = TransformStatistics()
     made.hear('/tf_static', [('laser', 0)], NOW, static=True)
     for tick in range(11):
-        now = NOW + tick * SECOND // 10
-        made.hear('/tf', [('base', now - SECOND // 4)], now, static=False)
-        made.note_way(now - SECOND // 2, now)
+        now = NOW + tick * NANOSECONDS // 10
+        made.hear('/tf', [('base', now - NANOSECONDS // 4)], now, static=False)
+        made.note_way(now - NANOSECONDS // 2, now)
     return made
 
 
@@ -80,5 +80,5 @@ def test_a_static_chain_is_not_late():
 
 def test_another_clock_is_told():
     statistics = TransformStatistics()
-    statistics.hear('/tf', [('base', 5 * SECOND)], 1_700_000_000 * SECOND, static=False)
+    statistics.hear('/tf', [('base', 5 * NANOSECONDS)], 1_700_000_000 * NANOSECONDS, static=False)
     assert statistics.report({}).endswith('add --ros-args -p use_sim_time:=true')

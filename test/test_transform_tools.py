@@ -16,18 +16,17 @@ from rclpy.time import Time
 from running_programs import Program
 
 from amr_description.cli.run import STAND_INS
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import UsageError
 from amr_description.model.frames import quaternion_from_rpy, Transform
-from amr_description.model.transform_cache import SECOND
-from amr_description.model.transform_input import StampedTransform
 from amr_description.nodes import static_transform_publisher, tf2_echo, view_frames
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.runtime import spinning
 from amr_description.nodes.tf2_echo import Request
-from amr_description.nodes.transform_broadcaster import TransformBroadcaster
-from amr_description.nodes.transform_buffer import Buffer
-from amr_description.nodes.transform_listener import TransformListener
-from amr_description.nodes.transform_messages import transform_message
+from amr_description.ros.runtime import spinning
+from amr_description.ros.service_calls import wait_until
+from amr_description.tf2_ros.broadcaster import TransformBroadcaster
+from amr_description.tf2_ros.buffer import Buffer, transform_message
+from amr_description.tf2_ros.listener import TransformListener
+from amr_description.tf2_ros.time_cache import StampedTransform
 
 # tf2_echo
 
@@ -176,7 +175,7 @@ class Turntable(Node):
 
     def _send(self):
         now = self.get_clock().now().nanoseconds
-        turn = quaternion_from_rpy(0.0, 0.0, math.pi * now / SECOND)
+        turn = quaternion_from_rpy(0.0, 0.0, math.pi * now / NANOSECONDS)
         pose = Transform((1.0, 0.0, 0.0), turn)
         self._broadcaster.sendTransform(
             transform_message(StampedTransform('odom', 'base', now, pose))
@@ -292,7 +291,7 @@ def test_view_frames_does_not_listen_for_what_it_may_not_write(monkeypatch, tmp_
 
 def test_names_that_the_terminal_cannot_show_are_spelt_out():
     code = (
-        'from amr_description.nodes.transform_tools import say, tool\n'
+        'from amr_description.tf2_ros.tools import say, tool\n'
         'raise SystemExit(tool(lambda: say("las\\xe9r")))'
     )
     done = subprocess.run(

@@ -7,8 +7,7 @@ import math
 from hypothesis import assume, given, settings, strategies as st
 import pytest
 
-from amr_description.controllers.rate_limiter import RateLimiter
-from amr_description.controllers.twist_limiter import TwistLimiter
+from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
 
 law = settings(deadline=None, derandomize=True, max_examples=100)
 speeds = st.floats(-3.0, 3.0).filter(lambda value: value == 0.0 or abs(value) > 1e-3)
@@ -23,9 +22,7 @@ limiters = st.builds(
     max_deceleration=st.just(math.nan) | st.floats(-5.0, -0.1),
     max_jerk=st.just(math.nan) | st.floats(1.0, 50.0),
 )
-without_jerk = st.builds(
-    RateLimiter, max_value=maxima, max_acceleration=maxima
-)
+without_jerk = st.builds(RateLimiter, max_value=maxima, max_acceleration=maxima)
 
 
 def pairs(values):
@@ -121,18 +118,14 @@ def test_the_numbers():
     each = RateLimiter(max_acceleration=1.0)
     limiter = TwistLimiter(each, each, keeps_curvature=True)
     found = [limiter.limit(twist, 0.1) for twist in ((1.0, 0.5), (1.0, 0.5), (0.0, 0.0))]
-    assert found == [
-        pytest.approx(twist) for twist in ((0.1, 0.05), (0.2, 0.1), (0.1, 0.05))
-    ]
+    assert found == [pytest.approx(twist) for twist in ((0.1, 0.05), (0.2, 0.1), (0.1, 0.05))]
     limiter.forget()
     assert limiter.limit((1.0, 0.5), 0.1) == found[0]
 
 
 def test_on_to_another_arc_each_component_goes_as_fast_as_it_may():
     """While driving straight on no factor makes a turn in place."""
-    limiter = TwistLimiter(
-        RateLimiter(max_acceleration=1.0), RateLimiter(), keeps_curvature=True
-    )
+    limiter = TwistLimiter(RateLimiter(max_acceleration=1.0), RateLimiter(), keeps_curvature=True)
     for _ in range(10):
         limiter.limit((1.0, 0.0), 0.1)
     assert limiter.limit((0.0, 1.0), 0.1) == pytest.approx((0.9, 1.0))
@@ -147,9 +140,7 @@ def test_on_to_another_arc_each_component_goes_as_fast_as_it_may():
     ],
 )
 def test_while_it_brakes_from_straight_on(then, found):
-    limiter = TwistLimiter(
-        RateLimiter(max_acceleration=1.0), RateLimiter(), keeps_curvature=True
-    )
+    limiter = TwistLimiter(RateLimiter(max_acceleration=1.0), RateLimiter(), keeps_curvature=True)
     for _ in range(30):
         limiter.limit((2.0, 0.0), 0.1)
     assert limiter.limit(then, 0.1) == pytest.approx(found)

@@ -21,7 +21,7 @@ from amr_description.model.robot import (
     Mimic,
     Sphere,
 )
-from amr_description.model.xml_source import MAX_BYTES, MAX_LINES, read_file
+from amr_description.model.xml_reader import MAX_BYTES, MAX_LINES, read_file
 
 ROOT = Path(__file__).parent.parent
 AMR = ROOT / 'urdf/amr.urdf'

@@ -9,7 +9,7 @@ import pytest
 
 from amr_description.cli import check_urdf
 from amr_description.model import urdf
-from amr_description.sim.drop import drop_test
+from amr_description.sim.drop_test import drop_test
 from amr_description.sim.robot_spec import build_robot
 from amr_description.sim.spawning import say_nothing
 

@@ -23,7 +23,7 @@ from std_msgs.msg import String
 from test_viewer_server import ask, url_of, viewer
 from tf2_msgs.msg import TFMessage
 
-from amr_description.nodes.clients import wait_until
+from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 WHEELS = [
@@ -287,8 +287,10 @@ def test_a_robot_that_wants_another_type_from_now_on_gets_it(host, url):
         host.connected(page, robot)
         robot.hear_commands(Twist)
         host.until(
-            lambda: page.say('drive', robot='/', linear=0.5, angular=0.0)
-            or (0.5, 0.0) in robot.velocities
+            lambda: (
+                page.say('drive', robot='/', linear=0.5, angular=0.0)
+                or (0.5, 0.0) in robot.velocities
+            )
         )
 
 

@@ -6,7 +6,7 @@ import dataclasses
 
 import pytest
 
-from amr_description.viewer.discovery import (
+from amr_description.viewer.graph import (
     ACTIVITY,
     discover,
     DYNAMIC_JOINT_STATE,

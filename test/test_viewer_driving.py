@@ -4,7 +4,7 @@
 
 from hypothesis import given, strategies as st
 
-from amr_description.viewer.driving import DRIVE_TIMEOUT, Driving
+from amr_description.viewer.drive_lock import DRIVE_TIMEOUT, Driving
 
 
 def test_the_first_takes_the_wheel_and_keeps_it():

@@ -11,8 +11,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from running_programs import PATIENCE
 
-from amr_description.nodes.clients import wait_until
-from amr_description.nodes.viewer_introspection import CommandedVelocities
+from amr_description.ros.service_calls import wait_until
+from amr_description.viewer.ros.robot_topics import CommandedVelocities
 
 PLACE = '/controller_manager/introspection_data'
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -10,8 +10,8 @@ from fixtures.sim.driving import AMR
 from hypothesis import example, given, settings, strategies as st
 import pytest
 
-from amr_description.nodes.viewer_models import describe_robot
-from amr_description.viewer.files import digest, StaticFiles
+from amr_description.viewer.http import digest, StaticFiles
+from amr_description.viewer.ros.description import describe_robot
 
 JOINT = '<joint name="{0}" type="{1}"><parent link="a"/><child link="{0}_link"/>{2}</joint>'
 LINK = '<link name="{0}_link"/>'

@@ -14,7 +14,7 @@ import pytest
 from running_programs import PATIENCE, Program
 from websockets.exceptions import InvalidHandshake, InvalidStatus
 
-from amr_description.viewer.pages import MOST_PAGES
+from amr_description.viewer.sessions import MOST_PAGES
 
 URL = re.compile(r'The page is at (http://\S+)')
 DRIVE = '{"type": "drive", "robot": "/", "linear": 0.1, "angular": 0}'

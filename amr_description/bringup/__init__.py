@@ -65,19 +65,21 @@ stacks/                the ready-made stacks
 Only the standard library is imported here, so that no crash of rclpy can take the supervisor down.
 """
 
-from amr_description.bringup.conditions import after, all_of, any_of, ready
-from amr_description.bringup.description import Group, Node, Respawn, Stack
-from amr_description.bringup.file_notes import notes_on
-from amr_description.bringup.handlers import Exited, Shutdown, Stopping
-from amr_description.bringup.node_conditions import (
+from amr_description.ament_index import path_of
+from amr_description.bringup.conditions import (
+    after,
+    all_of,
+    any_of,
     exited_cleanly,
     failed,
     logged,
     on_request,
     started,
 )
-from amr_description.bringup.outside_conditions import path_exists, ros_node, service, topic
-from amr_description.bringup.packages import path_of
+from amr_description.bringup.description import Group, Node, ready, Respawn, Stack
+from amr_description.bringup.graph_conditions import path_exists, ros_node, service, topic
+from amr_description.bringup.handlers import Exited, Shutdown, Stopping
+from amr_description.bringup.input_files import notes_on
 from amr_description.bringup.stack_files import include
 from amr_description.bringup.urdf_text import robot_description
 

@@ -14,11 +14,11 @@ The arguments of a stack, ``name:=value``: declared by the signature of its func
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-import difflib
 import inspect
 from typing import Annotated, Any, get_args, get_origin, get_type_hints, Literal
 
 from amr_description.errors import BringupError, UsageError
+from amr_description.text import suggestion
 
 _BOOLEANS = {'true': True, '1': True, 'false': False, '0': False}  # as launch's conditions read
 
@@ -151,13 +151,6 @@ def _value(argument: Argument, given: Mapping[str, str]) -> Any:
             f"'{argument.help or 'no description given'}'), given: {list(given)}"
         )
     return argument.convert(text)
-
-
-def suggestion(name: str, known: Sequence[str]) -> str:
-    """Return what to append to the message about an unknown name: the near one, and all."""
-    near = difflib.get_close_matches(name, known, n=1)
-    guess = f"; did you mean '{near[0]}'?" if near else ';'
-    return f'{guess} known: {", ".join(known) or "none"}'
 
 
 def show(arguments: Sequence[Argument]) -> str:

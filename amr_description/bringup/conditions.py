@@ -5,22 +5,90 @@ When a node of a stack starts: what a condition is, how conditions combine, and 
 
 A condition is pure: it judges a :class:`Situation`, and is asked again after every event. Those on
 nodes stand in ``node_conditions.py``, those on the world outside in ``outside_conditions.py``.
+
+Conditions on what became of the nodes of the stack, what they wrote, and who asks for one.
+
+What conditions judge: how far the nodes are, what they said, what else there is.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Set as AbstractSet
 from dataclasses import dataclass, field, replace
 import enum
-from typing import TYPE_CHECKING
+import re
 
-from amr_description.bringup.kinds import Kind, NUMBER, require
-from amr_description.bringup.situation import Situation
+from amr_description.bringup.validation import Kind, NUMBER, require, TEXT
 from amr_description.errors import BringupError
 
-if TYPE_CHECKING:
-    from amr_description.bringup.description import Node, Stack
 
-type NameOf = 'Callable[[Node], str]'
+class Member:
+    """What may stand in a stack: a node, a group or a stack; compared by identity."""
+
+
+class NodeRef(Member):
+    """What conditions, states and events know of a node of a stack; compared by identity."""
+
+    executable: str
+    required: bool
+
+
+@dataclass(frozen=True)
+class NodeState:
+    """How far a node has come."""
+
+    started: bool = False
+    returncode: int | None = None
+    """None until it ended for good; then its exit code, or minus the signal it died of."""
+    never: bool = False
+    """Whether it waits for what can no longer happen."""
+    restarts: int = 0
+    """How often it was started again, in a row."""
+    restart_at: float | None = None
+    """When it is to be started again; None: it runs, or is not to be."""
+
+    @property
+    def running(self) -> bool:
+        """Started, and not ended."""
+        return self.started and self.returncode is None and self.restart_at is None
+
+
+@dataclass(frozen=True)
+class Graph:
+    """What is seen of the ROS graph; all names are absolute."""
+
+    topics: Mapping[str, AbstractSet[str]] = field(default_factory=dict)
+    """Topics that somebody publishes, and their types, ``std_msgs/msg/String``."""
+    services: AbstractSet[str] = frozenset()
+    nodes: AbstractSet[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class PathLook:
+    """What is seen of a path."""
+
+    there: bool
+    beside: AbstractSet[str] = frozenset()
+    """The names in its folder."""
+
+
+@dataclass(frozen=True)
+class Situation:
+    """All that conditions may look at; a new one is made after each event."""
+
+    states: Mapping[NodeRef, NodeState]
+    time: float = 0.0
+    """s, of any clock that never goes back."""
+    began: float = 0.0
+    """The time at which the stack began."""
+    said: 'AbstractSet[Condition]' = frozenset()
+    """The ``logged`` conditions of which a line was seen, and what handlers asked for."""
+    held_since: 'Mapping[Condition, float]' = field(default_factory=dict)
+    """Since when the conditions hold that an ``after`` counts from."""
+    graph: Graph = field(default_factory=Graph)
+    paths: Mapping[str, PathLook] = field(default_factory=dict)
+
+
+type NameOf = Callable[[NodeRef], str]
 
 
 class Verdict(enum.Enum):
@@ -36,7 +104,7 @@ class Scope:
     """Where a condition stands in a stack: what its relative names mean."""
 
     namespace: str = '/'
-    stacks: 'Mapping[Stack, str]' = field(default_factory=dict)
+    stacks: Mapping[Member, str] = field(default_factory=dict)
     """The namespaces of the stacks that stand in the whole one."""
 
     def absolute(self, name: str) -> str:
@@ -48,7 +116,7 @@ class Condition(ABC):
     """What ``start_when`` and ``ready_when`` take; compared by value."""
 
     @property
-    def nodes(self) -> 'tuple[Node, ...]':
+    def nodes(self) -> tuple[NodeRef, ...]:
         """The nodes it depends on."""
         return tuple(node for part in self.parts for node in part.nodes)
 
@@ -196,27 +264,6 @@ class After(Condition):
         return replace(self, condition=inner)
 
 
-@dataclass(frozen=True)
-class _Ready(Condition):
-    stack: 'Stack'
-
-    @property
-    def parts(self) -> tuple[Condition, ...]:
-        return (self.stack.readiness,)
-
-    def judge(self, situation: Situation) -> Verdict:
-        return self.stack.readiness.judge(situation)
-
-    def describe(self, name_of: NameOf) -> str:
-        return self.stack.readiness.describe(name_of)
-
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
-        return self.stack.readiness.lack(situation, name_of)
-
-    def resolved(self, scope: Scope) -> Condition:
-        return self.stack.readiness.resolved(replace(scope, namespace=scope.stacks[self.stack]))
-
-
 def after(seconds: float, condition: Condition | None = None) -> Condition:
     """Hold so long after the condition came to hold; after the stack began, if there is none."""
     require('after(%s)', seconds, NUMBER)
@@ -238,7 +285,161 @@ def any_of(*conditions: Condition) -> Condition:
     return _AnyOf(conditions)
 
 
-def ready(stack: 'Stack') -> Condition:
-    """Hold once a stack that stands in this one is ready."""
-    require('ready(%s)', stack, Kind('a Stack', lambda value: hasattr(value, 'readiness')))
-    return _Ready(stack)
+@dataclass(frozen=True)
+class _OfNode(Condition):
+    """On one node."""
+
+    node: NodeRef
+
+    @property
+    def nodes(self) -> tuple[NodeRef, ...]:
+        return (self.node,)
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        state, name = situation.states[self.node], name_of(self.node)
+        if state.returncode is not None:
+            return f'{name} ended with {state.returncode}'
+        if state.restart_at is not None:
+            return f'{name} waits for its next start'
+        return f'{name} still runs' if state.started else f'{name} was not started'
+
+
+@dataclass(frozen=True)
+class _ExitedCleanly(_OfNode):
+    def judge(self, situation: Situation) -> Verdict:
+        state = situation.states[self.node]
+        if state.returncode is None:
+            return Verdict.NEVER if state.never else Verdict.NOT_YET
+        return Verdict.HOLDS if state.returncode == 0 else Verdict.NEVER
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} exited with code 0'
+
+
+@dataclass(frozen=True)
+class _Failed(_OfNode):
+    def is_dormant(self, situation: Situation) -> bool:
+        return self.judge(situation) is Verdict.NOT_YET
+
+    def judge(self, situation: Situation) -> Verdict:
+        state = situation.states[self.node]
+        if state.returncode is None:
+            return Verdict.NEVER if state.never else Verdict.NOT_YET
+        return Verdict.NEVER if state.returncode == 0 else Verdict.HOLDS
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} failed'
+
+
+@dataclass(frozen=True)
+class _Started(_OfNode):
+    def judge(self, situation: Situation) -> Verdict:
+        state = situation.states[self.node]
+        if state.started:
+            return Verdict.HOLDS
+        return Verdict.NEVER if state.never else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} was started'
+
+
+@dataclass(frozen=True)
+class _Settled(_Started):
+    """Started, or optional and given up."""
+
+    def judge(self, situation: Situation) -> Verdict:
+        given_up = situation.states[self.node].never and not self.node.required
+        return Verdict.HOLDS if given_up else super().judge(situation)
+
+
+@dataclass(frozen=True)
+class Logged(_OfNode):
+    """See :func:`logged`."""
+
+    pattern: str
+
+    def __post_init__(self) -> None:
+        """Refuse what is no regular expression."""
+        require('logged(…, %s)', self.pattern, TEXT)
+        try:
+            re.compile(self.pattern)
+        except re.error as error:
+            raise BringupError(f'logged(…, {self.pattern!r}): {error}') from None
+
+    def matches(self, line: str) -> bool:
+        """Say whether this is the line."""
+        return re.search(self.pattern, line) is not None
+
+    def judge(self, situation: Situation) -> Verdict:
+        if self in situation.said:
+            return Verdict.HOLDS
+        state = situation.states[self.node]
+        over = state.never or state.returncode is not None
+        return Verdict.NEVER if over else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} said {self.pattern!r}'
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} has not said {self.pattern!r}'
+
+
+@dataclass(frozen=True, eq=False)
+class OnRequest(Condition):
+    """See :func:`on_request`; each is another one."""
+
+    def is_dormant(self, situation: Situation) -> bool:
+        return self.judge(situation) is Verdict.NOT_YET
+
+    def judge(self, situation: Situation) -> Verdict:
+        return Verdict.HOLDS if self in situation.said else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return 'a handler asks for it'
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        return 'no handler asks for it'
+
+
+def exited_cleanly(node: NodeRef) -> Condition:
+    """
+    Hold once the node has ended with exit code 0.
+
+    Other than launch's OnProcessExit, which fires after a failure too.
+    """
+    return _ExitedCleanly(node)
+
+
+def failed(node: NodeRef) -> Condition:
+    """Hold once the node has ended otherwise; it is ``required=False``, or all stops then."""
+    return _Failed(node)
+
+
+def started(node: NodeRef) -> Condition:
+    """Hold once the node's process was started, as launch's OnProcessStart, even if it ended."""
+    return _Started(node)
+
+
+def settled(node: NodeRef) -> Condition:
+    """As :func:`started`; also if the node is optional and can never start."""
+    return _Settled(node)
+
+
+def logged(node: NodeRef, pattern: str) -> Condition:
+    """Hold once a line that the node wrote matched, anywhere in it, a regular expression."""
+    return Logged(node, pattern)
+
+
+def on_request() -> Condition:
+    """Hold once a handler has asked for the node; see :mod:`handlers`."""
+    return OnRequest()
+
+
+def may_never_hold(condition: Condition | None) -> bool:
+    """Say whether it is no fault if it never holds: it is for a failure, or for a request."""
+    return any(isinstance(part, OnRequest | _Failed) for part in leaves(condition))
+
+
+def waits_for_request(condition: Condition | None) -> bool:
+    """Say whether a handler has to ask before it can hold."""
+    return any(isinstance(part, OnRequest) for part in leaves(condition))

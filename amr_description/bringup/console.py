@@ -12,7 +12,7 @@ import shutil
 import time
 from typing import Literal, TextIO
 
-from amr_description.bringup.log_folder import LogFolder, with_tilde
+from amr_description.bringup.run_log import LogFolder, with_tilde
 from amr_description.bringup.terminal import as_foreground
 
 type Level = Literal['INFO', 'WARNING', 'ERROR']

@@ -3,31 +3,41 @@
 """The words of a stack: :class:`Node`, :class:`Group` and :class:`Stack`, as launch has them."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, KW_ONLY
+from dataclasses import dataclass, field, KW_ONLY, replace
 from pathlib import Path
 from typing import Literal
 
-from amr_description.bringup import kinds
-from amr_description.bringup.conditions import all_of, CONDITION, Condition, ready
+from amr_description.bringup import validation
+from amr_description.bringup.conditions import (
+    all_of,
+    CONDITION,
+    Condition,
+    may_never_hold,
+    Member,
+    NameOf,
+    NodeRef,
+    Scope,
+    settled,
+    Situation,
+    Verdict,
+)
 from amr_description.bringup.console import Level
 from amr_description.bringup.handlers import ExitHandler, StopHandler
-from amr_description.bringup.node_conditions import may_never_hold, settled
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
 type ParameterValue = Scalar | Sequence[Scalar] | Mapping[str, ParameterValue]
 type Parameters = Sequence[Mapping[str, ParameterValue] | str | Path]
-type Member = Node | Group | Stack
 
 PATIENCE = 60.0
 """s"""
 
-_MEMBERS = kinds.a_list('nodes, groups and stacks')
+_MEMBERS = validation.a_list('nodes, groups and stacks')
 _COMMON_KINDS = {
-    'namespace': kinds.NAMESPACE.or_none(),
-    'environment': kinds.ENVIRONMENT,
-    'parameters': kinds.PARAMETERS,
-    'remappings': kinds.REMAPPINGS,
+    'namespace': validation.NAMESPACE.or_none(),
+    'environment': validation.ENVIRONMENT,
+    'parameters': validation.PARAMETERS,
+    'remappings': validation.REMAPPINGS,
     'start_when': CONDITION.or_none(),
 }
 
@@ -47,38 +57,40 @@ class Respawn:
 
     def __post_init__(self) -> None:
         """Refuse what would start it without a pause, or never."""
-        numbers = dict.fromkeys(('delay', 'backoff', 'steady'), kinds.NUMBER)
-        kinds.require_fields('Respawn(…', self, {**numbers, 'limit': kinds.NUMBER.or_none()})
+        numbers = dict.fromkeys(('delay', 'backoff', 'steady'), validation.NUMBER)
+        validation.require_fields(
+            'Respawn(…', self, {**numbers, 'limit': validation.NUMBER.or_none()}
+        )
         if not (self.delay > 0 and self.backoff >= 1 and (self.limit is None or self.limit > 0)):
             raise BringupError(f'{self}: it takes delay > 0, backoff >= 1 and limit > 0 (or None)')
 
 
 _NODE_KINDS = {
-    'package': kinds.FILE_NAME,
-    'name': kinds.NAME.or_none(),
+    'package': validation.FILE_NAME,
+    'name': validation.NAME.or_none(),
     **_COMMON_KINDS,
-    'arguments': kinds.ARGUMENTS,
-    'prefix': kinds.TEXT,
-    'patience': kinds.NUMBER.or_none(),
-    'required': kinds.TRUTH,
-    'respawn': kinds.Kind('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
-    'on_exit': kinds.Kind(
+    'arguments': validation.ARGUMENTS,
+    'prefix': validation.TEXT,
+    'patience': validation.NUMBER.or_none(),
+    'required': validation.TRUTH,
+    'respawn': validation.Kind('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
+    'on_exit': validation.Kind(
         "'continue', 'shutdown' or a function",
         lambda value: value in ('continue', 'shutdown') or callable(value),
     ),
-    'terminal': kinds.TRUTH,
+    'terminal': validation.TRUTH,
 }
 _STACK_KINDS = {
     'ready_when': CONDITION.or_none(),
-    'patience': kinds.NUMBER,
-    'on_shutdown': kinds.FUNCTION.or_none(),
-    'next_steps': kinds.TEXT,
-    'notes': kinds.a_list("pairs, as [('INFO', 'a text')]", kinds.is_pair),
+    'patience': validation.NUMBER,
+    'on_shutdown': validation.FUNCTION.or_none(),
+    'next_steps': validation.TEXT,
+    'notes': validation.a_list("pairs, as [('INFO', 'a text')]", validation.is_pair),
 }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Node:
+class Node(NodeRef):
     """
     One process of a stack; each Node is its own identity, so ``start_when`` can refer to it.
 
@@ -116,8 +128,8 @@ class Node:
 
     def __post_init__(self) -> None:
         """Refuse what could not be started so."""
-        kinds.require('Node(%s)', self.executable, kinds.FILE_NAME)
-        kinds.require_fields(f'Node({self.executable!r}', self, _NODE_KINDS)
+        validation.require('Node(%s)', self.executable, validation.FILE_NAME)
+        validation.require_fields(f'Node({self.executable!r}', self, _NODE_KINDS)
         if self.patience is not None:
             _check_patience(self.patience)
 
@@ -127,7 +139,7 @@ class Node:
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class Group(Member):
     """
     Nodes, groups and stacks that have something in common.
 
@@ -135,7 +147,7 @@ class Group:
     stands further outside, as in launch.
     """
 
-    members: 'Sequence[Member]'
+    members: Sequence[Member]
     _: KW_ONLY
     namespace: str | None = None
     """Before the namespaces of its members; within that of its own group, unless it begins /."""
@@ -147,19 +159,19 @@ class Group:
 
     def __post_init__(self) -> None:
         """Refuse what no member could have."""
-        kinds.require('Group(%s)', self.members, _MEMBERS)
-        kinds.require_fields('Group(…', self, _COMMON_KINDS)
+        validation.require('Group(%s)', self.members, _MEMBERS)
+        validation.require_fields('Group(…', self, _COMMON_KINDS)
 
 
 @dataclass(frozen=True, eq=False)
-class Stack:
+class Stack(Member):
     """
     What to start, in which order, and when it is ready.
 
     A stack may stand among the nodes of another one.
     """
 
-    nodes: 'Sequence[Member]'
+    nodes: Sequence[Member]
     _: KW_ONLY
     ready_when: Condition | None = None
     """None: once every node was started, and every stack in it is ready."""
@@ -174,8 +186,8 @@ class Stack:
 
     def __post_init__(self) -> None:
         """Refuse a stack that could not run as it is written."""
-        kinds.require('Stack(%s)', self.nodes, _MEMBERS)
-        kinds.require_fields('Stack(…', self, _STACK_KINDS)
+        validation.require('Stack(%s)', self.nodes, _MEMBERS)
+        validation.require_fields('Stack(…', self, _STACK_KINDS)
         nodes = list(nodes_of(self.nodes))
         if not nodes:
             raise BringupError('a stack needs at least one node')
@@ -191,7 +203,7 @@ class Stack:
             for node in condition.nodes if condition else ():
                 if node not in nodes:
                     raise BringupError(
-                        f'a condition waits for {kinds.brief(node)}, '
+                        f'a condition waits for {validation.brief(node)}, '
                         'which is not in the list of the stack'
                     )
         _check_patience(self.patience)
@@ -224,7 +236,36 @@ class Stack:
         return all_of(*own, *(ready(stack) for stack in stacks_of(self.nodes)))
 
 
-def nodes_of(members: 'Sequence[Member]', *, into_stacks: bool = True) -> Iterator[Node]:
+@dataclass(frozen=True)
+class _Ready(Condition):
+    stack: Stack
+
+    @property
+    def parts(self) -> tuple[Condition, ...]:
+        return (self.stack.readiness,)
+
+    def judge(self, situation: Situation) -> Verdict:
+        return self.stack.readiness.judge(situation)
+
+    def describe(self, name_of: NameOf) -> str:
+        return self.stack.readiness.describe(name_of)
+
+    def lack(self, situation: Situation, name_of: NameOf) -> str:
+        return self.stack.readiness.lack(situation, name_of)
+
+    def resolved(self, scope: Scope) -> Condition:
+        return self.stack.readiness.resolved(replace(scope, namespace=scope.stacks[self.stack]))
+
+
+def ready(stack: Stack) -> Condition:
+    """Hold once a stack that stands in this one is ready."""
+    validation.require(
+        'ready(%s)', stack, validation.Kind('a Stack', lambda value: isinstance(value, Stack))
+    )
+    return _Ready(stack)
+
+
+def nodes_of(members: Sequence[Member], *, into_stacks: bool = True) -> Iterator[Node]:
     """Yield the nodes of a tree, in its order; optionally not those of the stacks in it."""
     for member in members:
         match member:
@@ -236,11 +277,11 @@ def nodes_of(members: 'Sequence[Member]', *, into_stacks: bool = True) -> Iterat
                 yield from nodes_of(member.nodes) if into_stacks else ()
             case _:
                 raise BringupError(
-                    f'{kinds.brief(member)} stands in a stack; there can be Node, Group, Stack'
+                    f'{validation.brief(member)} stands in a stack; there can be Node, Group, Stack'
                 )
 
 
-def stacks_of(members: 'Sequence[Member]') -> Iterator[Stack]:
+def stacks_of(members: Sequence[Member]) -> Iterator[Stack]:
     """Yield the stacks in a tree, not those within them."""
     for member in members:
         if isinstance(member, Stack):
@@ -254,7 +295,7 @@ def _check_patience(seconds: float) -> None:
         raise BringupError(f'patience={seconds}: it takes more than 0 s')
 
 
-def _conditions(members: 'Sequence[Member]') -> Iterator[Condition | None]:
+def _conditions(members: Sequence[Member]) -> Iterator[Condition | None]:
     """Yield the conditions in a tree; a stack in it has judged its own."""
     for member in members:
         if not isinstance(member, Stack):

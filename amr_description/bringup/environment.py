@@ -1,15 +1,177 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The environment variables of a child, and of the shell in which the user goes on."""
+"""
+The environment variables of a child, and of the shell in which the user goes on.
 
+By whom the nodes of a stack are found: options of ``bringup``, the same for every stack.
+
+Each option stands for an environment variable that every ROS 2 node reads, and wins over it; the
+variables stay the way to say it once for a whole shell. What they say is checked before anything
+starts, as nodes would just not find each other, without a word.
+
+================================ ================================================================
+``--domain 5``                   ROS_DOMAIN_ID
+``--discovery subnet``           ROS_AUTOMATIC_DISCOVERY_RANGE
+``--peer 10.0.0.2``              ROS_STATIC_PEERS, joined by ``;``
+``--discovery-server 10.0.0.9``  ROS_DISCOVERY_SERVER, with the port, joined by ``;``
+================================ ================================================================
+"""
+
+from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 import os
 from pathlib import Path
+import re
 import shutil
+import socket
 import sys
 
-from amr_description.bringup.discovery import exports
-from amr_description.bringup.packages import package_prefix
+from amr_description.ament_index import package_prefix
+from amr_description.errors import UsageError
+
+DOMAIN = 'ROS_DOMAIN_ID'
+RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+PEERS = 'ROS_STATIC_PEERS'
+SERVER = 'ROS_DISCOVERY_SERVER'
+
+_LAST_DOMAIN = 232  # the ports of the next are beyond 65535 (DDSI-RTPS 2.5, 9.6.2.3)
+_RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')  # as rcl spells them
+_SERVER_PORT = 11811  # Fast DDS's default
+_OPTIONS = {
+    DOMAIN: '--domain',
+    RANGE: '--discovery',
+    PEERS: '--peer',
+    SERVER: '--discovery-server',
+}
+# host, host:port, and the locators that Fast DDS takes too: UDPv4:[10.0.0.1]:11811
+_ADDRESS = re.compile(
+    r'(?:(?:UDP|TCP)v[46]:)?(?:\[(?P<locator>[^\]]+)\]|(?P<host>[^\[\]:;\s]+))(?::(?P<port>\d+))?'
+)
+
+
+def add_options(parser: ArgumentParser) -> None:
+    """Add the options to a command's parser."""
+    group = parser.add_argument_group('who finds the nodes, and whom they find')
+    group.add_argument('--domain', metavar='N', help=f'ROS domain, 0 to {_LAST_DOMAIN} ({DOMAIN})')
+    group.add_argument(
+        '--discovery',
+        metavar='RANGE',
+        help=f'localhost: this host only; subnet: the network it is in ({RANGE})',
+    )
+    group.add_argument(
+        '--peer',
+        metavar='HOST',
+        action='append',
+        help=f'a host to look for nodes at, beyond the range; may be repeated ({PEERS})',
+    )
+    group.add_argument(
+        '--discovery-server',
+        metavar='HOST[:PORT]',
+        action='append',
+        help=f'a server that knows all nodes, in place of a range; port {_SERVER_PORT} if none '
+        f'is given; may be repeated ({SERVER})',
+    )
+
+
+def words(options: Namespace) -> list[str]:
+    """Return the options that were given as they are typed."""
+    return [
+        f'{option}={value}'
+        for option, given in _given(options).items()
+        for value in (given if isinstance(given, list) else [given])
+    ]
+
+
+def _given(options: Namespace) -> dict[str, str | list[str]]:
+    pairs = {flag: getattr(options, flag[2:].replace('-', '_')) for flag in _OPTIONS.values()}
+    return {flag: value for flag, value in pairs.items() if value is not None}
+
+
+def variables(options: Namespace, environment: Mapping[str, str]) -> dict[str, str]:
+    """
+    Return the environment variables to set, those of the options.
+
+    :raises UsageError: An option, or a variable that no option replaces, cannot be used.
+    """
+    given = _given(options)
+    chosen = {}
+    for variable, flag in _OPTIONS.items():
+        if flag in given:
+            values = given[flag] if isinstance(given[flag], list) else [given[flag]]
+            checked = [_CHECKS[variable](value, f'{flag} {value}') for value in values]
+            chosen[variable] = ';'.join(checked)
+        elif environment.get(variable):
+            _check_inherited(variable, environment[variable])
+    return chosen
+
+
+def _check_inherited(variable: str, text: str) -> None:
+    """Check what the shell says; lists may have empty places, whose number counts."""
+    values = text.split(';') if variable in (PEERS, SERVER) else [text]
+    for value in filter(None, values):
+        checked = _CHECKS[variable](value, f'{variable}={text}')
+        if variable == RANGE and checked != value:
+            raise UsageError(f'{variable}={text}: rcl wants capital letters, {checked}')
+
+
+def _domain(value: str, said: str) -> str:
+    if not value.isdecimal() or int(value) > _LAST_DOMAIN:
+        raise UsageError(f'{said}: a ROS domain is an integer from 0 to {_LAST_DOMAIN}')
+    return value
+
+
+def _range(value: str, said: str) -> str:
+    if value.upper() not in _RANGES:
+        raise UsageError(f'{said}: a discovery range is one of {", ".join(_RANGES)}')
+    return value.upper()
+
+
+def _peer(value: str, said: str) -> str:
+    if not (match := _ADDRESS.fullmatch(value)) or match['port'] or not match['host']:
+        raise UsageError(f'{said}: a peer is the address or the name of a host, without a port')
+    _must_resolve(match['host'], said)
+    return value
+
+
+def _server(value: str, said: str) -> str:
+    match = _ADDRESS.fullmatch(value)
+    port = int(match['port'] or _SERVER_PORT) if match else 0
+    if not 0 < port < 65536:
+        raise UsageError(f'{said}: a discovery server is HOST or HOST:PORT, as 10.0.0.9:11811')
+    _must_resolve(match['host'] or match['locator'], said)
+    return value if match['port'] else f'{value}:{_SERVER_PORT}'
+
+
+def _must_resolve(host: str, said: str) -> None:
+    try:
+        socket.getaddrinfo(host, None)
+    except (OSError, UnicodeError) as error:
+        raise UsageError(f"{said}: no address is known for the host '{host}' ({error})") from None
+
+
+_CHECKS = {DOMAIN: _domain, RANGE: _range, PEERS: _peer, SERVER: _server}
+
+
+def told(environment: Mapping[str, str]) -> str:
+    """Say in a few words who finds the nodes: ``ROS domain 5, this host only``."""
+    domain = f'ROS domain {environment.get(DOMAIN) or 0}'
+    if server := environment.get(SERVER):
+        return f'{domain}, found through the discovery server {server.strip(";")}'
+    kinds = {'LOCALHOST': 'this host only', 'OFF': 'nobody is found'}
+    reach = kinds.get(environment.get(RANGE, ''), 'the whole network')
+    peers = environment.get(PEERS)
+    return f'{domain}, {reach}' + (f' and {peers}' if peers else '')
+
+
+def exports(environment: Mapping[str, str]) -> list[str]:
+    """Return what to type in another shell, after ``scripts/activate``, to be found there too."""
+    usual = {DOMAIN: '0', RANGE: 'LOCALHOST'}
+    return [
+        f"export {name}='{value}'" if ';' in value else f'export {name}={value}'
+        for name in _OPTIONS
+        if (value := environment.get(name, '')) and value != usual.get(name)
+    ]
+
 
 # The ROS wheels start each Python twice, to set LD_LIBRARY_PATH; this guard says that it is done.
 # The bring-up has both, so its children save 0.1 s each, if they are of the same environment.

@@ -20,19 +20,16 @@ found before anything starts. Handlers are called by the supervisor: they must b
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from amr_description.bringup import blame, kinds
-
-if TYPE_CHECKING:
-    from amr_description.bringup.description import Group, Node
+from amr_description.bringup import user_errors, validation
+from amr_description.bringup.conditions import Member, NodeRef
 
 
 @dataclass(frozen=True)
 class Exited:
     """A node has ended, and is not to be started again."""
 
-    node: 'Node'
+    node: NodeRef
     returncode: int
     """Its exit code, or minus the number of the signal it died of."""
     last_lines: Sequence[str] = ()
@@ -47,7 +44,7 @@ class Stopping:
     """That of the whole, as it is known now."""
 
 
-_EXIT_CODE = kinds.Kind(
+_EXIT_CODE = validation.Kind(
     'a whole number from 0 to 255', lambda value: isinstance(value, int) and 0 <= value <= 255
 )
 
@@ -62,11 +59,11 @@ class Shutdown:
 
     def __post_init__(self) -> None:
         """Refuse what can be no exit code."""
-        kinds.require('Shutdown(%s)', self.reason, kinds.TEXT)
-        kinds.require('Shutdown(…, exit_code=%s)', self.exit_code, _EXIT_CODE)
+        validation.require('Shutdown(%s)', self.reason, validation.TEXT)
+        validation.require('Shutdown(…, exit_code=%s)', self.exit_code, _EXIT_CODE)
 
 
-type Reaction = 'None | Shutdown | Node | Group | Sequence[Node | Group]'
+type Reaction = None | Shutdown | Member | Sequence[Member]
 type ExitHandler = Callable[[Exited], Reaction]
 type StopHandler = Callable[[Stopping], None]
 
@@ -75,7 +72,7 @@ type StopHandler = Callable[[Stopping], None]
 class Wishes:
     """What a handler wants."""
 
-    members: 'Sequence[Node | Group]' = ()
+    members: Sequence[Member] = ()
     """To be started; each waits for :func:`conditions.on_request`."""
     shutdown: Shutdown | None = None
 
@@ -95,4 +92,4 @@ def call_exit_handler(handler: ExitHandler, event: Exited) -> Wishes:
 
 def complaint(name: str, error: BaseException) -> str:
     """Return one line on what a handler raised, and where."""
-    return f'{name} failed: {blame.told(error)}'
+    return f'{name} failed: {user_errors.told(error)}'

@@ -1,30 +1,127 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The command ``bringup``: start a stack, by name or from a file, and keep it until Ctrl-C."""
+"""
+The command ``bringup``: start a stack, by name or from a file, and keep it until Ctrl-C.
+
+What ``--print`` prints: the tree of a stack, what each part waits for, and command lines.
+
+Signals that ask for the end before the orchestrator listens to them: xacro may be running.
+"""
 
 import argparse
 import asyncio
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from datetime import datetime
 import os
 from pathlib import Path
+import signal
 import sys
+import threading
 
-from amr_description.bringup import discovery, unique_names
+from amr_description.bringup import environment, run_registry
 from amr_description.bringup.arguments import declared, parse, show
+from amr_description.bringup.command_line import Job, jobs_of, LaunchPrefix
+from amr_description.bringup.conditions import NameOf
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
-from amr_description.bringup.description import nodes_of, Stack
-from amr_description.bringup.early_signals import ended_by_signals
-from amr_description.bringup.event_log import EventLog, FILE, json_line
-from amr_description.bringup.job import Job, jobs_of, LaunchPrefix
-from amr_description.bringup.listing import listing
-from amr_description.bringup.log_folder import log_base, LogFolder, run_name, with_tilde
+from amr_description.bringup.description import Group, Member, Node, nodes_of, Stack
 from amr_description.bringup.orchestrator import Orchestrator
+from amr_description.bringup.placement import Placement
 from amr_description.bringup.run_commands import COMMANDS
+from amr_description.bringup.run_log import (
+    EventLog,
+    FILE,
+    json_line,
+    log_base,
+    LogFolder,
+    run_name,
+    with_tilde,
+)
 from amr_description.bringup.run_registry import registry_folder, RunRecord
 from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
 from amr_description.errors import AmrError
+
+_INDENT = '    '
+
+
+def listing(stack: Stack, jobs: Sequence[Job]) -> str:
+    """Return the text."""
+    by_node = {job.node: job for job in jobs}
+
+    def name_of(node: Node) -> str:
+        return by_node[node].name
+
+    lines = list(_tree(stack.nodes, by_node, name_of))
+    if stack.ready_when:
+        lines.append(f'ready: when {Placement(stack).ready_when.describe(name_of)}')
+    return '\n'.join(lines)
+
+
+def _tree(members: Sequence[Member], jobs: Mapping[Node, Job], name_of: NameOf) -> Iterator[str]:
+    for member in members:
+        if isinstance(member, Node):
+            yield from _of_job(jobs[member], name_of)
+            continue
+        inside = member.members if isinstance(member, Group) else member.nodes
+        yield f'{_group(member) if isinstance(member, Group) else "stack"}:'
+        yield from (f'{_INDENT}{line}' for line in _tree(inside, jobs, name_of))
+
+
+def _group(group: Group) -> str:
+    return f'group {group.namespace}' if group.namespace else 'group'
+
+
+def _of_job(job: Job, name_of: NameOf) -> Iterator[str]:
+    condition = job.placed.start_when
+    when = f'when {condition.describe(name_of)}' if condition else 'at once'
+    yield f'{job.name}: {", ".join([when, *_manners(job.node)])}'
+    yield f'{_INDENT}{job.command_text}'
+    for variable, value in job.environment.items():
+        yield f'{_INDENT}{variable}={value}'
+    for path, text in job.parameter_files:
+        if text is not None:
+            yield f'{_INDENT}{path}:'
+            yield from (f'{2 * _INDENT}{line}' for line in text.splitlines())
+
+
+def _manners(node: Node) -> Iterator[str]:
+    """Yield how it differs from a node of which nothing is said."""
+    if not node.required:
+        yield 'optional'
+    if node.respawn:
+        limit = '' if node.respawn.limit is None else f' up to {node.respawn.limit} times'
+        yield f'started again{limit}'
+    if node.on_exit == 'shutdown':
+        yield 'its end is the end of all'
+    if node.terminal:
+        yield 'has the terminal'
+
+
+@contextmanager
+def ended_by_signals() -> Iterator[None]:
+    """
+    Have SIGTERM and SIGHUP unwind this block, as Ctrl-C does, with the exit code that shells give.
+
+    An ignored one stays so (nohup). The orchestrator's own handlers replace these.
+    """
+    if threading.current_thread() is not threading.main_thread():  # Python handles none there
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
+    for number, handler in before.items():
+        if handler is signal.SIG_DFL:
+            signal.signal(number, _leave)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _leave(number: int, _frame: object) -> None:
+    sys.exit(128 + number)
 
 
 def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
@@ -71,7 +168,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         '-p', '--print', action='store_true', help='print what would be started, and when'
     )
-    unique_names.add_option(parser)
+    run_registry.add_option(parser)
     parser.add_argument(
         '--launch-prefix', default='', help='what command lines begin with: gdb -ex run --args'
     )
@@ -81,12 +178,12 @@ def _parser() -> argparse.ArgumentParser:
         default='',
         help='which executables that is for; all, if not given',
     )
-    discovery.add_options(parser)
+    environment.add_options(parser)
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
-    os.environ |= discovery.variables(options, os.environ)
+    os.environ |= environment.variables(options, os.environ)
     if options.show_args:
         print(show(declared(find_stack(options.stack))))
         return 0
@@ -112,9 +209,9 @@ def start(
         if node.terminal:
             require_terminal(node.executable, node.package)
     run = run_name(datetime.now())
-    about = {'stack': name, 'domain': int(os.environ.get(discovery.DOMAIN) or 0)}
+    about = {'stack': name, 'domain': int(os.environ.get(environment.DOMAIN) or 0)}
     record = RunRecord(registry_folder(os.environ), run)
-    record.enter(about, names=unique_names.of(jobs_of(stack, Path(), prefix)), anyway=force)
+    record.enter(about, names=run_registry.of(jobs_of(stack, Path(), prefix)), anyway=force)
     folder = LogFolder(log_base(os.environ), run)
     try:
         jobs = jobs_of(stack, folder.path, prefix)
@@ -134,7 +231,7 @@ def _console(stack: Stack, folder: LogFolder) -> Console:
     console = Console(sys.stdout, folder, colour=colour, erases=erases)
     where = with_tilde(folder.path)
     console.say('INFO', LAUNCH, f'All log files can be found below {where}')
-    console.say('INFO', LAUNCH, discovery.told(os.environ))
+    console.say('INFO', LAUNCH, environment.told(os.environ))
     for level, text in stack.all_notes:
         console.say(level, LAUNCH, text)
     return console

@@ -20,17 +20,17 @@ import functools
 import signal
 import time
 
-from amr_description.bringup.child import Child, held_back, RunningProcess
+from amr_description.bringup.command_line import Job
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
-from amr_description.bringup.event_log import EventLog
+from amr_description.bringup.graph_watcher import COMMAND, GraphWatch, Outlook
 from amr_description.bringup.handlers import complaint, Stopping
-from amr_description.bringup.job import Job
 from amr_description.bringup.lifeline import Lifeline
-from amr_description.bringup.narrator import Narrator
-from amr_description.bringup.outlook import COMMAND, GraphWatch, Outlook
-from amr_description.bringup.progress import Progress
+from amr_description.bringup.process import Child, held_back, RunningProcess
+from amr_description.bringup.reporter import Narrator
+from amr_description.bringup.run_log import EventLog
+from amr_description.bringup.scheduler import Progress
 from amr_description.bringup.terminal import TerminalChild
 
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed

@@ -13,8 +13,8 @@ import sys
 import time
 
 from amr_description.bringup.guardian import processes
-from amr_description.bringup.log_folder import with_tilde
 from amr_description.bringup.process_usage import Usage, usages
+from amr_description.bringup.run_log import with_tilde
 from amr_description.bringup.run_registry import clock, registry_folder, runs, State
 from amr_description.errors import BringupError, UsageError
 

@@ -7,8 +7,15 @@ The files are in ``$ROS_HOME/runs`` (``~/.ros/runs``), for the owner only. A run
 each of its events, and removes it at its end. One that was killed leaves its file; that is told
 by its process being gone, or another one (the number of a process comes again, its time of start
 since the boot does not), and the next to look removes it.
+
+Which nodes of a stack there can be only one of in a ROS domain.
+
+Two of one name answer each other's services and publish the same topics. What is known to be so:
+a node that the stack names, and those programs of ours that go by a fixed name. Steps and tools
+may be there several times: they end soon, or name themselves.
 """
 
+from argparse import ArgumentParser
 from collections.abc import Collection, Iterator, Mapping, Sequence
 import contextlib
 from datetime import datetime
@@ -18,11 +25,15 @@ import os
 from pathlib import Path
 import socket
 import time
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
-from amr_description.bringup.event_log import Event
 from amr_description.bringup.process_usage import start_time
+from amr_description.bringup.run_log import Event
 from amr_description.errors import BringupError
+
+if TYPE_CHECKING:
+    from amr_description.bringup.command_line import Job
+
 
 type State = dict[str, Any]
 
@@ -182,3 +193,33 @@ def clock(seconds: float) -> str:
     """Return a time as a person reads it: of today the time only."""
     then, now = datetime.fromtimestamp(seconds), datetime.now()
     return f'{then:%H:%M:%S}' if then.date() == now.date() else f'{then:%Y-%m-%d %H:%M}'
+
+
+# executable -> names of its nodes, the first of which `name=` changes
+_FIXED = {
+    'mujoco_sim': ('mujoco_sim', 'controller_manager'),
+    'robot_state_publisher': ('robot_state_publisher',),
+    'ros2_control_node': ('controller_manager',),
+}
+
+
+def add_option(parser: ArgumentParser) -> None:
+    """Add the option that lets them be there twice."""
+    parser.add_argument(
+        '-f',
+        '--force',
+        action='store_true',
+        help='start although a running stack has nodes of the same names',
+    )
+
+
+def of(jobs: 'Sequence[Job]') -> set[str]:
+    """Return their full names: ``/mujoco_sim``, ``/robot1/controller_manager``."""
+    pairs = ((job.placed.namespace or '', name) for job in jobs for name in _names(job))
+    return {f'{namespace.rstrip("/")}/{name}' for namespace, name in pairs}
+
+
+def _names(job: 'Job') -> Sequence[str]:
+    node = job.node
+    fixed = _FIXED.get(node.executable, ()) if node.package == 'amr_description' else ()
+    return (node.name, *fixed[1:]) if node.name else fixed

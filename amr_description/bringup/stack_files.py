@@ -10,14 +10,15 @@ from pathlib import Path
 import sys
 from types import ModuleType
 
-from amr_description.bringup import blame
-from amr_description.bringup.arguments import as_typed, declared, resolve, suggestion
+from amr_description.ament_index import path_of
+from amr_description.bringup import user_errors
+from amr_description.bringup.arguments import as_typed, declared, resolve
 from amr_description.bringup.description import Stack
-from amr_description.bringup.kinds import brief, require, VALUE
-from amr_description.bringup.packages import path_of
 from amr_description.bringup.stacks import STACKS
+from amr_description.bringup.validation import brief, require, VALUE
 from amr_description.errors import AmrError, BringupError, UsageError
 from amr_description.registry import resolve as import_target
+from amr_description.text import suggestion
 
 type StackFunction = Callable[..., Stack]
 
@@ -62,11 +63,11 @@ def _blaming(name: str) -> Iterator[None]:
         yield
     except AmrError as error:
         if name not in STACKS and not getattr(error, 'is_placed', False):
-            error.args = (f'{error}{blame.place(error)}',)
+            error.args = (f'{error}{user_errors.place(error)}',)
             error.is_placed = True
         raise
     except Exception as error:
-        raise BringupError(f"'{name}' failed: {blame.told(error)}") from error
+        raise BringupError(f"'{name}' failed: {user_errors.told(error)}") from error
 
 
 def include(name: str | Path, **values: object) -> Stack:

@@ -29,7 +29,7 @@ import signal
 import subprocess
 import termios
 
-from amr_description.bringup.child import held_back, RunningProcess
+from amr_description.bringup.process import held_back, RunningProcess
 from amr_description.errors import UsageError
 
 type _Settings = list[int | list[bytes | int]]  # as termios.tcgetattr() returns them

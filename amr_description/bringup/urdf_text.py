@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 
-from amr_description.bringup.packages import path_of
+from amr_description.ament_index import path_of
 from amr_description.errors import BringupError, UsageError
 
 _PROCESSOR_TIME = 60  # s; large robots take one or two

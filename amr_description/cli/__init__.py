@@ -24,7 +24,7 @@ colors.py             when to colour, and how
 launch_files.py       what ``ros2 launch`` is asked for -> what the bring-up starts
 packages.py           packages and their executables, from the ament index
 yaml_input.py         what was typed -> a mapping, or one line that says where it is wrong
-excerpt.py            what was typed, as an error line may repeat it
+shorten.py            what was typed, as an error line may repeat it
 message_fields.py     a mapping -> the fields of a message; ``auto`` and ``now``
 message_text.py       a message -> YAML or CSV
 session.py            a hidden node while a verb runs; waiting and stopping

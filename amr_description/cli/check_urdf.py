@@ -30,16 +30,22 @@ from amr_description.cli.urdf_report import (
     to_json,
     tree_lines,
 )
-from amr_description.errors import AmrError, DescriptionError, ParameterError, SimulationError
+from amr_description.errors import (
+    AmrError,
+    DescriptionError,
+    ParameterError,
+    ResourceError,
+    SimulationError,
+)
 from amr_description.model.checks import Examination, examine
+from amr_description.model.checks.context import DriveSettings, IsThere, Surroundings
 from amr_description.model.description_file import description_text, mappings_of, source_name
-from amr_description.model.drive_settings import DriveSettings
-from amr_description.model.findings import Finding, one_line
-from amr_description.model.subject import IsThere, Surroundings
-from amr_description.model.xml_source import read_stream
+from amr_description.model.findings import Finding
+from amr_description.model.xml_reader import read_stream
+from amr_description.text import one_line
 
 if TYPE_CHECKING:
-    from amr_description.sim.drop import DropReport
+    from amr_description.sim.drop_test import DropReport
 
 OK = 0
 UNUSABLE = 1
@@ -139,13 +145,13 @@ def _file_finder(source: str) -> IsThere:
         # Not at the top: a description that names no file need not wait for ament.
         from pathlib import Path
 
-        from amr_description.sim.resources import resolve_uri
+        from amr_description.ament_index import resolve_uri
 
         folder = Path() if source == _STDIN else Path(source).parent
         try:
             return resolve_uri(uri, folder).is_file()
         except OSError as error:  # such as a name that no file can have
-            raise SimulationError(error.strerror or str(error)) from error
+            raise ResourceError(error.strerror or str(error)) from error
 
     return is_there
 
@@ -154,7 +160,7 @@ def _drives(paths: list[str]) -> tuple[DriveSettings, ...]:
     """Return the differential drives of parameter files. Raises ParameterError."""
     if not paths:
         return ()
-    from amr_description.nodes.drive_files import read_drives
+    from amr_description.controllers.drive_files import read_drives
 
     return read_drives(*paths)
 
@@ -163,7 +169,7 @@ def _drop(examination: Examination) -> 'DropReport | None':
     """Return how the robot falls; None when it is not sound."""
     if examination.robot is None or examination.errors:
         return None
-    from amr_description.sim.drop import drop_test, DropReport
+    from amr_description.sim.drop_test import drop_test, DropReport
 
     try:
         return drop_test(examination.robot)

@@ -17,7 +17,7 @@ import shlex
 from typing import Any, NoReturn
 
 from amr_description.cli.completers import COMPLETERS
-from amr_description.cli.program import LazyParser
+from amr_description.cli.lazy_parser import LazyParser
 from amr_description.errors import AmrError
 from amr_description.registry import resolve
 

@@ -38,7 +38,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def _add_options(parser: ArgumentParser) -> None:
     # Here, as every `ros2 --help` imports this file.
-    from amr_description.bringup import discovery, unique_names
+    from amr_description.bringup import environment, run_registry
 
     parser.add_argument(
         '-n',
@@ -72,8 +72,8 @@ def _add_options(parser: ArgumentParser) -> None:
         action='store_true',
         help='Accepted for scripts: the output of every process is shown anyway',
     )
-    unique_names.add_option(parser)
-    discovery.add_options(parser)
+    run_registry.add_option(parser)
+    environment.add_options(parser)
     parser.add_argument(
         '--launch-prefix',
         default='',
@@ -89,7 +89,7 @@ def _add_options(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Become the bring-up; return its exit code."""
-    from amr_description.bringup import discovery
+    from amr_description.bringup import environment
     from amr_description.bringup.main import main as bringup
     from amr_description.cli.launch_files import find_launch_file
 
@@ -102,7 +102,7 @@ def main(args: Namespace) -> int:
         f'--launch-prefix={args.launch_prefix}',
         f'--launch-prefix-filter={args.launch_prefix_filter}',
         *(['--force'] if args.force else []),
-        *discovery.words(args),
+        *environment.words(args),
     ]
     sys.stdout.flush()
     return bringup([*options, stack, *arguments], prog='ros2 launch')

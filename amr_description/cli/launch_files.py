@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from amr_description.bringup.arguments import suggestion
+from amr_description.ament_index import package_prefix
 from amr_description.bringup.stacks import STACKS
-from amr_description.cli.packages import prefix_of
 from amr_description.errors import AmrError, UsageError
+from amr_description.text import suggestion
 
 _OURS = 'amr_description'
 _TUTORIALS = {'gazebo': 'simulation'}  # as the tutorial calls its launch file -> our stack
@@ -37,7 +37,7 @@ def find_launch_file(
 
 def stacks_of(package: str) -> list[str]:
     """Return what may be launched of a package: names of stacks, or files. Raises AmrError."""
-    share = prefix_of(package) / 'share' / package
+    share = package_prefix(package) / 'share' / package
     files = []
     for path in share.rglob('*.py'):
         with suppress(AmrError):
@@ -51,7 +51,7 @@ def _is_path(word: str) -> bool:
 
 
 def _of_package(package: str, file: str) -> str:
-    share = prefix_of(package) / 'share' / package
+    share = package_prefix(package) / 'share' / package
     found = sorted(path for path in share.rglob(file) if path.is_file()) if _is_name(file) else []
     if len(found) > 1:
         paths = ', '.join(f"'{path}'" for path in found)

@@ -24,7 +24,7 @@ import importlib
 import signal
 import sys
 
-from amr_description.cli import streams
+from amr_description import streams
 from amr_description.errors import AmrError
 
 PROGRAMS = {

@@ -20,9 +20,9 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from amr_description.cli.excerpt import excerpt
 from amr_description.cli.message_types import message_type
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 Stamp = Callable[[Any], None]
 """Sets one time of a message to a given builtin_interfaces/Time."""
@@ -151,4 +151,4 @@ def _is(slot: Any, name: str) -> bool:
 
 def _misfit(reason: str, path: str) -> AmrError:
     where = f' (field {path})' if path else ''
-    return AmrError(f'Failed to populate field: {excerpt(reason)}{where}')
+    return AmrError(f'Failed to populate field: {shorten(reason)}{where}')

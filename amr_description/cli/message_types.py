@@ -7,8 +7,8 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 # What a class of each kind has, by which it is told from the parts that stand beside it.
 _MARKS = {'msg': 'get_fields_and_field_types', 'srv': 'Request', 'action': 'Goal'}
@@ -25,7 +25,7 @@ def service_type(name: str) -> Any:
     other = name.split('/')[1:-1]
     if other in (['msg'], ['action']):
         raise AmrError(
-            f"The passed type is not a service: '{excerpt(name)}' is written as "
+            f"The passed type is not a service: '{shorten(name)}' is written as "
             f'{"a message" if other == ["msg"] else "an action"}'
         )
     return _interface(name, 'srv', 'The passed service type is invalid')
@@ -46,18 +46,18 @@ def _interface(name: str, kind: str, invalid: str) -> Any:
     path, _, last = name.rpartition('/')
     package, *middle = path.split('/')
     if middle not in ([], [kind]) or not package.isidentifier() or not last.isidentifier():
-        raise AmrError(f"{invalid}: '{excerpt(name)}' is not written as package/{kind}/Name")
+        raise AmrError(f"{invalid}: '{shorten(name)}' is not written as package/{kind}/Name")
     word = _WORDS[kind]
     try:
         module = importlib.import_module(f'{package}.{kind}')
     except ImportError as error:
         raise AmrError(
-            f"{invalid}: there is no package '{excerpt(package)}' with {word}s"
+            f"{invalid}: there is no package '{shorten(package)}' with {word}s"
         ) from error
     found = getattr(module, last, None)
     if not hasattr(found, _MARKS[kind]):
         similar = _similar(module, last, kind)
-        raise AmrError(f"{invalid}: {package} has no {word} '{excerpt(last)}'{similar}")
+        raise AmrError(f"{invalid}: {package} has no {word} '{shorten(last)}'{similar}")
     return found
 
 

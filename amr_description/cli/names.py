@@ -8,8 +8,8 @@ from rclpy.node import Node
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from rclpy.validate_topic_name import validate_topic_name
 
-from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 
 def full_name(node: Node, name: str, what: str = 'a topic') -> str:
@@ -27,5 +27,5 @@ def full_name(node: Node, name: str, what: str = 'a topic') -> str:
     except (InvalidTopicNameException, ValueError) as error:
         reason = str(error).splitlines()[0].removeprefix('Invalid topic name: ').rstrip(':')
         reason = reason.removeprefix('topic ').partition(', at /')[0]  # a place in rcl's sources
-        raise AmrError(f"'{excerpt(name)}' is not {what}: {reason}") from error
+        raise AmrError(f"'{shorten(name)}' is not {what}: {reason}") from error
     return expanded

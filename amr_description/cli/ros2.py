@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Sequence
 import os
 
-from amr_description.cli import streams
-from amr_description.cli.program import LazyParser, run
+from amr_description import streams
+from amr_description.cli.lazy_parser import LazyParser, run
 
 COMMANDS = {
     'action': 'amr_description.cli.action',

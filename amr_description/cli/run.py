@@ -94,7 +94,7 @@ def main(args: Namespace) -> int:
 
 def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     """Return the path of an executable, and what to append to its words. Raises AmrError."""
-    from amr_description.cli.packages import executables_of, packages
+    from amr_description.ament_index import executables_of, packages
 
     known = packages()
     if package not in known and (package, name) in INSTEAD:

@@ -13,9 +13,9 @@ from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.cli import streams
-from amr_description.nodes.runtime import argument_errors, ros
-from amr_description.nodes.stop_requests import StopRequested, StopRequests
+from amr_description import streams
+from amr_description.ros.runtime import argument_errors, ros
+from amr_description.ros.signals import StopRequested, StopRequests
 
 _POLL = 0.02  # s
 _IDLE = 0.5  # s; callbacks, signals and time-outs end the wait at once

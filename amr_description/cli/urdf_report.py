@@ -8,11 +8,12 @@ import math
 from typing import TYPE_CHECKING
 
 from amr_description.model.checks import Examination
-from amr_description.model.findings import Finding, one_line
+from amr_description.model.findings import Finding
 from amr_description.model.robot import Robot
+from amr_description.text import one_line
 
 if TYPE_CHECKING:
-    from amr_description.sim.drop import DropReport
+    from amr_description.sim.drop_test import DropReport
 
 REFUSED = 'ERROR: Model Parsing the xml failed'
 # Levels of the tree that are indented: a made-up chain of 60,000 links would print gigabytes.

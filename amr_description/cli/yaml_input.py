@@ -6,8 +6,8 @@ from typing import Any
 
 import yaml
 
-from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 _NOT_A_MAPPING = 'The passed value needs to be a dictionary in YAML format'
 
@@ -27,7 +27,7 @@ def read_value(text: str) -> Any:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f'line {mark.line + 1}, column {mark.column + 1}: ' if mark else ''
-        problem = excerpt(str(error.problem))
+        problem = shorten(str(error.problem))
         raise AmrError(f'The passed value is not YAML: {place}{problem}') from error
     except yaml.reader.ReaderError as error:
         raise AmrError(
@@ -50,4 +50,4 @@ def _kind(value: Any) -> str:
         return 'empty'
     if isinstance(value, list):
         return 'a list'
-    return f"the {type(value).__name__} '{excerpt(str(value))}'"
+    return f"the {type(value).__name__} '{shorten(str(value))}'"

@@ -5,21 +5,299 @@ The controller manager of one robot: load, configure, switch; and read → updat
 
 Every method runs on the owner's thread. Other threads read :attr:`ControllerManager.snapshot`, an
 immutable object that is replaced as a whole.
+
+The way of a controller from loaded to inactive, and back to unloaded.
+
+What is said of a cycle that takes longer than there is time for it.
+
+What the parameters ``defaults.…`` of a controller manager decide.
+
+The configuration of a controller, which may take its time on another thread.
+
+How often a controller is updated: at every so manieth tick of its manager.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
 import math
+from typing import Any
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.control.interfaces import LifecycleState, NANOSECONDS
-from amr_description.control.lifecycles import ControllerLifecycles
-from amr_description.control.loaded_controller import LoadedController
-from amr_description.control.manager_defaults import ManagerDefaults
-from amr_description.control.overruns import overrun_text
+from amr_description.clock import NANOSECONDS
+from amr_description.control.contracts import Controller, Log, Severity
+from amr_description.control.controller_list import ControllerList
+from amr_description.control.failure_handling import Faults
+from amr_description.control.interfaces import LifecycleState
+from amr_description.control.loaded_controller import LoadedController, look_away, Watch
+from amr_description.control.plugin_errors import describe
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.snapshot import ManagerSnapshot, take_snapshot
 from amr_description.control.statistics import RunningStatistic
-from amr_description.control.switch_execution import names_of
-from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness, Switching
+from amr_description.control.switching import (
+    names_of,
+    NOTHING_TO_SWITCH,
+    Strictness,
+    SwitchExecution,
+    Switching,
+)
+from amr_description.errors import ControllerError
+
+
+class Configuring:
+    """
+    The configuration of one controller, under way.
+
+    The owner begins it and finishes it (:class:`ControllerManager`); in between any one thread
+    calls :meth:`run`, once, while the loop goes on: a long configure stops no robot.
+    """
+
+    def __init__(self, loaded: LoadedController) -> None:
+        self.loaded = loaded
+        self.failure: Exception | None = ControllerError('it was not configured')
+        self.transition = ExitStack()
+        """Open from the begin to the finish."""
+        self.transition.enter_context(loaded.transition(LifecycleState.INACTIVE))
+
+    def run(self, parameters: Any) -> None:
+        """
+        Call the controller's ``configure``; what it raises is kept for the finish.
+
+        A controller that is being configured is touched by nobody else.
+        """
+        try:
+            self.loaded.controller.configure(parameters)
+        except Exception as error:  # a foreign controller may raise anything
+            self.failure = error
+        else:
+            self.failure = None
+
+
+def stride_of(controller: Controller, manager_rate: int, log: Log) -> int:
+    """
+    Return the ticks of the manager (``manager_rate``, Hz) for each update of the controller.
+
+    What cannot be had exactly is warned of. Raises ControllerError: its rate is not positive.
+    """
+    name, rate = controller.context.name, controller.context.update_rate
+    if rate <= 0:
+        raise ControllerError(
+            f"The update rate of controller '{name}' must be above 0 Hz, found {rate}"
+        )
+    if rate > manager_rate:
+        log(
+            Severity.WARN,
+            f"The update rate of controller '{name}', {rate} Hz, is above that of the controller "
+            f'manager, {manager_rate} Hz, and is set to it',
+        )
+        return 1
+    stride = (2 * manager_rate + rate) // (2 * rate)  # half away from zero, as C++ rounds
+    if manager_rate % rate:
+        log(
+            Severity.WARN,
+            f"The update rate of controller '{name}', {rate} Hz, is not achievable with a "
+            f'controller manager at {manager_rate} Hz; it runs at {manager_rate / stride:g} Hz',
+        )
+    return stride
+
+
+class ControllerLifecycles:
+    """Loads, configures, cleans up and unloads; who is active is for the manager to say."""
+
+    def __init__(self, resources: ResourceManager, update_rate: int, log: Log) -> None:
+        """``update_rate``: of the manager, Hz."""
+        self.resources = resources
+        self.update_rate = update_rate
+        self._log = log
+        self._controllers = ControllerList()
+        self._execution = SwitchExecution(self._controllers, resources, log)
+        self._faults = Faults(self._controllers, resources, self._execution, log)
+        self.on_change: Callable[[ManagerSnapshot], None] = lambda _: None
+        """Called with every new snapshot."""
+        self.snapshot = ManagerSnapshot()
+        self.refresh()
+
+    def load(
+        self,
+        controller: Controller,
+        type_name: str,
+        fallbacks: Iterable[str] = (),
+        watch: Watch = look_away,
+    ) -> None:
+        """
+        Take a controller that was made elsewhere.
+
+        ``fallbacks``: the controllers to start when it fails. ``watch``: is told of every
+        transition. Raises ControllerError: name, rate or fallbacks.
+        """
+        name = controller.context.name
+        if name in self._controllers:
+            raise ControllerError(
+                f"A controller named '{name}' was already loaded inside the controller manager"
+            )
+        fallbacks = tuple(fallbacks)
+        if name in fallbacks:
+            raise ControllerError(
+                f"Controller '{name}' cannot be a fallback controller for itself."
+            )
+        stride = stride_of(controller, self.update_rate, self._log)
+        stopwatch = self.resources.stopwatch
+        self._controllers.add(
+            LoadedController(controller, type_name, stride, fallbacks, watch, stopwatch)
+        )
+        self.refresh()
+
+    def configure(self, name: str, parameters: Any) -> Controller:
+        """Configure, from inactive again; return the controller. Raises ControllerError."""
+        configuring = self.begin_configure(name)
+        configuring.run(parameters)
+        return self.finish_configure(configuring)
+
+    def begin_configure(self, name: str) -> Configuring:
+        """
+        Check, clean up what is inactive, and set the controller aside. Raises ControllerError.
+
+        Until :meth:`finish_configure` nothing else can be asked of it, so that any thread may
+        ``run`` what this returns.
+        """
+        loaded = self._find(name, 'configure')
+        if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
+            raise ControllerError(
+                f"Controller '{name}' can not be configured from '{loaded.state.label}' state."
+            )
+        self._clean_up(loaded)
+        loaded.is_busy = True
+        self.refresh()
+        return Configuring(loaded)
+
+    def finish_configure(self, configuring: Configuring) -> Controller:
+        """
+        Take the controller in again: inactive, or unconfigured where its ``configure`` raised.
+
+        Raises ControllerError.
+        """
+        loaded = configuring.loaded
+        loaded.is_busy = False
+        try:
+            with configuring.transition:
+                if configuring.failure is not None:
+                    raise configuring.failure
+                self._settle(loaded)
+        except Exception as error:  # a foreign controller may raise anything
+            raise ControllerError(
+                f"Failed to configure controller '{loaded.name}': {describe(error)}"
+            ) from error
+        finally:
+            self.refresh()
+        return loaded.controller
+
+    def _settle(self, loaded: LoadedController) -> None:
+        loaded.settle(self.resources)
+        try:
+            self._controllers.link()
+        except ControllerError:
+            loaded.unsettle()
+            raise
+
+    def cleanup(self, name: str) -> None:
+        """Bring an inactive controller back to unconfigured. Raises ControllerError."""
+        loaded = self._find(name, 'cleanup')
+        if loaded.state not in (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE):
+            raise ControllerError(
+                f"Controller '{name}' can not be cleaned-up from '{loaded.state.label}' state."
+            )
+        self._clean_up(loaded)
+        self.refresh()
+
+    def unload(self, name: str) -> None:
+        """Remove a controller that is not active. Raises ControllerError."""
+        loaded = self._find(name, 'unload')
+        if loaded.is_active:
+            raise ControllerError(
+                f"Could not unload controller with name '{name}' because it is still active"
+            )
+        self._clean_up(loaded)
+        loaded.finalize()
+        self._controllers.remove(name)
+        self.refresh()
+
+    def _clean_up(self, controller: LoadedController) -> None:
+        """Inactive → unconfigured, which it is whatever its ``cleanup`` raises."""
+        if controller.state is LifecycleState.INACTIVE:
+            self._faults.survives('cleaning up', controller, controller.cleanup)
+            self._controllers.link()
+
+    # --- helpers ------------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Take a new snapshot, after anything has changed."""
+        self.snapshot = take_snapshot(self._controllers, self.resources, self.update_rate)
+        self.on_change(self.snapshot)
+
+    @property
+    def loaded(self) -> tuple[LoadedController, ...]:
+        """The controllers in the order of their updates; on the owner's thread."""
+        return tuple(self._controllers)
+
+    def _find(self, name: str, verb: str) -> LoadedController:
+        loaded = self._controllers.get(name)
+        if loaded is None:
+            raise ControllerError(
+                f"Could not {verb} controller with name '{name}' because no controller with this "
+                'name exists'
+            )
+        if loaded.is_busy:
+            raise ControllerError(
+                f"Could not {verb} controller with name '{name}' because it is being configured; "
+                'ask again when that has ended'
+            )
+        return loaded
+
+
+_MICROSECOND = 1000
+"""ns."""
+
+
+def overrun_text(expected: float, read: int, update: int, write: int) -> str:
+    """Say how long the parts of a cycle took, ns, where ``expected`` µs are to be had."""
+    total = (read + update + write) / _MICROSECOND
+    return (
+        f'Overrun might occur, Total time : {total:.3f} us (Expected < {expected:.3f} us) --> '
+        f'Read time : {read / _MICROSECOND:.3f} us, Update time : {update / _MICROSECOND:.3f} us, '
+        f'Write time : {write / _MICROSECOND:.3f} us'
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ManagerDefaults:
+    """The parameters ``defaults.…`` of a ``controller_manager`` node."""
+
+    strictness: Strictness = Strictness.BEST_EFFORT
+    """``switch_controller.strictness``: of a request that leaves it open."""
+    allow_controller_activation_with_inactive_hardware: bool = False
+    """True: controllers may command hardware that is not active."""
+    deactivate_controllers_on_hardware_self_deactivate: bool = True
+    """False: controllers go on commanding hardware that asked to be made inactive."""
+
+    def choose_strictness(self, requested: int, log: Log) -> Strictness:
+        """Return how strict a request is: 0 leaves it open, and only two levels are there."""
+        if requested in (Strictness.STRICT, Strictness.BEST_EFFORT):
+            return Strictness(requested)
+        if requested == 0:
+            log(
+                Severity.WARN,
+                'Controller Manager: to switch controllers you need to specify a strictness level '
+                'of controller_manager_msgs::SwitchController::STRICT (2) or ::BEST_EFFORT (1). '
+                f'When unspecified, the default is {self.strictness.name.lower()}',
+                throttle=math.inf,
+            )
+            return self.strictness
+        known = [level.name for level in Strictness if level == requested]
+        log(
+            Severity.WARN,
+            f'Controller Manager: strictness {"".join(known) or requested} is not implemented. '
+            'Defaulting to BEST_EFFORT',
+        )
+        return Strictness.BEST_EFFORT
 
 
 class ControllerManager(ControllerLifecycles):

@@ -6,14 +6,55 @@ What a controller manager says of its health: three tasks, each with a level, a 
 Texts, keys and rules are those of controller_manager 4.x and of its diagnostic_updater. The mean
 of an execution time is compared with zero, that of a rate with the rate that was asked for. Who
 runs at the manager's own rate has no rate of its own to be judged by.
+
+All that is known of a manager at one instant: its snapshot, and what was measured.
 """
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 import enum
 
+from amr_description.control.controller_manager import ControllerManager
+from amr_description.control.diagnostic_thresholds import (
+    Diagnostics,
+    ManagerThresholds,
+    Thresholds,
+)
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.measurements import Measurements
+from amr_description.control.snapshot import ManagerSnapshot
 from amr_description.control.statistics import CycleStatistic, Statistic
-from amr_description.control.thresholds import Diagnostics, ManagerThresholds, Thresholds
+
+
+@dataclass(frozen=True, slots=True)
+class Measurements:
+    """Of one manager at ``update_rate`` Hz; cycles by the names of who ran."""
+
+    snapshot: ManagerSnapshot
+    update_rate: int
+    periodicity: Statistic
+    """Of the manager's ticks, Hz."""
+    updates: Mapping[str, CycleStatistic]
+    reads: Mapping[str, CycleStatistic]
+    writes: Mapping[str, CycleStatistic]
+    """Without sensors, which are never written."""
+
+
+def take_measurements(manager: ControllerManager) -> Measurements:
+    """Copy what was measured so far; on the owner's thread."""
+    components = manager.resources.components
+    return Measurements(
+        snapshot=manager.snapshot,
+        update_rate=manager.update_rate,
+        periodicity=manager.periodicity.result(),
+        updates={loaded.name: loaded.statistic.result() for loaded in manager.loaded},
+        reads={name: owned.read_statistic.result() for name, owned in components.items()},
+        writes={
+            name: owned.write_statistic.result()
+            for name, owned in components.items()
+            if not owned.is_sensor
+        },
+    )
+
 
 HARDWARE_ID = 'ros2_control'
 
@@ -67,9 +108,7 @@ class _Judge:
         mean, deviation = found.execution_time.mean, found.execution_time.standard_deviation
         level = max(
             _level_of(mean, limits.mean_error.warn, limits.mean_error.error),
-            _level_of(
-                deviation, limits.standard_deviation.warn, limits.standard_deviation.error
-            ),
+            _level_of(deviation, limits.standard_deviation.warn, limits.standard_deviation.error),
         )
         if level:
             self._slow.append(name)  # a component that reads and writes slowly is there twice
@@ -117,9 +156,7 @@ def controllers_activity(measured: Measurements | None, thresholds: Diagnostics)
     return report
 
 
-def hardware_components_activity(
-    measured: Measurements | None, thresholds: Diagnostics
-) -> Report:
+def hardware_components_activity(measured: Measurements | None, thresholds: Diagnostics) -> Report:
     """Tell of every component; likewise."""
     report = Report()
     if not measured:

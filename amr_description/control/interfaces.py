@@ -18,6 +18,7 @@ import enum
 import math
 from typing import Self, TYPE_CHECKING
 
+from amr_description.clock import NANOSECONDS as NANOSECONDS
 from amr_description.errors import InterfaceError
 
 if TYPE_CHECKING:
@@ -34,9 +35,6 @@ IMU_INTERFACES = (
     *(f'linear_acceleration.{axis}' for axis in 'xyz'),
 )
 """The state interfaces of an inertial measurement unit: a unit quaternion, rad/s, m/s²."""
-
-NANOSECONDS = 1_000_000_000
-"""Nanoseconds in a second: every time and period in ``control`` is an integer of nanoseconds."""
 
 
 class LifecycleState(enum.IntEnum):

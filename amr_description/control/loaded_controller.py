@@ -246,7 +246,7 @@ class LoadedController:
         if twice:
             raise ControllerError(
                 f"The {kind} interfaces of the controller '{self.name}' are not unique. Please "
-                f'make sure that the {kind} interfaces are unique : \'{" ".join(twice)}\'.'
+                f"make sure that the {kind} interfaces are unique : '{' '.join(twice)}'."
             )
 
     def _check_offer(self, kind: str, names: Sequence[str], available: Collection[str]) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 import math
 
-from amr_description.control.interfaces import NANOSECONDS
+from amr_description.clock import NANOSECONDS
 
 type Stopwatch = Callable[[], int]
 """Returns ns since some instant; it never goes back."""

@@ -17,7 +17,7 @@ CONTROLLERS = Registry(
             'amr_description.controllers.diff_drive_controller:DiffDriveController'
         ),
         'effort_controllers/JointGroupEffortController': (
-            'amr_description.controllers.joint_group_controllers:JointGroupEffortController'
+            'amr_description.controllers.forward_command_controller:JointGroupEffortController'
         ),
         'forward_command_controller/ForwardCommandController': (
             'amr_description.controllers.forward_command_controller:ForwardCommandController'
@@ -33,10 +33,10 @@ CONTROLLERS = Registry(
             'amr_description.controllers.joint_state_broadcaster:JointStateBroadcaster'
         ),
         'position_controllers/JointGroupPositionController': (
-            'amr_description.controllers.joint_group_controllers:JointGroupPositionController'
+            'amr_description.controllers.forward_command_controller:JointGroupPositionController'
         ),
         'velocity_controllers/JointGroupVelocityController': (
-            'amr_description.controllers.joint_group_controllers:JointGroupVelocityController'
+            'amr_description.controllers.forward_command_controller:JointGroupVelocityController'
         ),
     },
     ControllerError,

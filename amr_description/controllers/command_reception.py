@@ -10,10 +10,9 @@ too old while it is in force is replaced by rest.
 from collections.abc import Iterable
 import math
 
+from amr_description.clock import NANOSECONDS, TimeJumpFilter
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.samples import TwistSample
-from amr_description.control.time_going_back import TimeGoingBack
 
 FOREIGN_CLOCK = 60 * NANOSECONDS
 """
@@ -31,7 +30,7 @@ class CommandReception:
         """``timeout``: the age at which a command ends; 0: never."""
         self._timeout = timeout
         self._log = log
-        self._going_back = TimeGoingBack()
+        self._going_back = TimeJumpFilter()
         self.forget(0)
 
     def forget(self, time: int) -> None:
@@ -44,7 +43,7 @@ class CommandReception:
     def receive(self, samples: Iterable[TwistSample], now: int) -> None:
         """Take what arrived, oldest first, when the sender's clock could read ``now``."""
         for sample in samples:
-            if self._going_back.has_overtaken(sample.stamp):
+            if self._going_back.is_stale(sample.stamp):
                 continue  # it would hold until its own time is reached again
             stamp = self._trusted_stamp(sample.stamp, now)
             if self._timeout and now - stamp >= self._timeout:

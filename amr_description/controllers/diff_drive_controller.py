@@ -24,12 +24,15 @@ What it has beyond diff_drive_controller, off unless asked for:
 - ``enable_cmd_vel_unstamped``: plain ``geometry_msgs/msg/Twist`` on ``~/cmd_vel_unstamped``,
   beside the stamped ones; of two that arrive within one period the unstamped one counts;
 - ``preserve_curvature``: a limited command keeps to its arc, see
-  :mod:`amr_description.controllers.twist_limiter`.
+  :mod:`amr_description.controllers.rate_limiter`.
+
+When a controller publishes, if less often than it updates.
 """
 
 from collections.abc import Sequence
 import math
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
     Controller,
     ControllerContext,
@@ -42,7 +45,6 @@ from amr_description.control.interfaces import (
     CommandInterface,
     Handle,
     InterfaceRequest,
-    NANOSECONDS,
     NO_INTERFACES,
     POSITION,
     StateInterface,
@@ -50,18 +52,43 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.samples import Frames, OdometrySample, TwistSample
 from amr_description.controllers.command_reception import CommandReception
-from amr_description.controllers.dead_reckoning import DeadReckoning
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters, SpeedLimits
-from amr_description.controllers.odometry import Odometry
-from amr_description.controllers.publish_gate import PublishGate
-from amr_description.controllers.rate_limiter import RateLimiter
-from amr_description.controllers.twist_limiter import TwistLimiter
-from amr_description.controllers.wheel_side import WheelSide
+from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelSide
+from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
 from amr_description.errors import ControllerError
+
+
+class PublishGate:
+    """
+    Lets the first update through, and then every update that lies beyond the period.
+
+    The comparison is strict and the next instant is counted from the one before, as in
+    diff_drive_controller 4.x: at 100 Hz with a period of 20 ms the updates 0, 3, 5, 7, … pass.
+    """
+
+    def __init__(self, period: int) -> None:
+        """``period``: ns."""
+        self._period = period
+        self._previous: int | None = None
+
+    def passes(self, time: int) -> bool:
+        """Tell whether the update at ``time`` (ns) publishes."""
+        if self._previous is None:
+            self._previous = time
+            return True
+        if self._previous + self._period < time:
+            self._previous += self._period
+            return True
+        return False
+
+    def reset(self) -> None:
+        """Let the next update through."""
+        self._previous = None
+
 
 _STAMPED = 'geometry_msgs/msg/TwistStamped'
 _UNSTAMPED = 'geometry_msgs/msg/Twist'
-_CONVERT = 'amr_description.nodes.converters'
+_CONVERT = 'amr_description.control.ros.converters'
 
 
 class DiffDriveController(Controller):

@@ -14,6 +14,9 @@ Where this departs from forward_command_controller 4.x:
 - on deactivation what would go on moving by itself (velocity, acceleration, effort) is set to
   zero, and any other interface to NaN, no command; the original leaves the last command in force;
 - when time goes back, the command is forgotten in the same way.
+
+position_controllers/JointGroupPositionController, velocity_controllers/… and effort_controllers/…:
+the ForwardCommandController with its interface given, so that ``joints`` is all they need.
 """
 
 from abc import abstractmethod
@@ -22,18 +25,13 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from amr_description.control.contracts import (
-    Controller,
-    ControllerContext,
-    Input,
-    Port,
-    Severity,
-)
+from amr_description.control.contracts import Controller, ControllerContext, Input, Port, Severity
 from amr_description.control.interfaces import (
     ACCELERATION,
     CommandInterface,
     EFFORT,
     InterfaceRequest,
+    POSITION,
     StateInterface,
     VELOCITY,
 )
@@ -84,7 +82,7 @@ class ForwardControllersBase(Controller):
             Port(
                 '~/commands',
                 'std_msgs/msg/Float64MultiArray',
-                'amr_description.nodes.converters:commands_sample',
+                'amr_description.control.ros.converters:commands_sample',
             )
         )
         self.log(Severity.INFO, 'configure successful')
@@ -184,3 +182,42 @@ class MultiInterfaceForwardCommandController(ForwardControllersBase):
         if not parameters.interface_names:
             raise ControllerError("'interfaces' parameter is empty")
         return tuple(f'{parameters.joint}/{name}' for name in parameters.interface_names)
+
+
+@dataclass(frozen=True)
+class PositionGroupParameters(ForwardCommandParameters):
+    """The table of position_controllers/JointGroupPositionController."""
+
+    interface_name: str = parameter(POSITION, 'Always position', choices=(POSITION,))
+
+
+@dataclass(frozen=True)
+class VelocityGroupParameters(ForwardCommandParameters):
+    """The table of velocity_controllers/JointGroupVelocityController."""
+
+    interface_name: str = parameter(VELOCITY, 'Always velocity', choices=(VELOCITY,))
+
+
+@dataclass(frozen=True)
+class EffortGroupParameters(ForwardCommandParameters):
+    """The table of effort_controllers/JointGroupEffortController."""
+
+    interface_name: str = parameter(EFFORT, 'Always effort', choices=(EFFORT,))
+
+
+class JointGroupPositionController(ForwardCommandController):
+    """Commands positions, rad or m."""
+
+    parameters_type = PositionGroupParameters
+
+
+class JointGroupVelocityController(ForwardCommandController):
+    """Commands velocities, rad/s or m/s."""
+
+    parameters_type = VelocityGroupParameters
+
+
+class JointGroupEffortController(ForwardCommandController):
+    """Commands efforts, N·m or N."""
+
+    parameters_type = EffortGroupParameters

@@ -102,14 +102,14 @@ class JointStateBroadcaster(Controller):
             Port(
                 f'{prefix}joint_states',
                 'sensor_msgs/msg/JointState',
-                'amr_description.nodes.converters:fill_joint_state',
+                'amr_description.control.ros.converters:fill_joint_state',
             )
         )
         self._dynamic_joint_states: Output[DynamicJointStateSample] = Output(
             Port(
                 f'{prefix}dynamic_joint_states',
                 'control_msgs/msg/DynamicJointState',
-                'amr_description.nodes.converters:fill_dynamic_joint_state',
+                'amr_description.control.ros.converters:fill_dynamic_joint_state',
             )
         )
 

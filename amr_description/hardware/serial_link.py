@@ -5,33 +5,94 @@ A serial port with a thread of its own, which alone reads and writes it.
 
 The owner posts messages and looks at :attr:`SerialLink.status`, an immutable snapshot; neither
 blocks. Only :meth:`SerialLink.wait_for` does, for transitions, and never longer than it is told.
+
+The host's conversation with a motor board: who is there, ask, wait, and what to do if not.
+
+Opening a serial port, and what to do where that cannot be.
+
+What ``<param>`` may say in the ``<hardware>`` block of a motor board on a serial port.
 """
 
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+import errno
+import grp
+import itertools
+import os
+import secrets
 import termios
 import threading
 import time
+from typing import Any
 
 import serial
+from serial.tools import list_ports
 
-from amr_description.control.foreign_errors import describe
-from amr_description.hardware.serial_lines import encode, LineReader
-from amr_description.hardware.serial_port import open_port, READ_TIMEOUT
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.plugin_errors import describe
+from amr_description.errors import HardwareError, ParameterError
 from amr_description.hardware.serial_protocol import (
     Board,
     Disarm,
+    encode,
     Error,
     Get,
     Hello,
+    LineReader,
+    LONGEST_WATCHDOG,
     Message,
     Question,
     Reason,
     Refused,
     Set,
+    SHORTEST_WATCHDOG,
     State,
+    VERSION,
 )
+from amr_description.model.hardware_info import HardwareInfo
+from amr_description.parameters import build, parameter, Spec, specs
+
+READ_TIMEOUT = 0.02
+"""s: so long ``read`` waits for a byte."""
+
+
+def open_port(port: str, baud_rate: int, write_timeout: float) -> serial.Serial:
+    """Open a port for this process alone; ``write_timeout`` in s. Raises HardwareError."""
+    try:
+        return serial.Serial(
+            port, baud_rate, timeout=READ_TIMEOUT, write_timeout=write_timeout, exclusive=True
+        )
+    except (OSError, ValueError, termios.error) as error:
+        raise HardwareError(
+            f"cannot open the serial port '{port}': {_why(port, error)}"
+        ) from error
+
+
+def _why(port: str, error: Exception) -> str:
+    """What is wrong with the port, and what would do."""
+    # pyserial passes the number of a failed open on, and that of a failed termios call not.
+    is_termios = isinstance(error.__context__, termios.error)
+    code = error.__context__.args[0] if is_termios else getattr(error, 'errno', None)
+    if code == errno.ENOENT:
+        there = ', '.join(found.device for found in list_ports.comports()) or 'none'
+        return f'there is no such file; is the board connected? Ports that are there: {there}'
+    if code == errno.EACCES:
+        return f'permission denied; {_remedy(port)}'
+    if code in (errno.EAGAIN, errno.EBUSY):
+        return 'another program has it; end that one, or give another port'
+    if code in (errno.ENOTTY, errno.EISDIR):
+        return 'it is not a serial port'
+    return str(error)
+
+
+def _remedy(port: str) -> str:
+    try:
+        group = grp.getgrgid(os.stat(port).st_gid).gr_name
+    except (OSError, KeyError):
+        return 'give a port that you may read and write'
+    return f'join its group and log in again: sudo usermod -aG {group} $USER'
+
 
 _MOST_UNANSWERED = 2
 """``GET`` and ``SET`` on their way; two hide the latency of a USB adapter."""
@@ -228,3 +289,204 @@ class SerialLink:
         with self._changed:
             self.status = status
             self._changed.notify_all()
+
+
+@dataclass(frozen=True, slots=True)
+class SerialParameters:
+    """
+    One row a ``<param>``; lists are written with spaces or commas between the names.
+
+    A *reduction* is how many turns of the motor shaft make one turn of the wheel, negative where a
+    motor is mounted the other way round.
+    """
+
+    port: str = parameter(
+        '', 'Path of the serial port; best one of /dev/serial/by-id', not_empty=True
+    )
+    left_joints: tuple[str, ...] = parameter(
+        (), 'Joints that the left motor turns', not_empty=True
+    )
+    right_joints: tuple[str, ...] = parameter(
+        (), 'Joints that the right motor turns', not_empty=True
+    )
+    left_reduction: float = parameter(1.0, 'Of the left gear', not_zero=True)
+    right_reduction: float = parameter(1.0, 'Of the right gear', not_zero=True)
+    max_velocity: float = parameter(
+        20.0, 'No wheel is told to turn faster', unit='rad/s', above=0.0
+    )
+    baud_rate: int = parameter(115200, 'Of the port', unit='bit/s', minimum=1)
+    connect_timeout: float = parameter(
+        1.0,
+        'Longest wait for the board to introduce itself; more for one that restarts when its port '
+        'is opened',
+        unit='s',
+        above=0.0,
+        maximum=10.0,
+    )
+    answer_timeout: float = parameter(
+        0.25, 'Longest wait for any other answer', unit='s', minimum=0.05, maximum=5.0
+    )
+    watchdog_timeout: float = parameter(
+        0.2,
+        'The board stops by itself when it has heard no command for so long',
+        unit='s',
+        minimum=SHORTEST_WATCHDOG / 1000,
+        maximum=LONGEST_WATCHDOG / 1000,
+    )
+
+
+_READERS: dict[str, Callable[[str], Any]] = {
+    'string': str,
+    'integer': int,
+    'double': float,
+    'string_array': lambda text: tuple(text.replace(',', ' ').split()),
+}
+
+
+def read_parameters(info: HardwareInfo, log: Log) -> SerialParameters:
+    """Return the checked parameters; one that is not known is warned of. Raises HardwareError."""
+    table = {spec.name: spec for spec in specs(SerialParameters)}
+    for name in info.parameters.keys() - table.keys():
+        log(
+            Severity.WARN,
+            f"hardware component '{info.name}': parameter '{name}' has no effect. Known: "
+            f'{", ".join(table)}',
+        )
+    try:
+        given = {n: _read(table[n], text) for n, text in info.parameters.items() if n in table}
+        return build(SerialParameters, given)
+    except ParameterError as error:
+        raise HardwareError(f"hardware component '{info.name}': {error}") from error
+
+
+def _read(spec: Spec, text: str) -> Any:
+    try:
+        return _READERS[spec.type](text)
+    except ValueError:
+        raise ParameterError(
+            f"parameter '{spec.name}' must be of type {spec.type}, found '{text}'"
+        ) from None
+
+
+_TRY = 0.1
+"""s, about: after so long a question is asked again."""
+
+
+class SerialBoard:
+    """
+    A board that has answered; ``close`` it.
+
+    ``component``: the name of the hardware component, for the remedy that errors tell.
+    """
+
+    def __init__(self, parameters: SerialParameters, component: str) -> None:
+        """Open the port and make the acquaintance. Raises HardwareError, the port closed."""
+        self._parameters = parameters
+        self._component = component
+        # Not the numbers of the host before us, whose answers may wait in the line.
+        self._numbers = itertools.count(secrets.randbelow(2**16))
+        self._link = SerialLink(parameters.port, parameters.baud_rate, parameters.answer_timeout)
+        try:
+            self.description = self._meet()
+        except Exception:
+            self.close()
+            raise
+
+    def post(self, kind: type[Question], *values: float) -> int:
+        """
+        Have a question of this kind sent, without waiting; return its number.
+
+        Raises HardwareError if the board is lost.
+        """
+        self._raise_if_lost(self._link.status)
+        number = next(self._numbers) % 2**16
+        self._link.post(kind(number, *values))
+        return number
+
+    @property
+    def state(self) -> State | None:
+        """The last state that it told, None before the first. Raises HardwareError if lost."""
+        status = self._link.status
+        self._raise_if_lost(status)
+        return status.state
+
+    @property
+    def is_lost(self) -> bool:
+        """True when the link has ended by itself."""
+        return bool(self._link.status.fault)
+
+    def ask(self, kind: type[Question], *values: int) -> State:
+        """
+        Ask, again where an answer got lost, and block until the state is told.
+
+        Raises HardwareError where it is not within ``answer_timeout``.
+        """
+        timeout = self._parameters.answer_timeout
+        status = self._exchange(lambda status: status.state, timeout, kind, *values)
+        if status is None:
+            raise self.lost(f'has not answered {kind.__name__.upper()} within {timeout:g} s')
+        return status.state
+
+    def lost(self, fault: str) -> HardwareError:
+        """Return the error that says so; ``fault`` is the end of its sentence."""
+        return HardwareError(
+            f'the motor board on {self._link.port} {fault}; check its cable and power, then: ros2 '
+            f'control set_hardware_component_state {self._component} active'
+        )
+
+    def close(self) -> None:
+        """Send what was posted, and close the port."""
+        self._link.close()
+
+    def _meet(self) -> Board:
+        timeout = self._parameters.connect_timeout
+        status = self._exchange(lambda status: status.board, timeout, Hello, VERSION)
+        if status is not None:
+            return self._accepted(status.board)
+        status = self._link.status
+        came = f'{status.refused} lines such as {status.last_refused!r}'
+        raise HardwareError(
+            f'no motor board answered on {self._link.port} at {self._parameters.baud_rate} bit/s '
+            f'within {timeout:g} s; what came instead: {came if status.refused else "nothing"}; '
+            'check port, baud_rate and the power of the board'
+        )
+
+    def _exchange(
+        self,
+        answer_of: Callable[[LinkStatus], Board | State | None],
+        timeout: float,
+        kind: type[Question],
+        *values: int,
+    ) -> LinkStatus | None:
+        """Ask again and again until there is the answer; None when there is none in time."""
+        tries = max(1, round(timeout / _TRY))
+        for _ in range(tries):
+            number = self.post(kind, *values)
+
+            def is_answered(status: LinkStatus, number: int = number) -> bool:
+                answer = answer_of(status)
+                return answer is not None and answer.number == number
+
+            status = self._link.wait_for(is_answered, timeout / tries)
+            self._raise_if_lost(status)
+            if is_answered(status):
+                return status
+        return None
+
+    def _accepted(self, board: Board) -> Board:
+        if board.version != VERSION:
+            raise HardwareError(
+                f'the motor board on {self._link.port} speaks version {board.version} of the '
+                f'protocol, version {VERSION} is needed; update its firmware or this package'
+            )
+        if not (board.ticks > 0 and board.velocity > 0.0):
+            raise HardwareError(
+                f'the motor board on {self._link.port} says that its encoders have {board.ticks} '
+                f'ticks and its motors turn at {board.velocity} rad/s at most; both must be '
+                'positive: set up its firmware'
+            )
+        return board
+
+    def _raise_if_lost(self, status: LinkStatus) -> None:
+        if status.fault:
+            raise self.lost(status.fault)

@@ -11,14 +11,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 import math
 
-from amr_description.hardware.serial_lines import encode, LineReader
 from amr_description.hardware.serial_protocol import (
     Answer,
     Arm,
     Board,
     Disarm,
+    encode,
     Error,
     Hello,
+    LineReader,
     LONGEST_WATCHDOG,
     Message,
     Mode,

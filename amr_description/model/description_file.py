@@ -17,11 +17,13 @@ from pathlib import Path
 import re
 import sys
 from typing import Any
+from urllib.parse import parse_qsl
 from xml.parsers.expat import ErrorString, ExpatError
 
+from amr_description.ament_index import resolve_uri
 from amr_description.errors import AmrError, DescriptionError, UsageError
-from amr_description.model.findings import one_line, quote, quote_all
-from amr_description.model.xml_source import read_file
+from amr_description.model.xml_reader import read_file
+from amr_description.text import one_line, quote, quote_all
 
 SUFFIX = '.xacro'
 _NO_MAPPINGS: Mapping[str, str] = {}
@@ -172,6 +174,22 @@ def main(arguments: Sequence[str]) -> int:
 
 def _print_warning(line: str) -> None:
     print(f'warning: {line}', file=sys.stderr)
+
+
+def description_at(
+    uri: str, mappings: Mapping[str, str] | None = None, *, warn: Callable[[str], object]
+) -> str:
+    """
+    The URDF at a URI; of a xacro file, expanded with ``mappings`` and those of the URI itself.
+
+    ``package://cart/urdf/cart.urdf.xacro?wheel_radius=0.2&camera=true``. ``warn`` is told, in a
+    line each, what is probably not meant. Raises ResourceError, DescriptionError.
+    """
+    file, _, query = uri.partition('?')
+    if not is_xacro(file):
+        file, query = uri, ''
+    given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
+    return description_text(resolve_uri(file), given, warn=warn)
 
 
 if __name__ == '__main__':

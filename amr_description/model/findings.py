@@ -15,9 +15,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from amr_description.errors import DescriptionError
-
-# A name or value from the file is shown up to this many characters; a line stays a line.
-_SHOWN_CHARACTERS = 80
+from amr_description.text import one_line
 
 
 class Severity(StrEnum):
@@ -76,23 +74,3 @@ def raise_error(finding: Finding) -> None:
     """Raise DescriptionError for an error; let a warning pass."""
     if finding.severity is Severity.ERROR:
         raise DescriptionError(finding.text)
-
-
-def one_line(text: str) -> str:
-    """Return ``text`` with control characters escaped: no file may paint on the terminal."""
-    return ''.join(c if c.isprintable() else c.encode('unicode_escape').decode() for c in text)
-
-
-def quote(text: str) -> str:
-    """Return a name or value of the file in double quotes, shortened when it is very long."""
-    if len(text) > _SHOWN_CHARACTERS:
-        text = f'{text[:_SHOWN_CHARACTERS]}…'
-    return f'"{text}"'
-
-
-def quote_all(texts: list[str], limit: int = 10) -> str:
-    """Return names in quotes, the first ``limit`` of them; ``none`` for an empty list."""
-    if not texts:
-        return 'none'
-    more = f' and {len(texts) - limit} more' if len(texts) > limit else ''
-    return ', '.join(quote(text) for text in texts[:limit]) + more

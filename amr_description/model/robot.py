@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from amr_description.errors import DescriptionError
-from amr_description.model.findings import quote, quote_all
 from amr_description.model.frames import Transform, Vector
+from amr_description.text import quote, quote_all
 
 WORLD_LINK = 'world'
 """A robot whose root has this name stands fixed."""

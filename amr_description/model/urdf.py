@@ -6,19 +6,157 @@ URDF text -> :class:`~amr_description.model.robot.Robot`.
 Two ways in: :func:`parse` stops at the first fault with a DescriptionError, :func:`read_robot`
 reports every fault and goes on, for the checker. Links are read in ``urdf_links.py``, joints in
 ``urdf_joints.py``, and ``tree.py`` sees that they make one tree.
+
+The rules that make links and joints one tree: known ends, one parent each, one root, everything
+reached from it.
+
+Each rule takes a Robot, sound or not, and yields findings, in the order in which urdfdom would
+stop at them.
 """
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from lxml import etree
 
-from amr_description.model.element_reader import ElementReader
-from amr_description.model.findings import quote, raise_error, Report
+from amr_description.model.findings import Finding, raise_error, Report
 from amr_description.model.robot import Material, Robot
-from amr_description.model.tree import TREE_RULES
 from amr_description.model.urdf_joints import read_joints
 from amr_description.model.urdf_links import read_links, read_material
-from amr_description.model.xml_source import decode, parse_xml, read_file
+from amr_description.model.xml_reader import decode, ElementReader, parse_xml, read_file
+from amr_description.text import quote, quote_all
+
+
+def ends_are_given(robot: Robot) -> Iterator[Finding]:
+    """Every joint names a parent and a child."""
+    for joint in robot.joints:
+        for end, link in (('child', joint.child), ('parent', joint.parent)):
+            if not link:
+                yield Finding.error(
+                    robot.source,
+                    joint.line,
+                    f'joint {quote(joint.name)} has no {end} link',
+                    fix=f'add <{end} link="…"/>',
+                    urdfdom=(
+                        f'Failed to build tree: Joint [{joint.name}] is missing a parent and/or '
+                        'child link specification.'
+                    ),
+                )
+
+
+def ends_are_known(robot: Robot) -> Iterator[Finding]:
+    """Every joint joins two links that exist."""
+    known = f'one of {quote_all([link.name for link in robot.links])}'
+    for joint in robot.joints:
+        for end, link in (('child', joint.child), ('parent', joint.parent)):
+            if link and not robot.has_link(link):
+                yield Finding.error(
+                    robot.source,
+                    joint.line,
+                    f'joint {quote(joint.name)}: its {end} link is not defined',
+                    found=quote(link),
+                    expected=known,
+                    fix=f'add <link name="{link}"> or correct the name',
+                    urdfdom=_unknown_end_in_urdfdom(end, link, joint.name),
+                )
+
+
+def _unknown_end_in_urdfdom(end: str, link: str, joint: str) -> str:
+    if end == 'child':
+        return f'Failed to build tree: child link [{link}] of joint [{joint}] not found'
+    return (
+        f'Failed to build tree: parent link [{link}] of joint [{joint}] not found.  This is not '
+        'valid according to the URDF spec. Every link you refer to from a joint needs to be '
+        'explicitly defined in the robot description. To fix this problem you can either remove '
+        f'this joint [{joint}] from your urdf file, or add "<link name="{link}" />" to your urdf '
+        'file.'
+    )
+
+
+def one_root(robot: Robot) -> Iterator[Finding]:
+    """Exactly one link is nobody's child."""
+    roots = [link.name for link in robot.roots]
+    if robot.links and not roots:
+        yield Finding.error(
+            robot.source,
+            robot.links[0].line,
+            'the robot has no root: every link is the child of some joint',
+            fix='remove the joint that closes the circle',
+            urdfdom=(
+                'Failed to find root link: No root link found. The robot xml is not a valid tree.'
+            ),
+        )
+    if len(roots) > 1:
+        first, second, *_ = sorted(roots)
+        yield Finding.error(
+            robot.source,
+            robot.roots[1].line,
+            f'the robot has {len(roots)} roots',
+            found=quote_all(roots),
+            expected="one link that is nobody's child",
+            fix=f'join {quote(roots[1])} to the others by a joint',
+            urdfdom=(f'Failed to find root link: Two root links found: [{first}] and [{second}]'),
+        )
+
+
+def one_parent(robot: Robot) -> Iterator[Finding]:
+    """No link is the child of two joints."""
+    first = {}
+    for joint in robot.joints:
+        if joint.child in first:
+            yield Finding.error(
+                robot.source,
+                joint.line,
+                f'link {quote(joint.child)} has two parents',
+                found=f'joints {quote(first[joint.child].name)} and {quote(joint.name)}',
+                expected='one joint per child',
+                fix='remove one of the joints',
+            )
+        elif joint.child:
+            first[joint.child] = joint
+
+
+def no_cycle(robot: Robot) -> Iterator[Finding]:
+    """Every link hangs on the root; what has parents and does not, goes round in a circle."""
+    settled = {link.name for link in robot.roots} | {joint.child for _, joint in robot.walk()}
+    for link in robot.links if robot.roots else ():
+        circle = _circle_above(robot, link.name, settled)
+        if circle:
+            yield Finding.error(
+                robot.source,
+                link.line,
+                'joints form a circle that hangs on nothing',
+                found=quote_all(circle),
+                fix='remove one of these joints, or let one start at a link of the tree',
+            )
+
+
+def _circle_above(robot: Robot, link: str, settled: set[str]) -> list[str]:
+    """
+    Return the joints of the circle met when climbing from ``link``; [] when the climb ends
+    elsewhere.
+
+    Adds what it passed to ``settled``, where later climbs end, so that all climbs together take
+    linear time.
+    """
+    passed: dict[str, str] = {}
+    joint = robot.parent_joint(link)
+    while joint is not None and link not in settled:
+        settled.add(link)
+        passed[link] = joint.name
+        link = joint.parent
+        joint = robot.parent_joint(link)
+    names = list(passed.values())
+    return names[list(passed).index(link) :] if link in passed else []
+
+
+TREE_RULES: tuple[Callable[[Robot], Iterator[Finding]], ...] = (
+    ends_are_given,
+    ends_are_known,
+    one_root,
+    one_parent,
+    no_cycle,
+)
 
 
 def load(path: str | Path) -> Robot:

@@ -6,11 +6,11 @@ import math
 
 from lxml import etree
 
-from amr_description.model.element_reader import ElementReader, line_of, parse_number
-from amr_description.model.findings import quote
 from amr_description.model.frames import Vector
 from amr_description.model.robot import Dynamics, Joint, JointType, Limit, Mimic, SafetyController
 from amr_description.model.urdf_links import read_origin
+from amr_description.model.xml_reader import ElementReader, line_of, parse_number
+from amr_description.text import quote
 
 # URDF's default axis.
 _X_AXIS: Vector = (1.0, 0.0, 0.0)

@@ -6,8 +6,6 @@ import math
 
 from lxml import etree
 
-from amr_description.model.element_reader import ElementReader, line_of
-from amr_description.model.findings import quote
 from amr_description.model.frames import Transform
 from amr_description.model.robot import (
     Box,
@@ -22,6 +20,8 @@ from amr_description.model.robot import (
     Sphere,
     Visual,
 )
+from amr_description.model.xml_reader import ElementReader, line_of
+from amr_description.text import quote
 
 _ZERO = (0.0, 0.0, 0.0)
 _GEOMETRIES = ('box', 'cylinder', 'sphere', 'mesh')

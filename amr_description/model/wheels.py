@@ -12,7 +12,8 @@ from collections.abc import Collection
 from dataclasses import dataclass
 import math
 
-from amr_description.model.frames import link_poses, rotate, Vector
+from amr_description.model.frames import rotate, Vector
+from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Collision, Cylinder, Joint, JointType, Robot, Sphere
 
 # A shape counts as round about the axis when it is off by less than this: 1 mm, and 2.5 degrees.

@@ -20,13 +20,12 @@ from simulation_interfaces.srv import GetEntityState, SpawnEntity
 from std_msgs.msg import String
 
 from amr_description.errors import AmrError, UsageError
-from amr_description.model.description_file import mappings_of
+from amr_description.model.description_file import description_at, mappings_of
 from amr_description.model.frames import Transform
-from amr_description.nodes.clients import ask_until_answered, call_with, wait_until
-from amr_description.nodes.converters import fill_pose
-from amr_description.nodes.ros_arguments import other_arguments, ros_arguments
-from amr_description.nodes.runtime import argument_errors, program, ros
-from amr_description.sim.resources import description_at
+from amr_description.ros.arguments import other_arguments, ros_arguments
+from amr_description.ros.messages import fill_pose
+from amr_description.ros.runtime import argument_errors, program, ros
+from amr_description.ros.service_calls import ask_until_answered, call_with, wait_until
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'

@@ -20,7 +20,7 @@ import threading
 
 from rclpy.node import Node
 
-from amr_description.nodes.runtime import program, ros
+from amr_description.ros.runtime import program, ros
 
 _PERIOD = 0.05
 """s between two looks: rclpy does not tell when the graph has changed."""

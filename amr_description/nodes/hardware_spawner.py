@@ -22,12 +22,12 @@ from lifecycle_msgs.msg import State
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
+from amr_description.colors import colored, GREEN, YELLOW
+from amr_description.control.ros.client import ManagerClient
+from amr_description.control.ros.spawner_arguments import seconds
 from amr_description.errors import HardwareError
-from amr_description.nodes.clients import client_node
-from amr_description.nodes.colors import colored, GREEN, YELLOW
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.runtime import program, ros
-from amr_description.nodes.spawner_arguments import seconds
+from amr_description.ros.runtime import program, ros
+from amr_description.ros.service_calls import client_node
 
 _TARGETS = {
     'activated': State(id=State.PRIMARY_STATE_ACTIVE, label='active'),

@@ -5,7 +5,7 @@
 from rclpy.node import Node
 from std_msgs.msg import String
 
-from amr_description.nodes.runtime import run
+from amr_description.ros.runtime import run
 
 
 class MinimalSubscriber(Node):

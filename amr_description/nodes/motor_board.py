@@ -28,7 +28,7 @@ from typing import Self
 
 from amr_description.errors import AmrError, UsageError
 from amr_description.hardware.simulated_motor_board import SimulatedMotorBoard
-from amr_description.nodes.stop_requests import StopRequested, StopRequests
+from amr_description.ros.signals import StopRequested, StopRequests
 
 _STEP = 0.005
 """s: the motors move at least so often."""

@@ -22,27 +22,25 @@ import sys
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-from amr_description.nodes import (
+from amr_description.ros.arguments import inherited, ros_arguments
+from amr_description.ros.parameters import declare
+from amr_description.ros.runtime import argument_errors, program, ros, spin
+from amr_description.sim.ros import (
     entity_services,
     simulation_services,
     spawn_services,
-    world_services,
 )
-from amr_description.nodes.entity_services import EntityServices
-from amr_description.nodes.node_parameters import declare
-from amr_description.nodes.ros_arguments import inherited, ros_arguments
-from amr_description.nodes.runtime import argument_errors, program, ros, spin
-from amr_description.nodes.simulation import Simulation, SimulationParameters
-from amr_description.nodes.simulation_services import SimulationServices
-from amr_description.nodes.spawn_services import SpawnServices
-from amr_description.nodes.surroundings_topic import publish_world
-from amr_description.nodes.world_services import WorldServices
+from amr_description.sim.ros.entity_services import EntityServices
+from amr_description.sim.ros.simulation import Simulation, SimulationParameters
+from amr_description.sim.ros.simulation_services import SimulationServices, WorldServices
+from amr_description.sim.ros.spawn_services import SpawnServices
+from amr_description.sim.ros.world_markers import publish_world
 
 FEATURES = (
     *simulation_services.FEATURES,
     *spawn_services.FEATURES,
     *entity_services.FEATURES,
-    *world_services.FEATURES,
+    *simulation_services.WORLD_FEATURES,
 )
 
 

@@ -26,22 +26,21 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
-from amr_description.control.interfaces import NANOSECONDS
 from amr_description.control.loop import Loop
+from amr_description.control.ros.controller_manager_node import ControllerManagerNode, NODE_NAME
+from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.loop_thread import Mailbox, Owner
+from amr_description.control.ros.pacing import HeardClock, MachineClock
+from amr_description.control.ros.realtime import ask_for_cores, ask_for_priority, lock_memory
+from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareStartError, ParameterError
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
-from amr_description.nodes.controller_manager_node import ControllerManagerNode, NODE_NAME
-from amr_description.nodes.description_source import DescriptionSource
-from amr_description.nodes.heard_clock import HeardClock
-from amr_description.nodes.machine_clock import MachineClock
-from amr_description.nodes.node_log import LogThread
-from amr_description.nodes.outgoing import Outgoing
-from amr_description.nodes.owner import Mailbox, Owner
-from amr_description.nodes.realtime import ask_for_cores, ask_for_priority, lock_memory
-from amr_description.nodes.ros_arguments import ros_arguments
-from amr_description.nodes.runtime import argument_errors, program, ros, spin
+from amr_description.ros.arguments import ros_arguments
+from amr_description.ros.log_thread import LogThread
+from amr_description.ros.runtime import argument_errors, program, ros, spin
 
 _CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 

@@ -16,7 +16,7 @@ done, 1 when a step failed, 2 for a wrong command line. What is better than ther
   whenever it is interrupted once it has begun.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import partial
 import sys
@@ -25,146 +25,13 @@ import threading
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
-from amr_description.errors import ControllerError, ParameterError
-from amr_description.nodes.clients import client_node, NoAnswerError
-from amr_description.nodes.colors import BLUE, colored, CYAN, GREEN, YELLOW
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.runtime import program, ros
-from amr_description.nodes.spawner_arguments import ControllerPlan, parse, SpawnOptions
-from amr_description.nodes.spawner_files import (
-    controller_entries,
-    files_in_arguments,
-    manager_parameters,
-    not_found,
-)
-from amr_description.nodes.spawner_lock import alone_with
-from amr_description.nodes.stop_requests import StopRequests
-
-
-class Spawner:
-    """Takes controllers through their states; ``files``: parameter files for all of them."""
-
-    def __init__(
-        self, node: Node, manager: ManagerClient, options: SpawnOptions, files: Sequence[str] = ()
-    ) -> None:
-        self._log = node.get_logger()
-        self._manager = manager
-        self._options = options
-        self._files = tuple(files)
-
-    def spawn(self, stopped: Callable[[], bool] = lambda: False) -> None:
-        """
-        Spawn all, or go on until ``stopped()``, which is asked before each.
-
-        Raises ControllerError, with the reason, at the first that fails; ParameterError.
-        """
-        group = []
-        for plan in self._options.plans:
-            if stopped():
-                return
-            if not self._prepare(plan):
-                continue
-            if self._options.as_group:
-                group.append(plan.name)
-            else:
-                self._activate(
-                    [plan.name],
-                    done=f'Configured and activated {plan.name}',
-                    failed=f'Failed to activate controller : {plan.name}',
-                )
-        if group and not stopped():
-            self._activate(
-                group,
-                done=f'Configured and activated all the parsed controllers list : {group}!',
-                failed=f'Failed to activate the parsed controllers list : {group}',
-            )
-
-    def unload(self) -> None:
-        """Deactivate and unload what is there of them. Raises ControllerError: not all went."""
-        try:
-            if self._manager.is_there():
-                self._unload()
-                return
-        except NoAnswerError:
-            if self._manager.is_there():
-                raise
-        # As when a Ctrl-C ends a whole stack.
-        self._log.info(f'{self._manager.name} is gone, and its controllers with it')
-
-    def _unload(self) -> None:
-        states = self._manager.states()
-        loaded = [plan.name for plan in self._options.plans if plan.name in states]
-        active = [name for name in loaded if states[name] == 'active']
-        if not loaded:
-            self._log.info('No active controllers to unload.')
-            return
-        if active:
-            self._log.info('Deactivating and unloading controllers...')
-            message = self._switch(deactivate=active)
-            if message is not None:
-                raise ControllerError(f'Failed to deactivate controller : {active}: {message}')
-            self._log.info(f'Successfully deactivated controllers : {active}')
-        failed = [name for name in loaded if not self._manager.unload(name)]
-        if failed:
-            reason = self._manager.logged(*failed) or 'see the log of the manager'
-            raise ControllerError(f'Failed to unload controller : {", ".join(failed)}: {reason}')
-        self._log.info(f'Successfully unloaded controllers : {loaded}')
-
-    def _prepare(self, plan: ControllerPlan) -> bool:
-        """Load and configure; tell whether it is now to be activated."""
-        name = plan.name
-        state = self._manager.states().get(name)
-        if state is None:
-            self._set_parameters(plan)
-            if not self._manager.load(name):
-                raise ControllerError(self._failure(f'Failed loading controller {name}', name))
-            self._say(BLUE, f'Loaded {name}')
-        else:
-            self._log.warning(_yellow('Controller already loaded, skipping load_controller'))
-        if state == 'active':
-            self._log.info(f'Controller {name} is active already; nothing to do')
-            return False
-        if plan.load_only:
-            return False
-        if not self._manager.configure(name):
-            raise ControllerError(self._failure(f'Failed to configure controller {name}', name))
-        return not plan.inactive
-
-    def _activate(self, names: Sequence[str], *, done: str, failed: str) -> None:
-        """Activate with one request. Raises ControllerError."""
-        message = self._switch(activate=names)
-        if message is not None:
-            raise ControllerError(f'{failed}: {message}' if message else failed)
-        self._say(GREEN, done)
-
-    def _switch(self, **names: Sequence[str]) -> str | None:
-        return self._manager.switch(
-            **names,
-            timeout=self._options.switch_timeout,
-            activate_asap=self._options.activate_asap,
-        )
-
-    def _set_parameters(self, plan: ControllerPlan) -> None:
-        name, files = plan.name, (*self._files, *plan.files)
-        parameters: dict[str, str | list[str]] = {}
-        if plan.ros_args:
-            parameters['node_options_args'] = list(plan.ros_args)
-        entries = controller_entries(name, files, self._manager.namespace)
-        if plan.files and not entries:
-            if not self._manager.has_type(name):
-                raise ParameterError(not_found(name, files))
-            self._log.info(f'{not_found(name, files)}; the manager knows its type')
-        parameters |= manager_parameters(name, entries)
-        self._manager.set_parameters(name, parameters)
-        for key, value in parameters.items():
-            self._say(CYAN, f'Setting controller param "{key}" to "{value}" for {name}')
-
-    def _failure(self, what: str, name: str) -> str:
-        reasons = self._manager.reasons(name)
-        return f'{what}: {reasons}' if reasons else f'{what}: see the log of the manager'
-
-    def _say(self, color: str, text: str) -> None:
-        self._log.info(colored(text, color, sys.stderr))
+from amr_description.control.ros.client import ManagerClient
+from amr_description.control.ros.spawner import _yellow, alone_with, files_in_arguments, Spawner
+from amr_description.control.ros.spawner_arguments import parse, SpawnOptions
+from amr_description.errors import ParameterError
+from amr_description.ros.runtime import program, ros
+from amr_description.ros.service_calls import client_node
+from amr_description.ros.signals import StopRequests
 
 
 def spawn(args: list[str] | None) -> None:
@@ -230,10 +97,6 @@ def _manager_name(node: Node, options: SpawnOptions) -> str:
     )
     inside = f'/{options.namespace.strip("/")}/'
     return options.manager if options.manager.startswith('/') else inside + options.manager
-
-
-def _yellow(text: str) -> str:
-    return colored(text, YELLOW, sys.stderr)
 
 
 def main(args: list[str] | None = None) -> int:

@@ -29,11 +29,12 @@ from rclpy.parameter import Parameter
 
 from amr_description.errors import UsageError
 from amr_description.model.frames import normalize, quaternion_from_rpy, Transform
-from amr_description.model.transform_input import is_unit, StampedTransform
-from amr_description.nodes.runtime import run
-from amr_description.nodes.transform_broadcaster import StaticTransformBroadcaster
-from amr_description.nodes.transform_messages import transform_message
-from amr_description.nodes.transform_tools import say, tool, words_of
+from amr_description.ros.runtime import run
+from amr_description.tf2_ros.broadcaster import StaticTransformBroadcaster
+from amr_description.tf2_ros.buffer import transform_message
+from amr_description.tf2_ros.buffer_core import is_unit
+from amr_description.tf2_ros.time_cache import StampedTransform
+from amr_description.tf2_ros.tools import say, tool, words_of
 
 USAGE = """\
 usage: static_transform_publisher [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW]

@@ -24,18 +24,12 @@ import time
 
 from rclpy.time import Time
 
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import TransformException, UsageError
 from amr_description.model.frames import rpy_from_quaternion
-from amr_description.model.transform_cache import LATEST, SECOND, seconds
-from amr_description.model.transform_input import StampedTransform
-from amr_description.nodes.transform_messages import stamped_transform
-from amr_description.nodes.transform_tools import (
-    listening,
-    say,
-    tool,
-    wait_for_transform,
-    words_of,
-)
+from amr_description.tf2_ros.buffer import stamped_transform
+from amr_description.tf2_ros.time_cache import LATEST, seconds, StampedTransform
+from amr_description.tf2_ros.tools import listening, say, tool, wait_for_transform, words_of
 
 USAGE = """\
 Usage: tf2_echo source_frame target_frame [options]
@@ -147,7 +141,7 @@ def main(args: list[str] | None = None) -> int:
 
 def _stamp(stamp: int) -> str:
     """What is static has no time; it is told as ``0.0``, as ever."""
-    whole, fraction = divmod(stamp, SECOND)
+    whole, fraction = divmod(stamp, NANOSECONDS)
     return f'{whole}.{fraction:09d}' if stamp else '0.0'
 
 
@@ -162,7 +156,7 @@ def _time(word: str) -> int:
     moment = _number(word, 3, 'time')
     if moment < 0:
         raise _wrong(3, f"Time must be non-negative, not '{word}'")
-    return int(moment * SECOND)
+    return int(moment * NANOSECONDS)
 
 
 def _precision(word: str) -> int:

@@ -19,21 +19,14 @@ from rclpy.node import Node
 from tf2_msgs.msg import TFMessage
 
 from amr_description.errors import TransformException
-from amr_description.nodes.transform_buffer import Buffer
-from amr_description.nodes.transform_listener import (
+from amr_description.tf2_ros.buffer import Buffer, nanoseconds
+from amr_description.tf2_ros.listener import (
     DEFAULT_STATIC_TF_TOPIC,
     DEFAULT_TF_TOPIC,
     TransformListener,
 )
-from amr_description.nodes.transform_messages import nanoseconds
-from amr_description.nodes.transform_statistics import TransformStatistics
-from amr_description.nodes.transform_tools import (
-    listening,
-    say,
-    tool,
-    wait_for_transform,
-    words_of,
-)
+from amr_description.tf2_ros.statistics import TransformStatistics
+from amr_description.tf2_ros.tools import listening, say, tool, wait_for_transform, words_of
 
 USAGE = """\
 TF_Monitor: usage: tf2_monitor [framea frameb]

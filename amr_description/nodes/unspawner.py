@@ -17,11 +17,11 @@ import sys
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
+from amr_description.control.ros.client import ManagerClient
+from amr_description.control.ros.spawner_arguments import seconds
 from amr_description.errors import ControllerError
-from amr_description.nodes.clients import client_node
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.runtime import program, ros
-from amr_description.nodes.spawner_arguments import seconds
+from amr_description.ros.runtime import program, ros
+from amr_description.ros.service_calls import client_node
 
 
 def parser() -> argparse.ArgumentParser:

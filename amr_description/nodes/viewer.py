@@ -38,10 +38,10 @@ import sys
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-from amr_description.nodes.node_parameters import declare
-from amr_description.nodes.runtime import argument_errors, program, ros, spin
-from amr_description.nodes.viewer_backend import GraphBackend
 from amr_description.parameters import parameter
+from amr_description.ros.parameters import declare
+from amr_description.ros.runtime import argument_errors, program, ros, spin
+from amr_description.viewer.ros.backend import GraphBackend
 from amr_description.viewer.server import DEFAULT_HOST, Server, Settings as ServerSettings
 
 

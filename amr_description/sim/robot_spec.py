@@ -6,34 +6,140 @@ A URDF as a MuJoCo spec of one robot, with its actuators and its wheels.
 MuJoCo's own URDF reader does the most. Left alone it welds the robot to the world, fuses links
 without a joint into it (most of the mass is gone then) and looks for meshes by their bare names;
 what it must be told is written into the XML before it reads, the rest is edited in the spec.
+
+The mesh files of a URDF: found and judged before MuJoCo reads them.
+
+Where joints stand when a robot is spawned, and again after a reset.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import combinations
+from pathlib import Path
 
 from lxml import etree
 import mujoco
 
-from amr_description.control.contracts import Log
-from amr_description.control.interfaces import EFFORT, VELOCITY
-from amr_description.errors import SpawnError
+from amr_description.ament_index import resolve_uri
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
+from amr_description.errors import ResourceError, SpawnError
 from amr_description.model.findings import raise_error
+from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
-from amr_description.model.xml_source import parse_xml
-from amr_description.sim.actuators import add_actuators
-from amr_description.sim.compiling import compiler_warnings, one_line
-from amr_description.sim.initial_state import initial_states, JointState
-from amr_description.sim.link_friction import (
+from amr_description.model.xml_reader import parse_xml
+from amr_description.sim.actuators import add_actuators, command_bounds
+from amr_description.sim.engine import compiler_warnings, one_line
+from amr_description.sim.friction import (
     link_frictions,
     make_slippery,
     SIDE_FRICTION,
     SIDE_PRIORITY,
 )
-from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
+
+FORMATS = ('.stl', '.obj', '.msh')
+"""What MuJoCo reads."""
+
+
+def resolve_meshes(urdf: etree._Element, source: str, log: Log) -> None:
+    """
+    Write the true path of every mesh into ``urdf``.
+
+    Physics needs the shapes of collisions: SpawnError if one cannot be had. A ``<visual>`` whose
+    mesh cannot be had is left out, which the log is told.
+    """
+    for part in (*urdf.iterfind('link/collision'), *urdf.iterfind('link/visual')):
+        mesh = part.find('geometry/mesh')
+        if mesh is None:
+            continue
+        place = f'{source}:{mesh.sourceline}: mesh of a {part.tag} of link "{_link(part)}"'
+        try:
+            mesh.set('filename', str(_mesh_file(mesh.get('filename', ''), source, place)))
+        except SpawnError as error:
+            if part.tag == 'collision':
+                raise
+            log(Severity.WARN, f'{error}; it is not drawn')
+            part.getparent().remove(part)
+
+
+def _link(part: etree._Element) -> str:
+    return part.getparent().get('name', '')
+
+
+def _mesh_file(uri: str, source: str, place: str) -> Path:
+    description = Path(source)
+    try:
+        path = resolve_uri(uri, description.parent if description.is_file() else None)
+    except ResourceError as cause:
+        raise SpawnError(f'{place}: {uri}: {cause}', SpawnCode.MISSING_ASSETS) from cause
+    if not path.is_file():
+        found = '' if str(path) == uri else f', which is {path}'
+        raise SpawnError(f'{place}: there is no file {uri}{found}', SpawnCode.MISSING_ASSETS)
+    if path.suffix.lower() not in FORMATS:
+        raise SpawnError(
+            f'{place}: {uri}: the simulator reads {", ".join(FORMATS)}, not {path.suffix}',
+            SpawnCode.UNSUPPORTED_ASSETS,
+        )
+    return path.resolve()
+
+
+@dataclass(frozen=True, slots=True)
+class JointState:
+    """rad and rad/s, or m and m/s."""
+
+    position: float
+    velocity: float
+
+
+def initial_states(robot: Robot, controlled: Iterable[ComponentInfo]) -> dict[str, JointState]:
+    """
+    The joints that do not begin at rest at 0.
+
+    ``controlled``: the joints of the ``<ros2_control>`` blocks, whose ``initial_value`` of the
+    state interfaces position and velocity counts. Mimic joints follow: multiplier · source +
+    offset, and for the velocity without the offset. Raises SpawnError for a position that the
+    joint cannot take.
+    """
+    given: dict[str, dict[str, float]] = {POSITION: {}, VELOCITY: {}}
+    follows = {joint.name: joint.mimic for joint in robot.joints}
+    for part in controlled:
+        follows[part.name] = part.mimic
+        for interface in part.state_interfaces:
+            if interface.name in given and interface.initial_value is not None:
+                given[interface.name][part.name] = interface.initial_value
+    _check_positions(robot, given[POSITION])
+
+    def state_of(joint: str) -> JointState:
+        return JointState(given[POSITION].get(joint, 0.0), given[VELOCITY].get(joint, 0.0))
+
+    states = {}
+    for joint in robot.joints:
+        mimic = follows[joint.name]
+        state = state_of(joint.name)
+        if mimic is not None:
+            source = state_of(mimic.joint)
+            state = JointState(
+                mimic.offset + mimic.multiplier * source.position,
+                mimic.multiplier * source.velocity,
+            )
+        if joint.has_position and state != JointState(0.0, 0.0):
+            states[joint.name] = state
+    return states
+
+
+def _check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
+    for name, position in positions.items():
+        bounds = command_bounds(robot.joint(name), POSITION)
+        if not bounds.lower <= position <= bounds.upper:
+            raise SpawnError(
+                f"{robot.source}: joint '{name}': initial_value {position:.6g} of its position is "
+                f'beyond {bounds}',
+                SpawnCode.RESOURCE_PARSE_ERROR,
+            )
+
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """A mimic joint follows as if by gears."""

@@ -3,7 +3,7 @@
 """
 The contacts on which a wheeled robot rests, each trimmed so that it rests at its true height.
 
-The soft contacts of :mod:`amr_description.sim.contact` sink under a load; a ``margin`` cancels
+The soft contacts of :mod:`amr_description.sim.wheel_contact` sink under a load; a ``margin`` cancels
 that. How much it takes follows from how the robot's weight and inertia lie on its wheels, so each
 robot is let down onto flat ground once, by itself, before it is spawned. Measured with the margin
 of the shipped robot: a robot on two wheels of 50 mm and a ball sinks by 0.65 mm and drives 0.6 %
@@ -19,12 +19,12 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from amr_description.sim.compiling import compiler_warnings
-from amr_description.sim.contact import add_wheel_contact, ContactSettings
+from amr_description.sim.engine import compiler_warnings
 from amr_description.sim.faults import listen_to_mujoco
 from amr_description.sim.robot_spec import RobotSpec, tread_name
 from amr_description.sim.spawning import say_nothing
-from amr_description.sim.world_settings import apply_settings, WorldSettings
+from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
+from amr_description.sim.world_file import apply_settings, WorldSettings
 
 type Contacts = Mapping[str, ContactSettings]
 """The contact with the ground of each geom that is to have one of its own."""

@@ -21,9 +21,7 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
-from amr_description.sim.compiling import compiler_warnings, one_line
-from amr_description.sim.contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
-from amr_description.sim.engine import Engine
+from amr_description.sim.engine import compiler_warnings, Engine, LONGEST_STEP, one_line
 from amr_description.sim.faults import FaultMonitor, listen_to_mujoco
 from amr_description.sim.overlap import refuse_overlap
 from amr_description.sim.robot_spec import build_robot, RobotSpec
@@ -35,10 +33,9 @@ from amr_description.sim.spawning import (
     say_nothing,
     SpawnCode,
 )
-from amr_description.sim.stepping import LONGEST_STEP
+from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
 from amr_description.sim.wheel_trim import Contacts, trimmed_contacts
-from amr_description.sim.world_file import load_world, longest_step, static_surfaces
-from amr_description.sim.world_settings import WorldSettings
+from amr_description.sim.world_file import load_world, longest_step, static_surfaces, WorldSettings
 
 AT_ORIGIN = Transform()
 _FILE_SETTINGS = WorldSettings()

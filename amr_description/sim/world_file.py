@@ -1,18 +1,163 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A world (MJCF) as a MuJoCo spec, with its settings."""
+"""
+A world (MJCF) as a MuJoCo spec, with its settings.
+
+Physics of a world: what is set from outside, over what its file says, over what was measured.
+
+=================  ==================  =====================================================
+what               when nobody sets    why not MuJoCo's default
+=================  ==================  =====================================================
+``gravity``        9.81 m/s² down
+``friction``       0.5                 with 1 driven wheels climb walls: see
+                                       :mod:`amr_description.sim.friction`
+``physics_step``   2 ms                MuJoCo's own; :mod:`amr_description.sim.wheel_contact` is tuned
+                                       for it. It is the longest: see ``sim/stepping.py``
+``integrator``     ``discrete``        it puts the stiff speed servos of the wheels inside the
+                                       friction problem; with any other the robot loses 0.8 of a
+                                       turn, or never comes to rest
+``cone``           ``elliptic``        friction is the same in all directions
+``impratio``       1e4                 friction harder than the normal direction: no creep on
+                                       slopes
+``solver``         ``Newton``          MuJoCo's own
+``iterations``     100                 MuJoCo's own
+jacobian           dense               MuJoCo 4.0.0's sparse Newton hits its iteration cap when
+                                       robots touch
+=================  ==================  =====================================================
+
+An option for which a file writes MuJoCo's own default cannot be told from one on which it is
+silent: to get the Euler integrator, set it here.
+"""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 import math
+from pathlib import Path
 
 import mujoco
 
+from amr_description.ament_index import OWN_PACKAGE, package_share
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
-from amr_description.sim.compiling import one_line
-from amr_description.sim.engine import NANOSECONDS
-from amr_description.sim.resources import world_path
-from amr_description.sim.silent_friction import fill_in_friction
-from amr_description.sim.world_settings import apply_settings, WorldSettings
+from amr_description.parameters import parameter
+from amr_description.sim.engine import one_line
+from amr_description.sim.friction import fill_in_friction
+
+
+def shipped_worlds() -> dict[str, Path]:
+    """The worlds of this package: name → file."""
+    folder = package_share(OWN_PACKAGE) / 'config' / 'worlds'
+    return {path.stem: path for path in sorted(folder.glob('*.xml'))}
+
+
+def world_path(world: str) -> Path:
+    """The file of a world given as a shipped name or as a path. Raises SimulationError."""
+    shipped = shipped_worlds()
+    path = shipped.get(world) or Path(world).expanduser()
+    if path.is_file():
+        return path
+    raise SimulationError(
+        f"world '{world}': neither a file nor a shipped world; shipped are: {', '.join(shipped)}"
+    )
+
+
+AS_IN_WORLD = 'world'
+
+_INTEGRATORS = {
+    'Euler': mujoco.mjtIntegrator.mjINT_EULER,
+    'RK4': mujoco.mjtIntegrator.mjINT_RK4,
+    'implicit': mujoco.mjtIntegrator.mjINT_IMPLICIT,
+    'implicitfast': mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    'discrete': mujoco.mjtIntegrator.mjINT_DISCRETE,
+}
+_CONES = {
+    'pyramidal': mujoco.mjtCone.mjCONE_PYRAMIDAL,
+    'elliptic': mujoco.mjtCone.mjCONE_ELLIPTIC,
+}
+_SOLVERS = {
+    'PGS': mujoco.mjtSolver.mjSOL_PGS,
+    'CG': mujoco.mjtSolver.mjSOL_CG,
+    'Newton': mujoco.mjtSolver.mjSOL_NEWTON,
+}
+
+MEASURED_OPTIONS = (
+    ('integrator', mujoco.mjtIntegrator.mjINT_EULER, mujoco.mjtIntegrator.mjINT_DISCRETE),
+    ('cone', mujoco.mjtCone.mjCONE_PYRAMIDAL, mujoco.mjtCone.mjCONE_ELLIPTIC),
+    ('impratio', 1.0, 1e4),
+    ('jacobian', mujoco.mjtJacobian.mjJAC_AUTO, mujoco.mjtJacobian.mjJAC_DENSE),
+)
+"""Option, MuJoCo's default, ours: a world that leaves an option at MuJoCo's default gets ours."""
+
+
+@dataclass(frozen=True)
+class WorldSettings:
+    """Physics of the world; NaN, 0 and 'world' leave it to the world's file."""
+
+    gravity: float = parameter(
+        math.nan,
+        'Acceleration of free fall, down; NaN: as in the world',
+        unit='m/s²',
+        nan=True,
+        read_only=True,
+    )
+    friction: float = parameter(
+        math.nan,
+        'Sliding friction of every static surface; NaN: as in the world',
+        nan=True,
+        minimum=0.0,
+        read_only=True,
+    )
+    physics_step: float = parameter(
+        math.nan,
+        'The longest physics step, the control period is divided into equal ones; NaN: that of '
+        'the world',
+        unit='s',
+        nan=True,
+        above=0.0,
+        read_only=True,
+    )
+    integrator: str = parameter(
+        AS_IN_WORLD, 'Integrator', choices=(AS_IN_WORLD, *_INTEGRATORS), read_only=True
+    )
+    cone: str = parameter(
+        AS_IN_WORLD, 'Friction cone', choices=(AS_IN_WORLD, *_CONES), read_only=True
+    )
+    impratio: float = parameter(
+        math.nan,
+        'How much harder friction is than the normal direction of a contact; NaN: as in the world',
+        nan=True,
+        above=0.0,
+        read_only=True,
+    )
+    solver: str = parameter(
+        AS_IN_WORLD, 'Constraint solver', choices=(AS_IN_WORLD, *_SOLVERS), read_only=True
+    )
+    iterations: int = parameter(
+        0,
+        'The most iterations of the solver in a step; 0: as in the world',
+        minimum=0,
+        read_only=True,
+    )
+
+
+def apply_settings(option: mujoco.MjOption, settings: WorldSettings) -> None:
+    """Set what the measurements say, then what ``settings`` says; not the physics step."""
+    for name, default, measured in MEASURED_OPTIONS:
+        if getattr(option, name) == default:
+            setattr(option, name, measured)
+    if not math.isnan(settings.gravity):
+        option.gravity = [0.0, 0.0, -settings.gravity]
+    if not math.isnan(settings.impratio):
+        option.impratio = settings.impratio
+    if settings.iterations:
+        option.iterations = settings.iterations
+    for name, table in (('integrator', _INTEGRATORS), ('cone', _CONES), ('solver', _SOLVERS)):
+        chosen = getattr(settings, name)
+        if chosen != AS_IN_WORLD:
+            setattr(option, name, table[chosen])
+    # MuJoCo's reset after a fault would set time and robots back behind our back.
+    option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+
 
 _FILE_SETTINGS = WorldSettings()
 

@@ -22,7 +22,7 @@ from simulation_interfaces.msg import SimulationState
 from simulation_interfaces.srv import SetSimulationState
 import yaml
 
-from amr_description.sim.resources import package_share
+from amr_description.ament_index import package_share
 from amr_description.testing.simulation import Simulation
 
 _CONTROLLER = 'recorded_drive'

@@ -5,8 +5,10 @@ A simulator that stands still but for what it is asked: its services, and comman
 to have arrived.
 
 A command is published with the present simulated time as its stamp, and is waited for until the
-simulator has confirmed it (:mod:`amr_description.nodes.receipts`). As time stands still meanwhile,
+simulator has confirmed it (:mod:`amr_description.control.ros.loop_publisher`). As time stands still meanwhile,
 the next step acts on it, at the same instant with the same bits in every run.
+
+The newest message of a topic, taken when it is asked for.
 """
 
 from collections.abc import Callable, Mapping
@@ -27,12 +29,12 @@ from simulation_interfaces.srv import (
     StepSimulation,
 )
 
-from amr_description.control.interfaces import NANOSECONDS
+from amr_description.clock import NANOSECONDS
+from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
-from amr_description.nodes import receipts
-from amr_description.nodes.clients import ask_until_answered, wait_until
-from amr_description.testing.message_readings import nanoseconds
+from amr_description.ros.service_calls import ask_until_answered, wait_until
 from amr_description.testing.program import Program
+from amr_description.testing.readings import nanoseconds
 
 PATIENCE = 30.0
 """s: how long anything is waited for."""
@@ -60,8 +62,8 @@ class LockStep:
         """Simulated time, ns."""
         self.timestep = 0
         """A physics step, ns; known after :meth:`measure`."""
-        topic = receipts.TOPIC.replace('~', name)
-        node.create_subscription(KeyValue, topic, self._note_receipt, receipts.QOS)
+        topic = loop_publisher.TOPIC.replace('~', name)
+        node.create_subscription(KeyValue, topic, self._note_receipt, loop_publisher.QOS)
 
     # --- services -----------------------------------------------------------------------------
 
@@ -199,3 +201,45 @@ class LockStep:
 
 def _snake(service_type: Any) -> str:
     return re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()
+
+
+class Latest:
+    """
+    The newest message on one topic.
+
+    ``node`` must not be in an executor: so what is published at a thousand hertz while a
+    simulation runs as fast as it can costs this process nothing.
+    """
+
+    def __init__(self, node: Node, message_type: Any, topic: str) -> None:
+        self._node = node
+        self._subscription = node.create_subscription(
+            message_type, topic, self._never_called, QoSProfile(depth=1)
+        )
+        self._message: Any = None
+
+    @property
+    def topic(self) -> str:
+        """Its full name."""
+        return self._subscription.topic_name
+
+    def take(self) -> Any | None:
+        """The newest that has come, since :meth:`forget`; None: nothing yet."""
+        subscription = self._subscription
+        with subscription.handle:
+            while taken := subscription.handle.take_message(subscription.msg_type, False):
+                self._message = taken[0]
+        return self._message
+
+    def forget(self) -> None:
+        """Drop what has come."""
+        self.take()
+        self._message = None
+
+    def close(self) -> None:
+        """Remove the subscription."""
+        self._node.destroy_subscription(self._subscription)
+
+    @staticmethod
+    def _never_called(_: Any) -> None:
+        raise AssertionError('the node is in an executor')

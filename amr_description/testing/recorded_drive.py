@@ -20,12 +20,12 @@ from pathlib import Path
 import struct
 from typing import BinaryIO
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Controller
 from amr_description.control.interfaces import (
     ALL_INTERFACES,
     CommandInterface,
     InterfaceRequest,
-    NANOSECONDS,
     StateInterface,
     VELOCITY,
 )

@@ -13,20 +13,20 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import SpawnEntity
 
+from amr_description.control.ros.client import ManagerClient
+from amr_description.control.ros.spawner import Spawner
+from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
-from amr_description.nodes.converters import fill_pose
-from amr_description.nodes.manager_client import ManagerClient
-from amr_description.nodes.spawner import Spawner
-from amr_description.nodes.spawner_arguments import parse
-from amr_description.testing.latest import Latest
-from amr_description.testing.lock_step import LockStep, PATIENCE
-from amr_description.testing.message_readings import (
+from amr_description.ros.messages import fill_pose
+from amr_description.testing.lock_step import Latest, LockStep, PATIENCE
+from amr_description.testing.readings import (
+    Joint,
     joints_of,
+    Motion,
     motion_of_entity,
     motion_of_odometry,
 )
-from amr_description.testing.readings import Joint, Motion
 
 DRIVE = 'DiffDriveController'
 """How the types of drives end whose topics are looked for."""

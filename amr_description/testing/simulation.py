@@ -39,17 +39,16 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from simulation_interfaces.srv import DeleteEntity
 
-from amr_description.bringup.packages import path_of
-from amr_description.control.interfaces import NANOSECONDS
+from amr_description.ament_index import path_of
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
+from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
-from amr_description.nodes.quick_discovery import use_quick_discovery, use_whole_graph
-from amr_description.sim.resources import description_at
-from amr_description.testing.domains import own_domain
+from amr_description.ros.discovery import use_quick_discovery, use_whole_graph
 from amr_description.testing.lock_step import Condition, LockStep
-from amr_description.testing.program import simulator
+from amr_description.testing.program import own_domain, simulator
 from amr_description.testing.readings import Joint, Motion
 from amr_description.testing.robot import DRIVE, Robot, spawn, spawn_controllers, Topics
 

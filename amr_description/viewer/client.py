@@ -11,8 +11,8 @@ from urllib.parse import urlsplit
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from amr_description.viewer.http import SOCKET_PATH
 from amr_description.viewer.protocol import SUBPROTOCOL
-from amr_description.viewer.web import SOCKET_PATH
 
 
 def page_socket(

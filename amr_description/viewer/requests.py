@@ -12,8 +12,8 @@ import math
 from typing import Any, ClassVar
 
 from amr_description.errors import ProtocolError
-from amr_description.model.findings import quote
 from amr_description.model.frames import Vector
+from amr_description.text import quote
 
 _LARGEST_ID = 2**53  # of JavaScript's whole numbers
 _SHOWN = 80  # characters of what was found

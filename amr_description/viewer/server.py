@@ -23,10 +23,8 @@ from websockets.frames import CloseCode
 from amr_description.errors import ProtocolError, ViewerError
 from amr_description.viewer.access import Access, is_loopback, TOKEN_PARAMETER
 from amr_description.viewer.backend import Backend
-from amr_description.viewer.conversation import Conversation
-from amr_description.viewer.driving import DRIVE_TIMEOUT
-from amr_description.viewer.files import StaticFiles
-from amr_description.viewer.pages import MOST_PAGES, Page, Pages
+from amr_description.viewer.drive_lock import DRIVE_TIMEOUT
+from amr_description.viewer.http import StaticFiles, Web
 from amr_description.viewer.protocol import (
     Hello,
     Layout,
@@ -35,7 +33,7 @@ from amr_description.viewer.protocol import (
     SUBPROTOCOL,
 )
 from amr_description.viewer.requests import decode
-from amr_description.viewer.web import Web
+from amr_description.viewer.sessions import Conversation, MOST_PAGES, Page, Pages
 
 STATIC = Path(__file__).parent / 'static'
 DEFAULT_HOST = '127.0.0.1'

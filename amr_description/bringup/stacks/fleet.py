@@ -9,6 +9,7 @@ below, that hangs on ``world``.
 """
 
 from collections.abc import Iterator
+import math
 import os
 from typing import Annotated
 from xml.sax.saxutils import quoteattr
@@ -25,8 +26,18 @@ from amr_description.bringup import (
 from amr_description.bringup.environment import other_shell
 from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
-from amr_description.model.footprint import grid, horizontal_reach
+from amr_description.model.shapes import horizontal_reach
 from amr_description.model.urdf import parse
+
+
+def grid(count: int, spacing: float) -> Iterator[tuple[float, float]]:
+    """Yield x and y (m) of ``count`` places in rows, as square as can be, about the origin."""
+    columns = math.ceil(math.sqrt(count))
+    rows = math.ceil(count / columns)
+    for number in range(count):
+        row, column = divmod(number, columns)
+        yield spacing * (column - (columns - 1) / 2.0), spacing * (row - (rows - 1) / 2.0)
+
 
 _ROOM = 1.0
 """m between two robots, however they turn on the spot."""

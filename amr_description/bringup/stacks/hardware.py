@@ -5,13 +5,19 @@ The stacks ``mock`` and ``serial``: the robot without the simulator, as on a rea
 
 Against ``simulation`` only the hardware interface is swapped: the same URDF with another
 ``<plugin>``, the same controllers with the same parameters, the same topics.
+
+The same robot on other hardware: a description with another ``<hardware>`` element, and nothing
+else changed. The urdf of a robot stays the single source of truth.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import os
 from pathlib import Path
+import re
 import tempfile
 from typing import Annotated
+from xml.etree import ElementTree
+from xml.sax.saxutils import escape, quoteattr
 
 from amr_description.bringup import (
     exited_cleanly,
@@ -25,7 +31,35 @@ from amr_description.bringup import (
 from amr_description.bringup.conditions import Condition
 from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
 from amr_description.bringup.stacks.simulation import CONTROLLERS, how_to_drive, URDF
-from amr_description.model.hardware_swap import swap_hardware
+from amr_description.errors import DescriptionError
+
+_HARDWARE = re.compile(r'<hardware>.*?</hardware>', re.DOTALL)
+
+
+def swap_hardware(urdf: str, plugin: str, parameters: Mapping[str, str] | None = None) -> str:
+    """
+    Return the description with ``plugin`` and its ``parameters`` as its hardware.
+
+    Raises DescriptionError where it has no ``<ros2_control>`` block with a ``<hardware>``, or more
+    than one.
+    """
+    try:
+        blocks = ElementTree.fromstring(urdf).findall('ros2_control/hardware')
+    except ElementTree.ParseError as error:
+        raise DescriptionError(f'robot description: {error}') from error
+    found = _HARDWARE.findall(urdf)
+    if len(blocks) != 1 or len(found) != 1:
+        raise DescriptionError(
+            f'robot description: {len(blocks)} <ros2_control> blocks with a <hardware>; exactly '
+            f'one is needed to put {plugin} in its place'
+        )
+    lines = [f'<plugin>{escape(plugin)}</plugin>']
+    for name, value in (parameters or {}).items():
+        lines.append(f'<param name={quoteattr(name)}>{escape(value)}</param>')
+    inside = ''.join(f'\n      {line}' for line in lines)
+    element = f'<hardware>{inside}\n    </hardware>'
+    return _HARDWARE.sub(lambda _: element, urdf)
+
 
 _PATIENCE_WITH_PORT = 10.0
 """s; a board that was just plugged in takes two or three."""

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a person looks at beside a stack: the page in the browser; RViz where it is installed."""
 
+from amr_description.ament_index import is_installed
 from amr_description.bringup import Node, path_of
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.packages import is_installed
 
 ABOUT_VIEWER = 'whether to serve the page in the browser: the robot, its values, driving'
 """The help text of every stack's ``viewer:=``."""

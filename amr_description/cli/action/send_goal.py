@@ -16,7 +16,7 @@ import contextlib
 import sys
 from typing import Any, TYPE_CHECKING
 
-from amr_description.cli import streams
+from amr_description import streams
 from amr_description.cli.arguments import positive_float
 from amr_description.errors import AmrError
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import sys
 from typing import Any
 
-from amr_description.cli.packages import executables_of, packages as installed_packages
+from amr_description.ament_index import executables_of, packages as installed_packages
 
 
 def packages(_args: Namespace, _prefix: str) -> Iterable[str]:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session
-from amr_description.nodes.manager_client import ManagerClient
+from amr_description.control.ros.client import ManagerClient
 
 _TIMEOUT = 2.0  # s; a person waits
 

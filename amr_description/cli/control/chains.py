@@ -28,9 +28,7 @@ def commands(controller: Any, controllers: Sequence[Any]) -> dict[str, list[str]
 def tree(controllers: Sequence[Any]) -> Iterator[str]:
     """Yield a tree for each controller that no other commands."""
     by_name = {controller.name: controller for controller in controllers}
-    commanded = {
-        name for c in controllers for name in commands(c, controllers) if name != c.name
-    }
+    commanded = {name for c in controllers for name in commands(c, controllers) if name != c.name}
     for controller in controllers:
         if controller.name not in commanded:
             yield f'{controller.name} [{controller.state}]'

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from amr_description.cli.control.manager import add_manager_arguments, ask
-from amr_description.nodes.colors import colored, CYAN, GREEN, YELLOW
+from amr_description.colors import colored, CYAN, GREEN, YELLOW
 
 _STATE_COLORS = {'active': GREEN, 'inactive': CYAN, 'unconfigured': YELLOW}
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from amr_description.cli.control.manager import add_manager_arguments, ask
-from amr_description.nodes.colors import BLUE, colored, GREEN, MAGENTA, RED, YELLOW
+from amr_description.colors import BLUE, colored, GREEN, MAGENTA, RED, YELLOW
 
 _STATE_COLORS = {
     'active': GREEN,

@@ -8,7 +8,7 @@ from operator import attrgetter
 from typing import Any
 
 from amr_description.cli.control.manager import add_manager_arguments, ask
-from amr_description.nodes.colors import BLUE, colored, CYAN, YELLOW
+from amr_description.colors import BLUE, colored, CYAN, YELLOW
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -20,11 +20,11 @@ from amr_description.cli.control.manager import (
     failure,
     open_manager,
 )
+from amr_description.colors import BLUE, colored, YELLOW
 from amr_description.errors import AmrError
-from amr_description.nodes.colors import BLUE, colored, YELLOW
 
 if TYPE_CHECKING:
-    from amr_description.nodes.manager_client import ManagerClient
+    from amr_description.control.ros.client import ManagerClient
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -43,9 +43,7 @@ def main(args: Namespace) -> int:
     """Load, and bring to the state that is asked for; 0."""
     name = args.controller_name
     if args.param_file and not Path(args.param_file).is_file():
-        raise AmrError(
-            f'Controller parameter file : {args.param_file} does not exist, Aborting!'
-        )
+        raise AmrError(f'Controller parameter file : {args.param_file} does not exist, Aborting!')
     with open_manager(args) as manager:
         state = manager.states().get(name)
         if state is None:
@@ -62,7 +60,7 @@ def main(args: Namespace) -> int:
 
 
 def _load(manager: 'ManagerClient', name: str, file: str | None) -> None:
-    from amr_description.nodes.spawner_files import (
+    from amr_description.control.ros.spawner import (
         controller_entries,
         manager_parameters,
         not_found,

@@ -12,7 +12,7 @@ from amr_description.errors import AmrError
 
 if TYPE_CHECKING:
     from amr_description.cli.session import Session
-    from amr_description.nodes.manager_client import ManagerClient
+    from amr_description.control.ros.client import ManagerClient
 
 _DEFAULT = 'controller_manager'
 _SILENT = 1.0  # s; usual discovery is not worth a line
@@ -60,7 +60,7 @@ def ask(args: Namespace, service_type: Any) -> Any:
 def open_manager(args: Namespace, first: Any = None) -> 'Iterator[ManagerClient]':
     """Yield the controller manager once it is there; ``first``: as of ManagerClient."""
     from amr_description.cli.session import open_session
-    from amr_description.nodes.manager_client import ManagerClient
+    from amr_description.control.ros.client import ManagerClient
 
     with open_session(use_sim_time=args.use_sim_time, ros_args=args.ros_args) as session:
         name = _name(session, args)

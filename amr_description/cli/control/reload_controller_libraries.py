@@ -9,7 +9,7 @@ Refused while a controller is active, unless forced.
 from argparse import ArgumentParser, Namespace
 
 from amr_description.cli.control.manager import add_manager_arguments, failure, open_manager
-from amr_description.nodes.colors import BLUE, colored
+from amr_description.colors import BLUE, colored
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -16,11 +16,11 @@ from amr_description.cli.control.manager import (
     failure,
     open_manager,
 )
+from amr_description.colors import BLUE, colored
 from amr_description.errors import AmrError
-from amr_description.nodes.colors import BLUE, colored
 
 if TYPE_CHECKING:
-    from amr_description.nodes.manager_client import ManagerClient
+    from amr_description.control.ros.client import ManagerClient
 
 # What cannot be done, by what was asked for.
 _REFUSALS = {

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 
 from amr_description.cli.arguments import unicode_text
 from amr_description.cli.control.manager import add_manager_arguments, failure, open_manager
-from amr_description.nodes.colors import BLUE, colored
+from amr_description.colors import BLUE, colored
 
 # state -> what failed, if it was not reached
 _DOING = {'unconfigured': 'cleaning up', 'inactive': 'stopping', 'active': 'activating'}

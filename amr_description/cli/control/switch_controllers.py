@@ -15,8 +15,8 @@ import sys
 
 from amr_description.cli.arguments import positive_float, unicode_text
 from amr_description.cli.control.manager import add_manager_arguments, open_manager
+from amr_description.colors import BLUE, colored, RED
 from amr_description.errors import AmrError
-from amr_description.nodes.colors import BLUE, colored, RED
 
 _BEST_EFFORT, _STRICT = 1, 2  # the constants of controller_manager_msgs/srv/SwitchController
 _DEFAULT = 0  # the manager's own

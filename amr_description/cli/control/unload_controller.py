@@ -10,7 +10,7 @@ from amr_description.cli.control.manager import (
     failure,
     open_manager,
 )
-from amr_description.nodes.colors import BLUE, colored
+from amr_description.colors import BLUE, colored
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from ament_index_python import get_resource, get_resources
 
-from amr_description.cli.excerpt import excerpt
+from amr_description.ament_index import packages
 from amr_description.cli.interface.definition import Definition
 from amr_description.cli.interface.kinds import kind_of, KINDS
-from amr_description.cli.packages import packages
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 _RESOURCE = 'rosidl_interfaces'  # what rosidl registers for each of these packages
 
@@ -49,11 +49,11 @@ def split_name(name: str) -> tuple[str, str, str]:
     parts = name.split('/')
     if len(parts) != 3:
         expected = "Expected three parts separated by '/'"
-        raise AmrError(f"Invalid name '{excerpt(name)}'. {expected}{_completed(parts)}")
+        raise AmrError(f"Invalid name '{shorten(name)}'. {expected}{_completed(parts)}")
     package, kind, interface = parts
     if kind not in KINDS:
         expected = f'Expected its second part to be one of {", ".join(KINDS)}'
-        raise AmrError(f"Invalid name '{excerpt(name)}'. {expected}")
+        raise AmrError(f"Invalid name '{shorten(name)}'. {expected}")
     return package, kind, interface
 
 
@@ -69,7 +69,7 @@ def _path(name: str) -> Path:
             return path
     known = [n.partition('/')[2] for n in interfaces_of(package) if kind_of(n) == kind]
     similar = _similar(interface, known, f'{package}/{kind}/')
-    raise AmrError(f"Could not find the interface '{excerpt(str(path))}'{similar}")
+    raise AmrError(f"Could not find the interface '{shorten(str(path))}'{similar}")
 
 
 def _interfaces(package: str) -> list[str]:
@@ -90,7 +90,7 @@ def _completed(parts: list[str]) -> str:
 def _unknown_package(package: str) -> AmrError:
     known = packages()
     hint = _similar(package, list(known)) if known else '; source scripts/activate first'
-    return AmrError(f"Unknown package '{excerpt(package)}'{hint}")
+    return AmrError(f"Unknown package '{shorten(package)}'{hint}")
 
 
 def _similar(name: str, known: list[str], prefix: str = '') -> str:

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Any, TYPE_CHECKING
 
 from amr_description.cli.arguments import add_graph_arguments, positive_float
-from amr_description.cli.excerpt import excerpt
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -81,7 +81,7 @@ def explain_absence(name: str, nodes: Mapping[str, bool], managed: list[str]) ->
     else:
         reason = 'has no lifecycle'
     others = f'those with a lifecycle are {", ".join(managed)}' if managed else 'no node has one'
-    return f"Node not found: '{excerpt(name)}' {reason}; {others}"
+    return f"Node not found: '{shorten(name)}' {reason}; {others}"
 
 
 def ask(

@@ -36,7 +36,7 @@ def main(args: Namespace) -> int:
     from amr_description.cli.param.files import select
     from amr_description.cli.param.remote import remote_parameters
     from amr_description.cli.param.values import as_text
-    from amr_description.nodes.parameter_files import read_parameter_file
+    from amr_description.parameter_files import read_parameter_file
 
     content = read_parameter_file(args.parameter_file)
     refused = {}

@@ -18,12 +18,12 @@ from rcl_interfaces.msg import (
 from rcl_interfaces.srv import GetParameters, SetParameters
 
 from amr_description.cli import graph
-from amr_description.cli.excerpt import excerpt
 from amr_description.cli.names import full_name
 from amr_description.cli.param.requests import ask_all, describe_all, list_all
 from amr_description.cli.param.values import advice, to_message, typed, Value
 from amr_description.cli.session import open_session, Session
 from amr_description.errors import AmrError
+from amr_description.text import shorten
 
 _SHOWN = 5  # names in an error
 
@@ -91,7 +91,7 @@ class RemoteParameters:
         names = self.names()
         if name in names:
             return f"'{name}' of {self.node} is declared, but was given no value"
-        return f"{self.node} has no parameter '{excerpt(name)}'{_close(name, names)}"
+        return f"{self.node} has no parameter '{shorten(name)}'{_close(name, names)}"
 
     def explain(self, name: str, text: str) -> str:
         """

@@ -17,9 +17,9 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.parameter import Parameter
 import yaml
 
-from amr_description.cli.excerpt import excerpt
 from amr_description.cli.yaml_input import read_value
 from amr_description.errors import AmrError, ParameterError
+from amr_description.text import shorten
 
 type Value = bool | int | float | str | list[Any] | None
 
@@ -48,7 +48,7 @@ def typed(text: str) -> Value:
     except AmrError as error:
         if isinstance(error.__cause__, yaml.parser.ParserError):
             return text  # '[left' may be meant, and the genuine command takes it
-        quoting = f'; for a string write {_quoted(text)}' if excerpt(text) == text else ''
+        quoting = f'; for a string write {_quoted(text)}' if shorten(text) == text else ''
         raise AmrError(f'{error}{quoting}') from error
     return value if has_type(value) else text
 
@@ -75,7 +75,7 @@ def to_message(value: Value, wanted: int = ParameterType.PARAMETER_NOT_SET) -> P
     for element in value if isinstance(value, list) else [value]:
         if isinstance(element, int) and element not in _INTEGERS:
             raise ParameterError(
-                f'{excerpt(str(element))} does not fit into the 64 bits of an integer parameter'
+                f'{shorten(str(element))} does not fit into the 64 bits of an integer parameter'
             )
     return Parameter('', value=value).get_parameter_value()
 
@@ -94,7 +94,7 @@ def advice(text: str, wanted: int) -> str:
         instead = _rewritten(text, wanted)
     except AmrError as error:
         return f'it is {article} {kind}. {error}'
-    return f'it is {article} {kind}' + (f': write {excerpt(instead)}' if instead else '')
+    return f'it is {article} {kind}' + (f': write {shorten(instead)}' if instead else '')
 
 
 def _rewritten(text: str, wanted: int) -> str:
@@ -123,7 +123,7 @@ def _rewritten(text: str, wanted: int) -> str:
 
 def _quoted(text: str) -> str:
     """Return what a shell hands over as a YAML string."""
-    return f"'{json.dumps(excerpt(text), ensure_ascii=False)}'"
+    return f"'{json.dumps(shorten(text), ensure_ascii=False)}'"
 
 
 def _integer(value: Any) -> int:

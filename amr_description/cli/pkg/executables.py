@@ -13,7 +13,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print one executable per line, of one package or of all; 0."""
-    from amr_description.cli.packages import executables_of, packages
+    from amr_description.ament_index import executables_of, packages
 
     for package in [args.package_name] if args.package_name else packages():
         for path in executables_of(package):

@@ -11,7 +11,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(_args: Namespace) -> int:
     """Print the names; 0."""
-    from amr_description.cli.packages import packages
+    from amr_description.ament_index import packages
 
     for name in packages():
         print(name)

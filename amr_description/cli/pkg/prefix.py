@@ -17,7 +17,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print the prefix; 0."""
-    from amr_description.cli.packages import packages
+    from amr_description.ament_index import packages
 
     prefix = packages().get(args.package_name)
     if prefix is None:

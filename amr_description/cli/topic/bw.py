@@ -30,7 +30,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print a report a second until Ctrl-C."""
-    from amr_description.cli.bandwidth_meter import BandwidthMeter
+    from amr_description.cli.meters import BandwidthMeter
     from amr_description.cli.topic.measuring import measured_topic
 
     meter = BandwidthMeter(args.window)

@@ -35,7 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print a report a second until Ctrl-C."""
-    from amr_description.cli.delay_meter import DelayMeter
+    from amr_description.cli.meters import DelayMeter
     from amr_description.cli.topic.measuring import measured_topic
 
     meter = DelayMeter(args.window)
@@ -97,6 +97,6 @@ def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
         )
     if fields[0] == header:
         return lambda data: Time.from_msg(deserialize_message(data, Header).stamp).nanoseconds
-    return lambda data: Time.from_msg(
-        deserialize_message(data, message_class).header.stamp
-    ).nanoseconds
+    return lambda data: (
+        Time.from_msg(deserialize_message(data, message_class).header.stamp).nanoseconds
+    )

@@ -46,7 +46,7 @@ def main(args: Namespace) -> int:
     from rclpy.clock import Clock, ClockType
 
     from amr_description.cli.message_filter import make_filter
-    from amr_description.cli.rate_meter import RateMeter
+    from amr_description.cli.meters import RateMeter
     from amr_description.cli.topic.measuring import measured_topic
 
     meter = RateMeter(args.window_size)

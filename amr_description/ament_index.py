@@ -1,0 +1,151 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+ROS packages, their executables and files: the ament index of ``AMENT_PREFIX_PATH``, and URIs.
+
+A package is found in the first prefix whose index names it, as in ``ament_index_python``. What
+cannot be found raises :class:`~amr_description.errors.ResourceError`.
+"""
+
+from collections.abc import Iterator
+import os
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from ament_index_python import get_package_prefix, get_packages_with_prefixes
+from ament_index_python.packages import PackageNotFoundError
+
+from amr_description.errors import ResourceError
+from amr_description.text import shorten, suggestion
+
+OWN_PACKAGE = 'amr_description'
+_SOURCE_TREE = Path(__file__).resolve().parents[1]
+_VARIABLE = 'AMENT_PREFIX_PATH'
+
+
+def prefixes() -> list[Path]:
+    """Return the install folders that the sourced underlay and workspaces announce."""
+    return [Path(prefix) for prefix in os.environ.get(_VARIABLE, '').split(os.pathsep) if prefix]
+
+
+def packages() -> dict[str, Path]:
+    """Return the prefix of each installed package, sorted by the package's name."""
+    if not prefixes():
+        return {}
+    return {name: Path(prefix) for name, prefix in sorted(get_packages_with_prefixes().items())}
+
+
+def is_installed(package: str) -> bool:
+    """Return whether a package is in the ament index."""
+    try:
+        package_prefix(package)
+    except ResourceError:
+        return False
+    return True
+
+
+def package_prefix(package: str) -> Path:
+    """Return the folder that a package is installed in. Raises ResourceError."""
+    if not prefixes():
+        raise ResourceError(
+            f"Package '{shorten(package)}' not found: {_VARIABLE} is empty; source "
+            'scripts/activate or the setup.bash of the workspace first'
+        )
+    try:
+        return Path(get_package_prefix(package))
+    except (PackageNotFoundError, OSError, ValueError) as error:
+        searched = ', '.join(map(str, prefixes()))
+        raise ResourceError(
+            f"Package '{shorten(package)}' not found, searching: {searched}"
+        ) from error
+
+
+def package_share(package: str) -> Path:
+    """
+    Return the share folder of a package. Raises ResourceError.
+
+    This package is also found in a source tree that was not built.
+    """
+    try:
+        return package_prefix(package) / 'share' / package
+    except ResourceError:
+        if package == OWN_PACKAGE and (_SOURCE_TREE / 'config').is_dir():
+            return _SOURCE_TREE
+        raise
+
+
+def executables_of(package: str) -> list[Path]:
+    """Return all executable files in ``lib/<package>``, sorted by path. Raises ResourceError."""
+    return sorted(_executables_below(package_prefix(package) / 'lib' / package))
+
+
+def executable_of(package: str, name: str) -> Path:
+    """Return ``<prefix>/lib/<package>/<name>``. Raises ResourceError with the closest name."""
+    folder = package_prefix(package) / 'lib' / package
+    path = folder / name
+    if _is_executable(path):
+        return path
+    known = sorted(file.name for file in folder.glob('*') if _is_executable(file))
+    raise ResourceError(
+        f"executable '{name}' not found on the libexec directory '{folder}'"
+        + suggestion(name, known)
+    )
+
+
+def resolve_uri(uri: str, folder: Path | None = None) -> Path:
+    """
+    Return the path that a URI of a description means; the file need not exist.
+
+    Args:
+        uri: ``package://<package>/<path>``, ``file://<path>`` or a plain path.
+        folder: what a relative plain path starts from, usually that of the description's file.
+
+    Raises:
+        ResourceError: the package is not installed, or the scheme is not known.
+    """
+    try:
+        parts = urlsplit(uri)
+    except ValueError as error:
+        raise ResourceError(
+            f'{uri!a} is no URI: {error}; package://, file:// or a path will do'
+        ) from error
+    path = unquote(parts.path)
+    match parts.scheme:
+        case 'package':
+            return package_share(parts.netloc) / path.lstrip('/')
+        case 'file':
+            return Path(path)
+        case '':
+            return (folder or Path()) / uri
+        case scheme:
+            raise ResourceError(
+                f"'{uri}': scheme '{scheme}' is not known; package://, file:// or a path will do"
+            )
+
+
+def path_of(file: str) -> Path:
+    """
+    Return the absolute path of a file that exists. Raises ResourceError.
+
+    ``file`` is ``package://<package>/<path below its share folder>``, or an ordinary path, in
+    which ``~`` is the home folder and every other character is meant as it is.
+    """
+    if file.startswith('package://'):
+        package, _, below = file.removeprefix('package://').partition('/')
+        path = package_prefix(package) / 'share' / package / below
+    else:
+        path = Path(file).expanduser().absolute()
+    if not path.is_file():
+        found = 'that is a folder' if path.is_dir() else 'there is no such file'
+        raise ResourceError(f"'{file}' asked for, {found} at {path}")
+    return path
+
+
+def _executables_below(folder: Path) -> Iterator[Path]:
+    for path, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith('.')]
+        yield from (file for name in files if _is_executable(file := Path(path, name)))
+
+
+def _is_executable(path: Path) -> bool:
+    return path.is_file() and os.access(path, os.X_OK)

@@ -1,0 +1,120 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which files a stack is started with, and whether somebody edits another copy of one.
+
+A workspace that is built without ``--symlink-install`` has every description twice, and an edit
+of the source changes nothing until the next build. A file that its editor has not saved yet looks
+the same from here; when it was last saved stands in the note.
+"""
+
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+import hashlib
+from pathlib import Path
+import re
+
+from amr_description.ament_index import package_prefix, prefixes
+from amr_description.bringup.console import Level
+from amr_description.errors import ResourceError
+
+type Note = tuple[Level, str]
+"""What the bring-up says, and how loudly."""
+
+_DIGITS = 12  # of the SHA-256, enough for a person to compare
+_MANIFESTS = ('package.xml', *(f'src/{"*/" * depth}package.xml' for depth in range(4)))
+_FIX = 'run scripts/setup, or colcon build --symlink-install, which links instead of copying'
+
+
+def notes_on(files: Sequence[Path]) -> list[Note]:
+    """
+    Return a note on each file, with its hash, and a warning where its other copy is another.
+
+    The other copy of an installed file is its source, that of a source file the installed one.
+    Beside a xacro file all others of its folder are compared, as it may include them.
+    """
+    notes: list[Note] = []
+    for file in files:
+        saved = datetime.fromtimestamp(file.stat().st_mtime)
+        text = f'{file}{_target(file)} ({_hash(file)}, saved {saved:%Y-%m-%d %H:%M:%S})'
+        notes.append(('INFO', f'using {text}'))
+        compared = _family(file) if file.suffix == '.xacro' else [file]
+        notes += [('WARNING', text) for each in compared for text in _differences(each)]
+    return notes
+
+
+def _differences(used: Path) -> Iterator[str]:
+    """Yield at most one line: which other copy there is, and how to make them one."""
+    other, what = source_of(used), 'its source'
+    if other is None:
+        other, what = installed_copy_of(used), 'the installed copy'
+    if other is None or other.read_bytes() == used.read_bytes():
+        return
+    age = 'newer' if other.stat().st_mtime > used.stat().st_mtime else 'older'
+    yield (
+        f'{used} ({_hash(used)}) is used; {what}, {other} ({_hash(other)}, {age}), is not the '
+        f'same; {_FIX}'
+    )
+
+
+def source_of(installed: Path) -> Path | None:
+    """Return the file in a workspace's sources that an installed file was copied from."""
+    for prefix in prefixes():
+        share = prefix / 'share'
+        if installed.is_relative_to(share) and len(installed.relative_to(share).parts) > 1:
+            package, *below = installed.relative_to(share).parts
+            folders = (_sources(base, package) for base in (prefix.parent, prefix.parent.parent))
+            found = (folder.joinpath(*below) for group in folders for folder in group)
+            return next((file for file in found if file.is_file()), None)
+    return None
+
+
+def installed_copy_of(source: Path) -> Path | None:
+    """Return the file that ``package://`` finds in place of a file of a package's sources."""
+    for folder in source.parents:
+        package = _package_in(folder / 'package.xml')
+        if package is None:
+            continue
+        try:
+            share = package_prefix(package) / 'share' / package
+        except ResourceError:  # not built, or not sourced
+            return None
+        installed = share / source.relative_to(folder)
+        return installed if installed.is_file() else None
+    return None
+
+
+def _sources(workspace: Path, package: str) -> Iterator[Path]:
+    """Yield the folders of a package's sources in a colcon workspace."""
+    if not (workspace / 'build' / package).is_dir():
+        return
+    for pattern in _MANIFESTS:
+        for manifest in sorted(workspace.glob(pattern)):
+            if _package_in(manifest) == package:
+                yield manifest.parent
+
+
+def _package_in(manifest: Path) -> str | None:
+    """Return the name in a package.xml, None if there is none."""
+    try:
+        text = manifest.read_text('utf-8', errors='replace')
+    except OSError:
+        return None
+    name = re.search(r'<name>\s*(\S+?)\s*</name>', text)
+    return name[1] if name else None
+
+
+def _family(file: Path) -> list[Path]:
+    """Return the files of a folder, ``file`` first."""
+    others = (other for other in sorted(file.parent.iterdir()) if other.is_file())
+    return [file, *(other for other in others if other.name != file.name)]
+
+
+def _target(file: Path) -> str:
+    """Tell where a link leads."""
+    target = file.resolve()
+    return '' if target == file else f' -> {target}'
+
+
+def _hash(file: Path) -> str:
+    return f'sha256 {hashlib.sha256(file.read_bytes()).hexdigest()[:_DIGITS]}'

@@ -1,0 +1,215 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Bytes from a pipe, as they come, into lines of text.
+
+One running process of a stack: its session, its output, its end.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping, Sequence
+import contextlib
+import fcntl
+import os
+import signal
+import subprocess
+import termios
+
+LONGEST_LINE = 32_768  # bytes; a longer one is shown in pieces rather than held in memory
+
+
+class LineSplitter:
+    """Collects what a process writes and hands out whole lines, without their line ends."""
+
+    def __init__(self, longest: int = LONGEST_LINE) -> None:
+        """``longest``: bytes after which a line is cut."""
+        self._longest = longest
+        self._rest = b''
+
+    def feed(self, data: bytes) -> list[str]:
+        """Add what was read; return the lines that are complete now."""
+        *lines, self._rest = (self._rest + data).split(b'\n')
+        pieces = [piece for line in lines for piece in self._cut(line)]
+        *full, self._rest = self._cut(self._rest)
+        return [_text(piece) for piece in pieces + full]
+
+    def flush(self) -> list[str]:
+        """Return the unfinished last line, if there is one: nothing more will come."""
+        rest, self._rest = self._rest, b''
+        return [_text(rest)] if rest else []
+
+    def _cut(self, line: bytes) -> list[bytes]:
+        pieces = []
+        while len(line) > self._longest:
+            end = _start_of_character(line, self._longest)
+            pieces.append(line[:end])
+            line = line[end:]
+        return [*pieces, line]
+
+
+def _start_of_character(line: bytes, index: int) -> int:
+    """Return the last index, at most 3 before ``index``, at which a UTF-8 character begins."""
+    for back in range(4):
+        if line[index - back] & 0xC0 != 0x80:
+            return index - back
+    return index
+
+
+def _text(line: bytes) -> str:
+    return line.removesuffix(b'\r').decode(errors='replace')
+
+
+LAST_LINES = 20  # kept for the post-mortem
+_READ_SIZE = 65_536  # bytes, the capacity of a pipe
+
+
+@contextlib.contextmanager
+def held_back(number: signal.Signals) -> Iterator[None]:
+    """
+    Have a signal wait while inside.
+
+    For a process that is started here it waits until that process takes it: what is blocked is
+    inherited.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [number])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class RunningProcess:
+    """
+    A process that leads a process group; made, polled and signalled in the event loop's thread.
+
+    Its makers are :class:`Child` and :class:`terminal.TerminalChild`.
+    """
+
+    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+        """Take over a process that has just been started."""
+        self._process = process
+        self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
+        """What it wrote last, for the post-mortem."""
+        self.sent: signal.Signals | None = None
+        """The last signal that :meth:`send` sent."""
+
+    @property
+    def pid(self) -> int:
+        """Process id, also that of its process group."""
+        return self._process.pid
+
+    @property
+    def returncode(self) -> int | None:
+        """Exit code or minus the signal's number; None until :meth:`poll` found the end."""
+        return self._process.returncode
+
+    @property
+    def died_of_ctrl_c(self) -> bool:
+        """Whether it died of a SIGINT that is not from here, as programs without handler do."""
+        return self.sent is None and self.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
+
+    def poll(self) -> bool:
+        """Return whether the process has ended; if so, all its lines have been handed over."""
+        return self._process.poll() is not None
+
+    def send(self, number: signal.Signals) -> None:
+        """Signal its whole process group, as Ctrl-C in a terminal does."""
+        if self.returncode is None:
+            self.sent = number
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.pid, number)
+
+    def close(self) -> None:
+        """Have done with it, once it has ended."""
+
+
+class Child(RunningProcess):
+    """
+    A process in a session of its own, whose output is handed over line by line.
+
+    asyncio's own subprocesses are not used because their exit and their last output arrive in no
+    fixed order: here :meth:`poll` hands over every line that was written before the process ended.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str],
+        inherit: int,
+        on_line: Callable[[str], None],
+    ) -> None:
+        """
+        Start the process.
+
+        :param inherit: A file descriptor that the child gets under the same number.
+        :param on_line: Called with each line of its stdout and stderr, without line end.
+        :raises OSError: The operating system cannot start it.
+
+        What a process ignores, its children ignore too, but what it handles is reset in them:
+        under the orchestrator's handlers no child starts with SIGINT ignored, even where a shell
+        started the orchestrator so.
+        """
+        reader, writer = os.pipe()
+        try:
+            process = subprocess.Popen(
+                command,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=writer,
+                stderr=writer,  # the same pipe: the order of the lines stays
+                pass_fds=(inherit,),
+                start_new_session=True,
+            )
+        except OSError:
+            os.close(reader)
+            raise
+        finally:
+            os.close(writer)
+        os.set_blocking(reader, False)
+        super().__init__(process)
+        self._reader: int | None = reader
+        self._on_line = on_line
+        self._splitter = LineSplitter()
+        asyncio.get_running_loop().add_reader(reader, self._read)
+
+    def poll(self) -> bool:
+        """As in the base class."""
+        if not super().poll():
+            return False
+        self._drain()
+        return True
+
+    def close(self) -> None:
+        """Stop listening to its output, which its own children may still hold open."""
+        if self._reader is not None:
+            asyncio.get_running_loop().remove_reader(self._reader)
+            os.close(self._reader)
+            self._reader = None
+            self._hand_over(self._splitter.flush())
+
+    def _read(self, size: int = _READ_SIZE) -> None:
+        try:
+            data = os.read(self._reader, size)
+        except BlockingIOError:
+            return
+        if data:
+            self._hand_over(self._splitter.feed(data))
+        else:
+            self.close()
+
+    def _drain(self) -> None:
+        """Read what is in the pipe at this moment, not what others still write into it."""
+        if self._reader is None:
+            return
+        waiting = fcntl.ioctl(self._reader, termios.FIONREAD, bytes(4))
+        size = int.from_bytes(waiting, 'little')
+        while size > 0 and self._reader is not None:
+            self._read(min(size, _READ_SIZE))
+            size -= _READ_SIZE
+        self._hand_over(self._splitter.flush())
+
+    def _hand_over(self, lines: list[str]) -> None:
+        for line in lines:
+            self.last_lines.append(line)
+            self._on_line(line)

@@ -1,0 +1,199 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""One hardware component inside the manager: its state, its interfaces, and when it is due."""
+
+from collections.abc import Iterable
+
+from amr_description.clock import NANOSECONDS
+from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.interfaces import Handle, LifecycleState
+from amr_description.control.plugin_errors import describe, log_traceback
+from amr_description.control.statistics import RunningCycleStatistic, standing_still, Stopwatch
+from amr_description.errors import HardwareError
+from amr_description.model.hardware_info import HardwareType
+
+# Neighbours are one transition apart; none leads away from the first.
+_LADDER = (
+    LifecycleState.FINALIZED,
+    LifecycleState.UNCONFIGURED,
+    LifecycleState.INACTIVE,
+    LifecycleState.ACTIVE,
+)
+_TRANSITIONS = {
+    (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE): 'configure',
+    (LifecycleState.INACTIVE, LifecycleState.ACTIVE): 'activate',
+    (LifecycleState.ACTIVE, LifecycleState.INACTIVE): 'deactivate',
+    (LifecycleState.INACTIVE, LifecycleState.UNCONFIGURED): 'cleanup',
+    (LifecycleState.UNCONFIGURED, LifecycleState.FINALIZED): 'shutdown',
+}
+
+
+class OwnedComponent:
+    """
+    A component with its lifecycle; the resource manager is the only one to move it.
+
+    ``stopwatch``: measures how long reading and writing it takes.
+    """
+
+    def __init__(
+        self, component: HardwareComponent, log: Log, stopwatch: Stopwatch = standing_still
+    ) -> None:
+        """Raises HardwareError: it exports one name twice, or is a sensor with commands."""
+        self.component = component
+        self.info = component.info
+        self.states = by_name(component.state_interfaces(), self.info.name)
+        self.commands = by_name(component.command_interfaces(), self.info.name)
+        self.is_sensor = self.info.type is HardwareType.SENSOR
+        """True: it is never written."""
+        if self.is_sensor and self.commands:
+            raise HardwareError(
+                f'Hardware component \'{self.info.name}\' is of type "sensor", which is never '
+                f"written, and has the command interface '{min(self.commands)}'; it has to be of "
+                'type "actuator" or "system"'
+            )
+        self.state = LifecycleState.UNCONFIGURED
+        self.read_statistic = RunningCycleStatistic()
+        """Of its reads since it was activated."""
+        self.write_statistic = RunningCycleStatistic()
+        """Likewise of its writes."""
+        self._stopwatch = stopwatch
+        self._log = log
+        self._last_read: int | None = None
+        self._last_write: int | None = None
+
+    @property
+    def is_available(self) -> bool:
+        """True once it is configured: its interfaces may be used, and it is read."""
+        return self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
+
+    # --- lifecycle ----------------------------------------------------------------------------
+
+    def go_to(self, target: LifecycleState) -> None:
+        """
+        Go to ``target``, one transition after the other.
+
+        Raises HardwareError: there is no way, or a transition failed; it is then left in the
+        state that it reached.
+        """
+        name = self.info.name
+        if target not in _LADDER:
+            raise HardwareError(
+                f"Hardware component '{name}' cannot go from {self.state.label} to {target.label}"
+            )
+        if self.state is LifecycleState.FINALIZED and target is not self.state:
+            raise HardwareError(
+                f"hardware '{name}' is in finalized state and can be only destroyed; "
+                f'{target.label} was asked. Start its controller manager anew'
+            )
+        while self.state is not target:
+            following = self._next_towards(target)
+            try:
+                self._take(following)
+            except Exception as error:  # a foreign component may raise anything
+                raise HardwareError(
+                    f"Hardware component '{name}' failed on its way from {self.state.label} to "
+                    f'{following.label}: {describe(error)}'
+                ) from error
+
+    def bring_down(self, target: LifecycleState = LifecycleState.UNCONFIGURED) -> None:
+        """Stop its actuators, which nobody may command any more, and close it; never raises."""
+        while _LADDER.index(self.state) > _LADDER.index(target):
+            following = self._next_towards(target)
+            try:
+                self._take(following)
+            except Exception as error:  # it is given up all the same
+                self.report(f'transition to {following.label}', error)
+                self.state = following
+
+    def _next_towards(self, target: LifecycleState) -> LifecycleState:
+        here = _LADDER.index(self.state)
+        return _LADDER[here + (1 if here < _LADDER.index(target) else -1)]
+
+    def _take(self, following: LifecycleState) -> None:
+        """One transition, told in the words of ros2_control."""
+        transition = _TRANSITIONS[self.state, following]
+        self._log(Severity.INFO, f"'{transition}' hardware '{self.info.name}' ")
+        getattr(self.component, transition)()
+        self.state = following
+        self._last_read = self._last_write = None
+        if following is LifecycleState.ACTIVE:
+            self.read_statistic.reset()
+            self.write_statistic.reset()
+        self._log(Severity.INFO, f"Successful '{transition}' of hardware '{self.info.name}'")
+
+    # --- input and output ---------------------------------------------------------------------
+
+    def read(self, time: int, period: int) -> None:
+        """
+        Read it if it is available and due; ``time`` and ``period`` of the manager's tick, ns.
+
+        Raises what the component raises.
+        """
+        if not self.is_available:
+            return
+        last = self._last_read
+        elapsed = self._elapsed(last, time, period)
+        if elapsed is None:
+            return
+        self._last_read = time
+        begin = self._stopwatch()
+        self.component.read(time, elapsed)
+        duration = self._stopwatch() - begin
+        self.read_statistic.add(duration, None if last is None else time - last)
+
+    def write(self, time: int, period: int) -> None:
+        """Write it if it is active, no mere sensor, and due; else as :meth:`read`."""
+        if self.state is not LifecycleState.ACTIVE or self.is_sensor:
+            return
+        last = self._last_write
+        elapsed = self._elapsed(last, time, period)
+        if elapsed is None:
+            return
+        self._last_write = time
+        begin = self._stopwatch()
+        self.component.write(time, elapsed)
+        duration = self._stopwatch() - begin
+        self.write_statistic.add(duration, None if last is None else time - last)
+
+    def _elapsed(self, last: int | None, time: int, period: int) -> int | None:
+        """
+        Return the period to hand over, ns; ``None`` when it is not due.
+
+        With a rate of its own that is the true time since last time, the nominal one at the
+        first. It is due from 99 % of its period on, so that a tick a bit early counts.
+        """
+        rate = self.info.rw_rate
+        if not rate:
+            return period
+        if last is None:
+            return max(period, NANOSECONDS // rate)
+        elapsed = time - last
+        return elapsed if elapsed * rate >= 0.99 * NANOSECONDS else None
+
+    def set_clock(self) -> None:
+        """The clock was set: what it was read and written at counts no more."""
+        self._last_read = self._last_write = None
+
+    def reset(self, time: int) -> None:
+        """The world began anew at ``time``, ns. Raises what the component raises."""
+        self.set_clock()
+        if self.is_available:
+            self.component.reset(time)
+
+    def report(self, action: str, error: Exception) -> None:
+        """Log what the component raised."""
+        self._log(
+            Severity.ERROR,
+            f"{action} of hardware component '{self.info.name}' failed: {describe(error)}",
+        )
+        log_traceback(self._log, error)
+
+
+def by_name[H: Handle](handles: Iterable[H], owner: str) -> dict[str, H]:
+    """Raises HardwareError where the owner exports one name twice."""
+    found: dict[str, H] = {}
+    for handle in handles:
+        if handle.name in found:
+            raise HardwareError(f"'{owner}' exports the interface '{handle.name}' twice")
+        found[handle.name] = handle
+    return found

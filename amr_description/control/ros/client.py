@@ -1,0 +1,269 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A controller manager as seen by a program that asks it for something, ours or a C++ one."""
+
+from collections.abc import Mapping, Sequence
+import re
+import time
+from typing import Any
+
+from controller_manager_msgs import srv
+from controller_manager_msgs.msg import HardwareComponentState
+from lifecycle_msgs.msg import State
+from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
+from rclpy.client import Client
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from amr_description.control.ros.absence_diagnosis import errors_of, ManagerSearch
+from amr_description.errors import ControllerError
+from amr_description.ros.runtime import argument_errors
+from amr_description.ros.service_calls import ask_until_answered, call, NoAnswerError, wait_until
+
+_EVERY = 10.0
+"""s: how often it is said that the manager is still not there."""
+_ATTEMPTS = 3
+_LONGEST = 2.0**31 - 1.0
+"""s: what a builtin_interfaces/Duration can say."""
+
+
+class ManagerClient:
+    """Calls the services of one controller manager."""
+
+    def __init__(
+        self,
+        node: Node,
+        manager: str,
+        *,
+        timeout: float = 0.0,
+        call_timeout: float = 10.0,
+        silent: float = 0.0,
+        first: Any = None,
+    ) -> None:
+        """
+        Wait until the manager is there; ``manager``: its node, relative to the namespace.
+
+        ``timeout``: s, 0 for ever. ``call_timeout``: s, for each of three waits for a response.
+        ``silent``: for so long, s, waiting is not worth a line. ``first``: the type of the service
+        that is waited for, one that takes no fields; default: ListControllers. Raises
+        ControllerError, which names what is missing, when the manager does not come; NoAnswerError
+        when it does not answer; ParameterError when ``manager`` is no name.
+        """
+        self._node = node
+        self._call_timeout = call_timeout
+        self._asked = 0.0
+        with argument_errors():
+            self.name = node.resolve_service_name(manager)
+        self.namespace = self.name.rpartition('/')[0] or '/'
+        self._search = ManagerSearch(node, self.name)
+        first = first or srv.ListControllers
+        client = node.create_client(first, self._service(first))
+        try:
+            self._wait_for(client, timeout, silent)
+            self._ask(client)
+        finally:
+            node.destroy_client(client)
+
+    def is_there(self) -> bool:
+        """Tell whether it is still there."""
+        return self._node.count_services(self._service(srv.ListControllers)) > 0
+
+    def look(self, service_type: Any, **fields: Any) -> Any:
+        """
+        Return the response of a service that changes nothing; its name follows from its type.
+
+        ``fields``: of the request. Raises NoAnswerError.
+        """
+        client = self._node.create_client(service_type, self._service(service_type))
+        try:
+            return self._ask(client, **fields)
+        finally:
+            self._node.destroy_client(client)
+
+    def states(self) -> dict[str, str]:
+        """Name → state of every loaded controller."""
+        return {each.name: each.state for each in self.look(srv.ListControllers).controller}
+
+    def components(self) -> list[HardwareComponentState]:
+        """Return the hardware components."""
+        return self.look(srv.ListHardwareComponents).component
+
+    def typed_controllers(self) -> list[str]:
+        """Names of the controllers that the manager's parameters hold a type for."""
+        listed = self.look(ListParameters).result.names
+        return sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
+
+    def has_type(self, controller: str) -> bool:
+        """Tell whether the manager's parameters hold a type for a controller."""
+        values = self.look(GetParameters, names=[f'{controller}.type']).values
+        return bool(values and values[0].string_value)
+
+    def load(self, name: str) -> bool:
+        """Load a controller."""
+        return self._call(srv.LoadController, name=name).ok
+
+    def configure(self, name: str) -> bool:
+        """Configure a controller."""
+        return self._call(srv.ConfigureController, name=name).ok
+
+    def unload(self, name: str) -> bool:
+        """Unload a controller."""
+        return self._call(srv.UnloadController, name=name).ok
+
+    def cleanup(self, name: str) -> bool:
+        """Bring an inactive controller back to unconfigured."""
+        return self._call(srv.CleanupController, name=name).ok
+
+    def reload_libraries(self, *, force_kill: bool) -> bool:
+        """Unload all controllers, and import what they are made of anew."""
+        return self._call(srv.ReloadControllerLibraries, force_kill=force_kill).ok
+
+    def set_component_state(
+        self, name: str, state: State
+    ) -> srv.SetHardwareComponentState.Response:
+        """Bring a hardware component to a state; the response has the state that it is in."""
+        return self._call(srv.SetHardwareComponentState, name=name, target_state=state)
+
+    def switch(
+        self,
+        *,
+        activate: Sequence[str] = (),
+        deactivate: Sequence[str] = (),
+        timeout: float = 5.0,
+        activate_asap: bool = True,
+    ) -> str | None:
+        """Switch under STRICT; return ``None``, or why it failed."""
+        response = self.request_switch(
+            activate,
+            deactivate,
+            srv.SwitchController.Request.STRICT,
+            timeout=timeout,
+            activate_asap=activate_asap,
+        )
+        if response.ok:
+            return None
+        fault = self._search.clock_fault() if 'timed out' in response.message else ''
+        return '; '.join(filter(None, (response.message, fault)))
+
+    def request_switch(
+        self,
+        activate: Sequence[str],
+        deactivate: Sequence[str],
+        strictness: int,
+        *,
+        timeout: float = 5.0,
+        activate_asap: bool = True,
+    ) -> srv.SwitchController.Response:
+        """
+        Switch; ``strictness``: as in the request, 0 for the manager's default.
+
+        ``timeout``: s, how long the manager may take; its answer is waited for at least as long.
+        """
+        return self._call(
+            srv.SwitchController,
+            max(timeout, self._call_timeout),
+            activate_controllers=list(activate),
+            deactivate_controllers=list(deactivate),
+            strictness=strictness,
+            activate_asap=activate_asap,
+            timeout=Duration(seconds=min(timeout, _LONGEST)).to_msg(),
+        )
+
+    def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
+        """Set ``<controller>.<key>`` at the manager. Raises ControllerError."""
+        if not parameters:
+            return
+        rows = [Parameter(f'{controller}.{key}', value=v) for key, v in parameters.items()]
+        messages = [row.to_parameter_msg() for row in rows]
+        response = self._call(SetParameters, parameters=messages)
+        for (key, value), result in zip(parameters.items(), response.results, strict=True):
+            if not result.successful:
+                raise ControllerError(
+                    f'Could not set controller param "{key}" to "{value}" for {controller}: '
+                    f'{self.name} refuses it: {result.reason}'
+                )
+
+    def reasons(self, controller: str) -> str:
+        """
+        Say why the last load failed; the services only say that it did.
+
+        A missing type is found by asking; the rest is :meth:`logged`.
+        """
+        asked = self._asked
+        if self.has_type(controller):
+            return self.logged(controller, since=asked)
+        return (
+            f'no type is set for it; the parameters of {self.name} hold one for: '
+            f'{", ".join(self.typed_controllers()) or "none"}; a parameter file given here may '
+            'name another'
+        )
+
+    def logged(self, *nodes: str, since: float | None = None) -> str:
+        """
+        Return what the manager, and nodes beside it, have logged as errors; empty: nothing.
+
+        ``since``: s, Unix time; None: the last request that was to change something.
+        """
+        inside = self.namespace.rstrip('/')
+        names = [self.name, *(f'{inside}/{node}' for node in nodes)]
+        return '; '.join(errors_of(self._node, names, self._asked if since is None else since))
+
+    def _wait_for(self, client: Client, timeout: float, silent: float) -> None:
+        """Wait until the service is there, in words. Raises ControllerError."""
+        service, log = client.srv_name, self._node.get_logger()
+
+        def ready() -> bool | None:
+            return client.service_is_ready() or None
+
+        def say() -> None:
+            log.warning(f'Could not contact service {service}: {self._search.missing()}')
+            log.info(f'waiting for service {service} to become available...')
+
+        if silent and wait_until(self._node, ready, timeout=silent):
+            return
+        log.info(f'waiting for service {service} to become available...')
+        if not wait_until(self._node, ready, say, every=_EVERY, timeout=timeout):
+            fault = self._search.missing()
+            if not ready():
+                raise ControllerError(
+                    f'Could not contact service {service} within {timeout:g} s: {fault}'
+                )
+
+    def _ask(self, client: Client, **fields: Any) -> Any:
+        request = client.srv_type.Request(**fields)
+        try:
+            return ask_until_answered(
+                self._node, client, request, timeout=self._call_timeout, attempts=_ATTEMPTS
+            )
+        except NoAnswerError as error:
+            raise self._explained(error) from error
+
+    def _call(self, service_type: Any, timeout: float | None = None, /, **fields: Any) -> Any:
+        """Call a service that changes something, once; return the response."""
+        self._asked = time.time()
+        try:
+            return call(
+                self._node,
+                service_type,
+                self._service(service_type),
+                service_type.Request(**fields),
+                timeout=self._call_timeout if timeout is None else timeout,
+                attempts=_ATTEMPTS,
+            )
+        except NoAnswerError as error:
+            raise self._explained(error) from error
+
+    def _service(self, service_type: Any) -> str:
+        return f'{self.name}/{_service_name(service_type)}'
+
+    def _explained(self, error: NoAnswerError) -> NoAnswerError:
+        if not self.is_there():
+            return error
+        fault = self._search.clock_fault() or f'{self.name} may be stopped, or busy: see its log'
+        return NoAnswerError(f'{error} {fault}')
+
+
+def _service_name(service_type: Any) -> str:
+    """Return the name that a service has by its type: ``LoadController`` → load_controller."""
+    return re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()

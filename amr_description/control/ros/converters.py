@@ -1,0 +1,146 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Samples of the controllers ↔ ROS messages; the functions that a ``Port`` names.
+
+``fill_…`` writes into a message that is made once and sent many times.
+"""
+
+from array import array
+import math
+
+from control_msgs.msg import DynamicJointState, InterfaceValue
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64MultiArray
+from tf2_msgs.msg import TFMessage
+
+from amr_description.control.samples import (
+    CommandsSample,
+    DynamicJointStateSample,
+    DynamicLayout,
+    Frames,
+    ImuConstants,
+    ImuSample,
+    JointStateSample,
+    OdometrySample,
+    TwistSample,
+)
+from amr_description.ros.messages import fill_stamp, nanoseconds
+
+
+def twist_sample(message: TwistStamped) -> TwistSample:
+    """Keep the raw stamp (zero stays zero) and the planar part."""
+    return TwistSample(
+        stamp=nanoseconds(message.header.stamp),
+        linear=message.twist.linear.x,
+        angular=message.twist.angular.z,
+        frame_id=message.header.frame_id,
+    )
+
+
+def unstamped_twist_sample(message: Twist) -> TwistSample:
+    """Keep the planar part; there is no stamp."""
+    return TwistSample(stamp=0, linear=message.linear.x, angular=message.angular.z)
+
+
+def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
+    """Write a planar twist."""
+    fill_stamp(sample.stamp, message.header.stamp)
+    message.header.frame_id = sample.frame_id
+    message.twist.linear.x = sample.linear
+    message.twist.angular.z = sample.angular
+
+
+def fill_odometry(sample: OdometrySample, message: Odometry) -> None:
+    """Write pose, twist and, the first time, frames and covariances."""
+    if message.child_frame_id != sample.frames.child_frame_id:
+        _fill_constants(sample.frames, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    pose = message.pose.pose
+    pose.position.x = sample.x
+    pose.position.y = sample.y
+    pose.orientation.z = math.sin(sample.heading * 0.5)
+    pose.orientation.w = math.cos(sample.heading * 0.5)
+    twist = message.twist.twist
+    twist.linear.x = sample.linear
+    twist.angular.z = sample.angular
+
+
+def fill_odometry_transform(sample: OdometrySample, message: TFMessage) -> None:
+    """Write the transform from the base frame to the odometry frame."""
+    if not message.transforms:
+        message.transforms = [TransformStamped()]
+    stamped = message.transforms[0]
+    fill_stamp(sample.stamp, stamped.header.stamp)
+    stamped.header.frame_id = sample.frames.frame_id
+    stamped.child_frame_id = sample.frames.child_frame_id
+    transform = stamped.transform
+    transform.translation.x = sample.x
+    transform.translation.y = sample.y
+    transform.rotation.z = math.sin(sample.heading * 0.5)
+    transform.rotation.w = math.cos(sample.heading * 0.5)
+
+
+def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
+    """Write the arrays of numbers and, when they have changed, the names."""
+    fill_stamp(sample.stamp, message.header.stamp)
+    if message.name is not sample.name:
+        message.header.frame_id = sample.frame_id
+        message.name = sample.name
+    message.position = array('d', sample.position)
+    message.velocity = array('d', sample.velocity)
+    message.effort = array('d', sample.effort)
+
+
+def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: DynamicJointState) -> None:
+    """Write the values and, when they have changed, the names."""
+    if message.joint_names is not sample.layout.names:
+        _fill_names(sample.layout, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    for interfaces, values in zip(message.interface_values, sample.values, strict=True):
+        interfaces.values = array('d', values)
+
+
+def commands_sample(message: Float64MultiArray) -> CommandsSample:
+    """Keep the numbers; the layout tells nothing of a plain list."""
+    return CommandsSample(tuple(message.data))
+
+
+def fill_imu(sample: ImuSample, message: Imu) -> None:
+    """Write what is measured and, the first time, frame and covariances."""
+    if message.header.frame_id != sample.constants.frame_id:
+        _fill_imu_constants(sample.constants, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    orientation = message.orientation
+    orientation.x, orientation.y, orientation.z, orientation.w = sample.orientation
+    for vector, values in (
+        (message.angular_velocity, sample.angular_velocity),
+        (message.linear_acceleration, sample.linear_acceleration),
+    ):
+        vector.x, vector.y, vector.z = values
+
+
+def _fill_constants(frames: Frames, message: Odometry) -> None:
+    message.header.frame_id = frames.frame_id
+    message.child_frame_id = frames.child_frame_id
+    for covariance, variances in (
+        (message.pose.covariance, frames.pose_variances),
+        (message.twist.covariance, frames.twist_variances),
+    ):
+        for axis, variance in enumerate(variances):
+            covariance[7 * axis] = variance
+
+
+def _fill_names(layout: DynamicLayout, message: DynamicJointState) -> None:
+    message.header.frame_id = layout.frame_id
+    message.joint_names = layout.names
+    message.interface_values = [InterfaceValue(interface_names=row) for row in layout.interfaces]
+
+
+def _fill_imu_constants(constants: ImuConstants, message: Imu) -> None:
+    message.header.frame_id = constants.frame_id
+    message.orientation_covariance = constants.orientation_covariance
+    message.angular_velocity_covariance = constants.angular_velocity_covariance
+    message.linear_acceleration_covariance = constants.linear_acceleration_covariance

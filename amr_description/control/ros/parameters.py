@@ -1,0 +1,221 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The parameters of a ``controller_manager`` node, and those that it keeps for a controller.
+
+The parameters of a ``controller_manager`` node, as the manager needs them.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from amr_description.control.controller_manager import ManagerDefaults
+from amr_description.control.diagnostic_thresholds import Diagnostics
+from amr_description.control.switching import Strictness
+from amr_description.errors import ControllerError
+from amr_description.parameter_files import read_parameter_file
+from amr_description.parameters import group, parameter
+from amr_description.ros.arguments import inherited, ros_arguments
+from amr_description.ros.parameters import (
+    declare,
+    declare_missing,
+    declare_the_rest,
+    refuse_what_the_table_refuses,
+    values,
+)
+from amr_description.ros.runtime import argument_errors
+
+
+@dataclass(frozen=True)
+class InitialStates:
+    """What becomes of the hardware at the start."""
+
+    unconfigured: tuple[str, ...] = parameter((), 'Components that are left unconfigured')
+    inactive: tuple[str, ...] = parameter((), 'Components that are configured, not activated')
+    shutdown_on_initial_state_failure: bool = parameter(
+        True, 'End when a component does not reach its first state', read_only=True
+    )
+
+
+@dataclass(frozen=True)
+class SwitchDefaults:
+    """What a request to switch leaves open."""
+
+    strictness: str = parameter(
+        'best_effort', 'Where a request names no strictness', choices=('best_effort', 'strict')
+    )
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """How controllers and hardware go together."""
+
+    allow_controller_activation_with_inactive_hardware: bool = parameter(
+        False, 'Let controllers claim commands of hardware that is not active', read_only=True
+    )
+    deactivate_controllers_on_hardware_self_deactivate: bool = parameter(
+        True, 'Deactivate the controllers of hardware that made itself inactive', read_only=True
+    )
+    switch_controller: SwitchDefaults = group('switch_controller', SwitchDefaults)
+
+
+@dataclass(frozen=True)
+class Overruns:
+    """Cycles that take too long."""
+
+    print_warnings: bool = parameter(True, 'Warn of them; default: unless use_sim_time')
+
+
+@dataclass(frozen=True)
+class DiagnosticUpdater:
+    """How ``/diagnostics`` is published."""
+
+    period: float = parameter(1.0, 'Time between two messages', unit='s', above=0.0)
+    use_fqn: bool = parameter(False, 'Name the node with its namespace')
+
+
+@dataclass(frozen=True)
+class ManagerTable:
+    """
+    The parameters of the manager.
+
+    ``update_rate`` may be set while it runs, as in the original, where only the start counts.
+    """
+
+    update_rate: int = parameter(100, 'Rate of the control loop', unit='Hz', above=0)
+    enforce_command_limits: bool = parameter(
+        False, 'Clamp commands to the limits of the URDF', read_only=True
+    )
+    handle_exceptions: bool = parameter(
+        True, 'Go on when a controller or a component raises', read_only=True
+    )
+    hardware_components_initial_state: InitialStates = group(
+        'hardware_components_initial_state', InitialStates
+    )
+    defaults: Defaults = group('defaults', Defaults)
+    overruns: Overruns = group('overruns', Overruns)
+    diagnostics: Diagnostics = group('diagnostics.threshold', Diagnostics)
+    diagnostic_updater: DiagnosticUpdater = group('diagnostic_updater', DiagnosticUpdater)
+
+
+@dataclass(frozen=True)
+class ControllerEntry:
+    """What the manager's parameters say of one controller, below its name."""
+
+    type: str = parameter('', 'Type of the controller', not_empty=True)
+    params_file: tuple[str, ...] = parameter((), 'Parameter files of the controller')
+    fallback_controllers: tuple[str, ...] = parameter(
+        (), 'Controllers to activate when this one fails'
+    )
+    node_options_args: tuple[str, ...] = parameter((), 'ROS arguments of its node')
+
+
+@dataclass(frozen=True)
+class CommonParameters:
+    """What every controller's node has besides the controller's own table."""
+
+    is_async: bool = parameter(
+        False, 'Update in a thread of its own: accepted, and updated in the control loop'
+    )
+    thread_priority: int = parameter(-100, 'Priority of that thread; not used')
+    update_rate: int = parameter(
+        100, "Updates per second; default, and 0: the manager's", unit='Hz', minimum=0
+    )
+
+
+class ManagerParameters:
+    """
+    Reads the node each time: ``ros2 param set`` before a load counts.
+
+    ``arguments`` are the manager's own ROS arguments, which every controller gets too; ``start``
+    is what the table held at the start.
+    """
+
+    def __init__(self, node: Node, arguments: Sequence[str]) -> None:
+        """Declare the parameters. Raises ParameterError."""
+        self._node = node
+        self._arguments = list(arguments)
+        uses_sim_time = node.get_parameter('use_sim_time').value
+        with argument_errors():
+            self.start = declare(
+                node, ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time}
+            )
+            declare_the_rest(node)
+        refuse_what_the_table_refuses(node, ManagerTable)
+        if not self.start.handle_exceptions:
+            node.get_logger().warning(
+                'handle_exceptions is false; what raises an exception is taken down all the same, '
+                'and the others go on'
+            )
+
+    @property
+    def update_rate(self) -> int:
+        """Hz."""
+        return self.start.update_rate
+
+    def now(self) -> ManagerTable:
+        """Return the present values."""
+        return values(self._node, ManagerTable)
+
+    def entry_of(self, name: str) -> ControllerEntry:
+        """
+        Return what is set for a controller; from then on all of it is declared.
+
+        Raises ControllerError that names the controllers that have a type; ParameterError.
+        """
+        if not self._get(f'{name}.type'):
+            raise ControllerError(
+                f"The 'type' param was not defined for '{name}'. Controllers with a type in the "
+                f'parameters of {self._node.get_fully_qualified_name()}: '
+                f'{", ".join(self._typed_controllers()) or "none"}'
+            )
+        prefix = f'{name}.'
+        with argument_errors():
+            declare_missing(self._node, ControllerEntry, prefix=prefix)
+        file = self._get(f'{prefix}params_file')
+        lone = [Parameter(f'{prefix}params_file', value=[file])] if isinstance(file, str) else []
+        return values(self._node, ControllerEntry, lone, prefix=prefix)
+
+    def arguments_of(self, entry: ControllerEntry) -> list[str]:
+        """
+        Return the manager's own arguments, then the controller's files and options.
+
+        Raises ParameterError: a file cannot be read.
+        """
+        for path in entry.params_file:
+            read_parameter_file(Path(path))  # rcl would not say where it is wrong
+        uses_sim_time = self._get('use_sim_time')
+        return [
+            *inherited(self._arguments),
+            *(argument for path in entry.params_file for argument in ('--params-file', path)),
+            *(['-p', 'use_sim_time:=true'] if uses_sim_time else []),
+            *ros_arguments(['--ros-args', *entry.node_options_args]),
+        ]
+
+    def defaults(self) -> ManagerDefaults:
+        """Return what ``defaults.…`` says now."""
+        now = self.now().defaults
+        return ManagerDefaults(
+            strictness=Strictness[now.switch_controller.strictness.upper()],
+            allow_controller_activation_with_inactive_hardware=(
+                now.allow_controller_activation_with_inactive_hardware
+            ),
+            deactivate_controllers_on_hardware_self_deactivate=(
+                now.deactivate_controllers_on_hardware_self_deactivate
+            ),
+        )
+
+    def _get(self, name: str) -> Any:
+        return self._node.get_parameter_or(name, Parameter(name)).value
+
+    def _typed_controllers(self) -> list[str]:
+        return sorted(
+            name.removesuffix('.type')
+            for name in self._node.get_parameters_by_prefix('')
+            if name.endswith('.type')
+        )

@@ -1,0 +1,281 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A ROS node for a hardware component that knows no ROS: its logger, and the usual services.
+
+``~/transition_event`` of a controller's node, as a lifecycle node of rclcpp publishes it.
+
+Every transition makes two messages, into the state in between and out of it::
+
+    unconfigured → configuring   (configure)
+    configuring → inactive       (transition_success)
+
+Beyond rcl, which leaves them empty, they say the transition itself and its time.
+
+A ROS node for a controller that knows no ROS: its parameters and its topics, from outside just
+as ros2_control has them.
+
+The ROS thread makes node, parameters and endpoints; the owner only sees finished objects.
+"""
+
+from collections.abc import Sequence
+import re
+from typing import Any
+
+from lifecycle_msgs.msg import State, Transition, TransitionEvent
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+
+from amr_description.control.contracts import (
+    Controller,
+    ControllerContext,
+    Input,
+    Output,
+    Qos,
+    Severity,
+)
+from amr_description.control.interfaces import LifecycleState
+from amr_description.control.plugin_errors import describe
+from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.parameters import CommonParameters
+from amr_description.model.robot import Robot
+from amr_description.registry import resolve
+from amr_description.ros.log_thread import LogThread
+from amr_description.ros.message_types import message_type
+from amr_description.ros.parameters import (
+    declare,
+    let_parameter_events_be_overridden,
+    refuse_what_the_table_refuses,
+    values,
+)
+
+
+class ComponentNode:
+    """``log`` is what the component says; ``node`` is named after it, in lower case."""
+
+    def __init__(
+        self,
+        name: str,
+        arguments: Sequence[str],
+        *,
+        namespace: str,
+        outgoing: Outgoing,
+        logs: LogThread,
+    ) -> None:
+        """``name``: of the ``<ros2_control>`` block; ``arguments``: ROS arguments."""
+        self._outgoing = outgoing
+        self.node: Node = outgoing.make_node(node_name(name), namespace, arguments)
+        let_parameter_events_be_overridden(self.node)
+        self.log = logs.log_of(self.node.get_logger())
+
+    def destroy(self) -> None:
+        """Remove the node."""
+        self._outgoing.destroy_node(self.node)
+
+
+def node_name(component: str) -> str:
+    """
+    Return a component's name as ROS allows it for a node: ``Amr-System 2`` is ``amr_system_2``.
+    """
+    name = re.sub(r'[^a-z0-9_]', '_', component.lower())
+    return f'_{name}' if name[:1].isdigit() else name or '_'
+
+
+_CONFIGURING = State(id=State.TRANSITION_STATE_CONFIGURING, label='configuring')
+_CLEANING_UP = State(id=State.TRANSITION_STATE_CLEANINGUP, label='cleaningup')
+_ACTIVATING = State(id=State.TRANSITION_STATE_ACTIVATING, label='activating')
+_DEACTIVATING = State(id=State.TRANSITION_STATE_DEACTIVATING, label='deactivating')
+_SHUTTING_DOWN = State(id=State.TRANSITION_STATE_SHUTTINGDOWN, label='shuttingdown')
+
+_UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = (
+    LifecycleState.UNCONFIGURED,
+    LifecycleState.INACTIVE,
+    LifecycleState.ACTIVE,
+    LifecycleState.FINALIZED,
+)
+_BEGUN = {
+    (_UNCONFIGURED, _INACTIVE): (Transition(id=1, label='configure'), _CONFIGURING),
+    (_INACTIVE, _UNCONFIGURED): (Transition(id=2, label='cleanup'), _CLEANING_UP),
+    (_INACTIVE, _ACTIVE): (Transition(id=3, label='activate'), _ACTIVATING),
+    (_ACTIVE, _INACTIVE): (Transition(id=4, label='deactivate'), _DEACTIVATING),
+    (_UNCONFIGURED, _FINALIZED): (Transition(id=5, label='shutdown'), _SHUTTING_DOWN),
+    (_INACTIVE, _FINALIZED): (Transition(id=6, label='shutdown'), _SHUTTING_DOWN),
+    (_ACTIVE, _FINALIZED): (Transition(id=7, label='shutdown'), _SHUTTING_DOWN),
+}
+"""(start, goal) → the transition, and the state in between."""
+
+
+class TransitionEvents:
+    """The topic of one node; called, on the owner's thread, as ``Watch`` of the manager is."""
+
+    def __init__(self, node: Node) -> None:
+        self._clock = node.get_clock()
+        self._context = node.context
+        self._publisher = node.create_publisher(
+            TransitionEvent, '~/transition_event', QoSProfile(depth=10)
+        )
+
+    def __call__(
+        self, start: LifecycleState, goal: LifecycleState, reached: LifecycleState | None
+    ) -> None:
+        """Publish that a transition has begun, or (``reached``) has ended."""
+        transition, between = _BEGUN[start, goal]
+        event = TransitionEvent(timestamp=self._clock.now().nanoseconds)
+        if reached is None:
+            event.transition = transition
+            event.start_state, event.goal_state = _state(start), between
+        else:
+            event.transition = _end_of(transition, succeeded=reached is goal)
+            event.start_state, event.goal_state = between, _state(reached)
+        # At once, not with the turn's outbox: the node may be gone by then. Where ROS was shut
+        # down first, nobody hears it any more, and the motors still have to be stopped.
+        if self._context.ok():
+            self._publisher.publish(event)
+
+
+def _state(state: LifecycleState) -> State:
+    return State(id=state, label=state.label)
+
+
+def _end_of(transition: Transition, *, succeeded: bool) -> Transition:
+    """Numbers as in ``lifecycle_msgs``: 10 to 50 for success, one more for failure."""
+    number = 10 * min(transition.id, Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)
+    if succeeded:
+        return Transition(id=number, label='transition_success')
+    return Transition(id=number + 1, label='transition_failure')
+
+
+class ControllerNode:
+    """
+    One controller and its node.
+
+    ``controller`` is unconfigured at first. Everything here runs on the ROS thread, but for what
+    the owner calls: ``Outgoing.send``, by the ports, and ``watch``, which publishes transitions.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        controller_class: type[Controller],
+        arguments: Sequence[str],
+        *,
+        namespace: str,
+        update_rate: int,
+        robot: Robot | None,
+        outgoing: Outgoing,
+        logs: LogThread,
+    ) -> None:
+        """
+        Make node and controller; ``arguments``: ROS arguments of the node.
+
+        Raises ParameterError, and whatever the constructor of a foreign controller raises.
+        """
+        self._outgoing = outgoing
+        self._endpoints: list[Publisher | Subscription] = []
+        self.node: Node = outgoing.make_node(name, namespace, arguments)
+        try:
+            self._table = controller_class.parameters_type
+            self.log = logs.log_of(self.node.get_logger())
+            self.watch = TransitionEvents(self.node)
+            common = self._declare(update_rate)
+            self.controller = controller_class(
+                ControllerContext(
+                    name=name,
+                    log=self.log,
+                    namespace=namespace,
+                    update_rate=common.update_rate or update_rate,
+                    robot=robot,
+                )
+            )
+        except Exception:
+            self.destroy()
+            raise
+
+    def parameters(self) -> Any:
+        """Read the node's parameters into the controller's table. Raises ParameterError."""
+        return values(self.node, self._table)
+
+    def connect(self) -> None:
+        """Make the topics that the configured controller declares, in place of earlier ones."""
+        self.disconnect()
+        for port in self.controller.inputs():
+            self._endpoints.append(self._subscribe(port))
+        for port in self.controller.outputs():
+            self._endpoints.append(self._advertise(port))
+
+    def disconnect(self) -> None:
+        """Remove the topics; the owner must have cleaned the controller up before."""
+        for endpoint in self._endpoints:
+            if isinstance(endpoint, Publisher):
+                self.node.destroy_publisher(endpoint)
+            else:
+                self.node.destroy_subscription(endpoint)
+        self._endpoints.clear()
+
+    def destroy(self) -> None:
+        """Remove the node."""
+        self.disconnect()
+        self._outgoing.destroy_node(self.node)
+
+    # --- parameters ---------------------------------------------------------------------------
+
+    def _declare(self, manager_rate: int) -> CommonParameters:
+        """Declare both tables; what is set later counts at the next configure."""
+        declare(self.node, self._table)
+        common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})
+        refuse_what_the_table_refuses(self.node, self._table, CommonParameters)
+        if common.is_async:
+            self.log(
+                Severity.WARN,
+                'is_async is true: the controller is updated in the control loop all the same',
+            )
+        return common
+
+    # --- ports --------------------------------------------------------------------------------
+
+    def _subscribe(self, port: Input[Any]) -> Subscription:
+        convert = resolve(port.port.convert)
+
+        def receive(message: Any, about: Any) -> None:
+            try:
+                sample = convert(message)
+            except Exception as error:  # a stranger's converter; the robot must go on
+                self.node.get_logger().error(
+                    f"Cannot accept a message on '{port.port.name}': {describe(error)}",
+                    throttle_duration_sec=1.0,
+                )
+                return
+            if port.put(sample):
+                self._outgoing.confirm(
+                    subscription.topic_name, about['publication_sequence_number']
+                )
+            else:
+                self.node.get_logger().warning(
+                    "Can't accept new commands. subscriber is inactive", throttle_duration_sec=1.0
+                )
+
+        subscription = self.node.create_subscription(
+            message_type(port.port.message), port.port.name, receive, qos(port.port.qos)
+        )
+        return subscription
+
+    def _advertise(self, port: Output[Any]) -> Publisher:
+        fill = resolve(port.port.convert)
+        message_class = message_type(port.port.message)
+        message = message_class()
+        publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
+        send = self._outgoing.send
+        port.sink = lambda sample: send(fill, sample, message, publisher)
+        return publisher
+
+
+def qos(wanted: Qos) -> QoSProfile:
+    """Return rclpy's profile; system defaults are left to the middleware."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST if wanted.depth else HistoryPolicy.SYSTEM_DEFAULT,
+        depth=wanted.depth,
+        reliability=ReliabilityPolicy[wanted.reliability.upper()],
+        durability=DurabilityPolicy[wanted.durability.upper()],
+    )

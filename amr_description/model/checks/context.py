@@ -1,0 +1,144 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a rule of the checker may look at.
+
+What parameter files tell a differential drive controller of the robot that it drives.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+from lxml import etree
+
+from amr_description.model.findings import Finding
+from amr_description.model.frames import Transform
+from amr_description.model.gazebo import GazeboPlugin
+from amr_description.model.hardware_info import HardwareInfo
+from amr_description.model.kinematics import link_poses
+from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
+from amr_description.model.wheels import find_wheels, Wheel
+
+
+class Place(NamedTuple):
+    """A line of a file."""
+
+    source: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class DriveSettings:
+    """
+    One diff_drive_controller of some parameter files; lengths in m.
+
+    ``place`` is where the controller's parameters begin, ``places`` where each of them stands, by
+    its name.
+    """
+
+    name: str
+    place: Place
+    left_wheels: tuple[str, ...]
+    right_wheels: tuple[str, ...]
+    separation: float
+    radius: float
+    separation_multiplier: float
+    base_frame: str
+    odom_frame: str
+    publishes_transform: bool
+    position_feedback: bool
+    open_loop: bool
+    places: Mapping[str, Place] = field(default_factory=dict)
+
+    def place_of(self, parameter: str) -> Place:
+        """Return where a parameter stands, or the controller when no file sets it."""
+        return self.places.get(parameter, self.place)
+
+    def error(self, parameter: str, what: str, **details: str) -> Finding:
+        """Return an error at a parameter; ``details`` as in Finding.error."""
+        return Finding.error(*self.place_of(parameter), f'{self.name}: {what}', **details)
+
+    def warning(self, parameter: str, what: str, **details: str) -> Finding:
+        """Return a warning at a parameter; ``details`` as in Finding.warning."""
+        return Finding.warning(*self.place_of(parameter), f'{self.name}: {what}', **details)
+
+
+type IsThere = Callable[[str], bool]
+"""Whether the file that a URI or path means is there; AmrError when that cannot be told."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surroundings:
+    """
+    What a description is checked against, beyond itself.
+
+    ``is_there`` looks for the files that it names; without it nobody looks. ``drives`` are the
+    controllers that shall drive the robot.
+    """
+
+    is_there: IsThere | None = None
+    drives: tuple[DriveSettings, ...] = ()
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A description as far as it could be read; the robot's tree need not be sound."""
+
+    robot: Robot
+    hardware: tuple[HardwareInfo, ...]
+    gazebo_plugins: tuple[GazeboPlugin, ...]
+    xml: etree._Element
+    surroundings: Surroundings
+
+    @cached_property
+    def poses(self) -> dict[str, Transform]:
+        """``transform_link_to_root`` of each link that hangs on a root, all joints at 0."""
+        return link_poses(self.robot)
+
+    @cached_property
+    def bodies(self) -> dict[str, str]:
+        """The topmost link of each link's rigid body: links joined by fixed joints are one."""
+        top = {root.name: root.name for root in self.robot.roots}
+        for _, joint in self.robot.walk():
+            top[joint.child] = joint.child if joint.is_moving else top[joint.parent]
+        return top
+
+    @cached_property
+    def standing_links(self) -> frozenset[str]:
+        """The links that are rigidly joined to a root called ``world``."""
+        return frozenset(link for link, top in self.bodies.items() if top == WORLD_LINK)
+
+    @cached_property
+    def speed_joints(self) -> tuple[Joint, ...]:
+        """The continuous joints that take a velocity command, in the order of the file."""
+        commanded = {
+            component.name
+            for hardware in self.hardware
+            for component in hardware.joints
+            if any(interface.name == 'velocity' for interface in component.command_interfaces)
+        }
+        return tuple(
+            joint
+            for joint in self.robot.joints
+            if joint.name in commanded
+            and joint.type is JointType.CONTINUOUS
+            and joint.child in self.poses
+        )
+
+    @cached_property
+    def wheels(self) -> tuple[Wheel, ...]:
+        """The wheels: round about the axle of a joint that takes a velocity command."""
+        return find_wheels(self.robot, {joint.name for joint in self.speed_joints})
+
+    def error(self, line: int, what: str, **details: str) -> Finding:
+        """Return an error on a line of this description; ``details`` as in Finding.error."""
+        return Finding.error(self.robot.source, line, what, **details)
+
+    def warning(self, line: int, what: str, **details: str) -> Finding:
+        """Return a warning on a line of this description; ``details`` as in Finding.warning."""
+        return Finding.warning(self.robot.source, line, what, **details)
+
+
+type Rule = Callable[[Subject], Iterator[Finding]]

@@ -1,0 +1,148 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Rules of the checker on what is seen and what touches."""
+
+from collections.abc import Iterator
+
+from amr_description.model.checks.context import Subject
+from amr_description.model.findings import Finding
+from amr_description.model.robot import Collision, Geometry, Link, Mesh, Visual
+from amr_description.model.shapes import overlap, reach, sizes, Solid, solids_of
+from amr_description.model.xml_reader import line_of
+from amr_description.text import quote
+
+# m; shapes that reach into each other by less only touch, as parts that are mounted do.
+_DEPTH = 0.002
+# A made-up file may hold thousands of shapes in one place; no robot has as many near pairs.
+_MOST_PAIRS = 20_000
+
+
+def sizes_are_positive(subject: Subject) -> Iterator[Finding]:
+    """No shape has a side, radius, length or scale of 0 or below; a mirrored mesh may."""
+    for link in subject.robot.links:
+        parts: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+        for part in parts:
+            wrong = [size for size in _sizes(part.geometry) if size <= 0.0]
+            if wrong:
+                kind = 'visual' if isinstance(part, Visual) else 'collision'
+                shape = type(part.geometry).__name__.lower()
+                yield subject.error(
+                    part.line,
+                    f'link {quote(link.name)}: the {shape} of its {kind} has no volume',
+                    found=' '.join(f'{size:g}' for size in _sizes(part.geometry)),
+                    expected='sizes above 0, in m',
+                )
+
+
+def _sizes(geometry: Geometry) -> tuple[float, ...]:
+    if isinstance(geometry, Mesh):
+        return tuple(abs(scale) for scale in geometry.scale)
+    return sizes(geometry)
+
+
+def collision_is_present(subject: Subject) -> Iterator[Finding]:
+    """What has mass and is seen can be touched."""
+    for link in subject.robot.links:
+        if link.inertial is not None and link.visuals and not link.collisions:
+            yield subject.warning(
+                link.line,
+                f'link {quote(link.name)} has mass and is seen, but has no <collision>',
+                expected='a shape that touches; without one it falls through the ground',
+                fix='add <collision> with the <geometry> of its <visual>',
+            )
+
+
+def colors_are_visible(subject: Subject) -> Iterator[Finding]:
+    """Colours are within 0..1, and a material of the robot's own list has one."""
+    for element in subject.xml.iter('material'):
+        parent = element.getparent()
+        if parent is None or parent.tag not in ('robot', 'visual'):
+            continue
+        name = f'material {quote(element.get("name", ""))}'
+        line = line_of(element)
+        color, texture = element.find('color'), element.find('texture')
+        if parent.tag == 'robot' and color is None and texture is None:
+            yield subject.warning(
+                line, f'{name} has neither color nor texture', fix='add <color rgba="r g b a"/>'
+            )
+        text = '' if color is None else color.get('rgba', '')
+        if any(not 0.0 <= part <= 1.0 for part in _numbers(text)):
+            yield subject.warning(
+                line_of(color),
+                f'{name}: color',
+                found=quote(text),
+                expected='red, green, blue and opacity, each from 0 to 1',
+            )
+
+
+def _numbers(text: str) -> list[float]:
+    """Return the numbers of a text; none when one of its words is none, which was reported."""
+    try:
+        return [float(word) for word in text.split()]
+    except ValueError:
+        return []
+
+
+def shapes_do_not_overlap(subject: Subject) -> Iterator[Finding]:
+    """
+    Collision shapes of links that are not neighbours are apart, all joints at 0.
+
+    Links of one rigid body, and of two that one joint connects, may overlap: a wheel reaches into
+    the chassis. Meshes are left out.
+    """
+    told: set[tuple[str, str]] = set()
+    neighbours = _neighbours(subject)
+    for one, other in _near_pairs(_placed_solids(subject)):
+        (link, solid), (other_link, other_solid) = one, other
+        pair = (subject.bodies[link.name], subject.bodies[other_link.name])
+        if pair[0] == pair[1] or pair in neighbours or (link.name, other_link.name) in told:
+            continue
+        if overlap(solid, other_solid, _DEPTH):
+            told.add((link.name, other_link.name))
+            yield subject.warning(
+                max(link.line, other_link.line),
+                f'the collision shapes of links {quote(link.name)} and {quote(other_link.name)} '
+                'overlap, all joints at 0',
+                expected=f'shapes apart, or in each other by less than {_DEPTH * 1000.0:g} mm',
+                fix='make one smaller, or move it',
+            )
+
+
+type _Placed = tuple[Link, Solid]
+
+
+def _placed_solids(subject: Subject) -> list[_Placed]:
+    """Return the primitive collision shapes of all links, placed in the root's frame."""
+    return [
+        (link, solid)
+        for link in subject.robot.links
+        if link.name in subject.poses
+        for solid in solids_of(link.collisions, subject.poses[link.name])
+    ]
+
+
+def _neighbours(subject: Subject) -> set[tuple[str, str]]:
+    """Return the pairs of rigid bodies that a joint connects, either way round."""
+    pairs = {
+        (subject.bodies.get(joint.parent, ''), subject.bodies.get(joint.child, ''))
+        for joint in subject.robot.joints
+    }
+    return pairs | {(child, parent) for parent, child in pairs}
+
+
+def _near_pairs(placed: list[_Placed]) -> Iterator[tuple[_Placed, _Placed]]:
+    """Yield pairs whose extents along x meet, the leftmost first, as many as are looked at."""
+    spans = []
+    for item in placed:
+        x, radius = item[1].place.translation[0], reach(item[1].shape)
+        spans.append((x - radius, x + radius, item))
+    spans.sort(key=lambda span: span[0])
+    left = _MOST_PAIRS
+    for index, (_, end, item) in enumerate(spans):
+        for other in range(index + 1, len(spans)):
+            if spans[other][0] > end:
+                break
+            if left == 0:
+                return
+            left -= 1
+            yield item, spans[other][2]

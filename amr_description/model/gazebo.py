@@ -1,0 +1,255 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The plugins that ``<gazebo>`` blocks ask for, above all the one that hosts ros2_control.
+
+A URDF made for Gazebo runs here unchanged: the simulator takes the place of the plugin and reads
+its parameters files, namespace and remappings from this block.
+
+The noise that ``<noise type="gaussian">`` of a Gazebo sensor asks for.
+
+The sensors that ``<gazebo reference="link">`` blocks mount on links.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+import math
+
+from lxml import etree
+
+from amr_description.model.findings import raise_error, Report
+from amr_description.model.frames import Transform
+from amr_description.model.robot import Robot
+from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
+from amr_description.text import quote
+
+_ROS2_CONTROL_PLUGINS = (
+    'gz_ros2_control::GazeboSimROS2ControlPlugin',
+    'ign_ros2_control::IgnitionROS2ControlPlugin',
+)
+
+GAZEBOS_GAIN = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboPlugin:
+    """
+    One ``<plugin>``; the fields after ``line`` are read only for a plugin that hosts ros2_control.
+
+    ``parameters`` are the paths of YAML files as written, ``remappings`` rules such as
+    ``odom:=/odom``. ``hold_joints`` keeps joints that nobody commands in place.
+    ``position_proportional_gain`` is that of Gazebo's position servo (1/period).
+    """
+
+    filename: str
+    name: str
+    line: int
+    parameters: tuple[str, ...] = ()
+    controller_manager_name: str = 'controller_manager'
+    namespace: str = ''
+    remappings: tuple[str, ...] = ()
+    hold_joints: bool = True
+    position_proportional_gain: float = GAZEBOS_GAIN
+
+    @property
+    def hosts_ros2_control(self) -> bool:
+        """Whether this plugin starts a controller manager."""
+        return self.name in _ROS2_CONTROL_PLUGINS
+
+
+def gazebo_plugins_of(robot: Robot) -> tuple[GazeboPlugin, ...]:
+    """Return the plugins of all ``<gazebo>`` blocks; DescriptionError at the first fault."""
+    xml = parse_xml(robot.text, robot.source, raise_error)
+    return () if xml is None else read_gazebo_plugins(xml, robot.source, raise_error)
+
+
+def ros2_control_host_of(robot: Robot) -> GazeboPlugin:
+    """
+    Return the plugin that hosts ros2_control, the first if there are several; with all defaults
+    if there is none. DescriptionError at the first fault.
+    """
+    hosts = (plugin for plugin in gazebo_plugins_of(robot) if plugin.hosts_ros2_control)
+    return next(hosts, GazeboPlugin(filename='', name='', line=0))
+
+
+def read_gazebo_plugins(
+    xml: etree._Element, source: str, report: Report
+) -> tuple[GazeboPlugin, ...]:
+    """Return what can be read of the plugins below ``xml``, reporting every fault."""
+    reader = ElementReader(source, report)
+    return tuple(
+        _read_plugin(plugin, reader.of(f'gazebo plugin {quote(plugin.get("name", ""))}'))
+        for gazebo in xml.iterchildren('gazebo')
+        for plugin in gazebo.iterchildren('plugin')
+    )
+
+
+def _read_plugin(element: etree._Element, reader: ElementReader) -> GazeboPlugin:
+    name, filename = element.get('name', ''), reader.required(element, 'filename')
+    plugin = GazeboPlugin(filename, name, line_of(element))
+    if not plugin.hosts_ros2_control:
+        return plugin
+    files = _texts(element, 'parameters')
+    if '' in files:
+        reader.error(element, '<parameters> is empty', expected='the path of a YAML file')
+    manager = element.findtext('controller_manager_name', '').strip()
+    return GazeboPlugin(
+        filename=filename,
+        name=name,
+        line=plugin.line,
+        parameters=tuple(filter(None, files)),
+        controller_manager_name=manager or plugin.controller_manager_name,
+        namespace=element.findtext('ros/namespace', '').strip(),
+        remappings=tuple(filter(None, _texts(element, 'ros/remapping'))),
+        hold_joints=_read_hold_joints(element, reader),
+        position_proportional_gain=_read_gain(element, reader),
+    )
+
+
+def _texts(element: etree._Element, path: str) -> list[str]:
+    return [(child.text or '').strip() for child in element.iterfind(path)]
+
+
+def _read_hold_joints(element: etree._Element, reader: ElementReader) -> bool:
+    text = element.findtext('hold_joints', 'true').strip().lower()
+    if text not in ('true', 'false', '1', '0'):
+        reader.error(element, '<hold_joints>', found=quote(text), expected='true or false')
+    return text not in ('false', '0')
+
+
+def _read_gain(element: etree._Element, reader: ElementReader) -> float:
+    text = element.findtext('position_proportional_gain', str(GAZEBOS_GAIN)).strip()
+    gain = parse_number(text)
+    if not 0.0 < gain < float('inf'):
+        reader.error(
+            element,
+            '<position_proportional_gain>',
+            found=quote(text),
+            expected='a finite number above 0',
+        )
+        return GAZEBOS_GAIN
+    return gain
+
+
+GAUSSIAN_TYPES = ('gaussian', 'gaussian_quantized')
+TYPES = ('none', *GAUSSIAN_TYPES)
+
+IMU_QUANTITIES = ('angular_velocity', 'linear_acceleration')
+"""What an ``<imu>`` may have noise on, each along x, y and z."""
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """
+    As in SDF; all in the unit of what is measured, times in s.
+
+    What is measured comes out as ``value + bias + normal(mean, stddev)``. The bias is drawn once,
+    of ``normal(bias_mean, bias_stddev)``, with either sign alike. With a dynamic bias it then
+    wanders as a Gauss–Markov process: ``bias' = exp(-dt / tau) bias + normal(0, s)`` with
+    ``s² = dynamic_bias_stddev² tau / 2 (1 - exp(-2 dt / tau))``.
+    """
+
+    mean: float = 0.0
+    stddev: float = 0.0
+    bias_mean: float = 0.0
+    bias_stddev: float = 0.0
+    dynamic_bias_stddev: float = 0.0
+    dynamic_bias_correlation_time: float = 0.0
+    precision: float = 0.0
+    """What comes out is a multiple of it; 0: it is not rounded."""
+
+    @property
+    def wanders(self) -> bool:
+        """Whether it has a dynamic bias."""
+        return self.dynamic_bias_stddev > 0.0 and self.dynamic_bias_correlation_time > 0.0
+
+
+_NEVER_NEGATIVE = (
+    'stddev',
+    'bias_stddev',
+    'dynamic_bias_stddev',
+    'dynamic_bias_correlation_time',
+    'precision',
+)
+
+
+def read_imu_noise(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
+    """Yield the noise of each state interface that has some, such as ``angular_velocity.x``."""
+    for quantity in IMU_QUANTITIES:
+        for axis in 'xyz':
+            element = sensor.find(f'imu/{quantity}/{axis}/noise')
+            if element is not None:
+                noise = _read_noise(element, reader.of(f'{reader.label}: {quantity}.{axis}'))
+                if noise is not None:
+                    yield f'{quantity}.{axis}', noise
+
+
+def _read_noise(element: etree._Element, reader: ElementReader) -> Noise | None:
+    kind = element.get('type', 'none')
+    if kind not in TYPES:
+        reader.error(
+            element, 'type of <noise>', found=quote(kind), expected=f'one of {", ".join(TYPES)}'
+        )
+    if kind not in GAUSSIAN_TYPES:
+        return None
+    values = {}
+    for name in Noise.__dataclass_fields__:
+        text = element.findtext(name)
+        if text is None or (name == 'precision' and kind == 'gaussian'):
+            continue
+        values[name] = value = parse_number(text.strip())
+        least = 0.0 if name in _NEVER_NEGATIVE else -math.inf
+        if not (math.isfinite(value) and value >= least):
+            expected = 'a finite number' if least else 'a finite number from 0 on'
+            reader.error(element, f'<{name}>', found=quote(text.strip()), expected=expected)
+    return Noise(**values)
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboSensor:
+    """One ``<sensor>``; ``place`` (its ``<pose>``) is ``transform_sensor_to_link``."""
+
+    name: str
+    type: str
+    link: str
+    place: Transform
+    line: int
+    noise: tuple[tuple[str, Noise], ...] = ()
+    """Of an IMU: state interface, such as ``angular_velocity.x``, and its noise."""
+
+
+def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
+    """Return the sensors of all ``<gazebo>`` blocks; DescriptionError at the first fault."""
+    xml = parse_xml(robot.text, robot.source, raise_error)
+    if xml is None:
+        return ()
+    reader = ElementReader(robot.source, raise_error)
+    return tuple(
+        _read_sensor(sensor, gazebo.get('reference', ''), reader)
+        for gazebo in xml.iterchildren('gazebo')
+        for sensor in gazebo.iterchildren('sensor')
+    )
+
+
+def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> GazeboSensor:
+    name = reader.required(element, 'name')
+    reader = reader.of(f'gazebo sensor {quote(name)}')
+    if not link:
+        reader.error(
+            element,
+            'its <gazebo> has no attribute "reference"',
+            expected='the link that the sensor is mounted on',
+        )
+    place = _read_pose(element, reader)
+    noise = tuple(read_imu_noise(element, reader))
+    return GazeboSensor(name, element.get('type', ''), link, place, line_of(element), noise)
+
+
+def _read_pose(element: etree._Element, reader: ElementReader) -> Transform:
+    text = element.findtext('pose', '0 0 0 0 0 0')
+    values = [parse_number(word) for word in text.split()]
+    if len(values) != 6 or not all(map(math.isfinite, values)):
+        reader.error(element, '<pose>', found=quote(text.strip()), expected='6 numbers, finite')
+        return Transform()
+    x, y, z, *rpy = values
+    return Transform.from_xyz_rpy((x, y, z), (rpy[0], rpy[1], rpy[2]))

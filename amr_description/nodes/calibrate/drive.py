@@ -1,0 +1,311 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A robot driven from rest to rest over ROS, its odometry beside the truth of the simulator.
+
+Everything goes by the stamps of the messages, simulated time: the same at any real-time factor.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+import time
+
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from rcl_interfaces.srv import GetParameters
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from amr_description.clock import NANOSECONDS
+from amr_description.controllers.drive_calibration import Geometry, Path, Run, Travel
+from amr_description.errors import CalibrationError
+from amr_description.model.frames import yaw_of
+from amr_description.ros.messages import nanoseconds, transform_of
+from amr_description.ros.service_calls import ask_until_answered, wait_until
+from amr_description.sim.ros.ground_truth import ODOM_TOPIC
+
+STILL = 1e-3
+"""m/s and rad/s; below it, both true, the robot is at rest."""
+
+REST = NANOSECONDS // 2
+"""ns for which it has to be, so that odometry is at rest too."""
+
+_QOS = QoSProfile(depth=1000)
+"""Deep, for a simulation that runs as fast as it can."""
+_LARGEST_STEP = math.pi / 2.0
+"""rad between two messages; with more, whole turns could be missed."""
+
+_GOODBYE = Duration(seconds=2.0)
+"""Of the wall clock: the longest wait for the last zero to be received."""
+
+_PARAMETERS = (
+    'wheel_separation',
+    'wheel_separation_multiplier',
+    'left_wheel_radius_multiplier',
+    'right_wheel_radius_multiplier',
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Manoeuvre:
+    """A twist held until odometry has it that the robot went so far, or turned so much."""
+
+    name: str
+    linear: float
+    """m/s."""
+    angular: float
+    """rad/s."""
+    distance: float = math.inf
+    """m."""
+    turn: float = math.inf
+    """rad."""
+
+    @property
+    def patience(self) -> float:
+        """s of simulated time after which it will not be done any more."""
+        straight = self.distance / abs(self.linear) if self.linear else math.inf
+        turning = self.turn / abs(self.angular) if self.angular else math.inf
+        return 4.0 * min(straight, turning) + 5.0
+
+    def is_done(self, travel: Travel) -> bool:
+        """Whether it has gone far enough."""
+        return abs(travel.distance) >= self.distance or abs(travel.turn) >= self.turn
+
+
+class Track:
+    """The messages of one odometry: the latest, and the path since the last :meth:`restart`."""
+
+    def __init__(self) -> None:
+        self.stamp = -1
+        self.moved = 0
+        """ns: the stamp of the last message in which it moved."""
+        self.has_jumped = self.has_gap = False
+        """Time went back; so much passed between two messages that a turn may be missed."""
+        self._path: Path | None = None
+        self._pose = (0.0, 0.0, 0.0)
+
+    def hear(self, message: Odometry) -> None:
+        """Take a message."""
+        stamp = nanoseconds(message.header.stamp)
+        self.has_jumped = self.has_jumped or stamp < self.stamp
+        gap, self.stamp = (stamp - self.stamp) / NANOSECONDS, stamp
+        pose = transform_of(message.pose.pose)
+        x, y, _ = pose.translation
+        self._pose = x, y, yaw_of(pose.rotation)
+        if self._path is not None:
+            self._path.add(*self._pose)
+        twist = message.twist.twist
+        if self._path is not None and gap * abs(twist.angular.z) > _LARGEST_STEP:
+            self.has_gap = True
+        if max(abs(twist.linear.x), abs(twist.linear.y), abs(twist.angular.z)) > STILL:
+            self.moved = stamp
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether it has not moved for a while."""
+        return self.stamp >= 0 and self.stamp - self.moved > REST
+
+    @property
+    def travel(self) -> Travel:
+        """Since the last restart."""
+        assert self._path is not None, 'it was restarted'
+        return self._path.travel
+
+    def restart(self) -> None:
+        """Let the path begin here."""
+        self._path = Path(*self._pose)
+
+
+class CalibrationDrive:
+    """
+    Drives through the controller's own topics; ``node`` is served while something is waited for.
+
+    ``give_up``: asked all the time, raises when the program shall end.
+    """
+
+    def __init__(
+        self, node: Node, controller: str, timeout: float, give_up: Callable[[], object]
+    ) -> None:
+        """
+        Find controller and truth; ``controller``: full name of its node; ``timeout``: s of the
+        wall clock to wait for whatever has to be there. Raises CalibrationError, NoAnswerError.
+        """
+        self._node = node
+        self._timeout = timeout
+        self._give_up = give_up
+        self._command: tuple[float, float] | None = None
+        self._namespace, _, self._name = controller.rpartition('/')
+        self.geometry = self._read_geometry(controller)
+        self._truth, self._odometry = Track(), Track()
+        truth_topic = f'{self._namespace}/{ODOM_TOPIC}'
+        odometry_topic, command_topic = self._find_topics(truth_topic)
+        self._commands = node.create_publisher(TwistStamped, command_topic, 10)
+        node.create_subscription(Odometry, odometry_topic, self._odometry.hear, _QOS)
+        node.create_subscription(Odometry, truth_topic, self._hear_truth, _QOS)
+        self._wait_for_messages(truth_topic, self._truth)
+        self._command = 0.0, 0.0  # with the first command odometry begins
+        self._wait_for_messages(odometry_topic, self._odometry)
+
+    def run(self, manoeuvre: Manoeuvre) -> Run:
+        """Do it, from rest to rest. Raises CalibrationError."""
+        self._come_to_rest()
+        self._truth.restart()
+        self._odometry.restart()
+        late = self._odometry.stamp + round(manoeuvre.patience * NANOSECONDS)
+        # Simulated seconds may be over before a command has arrived, as fast as they can pass.
+        too_late = time.monotonic() + self._timeout
+        self._command = manoeuvre.linear, manoeuvre.angular
+        self._send()
+        self._serve(
+            lambda: (
+                manoeuvre.is_done(self._odometry.travel)
+                or (self._odometry.stamp > late and time.monotonic() > too_late)
+            )
+        )
+        if not manoeuvre.is_done(self._odometry.travel):
+            travel = self._odometry.travel
+            raise CalibrationError(
+                f"'{manoeuvre.name}': in {manoeuvre.patience:.0f} s the wheels went "
+                f'{travel.distance:.2f} m and turned the robot by {math.degrees(travel.turn):.0f} '
+                'degrees only; is the controller active, does it limit speeds, does another '
+                'program command it?'
+            )
+        self._come_to_rest()
+        return Run.from_odometry(
+            manoeuvre.name, self._odometry.travel, self._truth.travel, self.geometry
+        )
+
+    def leave(self) -> None:
+        """Stop the robot, in whatever state things are."""
+        self._command = 0.0, 0.0
+        self._send()
+        self._commands.wait_for_all_acked(_GOODBYE)
+
+    # --- driving ------------------------------------------------------------------------------
+
+    def _hear_truth(self, message: Odometry) -> None:
+        self._truth.hear(message)
+        if self._command is not None:
+            self._send()  # at 50 Hz of simulated time: the controller brakes without commands
+
+    def _send(self) -> None:
+        """
+        Send the command without a stamp, which counts as stamped on arrival: at a high real-time
+        factor the true one would be too old by then.
+        """
+        if self._command is None:
+            return
+        message = TwistStamped()
+        message.twist.linear.x, message.twist.angular.z = self._command
+        self._commands.publish(message)
+
+    def _come_to_rest(self) -> None:
+        self._command = 0.0, 0.0
+        self._send()
+        since = self._truth.stamp
+        self._serve(
+            lambda: (
+                self._truth.is_at_rest
+                and self._odometry.is_at_rest
+                and min(self._truth.stamp, self._odometry.stamp) > since + REST
+            )
+        )
+
+    def _serve(self, condition: Callable[[], bool]) -> None:
+        """
+        Serve the node until a condition holds. Raises CalibrationError: time stands still, or
+        went back.
+        """
+
+        def is_over() -> bool | None:
+            self._give_up()
+            if self._truth.has_jumped:
+                raise CalibrationError('simulated time went back: the simulation was reset')
+            if self._truth.has_gap or self._odometry.has_gap:
+                raise CalibrationError(
+                    'messages get lost: the simulation is faster than they can be read; try again '
+                    'after: ros2 param set /mujoco_sim real_time_factor 5.0'
+                )
+            return condition() or None
+
+        stamp = self._truth.stamp
+        while not wait_until(self._node, is_over, timeout=self._timeout):
+            if self._truth.stamp == stamp:
+                raise CalibrationError(
+                    f'the truth has stood still for {self._timeout:g} s: is the simulation '
+                    'paused, or gone?'
+                )
+            stamp = self._truth.stamp
+
+    # --- finding ------------------------------------------------------------------------------
+
+    def _read_geometry(self, controller: str) -> Geometry:
+        request = GetParameters.Request(names=_PARAMETERS)
+        service = f'{controller}/get_parameters'
+        self._wait(
+            lambda: service in dict(self._node.get_service_names_and_types()),
+            f"there is no controller '{controller}' after {self._timeout:g} s: is the robot up, "
+            'and is it called so (--controller)?',
+        )
+        client = self._node.create_client(GetParameters, service)
+        values = ask_until_answered(self._node, client, request, timeout=self._timeout).values
+        found = [value.double_value for value in values]
+        if len(found) != len(_PARAMETERS) or not all(found):
+            raise CalibrationError(
+                f"'{controller}' is no differential drive: it lacks one of the parameters "
+                f'{", ".join(_PARAMETERS)}'
+            )
+        return Geometry(*found)
+
+    def _find_topics(self, truth: str) -> tuple[str, str]:
+        """The topics of the controller's odometry and of its commands."""
+        found: dict[str, str] = {}
+
+        def look() -> bool:
+            found.update(self._topics())
+            return len(found) == 2
+
+        self._wait(
+            look,
+            f"'{self._namespace}/{self._name}' has no topics of odometry and of TwistStamped "
+            'commands: is it configured (ros2 control list_controllers)?',
+        )
+        self._wait(
+            lambda: self._node.count_publishers(truth) > 0,
+            f"nobody publishes the truth on '{truth}': it takes a robot in mujoco_sim, with a "
+            'ground_truth_rate above 0',
+        )
+        return found['odometry'], found['commands']
+
+    def _topics(self) -> dict[str, str]:
+        namespace = self._namespace or '/'
+        if (self._name, namespace) not in self._node.get_node_names_and_namespaces():
+            return {}
+        said = self._node.get_publisher_names_and_types_by_node(self._name, namespace)
+        heard = self._node.get_subscriber_names_and_types_by_node(self._name, namespace)
+        return {
+            kind: topic
+            for kind, topics, type_name in (
+                ('odometry', said, 'nav_msgs/msg/Odometry'),
+                ('commands', heard, 'geometry_msgs/msg/TwistStamped'),
+            )
+            for topic, types in topics
+            if type_name in types
+        }
+
+    def _wait_for_messages(self, topic: str, track: Track) -> None:
+        self._wait(
+            lambda: track.stamp >= 0,
+            f"no message has come on '{topic}' for {self._timeout:g} s: is the simulation paused, "
+            'or the controller inactive?',
+        )
+
+    def _wait(self, condition: Callable[[], bool], complaint: str) -> None:
+        def holds() -> bool | None:
+            self._give_up()
+            return condition() or None
+
+        if not wait_until(self._node, holds, timeout=self._timeout):
+            raise CalibrationError(complaint)

@@ -1,0 +1,153 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The ROS side of ``teleop_twist_keyboard``: its parameters, its commands, and who wants them."""
+
+from dataclasses import dataclass
+
+from geometry_msgs.msg import TwistStamped
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
+
+from amr_description.errors import ParameterError
+from amr_description.nodes.teleop_twist_keyboard.keys import Velocity
+from amr_description.parameters import parameter
+from amr_description.ros.parameters import declare
+from amr_description.ros.type_mismatch import (
+    await_listeners,
+    choice,
+    is_wanted,
+    listeners,
+    MESSAGES,
+    nobody,
+    other_topics,
+    TYPE_NAMES,
+    wants_stamped,
+    warnings,
+)
+
+_GOODBYE_TIMEOUT = Duration(seconds=0.2)
+_TOPIC = 'cmd_vel'
+_DISCOVERY = 1.0  # s: how long the first listener is waited for
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The parameters of teleop_twist_keyboard; none can be changed while it runs."""
+
+    stamped: bool = parameter(
+        False,
+        'Publish TwistStamped instead of Twist; not given: what the listeners want',
+        read_only=True,
+    )
+    frame_id: str = parameter('', 'Frame of the commands, with stamped only', read_only=True)
+    speed: float = parameter(0.5, 'Linear speed at the start', unit='m/s', read_only=True)
+    turn: float = parameter(1.0, 'Angular speed at the start', unit='rad/s', read_only=True)
+    repeat_rate: float = parameter(
+        10.0,
+        'How often a held command is repeated; 0: one message per key press',
+        unit='Hz',
+        read_only=True,
+        minimum=0.0,
+        maximum=1000.0,
+    )
+    key_timeout: float = parameter(
+        0.7,
+        'How long a single key press holds; above the delay of the auto-repeat. 0: for ever',
+        unit='s',
+        read_only=True,
+        minimum=0.0,
+    )
+
+
+class TeleopTwistKeyboard(Node):
+    """
+    The publisher of commands; it knows no keys.
+
+    :param latch: A command holds until the next one: ``key_timeout`` is 0.
+    :raises ParameterError: The parameters contradict each other.
+    """
+
+    def __init__(self, *, latch: bool = False) -> None:
+        super().__init__('teleop_twist_keyboard')
+        self._chooses = 'stamped' not in self._parameter_overrides
+        defaults = {'key_timeout': 0.0} if latch else {}
+        if self._chooses:
+            found = await_listeners(self, _TOPIC, _DISCOVERY)
+            defaults['stamped'] = wants_stamped(found, otherwise=False)
+        self.settings = declare(self, Settings, defaults=defaults)
+        if latch and self.settings.key_timeout:
+            raise ParameterError(
+                f"'key_timeout' is {self.settings.key_timeout:g} s, but --latch holds a key until "
+                'the next one: give one of them'
+            )
+        if self.settings.frame_id and not self.settings.stamped:
+            raise ParameterError("'frame_id' can only be set when 'stamped' is True")
+        self._is_stamped = self.settings.stamped
+        self._commands = self._publisher()
+        self._served: bool | None = None
+        self._said: set[str] = set()
+
+    @property
+    def instead(self) -> str:
+        """What sends commands without a keyboard, to be typed."""
+        twist = '{linear: {x: 0.2}}'
+        message = f'{{twist: {twist}}}' if self._is_stamped else twist
+        topic, type_name = self._commands.topic_name, TYPE_NAMES[self._is_stamped]
+        return f'drive with: ros2 topic pub -r 10 {topic} {type_name} "{message}"'
+
+    def look(self) -> list[str]:
+        """Take the type that is wanted, unless it was given; return what is new to be said."""
+        found = listeners(self, _TOPIC)
+        topic, chosen = self._commands.topic_name, self._chooses
+        if chosen and not self.settings.frame_id:
+            self._change_type(wants_stamped(found, otherwise=self._is_stamped))
+        lines = warnings(topic, found, stamped=self._is_stamped)
+        if chosen and self._served != self._is_stamped and is_wanted(found, self._is_stamped):
+            self._served = self._is_stamped
+            lines.insert(0, choice(topic, found, stamped=self._is_stamped))
+        new = [line for line in lines if line not in self._said]
+        self._said.update(new)
+        return new
+
+    def look_first(self) -> list[str]:
+        """As :meth:`look`, and say when nobody listens."""
+        if listeners(self, _TOPIC):
+            return self.look()
+        line = nobody(self._commands.topic_name, other_topics(self), stamped=self._is_stamped)
+        return [line]
+
+    def publish(self, velocity: Velocity) -> None:
+        """Publish one command, stamped with the node's clock."""
+        message = TwistStamped()
+        twist = message.twist
+        twist.linear.x, twist.linear.y, twist.linear.z = velocity.x, velocity.y, velocity.z
+        twist.angular.z = velocity.yaw
+        if self._is_stamped:
+            message.header.stamp = self.get_clock().now().to_msg()
+            message.header.frame_id = self.settings.frame_id
+            self._commands.publish(message)
+        else:
+            self._commands.publish(twist)
+
+    def stop_robot(self) -> None:
+        """Publish zero and wait, but not for long, until every subscriber has it."""
+        self.publish(Velocity())
+        self._commands.wait_for_all_acked(_GOODBYE_TIMEOUT)
+
+    def _publisher(self) -> Publisher:
+        return self.create_publisher(MESSAGES[self._is_stamped], _TOPIC, 10)
+
+    def _change_type(self, stamped: bool) -> None:
+        """Publish the other type from now on, and have the parameter say so."""
+        if stamped == self._is_stamped:
+            return
+        self._is_stamped = stamped
+        self.destroy_publisher(self._commands)
+        self._commands = self._publisher()
+        # Read-only for others: only with a descriptor may the node itself set it.
+        self._set_parameters_atomically_common(
+            [Parameter('stamped', value=stamped)],
+            {'stamped': self.describe_parameter('stamped')},
+        )

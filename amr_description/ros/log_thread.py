@@ -1,0 +1,126 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The ``Log`` port over a node's logger: the caller only stores the line, a thread emits it.
+
+rcutils writes to stderr and to ``/rosout``, either of which may block; the owner's tick may not.
+"""
+
+import queue
+import re
+import threading
+import time
+
+from rclpy.impl.rcutils_logger import RcutilsLogger
+
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.plugin_errors import describe, log_traceback, printable
+
+_FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
+_MOST_WAITING = 2000
+"""Lines: what is said beyond them, faster than it can be written, is counted and dropped."""
+_PATIENCE = 5.0
+"""s: how long :meth:`LogThread.stop` waits for a terminal that takes nothing."""
+
+
+class LogThread:
+    """
+    Emits the lines of all components, in the order in which they were said.
+
+    A component that says a line at every update, thousands a second, must neither fill the memory
+    nor keep the process from ending: what is too much is dropped, and that is said.
+    """
+
+    def __init__(self) -> None:
+        self._lines = Lines()
+        # A daemon: whatever ends the process before stop(), it must not wait for us.
+        self._thread = threading.Thread(target=self._run, name='log', daemon=True)
+        self._thread.start()
+
+    def log_of(self, logger: RcutilsLogger) -> 'NodeLog':
+        """Return the port of one component."""
+        return NodeLog(logger, self._lines)
+
+    def stop(self) -> None:
+        """Emit what waits, and end."""
+        self._lines.end()
+        self._thread.join(_PATIENCE)
+
+    def _run(self) -> None:
+        while (line := self._lines.get()) is not None:
+            logger, severity, text, dropped = line
+            if dropped:
+                logger.warning(
+                    f'{dropped} lines of the log were dropped: more is said than can be written'
+                )
+            _emit(logger, severity, printable(str(text)))
+
+
+class Lines:
+    """The lines that wait; any thread puts, and never waits."""
+
+    def __init__(self) -> None:
+        self._queue: queue.SimpleQueue[tuple[RcutilsLogger, Severity, str, int] | None] = (
+            queue.SimpleQueue()
+        )
+        self._dropped = 0
+
+    def put(self, logger: RcutilsLogger, severity: Severity, text: str) -> None:
+        """Take a line, or drop it where too many wait."""
+        if self._queue.qsize() >= _MOST_WAITING:
+            self._dropped += 1
+            return
+        dropped, self._dropped = self._dropped, 0
+        self._queue.put((logger, severity, text, dropped))
+
+    def end(self) -> None:
+        """Let the reader end behind what waits."""
+        self._queue.put(None)
+
+    def get(self) -> tuple[RcutilsLogger, Severity, str, int] | None:
+        """
+        Wait for the next line, which is None at the end; with it comes how many were dropped
+        before it.
+        """
+        return self._queue.get()
+
+
+class NodeLog:
+    """See :class:`amr_description.control.contracts.Log`."""
+
+    def __init__(self, logger: RcutilsLogger, lines: Lines) -> None:
+        self._logger = logger
+        self._lines = lines
+        self._last_said: dict[str, float] = {}
+
+    def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+        """Say ``text``, unless something like it was said within ``throttle`` s of wall time."""
+        if throttle > 0.0:
+            key, now = _FIRST_NUMBER.sub('', text), time.monotonic()
+            if now - self._last_said.get(key, -float('inf')) < throttle:
+                return
+            self._last_said[key] = now
+        self._lines.put(self._logger, severity, text)
+
+
+def log_error(log: Log, error: Exception) -> str:
+    """Say in one line what went wrong, and at DEBUG where; return the line."""
+    line = ' '.join(describe(error).split())
+    log(Severity.ERROR, line)
+    log_traceback(log, error)
+    return line
+
+
+def _emit(logger: RcutilsLogger, severity: Severity, text: str) -> None:
+    # rclpy refuses a severity that changes at one place of call, so each has its own line.
+    match severity:
+        case Severity.DEBUG:
+            logger.debug(text)
+        case Severity.INFO:
+            logger.info(text)
+        case Severity.WARN:
+            logger.warning(text)
+        case Severity.ERROR:
+            logger.error(text)
+        case Severity.FATAL:
+            logger.fatal(text)

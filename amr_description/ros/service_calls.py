@@ -1,0 +1,164 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a program needs that asks others and then ends: waiting in words, and calling services."""
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+import rclpy
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.validate_node_name import validate_node_name
+
+from amr_description.errors import AmrError
+from amr_description.ros.runtime import argument_errors
+
+_POLL = 0.05
+"""s: how soon a change of the graph is seen; messages and responses are seen at once."""
+
+
+class NoAnswerError(AmrError):
+    """A service did not answer in time."""
+
+
+def client_node(name: str) -> Node:
+    """Make the node of such a program. Raises ParameterError: ``name`` is none."""
+    # Made before anything is said: an executor that is interrupted half-made complains.
+    rclpy.get_global_executor()
+    with argument_errors():
+        validate_node_name(name)  # Node() does so too, but leaves a warning behind
+        return Node(name)
+
+
+def wait_until[Result](
+    node: Node,
+    condition: Callable[[], Result | None],
+    say: Callable[[], object] = lambda: None,
+    *,
+    every: float = 1.0,
+    timeout: float = 0.0,
+) -> Result | None:
+    """
+    Serve the node, by its executor if it has one, until ``condition()`` is something; return it.
+
+    ``say`` is called every ``every`` s of waiting. ``timeout``: s, 0 for ever; then ``None``.
+    """
+    start = time.monotonic()
+    said = start
+    while (result := condition()) is None:
+        now = time.monotonic()
+        if timeout and now - start >= timeout:
+            return None
+        if now - said >= every:
+            said = now
+            say()
+        rclpy.spin_once(node, executor=node.executor, timeout_sec=_POLL)
+    return result
+
+
+def ask_until_answered(
+    node: Node, client: Client, request: Any, *, timeout: float = 10.0, attempts: int = 1
+) -> Any:
+    """
+    Send a request that changes nothing, again every second until it is answered.
+
+    Fast DDS finds the endpoints of two participants in either direction by itself, one perhaps a
+    second after the other. A server that does not know the client's yet does what it is asked for
+    and throws its response away. Once it has answered, other requests need to be sent only once.
+    ``timeout``, ``attempts``: as of :func:`call`. Raises NoAnswerError.
+    """
+    pending = [client.call_async(request)]
+    return _answer(
+        node,
+        client,
+        lambda: next((future.result() for future in pending if future.done()), None),
+        lambda: pending.append(client.call_async(request)),
+        timeout=timeout,
+        attempts=attempts,
+    )
+
+
+def call(
+    node: Node,
+    service_type: Any,
+    name: str,
+    request: Any,
+    *,
+    timeout: float = 10.0,
+    attempts: int = 1,
+) -> Any:
+    """
+    Call a service that is there, once; return the response. Raises NoAnswerError.
+
+    ``attempts``: how often to wait ``timeout`` s for the response. Each wait that is in vain is
+    told, in the words of ros2_control. The request is not sent again: what it asks for would be
+    done again, by a server that is only slow. A server that goes away ends the wait.
+    """
+    client = node.create_client(service_type, name)
+    try:
+        return call_with(node, client, request, timeout=timeout, attempts=attempts)
+    finally:
+        node.destroy_client(client)
+
+
+def call_with(
+    node: Node, client: Client, request: Any, *, timeout: float = 10.0, attempts: int = 1
+) -> Any:
+    """As :func:`call`, with a client that is there already."""
+
+    def ready() -> bool | None:
+        return client.service_is_ready() or None
+
+    if not wait_until(node, ready, timeout=timeout):
+        raise NoAnswerError(
+            f'service {client.srv_name} is not there after {timeout:g} s; is its node running?'
+        )
+    future = client.call_async(request)
+    return _answer(
+        node,
+        client,
+        lambda: future.result() if future.done() else None,
+        timeout=timeout,
+        attempts=attempts,
+    )
+
+
+def _answer(
+    node: Node,
+    client: Client,
+    answered: Callable[[], Any | None],
+    each_second: Callable[[], object] = lambda: None,
+    *,
+    timeout: float,
+    attempts: int,
+) -> Any:
+    """Wait for the response of a service. Raises NoAnswerError."""
+    service, was_there, is_gone = client.srv_name, False, False
+
+    def answered_or_gone() -> Any | None:
+        nonlocal was_there, is_gone
+        if (response := answered()) is not None:
+            return response
+        if is_gone:
+            raise NoAnswerError(f'service {service} went away before it answered')
+        is_there = client.service_is_ready()
+        # Who answers as its last deed is gone before the response is taken: look once more.
+        is_gone = was_there and not is_there
+        was_there = is_there
+        return None
+
+    for attempt in range(1, attempts + 1):
+        response = wait_until(node, answered_or_gone, each_second, timeout=timeout)
+        if response is not None:
+            return response
+        if attempts > 1:
+            node.get_logger().warning(
+                f'Failed getting a result from calling {service} in {timeout}. '
+                f'(Attempt {attempt} of {attempts}.)'
+            )
+    if attempts > 1:
+        raise NoAnswerError(
+            f'Could not successfully call service {service} after {attempts} attempts.'
+        )
+    raise NoAnswerError(f'service {service} has not answered within {timeout:g} s')

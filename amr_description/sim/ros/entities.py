@@ -1,0 +1,317 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The robots of the simulated world: how they come, each with its controller manager, and go.
+
+A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of its own, in its
+namespace.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+import enum
+from pathlib import Path
+
+from rclpy.executors import Executor
+
+from amr_description.ament_index import package_share
+from amr_description.clock import NANOSECONDS
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.plugin_errors import describe
+from amr_description.control.ros.controller_manager_node import ControllerManagerNode
+from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.loop_thread import Owner
+from amr_description.control.ros.robot_description import DescriptionSource
+from amr_description.controllers.drive_files import drive_warnings
+from amr_description.errors import RequestError, SpawnError
+from amr_description.model.frames import Transform
+from amr_description.model.gazebo import gazebo_plugins_of, ros2_control_host_of
+from amr_description.model.hardware_info import HardwareInfo
+from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.parameter_files import read_parameter_file
+from amr_description.ros.log_thread import LogThread
+from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_thread
+from amr_description.sim.engine import physics_stepping, steps_in
+from amr_description.sim.robot_spec import WORLD_LINK
+from amr_description.sim.ros.ground_truth import GroundTruth
+from amr_description.sim.spawning import check_name, free_name, SpawnCode
+from amr_description.sim.world import MujocoWorld
+
+
+class Category(enum.IntEnum):
+    """What kind of thing an entity is, as in ``simulation_interfaces/msg/EntityCategory``."""
+
+    OBJECT = 0
+    ROBOT = 1
+    HUMAN = 2
+    DYNAMIC_OBJECT = 4
+    STATIC_OBJECT = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Info:
+    """What is told of an entity; anybody may change it."""
+
+    category: Category
+    description: str = ''
+    tags: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class Entity:
+    """A robot in the world, its spawning done."""
+
+    name: str
+    info: Info
+    manager: ControllerManagerNode | None
+    """Of a robot that asks for control."""
+    thread: ExecutorThread | None
+    """Serves the manager, its components and controllers."""
+
+
+class Robots:
+    """
+    All robots. The coroutines run on the ROS thread and await the owner.
+
+    ``controllers``: path of the managers' parameter file, or empty; ``ros_args`` go on to every
+    manager and controller.
+    """
+
+    def __init__(
+        self,
+        owner: Owner,
+        world: MujocoWorld,
+        outgoing: Outgoing,
+        ground_truth: GroundTruth,
+        *,
+        executor: Executor,
+        logs: LogThread,
+        log: Log,
+        controllers: str,
+        ros_args: Sequence[str],
+    ) -> None:
+        self._owner = owner
+        self._world = world
+        self._outgoing = outgoing
+        self._ground_truth = ground_truth
+        self._executor = executor
+        self._logs = logs
+        self._log = log
+        self._controllers = controllers
+        self._ros_args = ros_args
+        self._entities: dict[str, Entity] = {}
+        self._namespaces: set[str] = set()
+        """Those that have a controller manager; the owner's."""
+
+    @property
+    def entities(self) -> Iterable[Entity]:
+        """All of them, in the order of their coming."""
+        return tuple(self._entities.values())
+
+    def find(self, name: str) -> Entity:
+        """The entity of that name. Raises RequestError that names those there are."""
+        try:
+            return self._entities[name]
+        except KeyError:
+            raise RequestError(
+                f"there is no entity '{name}'; there are: {', '.join(self._entities) or 'none'}",
+                SpawnCode.NOT_FOUND,
+            ) from None
+
+    async def spawn(
+        self,
+        name: str,
+        robot: Robot,
+        pose: Transform,
+        namespace: str,
+        *,
+        allow_renaming: bool = False,
+    ) -> str:
+        """
+        Put a robot into the world and, if it asks for control, start its controller manager.
+
+        Return its name: another than ``name`` where that is taken and ``allow_renaming``. Raises
+        SpawnError, DescriptionError, HardwareError, ParameterError, or whatever the constructor
+        of a foreign component raises; nothing is then left of the robot.
+        """
+        hardware = hardware_of(robot)
+        node = self._manager_node(robot, hardware, namespace) if hardware else None
+
+        def insert() -> str:
+            given = free_name(name, self._world.names) if allow_renaming else name
+            check_name(given, self._world.names)
+            self._insert(given, robot, pose, node)
+            return given
+
+        try:
+            given = await self._owner.submit(insert)
+        except Exception:
+            if node is not None:
+                node.destroy()
+            raise
+        thread = self._serve(node, robot, given) if node is not None else None
+        self._ground_truth.add(given, namespace)
+        self._entities[given] = Entity(given, Info(_category_of(robot)), node, thread)
+        return given
+
+    async def remove(self, name: str) -> None:
+        """
+        Stop a robot's controller manager, take it out of the world, and free its names.
+
+        Raises RequestError: there is none, or it is just being removed.
+        """
+        self.find(name)
+        entity = self._entities.pop(name)
+        self._ground_truth.remove(name)
+        if entity.thread is not None:
+            await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
+        await self._owner.submit(lambda: self._take_out(entity))
+        _destroy(entity)
+
+    async def remove_all(self) -> int:
+        """Remove every robot; return how many."""
+        count = 0
+        while self._entities:
+            await self.remove(next(iter(self._entities)))
+            count += 1
+        return count
+
+    def destroy(self) -> None:
+        """Remove all nodes; the owner has stopped."""
+        threads = [each.thread for each in self._entities.values() if each.thread is not None]
+        for thread in threads:
+            thread.ask_to_end()  # all at once: each may have a callback to finish
+        for thread in threads:
+            thread.end()
+        for entity in self._entities.values():
+            _destroy(entity)
+
+    def _serve(self, node: ControllerManagerNode, robot: Robot, name: str) -> ExecutorThread:
+        """Make the services of a robot's manager, in a thread that serves them."""
+        thread = ExecutorThread(name, self._owner.fail)
+        thread.executor.add_node(node.node)
+        DescriptionSource(node.node, node.log, robot=robot)
+        node.start()
+        thread.start()
+        return thread
+
+    # --- on the owner's thread ----------------------------------------------------------------
+
+    def _insert(
+        self,
+        name: str,
+        robot: Robot,
+        pose: Transform,
+        node: ControllerManagerNode | None,
+    ) -> None:
+        """In one go: robot, components, all of them active, manager."""
+        loop, world = self._owner.loop, self._world
+        if node is not None:
+            self._check_namespace(node.node.get_namespace())
+            if not loop.managers:
+                period = _period_of(node.parameters.update_rate)
+                world.timestep = physics_stepping(period, world.longest_step).step
+        view = world.spawn(name, robot, pose)
+        if node is None:
+            return
+        try:
+            manager = node.bring_up(view, self._period(node.parameters.update_rate))
+        except Exception:
+            world.remove(name)
+            raise
+        manager.begin(loop.time)
+        loop.managers.append(manager)
+        self._namespaces.add(node.node.get_namespace())
+
+    def _take_out(self, entity: Entity) -> None:
+        """The robot and its manager, motors first; the others tick on."""
+        node, loop = entity.manager, self._owner.loop
+        if node is not None:
+            loop.managers.remove(node.manager)
+            self._namespaces.discard(node.node.get_namespace())
+            try:
+                node.manager.shut_down(loop.time)
+            except Exception as error:  # a stranger's class; it has to go all the same
+                self._log(
+                    Severity.ERROR,
+                    f"'{entity.name}' is removed, though it raised: {describe(error)}",
+                )
+        self._world.remove(entity.name)
+
+    def _check_namespace(self, namespace: str) -> None:
+        """Refuse a second controller manager of one name: nobody could tell the two apart."""
+        if namespace in self._namespaces:
+            raise SpawnError(
+                f"the namespace '{namespace}' has a controller manager already; give the robot "
+                'one of its own (entity_namespace; create: --ros-args -r __ns:=/other)',
+                SpawnCode.NAMESPACE_INVALID,
+            )
+
+    def _period(self, rate: int) -> int:
+        """The tick of a manager at ``rate`` Hz in whole physics steps, ns; said if it differs."""
+        asked = _period_of(rate)
+        period = steps_in(asked, self._world.timestep).period
+        if period != asked:
+            self._log(
+                Severity.WARN,
+                f'an update rate of {rate} Hz is {asked} ns, which physics steps of '
+                f'{self._world.timestep} ns do not divide; the controllers run every {period} ns',
+            )
+        return period
+
+    # --- the manager's node -------------------------------------------------------------------
+
+    def _manager_node(
+        self, robot: Robot, hardware: Sequence[HardwareInfo], namespace: str
+    ) -> ControllerManagerNode:
+        host = ros2_control_host_of(robot)
+        rules = [word for rule in host.remappings for word in ('-r', rule)]
+        arguments = [*self._ros_args, *rules, *self._parameter_files(robot)]
+        with argument_errors():
+            node = ControllerManagerNode(
+                self._owner,
+                self._outgoing,
+                self._logs,
+                name=host.controller_manager_name,
+                namespace=namespace,
+                arguments=arguments,
+            )
+        node.prepare(robot, hardware)
+        return node
+
+    def _parameter_files(self, robot: Robot) -> Sequence[str]:
+        """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""
+        paths = [self._controllers] if self._controllers else []
+        if not paths:
+            hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
+            paths = [path for plugin in hosts for path in plugin.parameters]
+        if not paths:
+            paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
+        for path in paths:
+            read_parameter_file(Path(path))  # rcl would not say where it is wrong
+        for finding in drive_warnings(robot, paths):
+            self._log(Severity.WARN, finding.text)
+        return [argument for path in paths for argument in ('--params-file', path)]
+
+
+def _destroy(entity: Entity) -> None:
+    """Remove the nodes of a robot that its thread serves no longer, and the owner neither."""
+    if entity.manager is not None:
+        entity.manager.destroy()
+    if entity.thread is not None:
+        entity.thread.executor.shutdown()
+
+
+def _category_of(robot: Robot) -> Category:
+    """What a robot is until it is told otherwise."""
+    if hardware_of(robot):
+        return Category.ROBOT
+    moves = any(joint.has_position for joint in robot.joints)
+    if robot.root.name == WORLD_LINK and not moves:
+        return Category.STATIC_OBJECT
+    return Category.DYNAMIC_OBJECT
+
+
+def _period_of(rate: int) -> int:
+    return round(NANOSECONDS / rate)

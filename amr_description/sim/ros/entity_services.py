@@ -1,0 +1,275 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The services of ``simulation_interfaces`` about entities: which there are, where, what, how big.
+
+Entities are robots. A state is that of the root link in the frame ``world``, at one instant for
+all of an answer; bounds are a box around all shapes as they stand now, in the frame of the root
+link. A ``filter`` is found anywhere in a name, as ``grep -E`` finds it; filters by bounds may be
+boxes and spheres, and take the box of an entity for the entity.
+
+Which entities a ``simulation_interfaces/msg/EntityFilters`` means.
+"""
+
+from collections.abc import Collection, Iterable
+import math
+
+from geometry_msgs.msg import Vector3
+from rclpy.node import Node
+from simulation_interfaces.msg import (
+    Bounds,
+    EntityFilters,
+    EntityInfo,
+    EntityState,
+    Result,
+    SimulatorFeatures,
+    TagsFilter,
+)
+from simulation_interfaces.srv import (
+    GetEntities,
+    GetEntitiesStates,
+    GetEntityBounds,
+    GetEntityInfo,
+    GetEntityState,
+    SetEntityInfo,
+    SetEntityState,
+)
+
+from amr_description.errors import RequestError, SpawnError, UsageError
+from amr_description.model.frames import Transform, Vector
+from amr_description.ros.messages import (
+    fill_pose,
+    fill_stamp,
+    fill_velocity,
+    transform_of,
+    vector_of,
+)
+from amr_description.sim.entity_state import bounds_of, Box, motion_of, place, pose_of
+from amr_description.sim.ros.entities import Category, Entity, Info
+from amr_description.sim.ros.ground_truth import WORLD_FRAME
+from amr_description.sim.ros.posix_regex import PosixRegex
+from amr_description.sim.ros.service_replies import serve
+from amr_description.sim.ros.simulation import Simulation
+from amr_description.sim.spawning import checked_pose
+
+
+def chosen(entities: Iterable[Entity], filters: EntityFilters) -> list[Entity]:
+    """
+    Those that meet name, categories and tags; bounds are another matter.
+
+    Raises RequestError: the name is no regular expression.
+    """
+    categories = [each.category for each in filters.categories]
+    try:
+        with PosixRegex(filters.filter) as names:
+            return [
+                entity
+                for entity in entities
+                if (not filters.filter or names.is_in(entity.name))
+                and (not categories or entity.info.category in categories)
+                and has_tags(entity.info.tags, filters.tags)
+            ]
+    except UsageError as error:
+        raise RequestError(f'filter: {error}', Result.RESULT_OPERATION_FAILED) from error
+
+
+def has_tags(tags: Collection[str], wanted: TagsFilter) -> bool:
+    """Whether one of the wanted tags is there, or all of them, as it says; none: always."""
+    if not wanted.tags:
+        return True
+    found = [tag in tags for tag in wanted.tags]
+    return all(found) if wanted.filter_mode == TagsFilter.FILTER_MODE_ALL else any(found)
+
+
+def check_bounds(bounds: Bounds) -> None:
+    """Raises RequestError: a kind that is not known here, or points that make none."""
+    if bounds.type not in (Bounds.TYPE_EMPTY, Bounds.TYPE_BOX, Bounds.TYPE_SPHERE):
+        raise RequestError(
+            f'bounds of type {bounds.type} are asked; EMPTY (0), BOX (1) and SPHERE (3) are known',
+            Result.RESULT_FEATURE_UNSUPPORTED,
+        )
+    if bounds.type != Bounds.TYPE_EMPTY and len(bounds.points) != 2:
+        raise RequestError(
+            f'bounds have {len(bounds.points)} points; two are needed: opposite corners of a box, '
+            'or the centre of a sphere and its radius in x',
+            Result.RESULT_OPERATION_FAILED,
+        )
+
+
+def overlaps(box: Box | None, bounds: Bounds) -> bool:
+    """Whether a box (in the world) and checked ``bounds`` have a point in common; none: none."""
+    if box is None:
+        return False
+    first, second = ((point.x, point.y, point.z) for point in bounds.points)
+    sides = list(zip(box.lower, box.upper, strict=True))
+    if bounds.type == Bounds.TYPE_SPHERE:
+        nearest = [min(max(c, low), high) for c, (low, high) in zip(first, sides, strict=True)]
+        return math.dist(first, nearest) <= second[0]
+    return all(
+        low <= max(a, b) and min(a, b) <= high
+        for (low, high), a, b in zip(sides, first, second, strict=True)
+    )
+
+
+FEATURES = (
+    SimulatorFeatures.ENTITY_TAGS,
+    SimulatorFeatures.ENTITY_BOUNDS,
+    SimulatorFeatures.ENTITY_BOUNDS_BOX,
+    SimulatorFeatures.ENTITY_CATEGORIES,
+    SimulatorFeatures.ENTITY_STATE_GETTING,
+    SimulatorFeatures.ENTITY_STATE_SETTING,
+    SimulatorFeatures.ENTITY_INFO_GETTING,
+    SimulatorFeatures.ENTITY_INFO_SETTING,
+)
+"""What this file serves."""
+
+
+class EntityServices:
+    """Look at entities, put them elsewhere, and keep what is told of them."""
+
+    def __init__(self, node: Node, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._robots = simulation.robots
+        self._world = simulation.world
+        self._owner = simulation.owner
+        serve(
+            node,
+            simulation.log,
+            (
+                (GetEntities, self._get_entities),
+                (GetEntitiesStates, self._get_entities_states),
+                (GetEntityState, self._get_entity_state),
+                (SetEntityState, self._set_entity_state),
+                (GetEntityInfo, self._get_entity_info),
+                (SetEntityInfo, self._set_entity_info),
+                (GetEntityBounds, self._get_entity_bounds),
+            ),
+        )
+
+    async def _get_entities(
+        self, request: GetEntities.Request, response: GetEntities.Response
+    ) -> None:
+        response.entities = await self._chosen(request.filters)
+
+    async def _get_entities_states(
+        self, request: GetEntitiesStates.Request, response: GetEntitiesStates.Response
+    ) -> None:
+        states = await self._states(await self._chosen(request.filters))
+        response.entities, response.states = list(states), list(states.values())
+
+    async def _get_entity_state(
+        self, request: GetEntityState.Request, response: GetEntityState.Response
+    ) -> None:
+        name = self._robots.find(request.entity).name
+        found = list((await self._states([name])).values())
+        if not found:
+            self._robots.find(name)  # it went meanwhile, which this tells
+        response.state = found[0]
+
+    async def _set_entity_state(
+        self, request: SetEntityState.Request, response: SetEntityState.Response
+    ) -> None:
+        """At once; the stamp and the acceleration count for nothing."""
+        name, state = self._robots.find(request.entity).name, request.state
+        frame = state.header.frame_id
+        if frame not in ('', WORLD_FRAME):
+            raise RequestError(
+                f"the state is given in the frame '{frame}'; '{WORLD_FRAME}' is known here",
+                response.INVALID_POSE,
+            )
+        try:
+            pose = checked_pose(transform_of(state.pose))
+        except SpawnError as error:
+            raise RequestError(str(error), response.INVALID_POSE) from error
+        linear, angular = vector_of(state.twist.linear), vector_of(state.twist.angular)
+        if not all(map(math.isfinite, (*linear, *angular))):
+            raise RequestError(
+                f'the twist is {linear} m/s, {angular} rad/s; finite numbers are needed',
+                Result.RESULT_OPERATION_FAILED,
+            )
+        world = self._world
+        await self._owner.submit(
+            lambda: place(world.engine, world.robot(name), pose, linear, angular)
+        )
+
+    async def _get_entity_info(
+        self, request: GetEntityInfo.Request, response: GetEntityInfo.Response
+    ) -> None:
+        info = self._robots.find(request.entity).info
+        response.info = EntityInfo(description=info.description, tags=info.tags)
+        response.info.category.category = info.category
+
+    async def _set_entity_info(
+        self, request: SetEntityInfo.Request, _: SetEntityInfo.Response
+    ) -> None:
+        entity, info = self._robots.find(request.entity), request.info
+        known = {int(category): category for category in Category}
+        category = info.category.category
+        if category not in known:
+            choices = ', '.join(f'{each.name} ({each})' for each in Category)
+            raise RequestError(
+                f'category {category} is given; there are: {choices}',
+                Result.RESULT_OPERATION_FAILED,
+            )
+        entity.info = Info(known[category], info.description, tuple(info.tags))
+
+    async def _get_entity_bounds(
+        self, request: GetEntityBounds.Request, response: GetEntityBounds.Response
+    ) -> None:
+        name, world = self._robots.find(request.entity).name, self._world
+
+        def look() -> Box | None:
+            robot = world.robot(name)
+            return bounds_of(world.engine, robot, pose_of(robot))
+
+        box = await self._owner.submit(look)
+        if box is not None:
+            response.bounds.type = Bounds.TYPE_BOX
+            response.bounds.points = [_vector3(box.upper), _vector3(box.lower)]
+
+    async def _chosen(self, filters: EntityFilters) -> list[str]:
+        """The names of the entities that meet all filters. Raises RequestError."""
+        check_bounds(filters.bounds)
+        entities: Collection[Entity] = chosen(self._robots.entities, filters)
+        names = [entity.name for entity in entities]
+        if filters.bounds.type == Bounds.TYPE_EMPTY:
+            return names
+        world = self._world
+
+        def look() -> list[str]:
+            return [
+                name
+                for name in names
+                if name in world.names
+                and overlaps(
+                    bounds_of(world.engine, world.robot(name), Transform()), filters.bounds
+                )
+            ]
+
+        return await self._owner.submit(look)
+
+    async def _states(self, names: Collection[str]) -> dict[str, EntityState]:
+        """The states at one instant, of those that are still there."""
+        world = self._world
+
+        def look() -> dict[str, EntityState]:
+            return {name: self._state(name) for name in names if name in world.names}
+
+        return await self._owner.submit(look)
+
+    def _state(self, name: str) -> EntityState:
+        """On the owner's thread."""
+        robot = self._world.robot(name)
+        motion = motion_of(self._world.engine, robot)
+        state = EntityState()
+        state.header.frame_id = WORLD_FRAME
+        fill_stamp(self._world.time, state.header.stamp)
+        fill_pose(pose_of(robot), state.pose)
+        fill_velocity(motion.linear_velocity, motion.angular_velocity, state.twist)
+        fill_velocity(motion.linear_acceleration, motion.angular_acceleration, state.acceleration)
+        return state
+
+
+def _vector3(values: Vector) -> Vector3:
+    x, y, z = values
+    return Vector3(x=x, y=y, z=z)

@@ -1,0 +1,54 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Services of ``simulation_interfaces``: handlers that raise, answers with a code and a reason.
+
+A handler fills the response and returns, which is ``RESULT_OK``; a RequestError has its own code,
+anything else is ``RESULT_OPERATION_FAILED``. A service is called as its handler is.
+"""
+
+from collections.abc import Awaitable, Callable, Iterable
+from typing import Any
+
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from simulation_interfaces.msg import Result
+
+from amr_description.control.contracts import Log
+from amr_description.control.plugin_errors import describe
+from amr_description.errors import AmrError, RequestError
+from amr_description.ros.log_thread import log_error
+
+type Handler = Callable[[Any, Any], Awaitable[None]]
+"""``async (request, response)``; the response has a ``result``."""
+
+
+def serve(node: Node, log: Log, handlers: Iterable[tuple[type, Handler]]) -> None:
+    """Offer a service ``~/do_this`` for every handler ``_do_this``, with its type."""
+    group = ReentrantCallbackGroup()
+    for service_type, handler in handlers:
+        name = handler.__name__.removeprefix('_')
+        node.create_service(
+            service_type, f'~/{name}', _answering(handler, log), callback_group=group
+        )
+
+
+def refuse(result: Result, error: Exception) -> None:
+    """Write in one line what went wrong, and its code."""
+    is_coded = isinstance(error, RequestError)
+    result.result = error.code if is_coded else Result.RESULT_OPERATION_FAILED
+    result.error_message = ' '.join(describe(error).split())
+
+
+def _answering(handler: Handler, log: Log) -> Callable[[Any, Any], Awaitable[Any]]:
+    async def answer(request: Any, response: Any) -> Any:
+        try:
+            await handler(request, response)
+            response.result.result = Result.RESULT_OK
+        except Exception as error:  # a stranger's class may raise anything; others go on
+            refuse(response.result, error)
+            if not isinstance(error, AmrError):
+                log_error(log, error)
+        return response
+
+    return answer

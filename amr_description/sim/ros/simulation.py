@@ -1,0 +1,264 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulation in a process: the world, its owner, its robots, and its time.
+
+========  ===========================================================================
+state     what it is, in the words of ``simulation_interfaces/msg/SimulationState``
+========  ===========================================================================
+PLAYING   time goes on
+PAUSED    time stands still, but for steps that are asked for; everything else works:
+          services, spawners, parameters
+STOPPED   as PAUSED, and everything is at its beginning: time 0, no spawned robots;
+          to be played, or paused, to be stepped
+QUITTING  the process ends
+========  ===========================================================================
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+import enum
+
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from amr_description.control.contracts import Severity
+from amr_description.control.loop import Loop
+from amr_description.control.ros.loop_publisher import SimulatedOutgoing
+from amr_description.control.ros.loop_thread import Mailbox, Owner, WallPacer
+from amr_description.parameters import group, parameter
+from amr_description.ros.log_thread import LogThread
+from amr_description.ros.parameters import refuse_what_the_table_refuses, values
+from amr_description.sim.ros.entities import Robots
+from amr_description.sim.ros.ground_truth import GroundTruth
+from amr_description.sim.ros.loop_timing import StageWatch
+from amr_description.sim.world import MujocoWorld
+from amr_description.sim.world_file import WorldSettings
+
+CLOCK_PERIOD = 10_000_000
+"""ns: the longest time between two messages on ``/clock``."""
+
+CLOCK_REMINDER = 0.1
+"""s of the wall clock between two messages on ``/clock`` while time stands still."""
+
+
+@dataclass(frozen=True)
+class SimulationParameters:
+    """The parameters of the node ``mujoco_sim``."""
+
+    world: str = parameter('empty', 'A shipped world, or the path of an MJCF file', read_only=True)
+    physics: WorldSettings = group('physics', WorldSettings)
+    real_time_factor: float = parameter(
+        1.0,
+        'Simulated seconds per second of the wall clock; 0: as fast as possible',
+        minimum=0.0,
+    )
+    paused: bool = parameter(
+        False, 'Begin with time standing still, until ~/set_simulation_state', read_only=True
+    )
+    controllers: str = parameter(
+        '',
+        'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
+        'names, else that of this package',
+        read_only=True,
+    )
+    on_fault: str = parameter(
+        'continue',
+        'What the simulation does when the physics goes wrong, beside saying so',
+        choices=('continue', 'pause'),
+    )
+    seed: int = parameter(
+        0, 'From which the noise of every sensor follows', minimum=0, read_only=True
+    )
+    ground_truth_rate: float = parameter(
+        50.0,
+        'Rate of ground_truth/odom and ground_truth/wheels of every robot; 0: none',
+        unit='Hz',
+        minimum=0.0,
+        read_only=True,
+    )
+
+
+class State(enum.IntEnum):
+    """See the module; the numbers are those of the message."""
+
+    STOPPED = 0
+    PLAYING = 1
+    PAUSED = 2
+    QUITTING = 3
+    NO_WORLD = 4
+    LOADING_WORLD = 5
+
+
+class WorldStepper:
+    """The ``Stepper`` port of the loop over a MuJoCo world."""
+
+    def __init__(self, world: MujocoWorld) -> None:
+        self._world = world
+
+    @property
+    def time(self) -> int:
+        """Simulated time, ns."""
+        return self._world.time
+
+    def advance(self, period: int) -> None:
+        """Step the physics by ``period`` (ns), rounded to its steps, by one at least."""
+        self._world.step(max(1, round(period / self._world.timestep)))
+
+
+class Simulation:
+    """
+    World, loop and robots; ``node`` publishes ``/clock`` and lends its logger and parameters.
+
+    The coroutines run on the ROS thread and await the owner.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        executor: Executor,
+        parameters: SimulationParameters,
+        ros_args: Sequence[str],
+    ) -> None:
+        """``ros_args`` go on to every manager and controller. Raises SimulationError."""
+        self.parameters = parameters
+        """As they were at the start."""
+        self._node = node
+        self._is_stopped = self._is_quitting = False
+        self.on_quit: Callable[[], None] = executor.wake
+        """Ends the process; called when QUITTING is asked for."""
+        self.logs = LogThread()
+        try:
+            self.log = self.logs.log_of(node.get_logger())
+            outgoing = SimulatedOutgoing(node)
+            outgoing.adopt(node)
+            self.world = MujocoWorld(
+                parameters.world,
+                settings=parameters.physics,
+                seed=parameters.seed,
+                log=self.log,
+            )
+            ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
+            mailbox = Mailbox(CLOCK_REMINDER)
+            self._pacer = WallPacer(parameters.real_time_factor, mailbox)
+            watch = StageWatch(self.log, lambda: self._pacer.factor)
+            self.owner = Owner(mailbox, executor)
+            self.owner.loop = Loop(
+                watch.stepper(WorldStepper(self.world)),
+                watch.pacer(self._pacer),
+                mailbox,
+                watch.publisher(outgoing),
+                CLOCK_PERIOD,
+            )
+            self._pauses_on_fault = parameters.on_fault == 'pause'
+            self.world.faults.on_fault = lambda: mailbox.put(self._mind_fault)
+            if parameters.paused:
+                self.owner.loop.pause()
+            self.robots = Robots(
+                self.owner,
+                self.world,
+                outgoing,
+                ground_truth,
+                executor=executor,
+                logs=self.logs,
+                log=self.log,
+                controllers=parameters.controllers,
+                ros_args=ros_args,
+            )
+        except Exception:
+            self.logs.stop()
+            raise
+        refuse_what_the_table_refuses(node, SimulationParameters)
+        node.add_post_set_parameters_callback(self._mind_parameters)
+
+    def start(self) -> None:
+        """Let the owner's thread run; time begins, unless it is paused."""
+        self.owner.start()
+
+    def close(self) -> None:
+        """Let time end; then remove the robots' nodes."""
+        self.owner.stop()
+        self.robots.destroy()
+        self.logs.stop()
+
+    @property
+    def state(self) -> State:
+        """What it is doing."""
+        if self._is_quitting:
+            return State.QUITTING
+        if self.owner.loop.is_running:
+            return State.PLAYING
+        return State.STOPPED if self._is_stopped else State.PAUSED
+
+    async def play(self) -> None:
+        """Let time go on."""
+        await self.owner.submit(self.owner.loop.resume)
+        self._is_stopped = False
+
+    async def pause(self) -> None:
+        """Let time stand still."""
+        await self.owner.submit(self.owner.loop.pause)
+        self._is_stopped = False
+
+    async def stop(self) -> None:
+        """Let time stand still, and everything be as at the start."""
+        await self.owner.submit(self.owner.loop.pause)
+        await self.robots.remove_all()
+        await self.reset()
+        self._is_stopped = True
+
+    async def quit(self) -> None:
+        """Stop, and end the process."""
+        await self.stop()
+        self._is_quitting = True
+        self.on_quit()
+
+    async def step(self, count: int) -> int:
+        """
+        While paused, make ``count`` physics steps; return how many were not made.
+
+        Less than all are made when somebody lets time go on, or resets it, meanwhile. Raises
+        SimulationError: it is not paused, or stepping already.
+        """
+        step = self.world.timestep
+        return -(-await self.owner.step(count * step) // step)
+
+    async def reset(self, *, time: bool = True, state: bool = True) -> None:
+        """
+        Begin anew; what runs goes on running, what is active stays active.
+
+        ``time``: let it be 0. ``state``: put every robot to where it was spawned, at rest, its
+        odometry to zero.
+        """
+
+        def reset() -> None:
+            world, loop = self.world, self.owner.loop
+            now = world.time
+            if state:
+                world.reset()
+            world.time = 0 if time else now
+            if state:
+                loop.reset()
+            else:
+                loop.set_clock()
+
+        await self.owner.submit(reset)
+
+    def _mind_parameters(self, _: Sequence[Parameter]) -> None:
+        """One was set: the factor, or what a fault does, as no other can be."""
+        now = values(self._node, SimulationParameters)
+        self._pauses_on_fault = now.on_fault == 'pause'
+        if now.real_time_factor != self._pacer.factor:
+            loop = self.owner.loop
+            self.owner.submit(lambda: self._pacer.set_factor(now.real_time_factor, loop.time))
+
+    def _mind_fault(self) -> None:
+        """Between two turns, after a fault was told; on the owner's thread."""
+        if self._pauses_on_fault:
+            self.owner.loop.pause()
+            self.log(
+                Severity.WARN,
+                'paused, as on_fault says; ~/set_simulation_state lets time go on, '
+                '~/reset_simulation begins anew',
+            )

@@ -1,0 +1,314 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The services of ``simulation_interfaces`` about the simulation as a whole: its state and its time.
+
+What the standard leaves open is so:
+
+- A step is one physics step; ``~/get_simulator_features`` tells how long that is. Steps are made
+  as fast as they can be, whatever the real-time factor.
+- ``STATE_STOPPED`` is as paused and reset with SCOPE_ALL. It can be played and paused; to be
+  stepped it has to be paused first.
+- SCOPE_DEFAULT is SCOPE_ALL, which removes the spawned robots. To keep them, with their
+  controllers, ask for SCOPE_TIME + SCOPE_STATE (3): they stand where they were spawned, at time 0.
+
+The services of ``simulation_interfaces`` about worlds: which there are, and which one this is.
+
+A world is chosen at the start, by the parameter ``world``. What would need more than that answers
+``RESULT_FEATURE_UNSUPPORTED``, with the reason.
+"""
+
+from collections.abc import Awaitable, Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from rclpy.action import ActionServer, CancelResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from simulation_interfaces.action import SimulateSteps
+from simulation_interfaces.msg import Result, SimulatorFeatures, WorldResource
+from simulation_interfaces.srv import (
+    GetAvailableWorlds,
+    GetCurrentWorld,
+    GetNamedPoseBounds,
+    GetNamedPoses,
+    GetSimulationState,
+    GetSimulatorFeatures,
+    LoadWorld,
+    ResetSimulation,
+    SetSimulationState,
+    StepSimulation,
+    UnloadWorld,
+)
+
+from amr_description.ament_index import resolve_uri
+from amr_description.control.contracts import Severity
+from amr_description.errors import RequestError, ResourceError, SimulationError
+from amr_description.sim.ros.entity_services import has_tags
+from amr_description.sim.ros.service_replies import refuse, serve
+from amr_description.sim.ros.simulation import Simulation, State
+from amr_description.sim.world_file import shipped_worlds, world_path
+
+FEATURES = (
+    SimulatorFeatures.SIMULATION_RESET,
+    SimulatorFeatures.SIMULATION_RESET_TIME,
+    SimulatorFeatures.SIMULATION_RESET_STATE,
+    SimulatorFeatures.SIMULATION_RESET_SPAWNED,
+    SimulatorFeatures.SIMULATION_STATE_GETTING,
+    SimulatorFeatures.SIMULATION_STATE_SETTING,
+    SimulatorFeatures.SIMULATION_STATE_PAUSE,
+    SimulatorFeatures.STEP_SIMULATION_SINGLE,
+    SimulatorFeatures.STEP_SIMULATION_MULTIPLE,
+    SimulatorFeatures.STEP_SIMULATION_ACTION,
+)
+"""What this file serves."""
+
+_TIME, _STATE = ResetSimulation.Request.SCOPE_TIME, ResetSimulation.Request.SCOPE_STATE
+_SPAWNED, _ALL = ResetSimulation.Request.SCOPE_SPAWNED, ResetSimulation.Request.SCOPE_ALL
+
+
+class SimulationServices:
+    """State, steps, reset, and what the simulator can do at all."""
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        features: Sequence[int],
+        spawn_formats: Sequence[str],
+    ) -> None:
+        """``features``: of all services together, as ``spawn_formats`` for the answer."""
+        self._simulation = simulation
+        self._features = features
+        self._spawn_formats = spawn_formats
+        self._transitions: dict[State, Callable[[], Awaitable[None]]] = {
+            State.STOPPED: simulation.stop,
+            State.PLAYING: simulation.play,
+            State.PAUSED: simulation.pause,
+            State.QUITTING: simulation.quit,
+        }
+        node.create_service(
+            GetSimulatorFeatures, '~/get_simulator_features', self._get_simulator_features
+        )
+        serve(
+            node,
+            simulation.log,
+            (
+                (GetSimulationState, self._get_simulation_state),
+                (SetSimulationState, self._set_simulation_state),
+                (StepSimulation, self._step_simulation),
+                (ResetSimulation, self._reset_simulation),
+            ),
+        )
+        self._action = ActionServer(
+            node,
+            SimulateSteps,
+            '~/simulate_steps',
+            self._simulate_steps,
+            callback_group=ReentrantCallbackGroup(),
+            cancel_callback=lambda _goal: CancelResponse.ACCEPT,
+        )
+
+    def close(self) -> None:
+        """Remove the action; the services go with the node."""
+        self._action.destroy()
+
+    def _get_simulator_features(
+        self, _: GetSimulatorFeatures.Request, response: GetSimulatorFeatures.Response
+    ) -> GetSimulatorFeatures.Response:
+        response.features.features = sorted(self._features)
+        response.features.spawn_formats = self._spawn_formats
+        step = self._simulation.world.timestep
+        response.features.custom_info = (
+            f'MuJoCo; a step is {step / 1e6:g} ms, entities are robots spawned from URDF or xacro'
+        )
+        return response
+
+    async def _get_simulation_state(
+        self, _: GetSimulationState.Request, response: GetSimulationState.Response
+    ) -> None:
+        response.state.state = self._simulation.state
+
+    async def _set_simulation_state(
+        self, request: SetSimulationState.Request, response: SetSimulationState.Response
+    ) -> None:
+        present, target = self._simulation.state, request.state.state
+        if target == present:
+            raise RequestError(
+                f'the simulation is {present.name} already', response.ALREADY_IN_TARGET_STATE
+            )
+        if present is State.QUITTING or target not in self._transitions:
+            choices = ', '.join(f'{state.name} ({state})' for state in self._transitions)
+            raise RequestError(
+                f'state {target} is asked of a simulation that is {present.name}; there are: '
+                f'{choices}',
+                response.INCORRECT_TRANSITION,
+            )
+        try:
+            await self._transitions[State(target)]()
+        except Exception as error:
+            raise RequestError(str(error), response.STATE_TRANSITION_ERROR) from error
+        self._simulation.log(Severity.INFO, f'The simulation is {State(target).name}')
+
+    async def _reset_simulation(
+        self, request: ResetSimulation.Request, _: ResetSimulation.Response
+    ) -> None:
+        scope = request.scope or _ALL
+        if scope != _ALL and scope & ~(_TIME | _STATE | _SPAWNED):
+            raise RequestError(
+                f'scope {scope} is asked; TIME (1), STATE (2) and SPAWNED (4), or sums of them, '
+                'DEFAULT (0) and ALL (255) are known',
+                Result.RESULT_FEATURE_UNSUPPORTED,
+            )
+        if scope & _SPAWNED:
+            count = await self._simulation.robots.remove_all()
+            self._simulation.log(
+                Severity.INFO,
+                f'Reset: {count} robots are removed; scope TIME + STATE (3) would keep them',
+            )
+        if scope & (_TIME | _STATE):
+            time, state = bool(scope & _TIME), bool(scope & _STATE)
+            await self._simulation.reset(time=time, state=state)
+
+    async def _step_simulation(
+        self, request: StepSimulation.Request, _: StepSimulation.Response
+    ) -> None:
+        await self._step(request.steps)
+
+    async def _simulate_steps(self, goal: ServerGoalHandle) -> SimulateSteps.Result:
+        """Step by step, each with its feedback."""
+        total, result = goal.request.steps, SimulateSteps.Result()
+        try:
+            self._require_paused()
+            for completed in range(1, total + 1):
+                if goal.is_cancel_requested:
+                    goal.canceled()
+                    raise RequestError(
+                        f'canceled after {completed - 1} of {total} steps',
+                        Result.RESULT_OPERATION_FAILED,
+                    )
+                await self._step(1)
+                goal.publish_feedback(
+                    SimulateSteps.Feedback(
+                        completed_steps=completed, remaining_steps=total - completed
+                    )
+                )
+            goal.succeed()
+            result.result.result = Result.RESULT_OK
+        except Exception as error:
+            if goal.is_active:
+                goal.abort()
+            refuse(result.result, error)
+        return result
+
+    async def _step(self, count: int) -> None:
+        """Raises RequestError."""
+        self._require_paused()
+        try:
+            missing = await self._simulation.step(count)
+        except SimulationError as error:
+            raise RequestError(str(error), Result.RESULT_INCORRECT_STATE) from error
+        if missing:
+            raise RequestError(
+                f'{missing} of {count} steps were not made: the simulation was played, paused, '
+                'reset or ended meanwhile',
+                Result.RESULT_OPERATION_FAILED,
+            )
+
+    def _require_paused(self) -> None:
+        state = self._simulation.state
+        if state is not State.PAUSED:
+            raise RequestError(
+                f'the simulation is {state.name}; steps are made while it is PAUSED '
+                f'(~/set_simulation_state, {State.PAUSED})',
+                Result.RESULT_INCORRECT_STATE,
+            )
+
+
+WORLD_FEATURES = (
+    SimulatorFeatures.WORLD_INFO_GETTING,
+    SimulatorFeatures.AVAILABLE_WORLDS,
+)
+"""What this file serves."""
+
+
+class WorldServices:
+    """The world of this simulator, and those that it could have been started with."""
+
+    def __init__(self, node: Node, simulation: Simulation) -> None:
+        self._world = simulation.parameters.world
+        serve(
+            node,
+            simulation.log,
+            (
+                (GetCurrentWorld, self._get_current_world),
+                (GetAvailableWorlds, self._get_available_worlds),
+                (LoadWorld, self._load_world),
+                (UnloadWorld, self._unload_world),
+                (GetNamedPoses, self._get_named_poses),
+                (GetNamedPoseBounds, self._get_named_pose_bounds),
+            ),
+        )
+
+    async def _get_current_world(
+        self, _: GetCurrentWorld.Request, response: GetCurrentWorld.Response
+    ) -> None:
+        response.world = _resource(world_path(self._world))
+
+    async def _get_available_worlds(
+        self, request: GetAvailableWorlds.Request, response: GetAvailableWorlds.Response
+    ) -> None:
+        """The shipped ones, and the MJCF files of further folders; no world has tags."""
+        try:
+            paths = list(shipped_worlds().values())
+        except ResourceError as error:
+            raise RequestError(str(error), response.DEFAULT_SOURCES_FAILED) from error
+        for source in request.additional_sources:
+            try:
+                paths += _worlds_in(source)
+            except RequestError:
+                if not request.continue_on_error:
+                    raise
+        if has_tags((), request.filter):
+            response.worlds = [_resource(path) for path in paths]
+
+    async def _load_world(self, _: LoadWorld.Request, __: LoadWorld.Response) -> None:
+        raise _unsupported(
+            'a world is chosen at the start: ros2 run amr_description mujoco_sim --ros-args -p '
+            'world:=…'
+        )
+
+    async def _unload_world(self, _: UnloadWorld.Request, __: UnloadWorld.Response) -> None:
+        raise _unsupported('the world stays as long as the simulator')
+
+    async def _get_named_poses(self, _: GetNamedPoses.Request, __: Any) -> None:
+        raise _unsupported('worlds have no named poses here')
+
+    async def _get_named_pose_bounds(self, _: GetNamedPoseBounds.Request, __: Any) -> None:
+        raise _unsupported('worlds have no named poses here')
+
+
+def _worlds_in(source: str) -> list[Path]:
+    """The MJCF files of a folder. Raises RequestError."""
+    try:
+        folder = resolve_uri(source)
+    except ResourceError as error:
+        raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
+    if not folder.is_dir():
+        raise RequestError(
+            f"source '{source}' is no folder; package://<package>/<folder>, file:// or a path "
+            'will do',
+            Result.RESULT_NOT_FOUND,
+        )
+    return sorted(folder.glob('*.xml'))
+
+
+def _resource(path: Path) -> WorldResource:
+    world = WorldResource(name=path.stem)
+    world.world_resource.uri = path.resolve().as_uri()
+    return world
+
+
+def _unsupported(reason: str) -> RequestError:
+    return RequestError(reason, Result.RESULT_FEATURE_UNSUPPORTED)

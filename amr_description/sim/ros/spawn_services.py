@@ -1,0 +1,179 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The services of ``simulation_interfaces`` by which robots come and go."""
+
+from geometry_msgs.msg import PoseStamped
+from rclpy.exceptions import InvalidNamespaceException
+from rclpy.node import Node
+from rclpy.validate_namespace import validate_namespace
+from simulation_interfaces.msg import Result, SimulatorFeatures, Spawnable, SpawnResult
+from simulation_interfaces.srv import (
+    DeleteEntity,
+    GetSpawnables,
+    SpawnEntities,
+    SpawnEntity,
+)
+
+from amr_description.ament_index import OWN_PACKAGE, resolve_uri
+from amr_description.control.contracts import Severity
+from amr_description.errors import (
+    DescriptionError,
+    RequestError,
+    ResourceError,
+    SimulationError,
+    SpawnError,
+)
+from amr_description.model.description_file import description_at
+from amr_description.model.gazebo import ros2_control_host_of
+from amr_description.ros.log_thread import log_error
+from amr_description.ros.messages import transform_of
+from amr_description.sim.ros.ground_truth import WORLD_FRAME
+from amr_description.sim.ros.service_replies import refuse, serve
+from amr_description.sim.ros.simulation import Simulation
+from amr_description.sim.spawning import read_description, SpawnCode
+
+FEATURES = (
+    SimulatorFeatures.SPAWNING,
+    SimulatorFeatures.DELETING,
+    SimulatorFeatures.SPAWNING_RESOURCE_STRING,
+    SimulatorFeatures.SPAWNABLES,
+    SimulatorFeatures.SPAWNING_ENTITIES,
+)
+"""What this file serves."""
+
+FORMATS = ('urdf', 'xacro')
+"""Of what can be spawned; xacro files by uri."""
+
+_SOURCES = (f'package://{OWN_PACKAGE}/urdf',)
+_SUFFIXES = ('.urdf', '.xacro')
+
+
+class SpawnServices:
+    """Spawn one or several, delete, and list what there is to spawn."""
+
+    def __init__(self, node: Node, simulation: Simulation) -> None:
+        self._node = node
+        self._simulation = simulation
+        serve(
+            node,
+            simulation.log,
+            (
+                (SpawnEntity, self._spawn_entity),
+                (SpawnEntities, self._spawn_entities),
+                (DeleteEntity, self._delete_entity),
+                (GetSpawnables, self._get_spawnables),
+            ),
+        )
+
+    async def _spawn_entity(
+        self, request: SpawnEntity.Request, response: SpawnEntity.Response
+    ) -> None:
+        # Where both are given, the text was made from the file: create expands xacro by itself.
+        uri = '' if request.resource_string else request.uri
+        source = request.uri or request.name or 'robot_description'
+        try:
+            text = request.resource_string or self._read(uri)
+            response.entity_name = await self._spawn(request, text, source)
+        except Exception as error:
+            log_error(self._simulation.log, error)
+            raise
+
+    async def _spawn_entities(
+        self, request: SpawnEntities.Request, response: SpawnEntities.Response
+    ) -> None:
+        """One after the other; one that fails does not keep the next from coming."""
+        for each in request.spawn_requests:
+            spawned = SpawnResult()
+            resource = each.entity_resource
+            source = resource.uri or each.name or 'robot_description'
+            try:
+                text = self._read(resource.uri) if resource.uri else resource.resource_string
+                spawned.entity_name = await self._spawn(each, text, source)
+                spawned.result.result = Result.RESULT_OK
+            except Exception as error:  # a stranger's component may raise anything
+                log_error(self._simulation.log, error)
+                refuse(spawned.result, error)
+            response.results.append(spawned)
+        failed = sum(each.result.result != Result.RESULT_OK for each in response.results)
+        if failed:
+            raise RequestError(
+                f'{failed} of {len(response.results)} entities were not spawned; see results',
+                response.ENTITIES_SPAWN_FAILED,
+            )
+
+    async def _delete_entity(
+        self, request: DeleteEntity.Request, _: DeleteEntity.Response
+    ) -> None:
+        await self._simulation.robots.remove(request.entity)
+        self._simulation.log(Severity.INFO, f"Removed '{request.entity}'")
+
+    async def _get_spawnables(
+        self, request: GetSpawnables.Request, response: GetSpawnables.Response
+    ) -> None:
+        """The URDF and xacro files of a folder, by default that of this package."""
+        for source in request.sources or _SOURCES:
+            try:
+                folder = resolve_uri(source)
+            except ResourceError as error:
+                raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
+            if not folder.is_dir():
+                raise RequestError(
+                    f"source '{source}' is no folder; package://<package>/<folder>, file:// or a "
+                    'path will do',
+                    Result.RESULT_NOT_FOUND,
+                )
+            response.spawnables += [
+                Spawnable(uri=f'{source.rstrip("/")}/{path.name}', description=path.stem)
+                for path in sorted(folder.iterdir())
+                if path.suffix in _SUFFIXES
+            ]
+
+    async def _spawn(self, request: SpawnEntity.Request, text: str, source: str) -> str:
+        """``request``: of either service. Raises SpawnError, or whatever a component raises."""
+        robot = read_description(text, source, self._simulation.log)
+        _check_frame(request.initial_pose)
+        namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
+        name = await self._simulation.robots.spawn(
+            request.name or robot.name,
+            robot,
+            transform_of(request.initial_pose.pose),
+            _checked_namespace(namespace),
+            allow_renaming=request.allow_renaming,
+        )
+        self._simulation.log(Severity.INFO, f"Spawned '{name}'")
+        return name
+
+    def _read(self, uri: str) -> str:
+        """Read the resource of a request. Raises SpawnError."""
+        if not uri:
+            raise SpawnError(
+                'neither resource_string nor uri is given; one of them holds the URDF',
+                SpawnCode.NO_RESOURCE,
+            )
+        try:
+            return description_at(uri, warn=self._node.get_logger().warning)
+        except (DescriptionError, ResourceError, SimulationError) as error:
+            raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
+
+
+def _check_frame(pose: PoseStamped) -> None:
+    frame = pose.header.frame_id
+    if frame not in ('', WORLD_FRAME):
+        raise SpawnError(
+            f"the initial pose is given in the frame '{frame}'; '{WORLD_FRAME}' is known here",
+            SpawnCode.INVALID_POSE,
+        )
+
+
+def _checked_namespace(namespace: str) -> str:
+    """Return the namespace, absolute. Raises SpawnError."""
+    absolute = f'/{namespace.removeprefix("/")}'
+    try:
+        validate_namespace(absolute)
+    except InvalidNamespaceException as error:
+        raise SpawnError(
+            f"the entity's namespace is '{namespace}', which ROS does not allow: "
+            f'{" ".join(str(error).split())}',
+            SpawnCode.NAMESPACE_INVALID,
+        ) from error
+    return absolute

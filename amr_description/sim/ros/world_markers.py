@@ -1,0 +1,102 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The static surroundings of a simulated world on ``~/world``, for RViz and the browser page.
+
+``visualization_msgs/msg/MarkerArray``, reliable, transient local, depth 1, in the frame ``world``.
+``ns`` of a marker is the kind of the shape, ``text`` its name. What has no marker type of its own:
+
+=========  =====================================================================================
+plane      a thin CUBE whose upper face is the plane, 100 m wide where it has no end
+capsule    a CYLINDER and two SPHEREs
+mesh,      a TRIANGLE_LIST
+field
+=========  =====================================================================================
+
+The first marker is a DELETEALL, so that a world takes the place of the one before.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from geometry_msgs.msg import Point
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from visualization_msgs.msg import Marker, MarkerArray
+
+from amr_description.model.frames import rotate
+from amr_description.sim.ros.ground_truth import WORLD_FRAME
+from amr_description.sim.static_geometry import Kind, Shape, surroundings
+from amr_description.sim.world import MujocoWorld
+
+TOPIC = '~/world'
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+ENDLESS = 100.0
+"""m: how wide a plane is drawn that has no end."""
+_THICKNESS = 0.002
+"""m, of a plane."""
+_TYPES = {
+    Kind.BOX: Marker.CUBE,
+    Kind.PLANE: Marker.CUBE,
+    Kind.SPHERE: Marker.SPHERE,
+    Kind.CYLINDER: Marker.CYLINDER,
+    Kind.TRIANGLES: Marker.TRIANGLE_LIST,
+}
+
+
+def publish_world(node: Node, world: MujocoWorld) -> None:
+    """Tell once, for all who come later, what stands in a world that no robot has come to yet."""
+    publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
+    publisher.publish(markers(surroundings(world.engine.spec)))
+
+
+def markers(shapes: Sequence[Shape]) -> MarkerArray:
+    """Return the message for these shapes."""
+    message = MarkerArray(markers=[Marker(action=Marker.DELETEALL)])
+    message.markers += [_marker(part) for shape in shapes for part in _parts(shape)]
+    for number, marker in enumerate(message.markers):
+        marker.id = number
+        marker.header.frame_id = WORLD_FRAME
+    return message
+
+
+def _parts(shape: Shape) -> Iterator[Shape]:
+    """A shape as others that have a marker type."""
+    if shape.kind is not Kind.CAPSULE:
+        yield shape
+        return
+    width, _, length = shape.size
+    half = (length - width) / 2
+    yield replace(shape, kind=Kind.CYLINDER, size=(width, width, length - width))
+    for end in (half, -half):
+        yield replace(
+            shape,
+            kind=Kind.SPHERE,
+            size=(width, width, width),
+            position=_along_z(shape, end),
+        )
+
+
+def _marker(shape: Shape) -> Marker:
+    marker = Marker(ns=shape.kind.value, text=shape.name, type=_TYPES[shape.kind])
+    position, (x, y, z) = shape.position, shape.size
+    if shape.kind is Kind.PLANE:
+        position = _along_z(shape, -_THICKNESS / 2)
+        x, y, z = x or ENDLESS, y or ENDLESS, _THICKNESS
+    elif shape.kind is Kind.TRIANGLES:
+        x = y = z = 1.0
+        marker.points = [Point(x=a, y=b, z=c) for a, b, c in shape.points]
+    marker.scale.x, marker.scale.y, marker.scale.z = x, y, z
+    pose = marker.pose
+    pose.position.x, pose.position.y, pose.position.z = position
+    q = pose.orientation
+    q.x, q.y, q.z, q.w = shape.rotation
+    marker.color.r, marker.color.g, marker.color.b, marker.color.a = shape.color
+    return marker
+
+
+def _along_z(shape: Shape, distance: float) -> tuple[float, float, float]:
+    """A point on the shape's own z axis, in the world."""
+    x, y, z = shape.position
+    dx, dy, dz = rotate(shape.rotation, (0.0, 0.0, distance))
+    return (x + dx, y + dy, z + dz)

@@ -1,0 +1,208 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Plain HTTP: the page's files, the robots' meshes, and a clear word for everything else.
+
+No answer lets a browser ask anybody but this server, run what is not in a file of the page, or
+show the page inside another one.
+
+The files that a page is made of: found by name in one folder, told apart by their content.
+"""
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass
+from email.utils import formatdate
+import hashlib
+from http import HTTPStatus
+from pathlib import Path
+from urllib.parse import unquote
+
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+from amr_description.viewer.access import Access
+
+TYPES = {
+    '.html': 'text/html; charset=utf-8',
+    '.js': 'text/javascript; charset=utf-8',
+    '.css': 'text/css; charset=utf-8',
+    '.json': 'application/json',
+    '.map': 'application/json',
+    '.webmanifest': 'application/manifest+json',
+    '.txt': 'text/plain; charset=utf-8',
+    '.svg': 'image/svg+xml',
+    '.png': 'image/png',
+    '.jpg': 'image/jpeg',
+    '.jpeg': 'image/jpeg',
+    '.ico': 'image/x-icon',
+    '.woff2': 'font/woff2',
+    '.stl': 'model/stl',
+    '.obj': 'model/obj',
+    '.dae': 'model/vnd.collada+xml',
+}
+"""Content types by suffix; nothing else is served."""
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What a file holds; ``tag`` changes with it."""
+
+    data: bytes
+    kind: str
+    tag: str
+
+
+def digest(data: bytes) -> str:
+    """Return a short hash of some content."""
+    return hashlib.sha256(data).hexdigest()[:20]
+
+
+class StaticFiles:
+    """
+    The files below a folder that have a known type.
+
+    A path is looked up among the names that there are, so that none leads out of the folder.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._known: dict[Path, tuple[tuple[int, int], Content]] = {}
+
+    def get(self, path: str) -> Content | None:
+        """Return the file of a URL path such as ``/index.html``; None: there is none."""
+        file = self._files().get(path)
+        try:
+            return self._read(file) if file else None
+        except OSError:  # a build is just replacing it
+            return None
+
+    def _read(self, file: Path) -> Content:
+        status = file.stat()
+        version = (status.st_mtime_ns, status.st_size)
+        known = self._known.get(file)
+        if known is None or known[0] != version:
+            data = file.read_bytes()
+            known = (version, Content(data, TYPES[file.suffix.lower()], digest(data)))
+            self._known[file] = known
+        return known[1]
+
+    def _files(self) -> dict[str, Path]:
+        return {
+            f'/{file.relative_to(self._folder).as_posix()}': file
+            for file in self._folder.rglob('*')
+            if file.suffix.lower() in TYPES and file.is_file()
+        }
+
+
+SOCKET_PATH = '/ws'
+MESH_PATH = '/mesh/'
+_INDEX = '/index.html'
+_ONCE = ('Host', 'Origin', 'Cookie', 'If-None-Match')
+"""Headers that a request has once: of two, each reader may believe another one."""
+
+POLICY = '; '.join(
+    (
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self'",
+        "img-src 'self' blob: data:",
+        "font-src 'self'",
+        "connect-src 'self' blob: data:",
+        "manifest-src 'self'",
+        "worker-src 'self' blob:",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'none'",
+    )
+)
+_HEADERS = {
+    'Content-Security-Policy': POLICY,
+    'Cross-Origin-Opener-Policy': 'same-origin',
+    'Cross-Origin-Resource-Policy': 'same-origin',
+    'Referrer-Policy': 'no-referrer',
+    'X-Content-Type-Options': 'nosniff',
+    'Connection': 'close',
+}
+_NOT_BUILT = (
+    'the page is not built: npm ci && npm run build, in the folder web of the sources, builds it'
+)
+
+
+class Web:
+    """Answers requests for files; what is for the WebSocket passes."""
+
+    def __init__(
+        self, static: StaticFiles, mesh: Callable[[str], Path | None], access: Access
+    ) -> None:
+        self._static = static
+        self._mesh = mesh
+        self._access = access
+
+    async def answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Return the response; None: it goes on as a WebSocket."""
+        for name in _ONCE:
+            if len(request.headers.get_all(name)) > 1:
+                return _text(HTTPStatus.BAD_REQUEST, f'the request has more than one {name}')
+        refusal = self._access.refusal(request.path, request.headers)
+        if refusal is not None:
+            return _text(refusal.status, refusal.reason)
+        if request.method != 'GET':
+            return _text(HTTPStatus.METHOD_NOT_ALLOWED, f'{request.method} is not served, GET is')
+        path = unquote(request.path.partition('?')[0])
+        if path == SOCKET_PATH:
+            return None
+        content = await self._content(path)
+        if content is None:
+            if path == '/':
+                return _text(HTTPStatus.SERVICE_UNAVAILABLE, _NOT_BUILT)
+            return _text(HTTPStatus.NOT_FOUND, f'there is no {path!a} here')
+        response = _file(content, request, is_immutable=path.startswith(MESH_PATH))
+        cookie = self._access.new_cookie(request.path, request.headers)
+        if cookie is not None:
+            response.headers['Set-Cookie'] = cookie
+        return response
+
+    async def _content(self, path: str) -> Content | None:
+        if not path.startswith(MESH_PATH):
+            return self._static.get(_INDEX if path == '/' else path)
+        file = self._mesh(path.removeprefix(MESH_PATH))
+        return await asyncio.to_thread(_read_mesh, file) if file else None
+
+
+def _read_mesh(file: Path) -> Content | None:
+    try:
+        data = file.read_bytes()
+    except OSError:
+        return None
+    return Content(data, TYPES[file.suffix.lower()], digest(data))
+
+
+def _file(content: Content, request: Request, *, is_immutable: bool) -> Response:
+    tag = f'"{content.tag}"'
+    is_known = request.headers.get('If-None-Match') == tag
+    response = _response(
+        HTTPStatus.NOT_MODIFIED if is_known else HTTPStatus.OK,
+        content.kind,
+        b'' if is_known else content.data,
+    )
+    response.headers['ETag'] = tag
+    response.headers['Cache-Control'] = (
+        'private, max-age=31536000, immutable' if is_immutable else 'private, no-cache'
+    )
+    return response
+
+
+def _text(status: HTTPStatus, line: str) -> Response:
+    response = _response(status, 'text/plain; charset=utf-8', f'{line}\n'.encode())
+    response.headers['Cache-Control'] = 'no-store'
+    return response
+
+
+def _response(status: HTTPStatus, kind: str, body: bytes) -> Response:
+    headers = Headers(_HEADERS)
+    headers['Date'] = formatdate(usegmt=True)
+    headers['Content-Type'] = kind
+    headers['Content-Length'] = str(len(body))
+    return Response(status.value, status.phrase, headers, body)

@@ -1,0 +1,141 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A robot's description as a page wants it: joints, meshes, and what check_urdf says of it."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from html import unescape
+import math
+from pathlib import Path
+import re
+from stat import S_ISREG
+
+from amr_description.ament_index import resolve_uri
+from amr_description.errors import ResourceError
+from amr_description.model import findings
+from amr_description.model.checks import examine
+from amr_description.model.robot import Joint, JointType, Mesh, Robot
+from amr_description.viewer.http import digest
+from amr_description.viewer.protocol import Finding, JointInfo, Model
+
+SOURCE = 'robot_description'
+_LARGEST_MESH = 256 * 1024 * 1024
+_MESHES = {'.stl', '.obj', '.dae'}
+_IMAGES = {'.png', '.jpg', '.jpeg'}
+"""Nothing else is served, whatever a description names."""
+_IMAGE_OF_COLLADA = re.compile(r'<init_from>\s*(?:<ref>\s*)?([^<]+?)\s*</')
+
+
+@dataclass(frozen=True, slots=True)
+class DescribedRobot:
+    """A description: the message for the pages, and the files that it names, by their URLs."""
+
+    name: str
+    message: Model
+    files: Mapping[str, Path]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Those that move."""
+        return tuple(joint.name for joint in self.message.joints)
+
+
+def describe_robot(robot: str, text: str) -> DescribedRobot:
+    """Read the description of the robot with this namespace, however broken."""
+    examination = examine(text, SOURCE)
+    model, told = examination.robot, [_finding(each) for each in examination.findings]
+    meshes: dict[str, str] = {}
+    files: dict[str, Path] = {}
+    tried: set[str] = set()
+    wanted = [*_files_of(model)] if model else []
+    while wanted:
+        uri = wanted.pop(0)
+        if uri in tried:
+            continue
+        tried.add(uri)
+        try:
+            file = resolve_uri(uri)
+            data = _read(file)
+        except ResourceError as error:
+            told.append(Finding('warning', None, f'{uri} cannot be drawn: {error}', ''))
+            continue
+        name = f'{digest(data)}{file.suffix.lower()}'
+        meshes[uri], files[name] = f'/mesh/{name}', file
+        if file.suffix.lower() == '.dae':
+            wanted += _images_of_collada(uri, data)
+    message = Model(
+        robot=robot,
+        urdf=text,
+        root=model.roots[0].name if model and model.roots else '',
+        meshes=meshes,
+        joints=tuple(_joint(each) for each in model.joints if each.has_position) if model else (),
+        findings=tuple(told),
+    )
+    return DescribedRobot(model.name if model else '', message, files)
+
+
+def _files_of(robot: Robot) -> Iterator[str]:
+    for link in robot.links:
+        for part in (*link.visuals, *link.collisions):
+            if isinstance(part.geometry, Mesh):
+                yield part.geometry.filename
+    yield from _textures(robot)
+
+
+def _textures(robot: Robot) -> Iterable[str]:
+    looks = [*robot.materials, *(v.material for link in robot.links for v in link.visuals)]
+    return [look.texture for look in looks if look and look.texture]
+
+
+def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
+    """The images that a COLLADA file names, beside it; what it has not is drawn without."""
+    folder = uri[: uri.rindex('/') + 1]
+    for found in _IMAGE_OF_COLLADA.findall(data.decode(errors='replace')):
+        name = unescape(found)
+        if Path(name).suffix.lower() in _IMAGES and not name.startswith('/') and '://' not in name:
+            yield folder + name.removeprefix('./')
+
+
+def _read(file: Path) -> bytes:
+    """Read a file that a page draws. Raises ResourceError."""
+    suffix = file.suffix.lower()
+    if suffix not in _MESHES | _IMAGES:
+        kinds = ', '.join(sorted(_MESHES | _IMAGES))
+        raise ResourceError(f'the page draws {kinds}, not {suffix!a}')
+    try:
+        status = file.stat()
+        if not S_ISREG(status.st_mode):  # a pipe or a device may have no end
+            raise ResourceError(f'{file} is no regular file')
+        if status.st_size > _LARGEST_MESH:
+            raise ResourceError(f'it has {status.st_size} bytes, more than {_LARGEST_MESH}')
+        return file.read_bytes()
+    except (OSError, ValueError) as error:
+        raise ResourceError(f'{file}: {getattr(error, "strerror", None) or error}') from error
+
+
+def _joint(joint: Joint) -> JointInfo:
+    lower, upper = -math.pi, math.pi
+    if joint.type is not JointType.CONTINUOUS and joint.limit is not None:
+        lower, upper = joint.limit.lower, joint.limit.upper
+    if not (math.isfinite(lower) and math.isfinite(upper)):
+        lower, upper = -math.pi, math.pi
+    return JointInfo(
+        name=joint.name,
+        kind=joint.type.value,  # type: ignore[arg-type]
+        lower=lower,
+        upper=upper,
+        zero=0.0 if lower <= 0.0 <= upper else (lower + upper) / 2,
+        follows=joint.mimic.joint if joint.mimic else None,
+    )
+
+
+def _finding(finding: findings.Finding) -> Finding:
+    parts = [f'found {finding.found}'] if finding.found else []
+    parts += [f'expected {finding.expected}'] if finding.expected else []
+    text = f'{finding.what}: {", ".join(parts)}' if parts else finding.what
+    return Finding(
+        level='error' if finding.severity is findings.Severity.ERROR else 'warning',
+        line=finding.line or None,
+        text=findings.one_line(text),
+        remedy=findings.one_line(finding.fix),
+    )

@@ -1,0 +1,240 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+/tf and /tf_static, as the tree of frames and their poses that a page draws.
+
+Robots that have a TF of their own, such as ``/robot1/tf``, call their frames all the same: the
+page's are called ``robot1/odom`` and so on, as they would be on one ``/tf``.
+
+What joints are commanded: of the introspection topics of a controller manager.
+
+``names`` says which number is which, ``values`` has the numbers after every cycle; the manager
+publishes them as long as somebody listens.
+
+What moves of one robot: its topics, read into a state when the page's server asks for one.
+
+Made and destroyed on the ROS thread, read on the server's.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+import math
+from typing import Any
+
+from control_msgs.msg import DynamicJointState
+from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from pal_statistics_msgs.msg import StatisticsNames, StatisticsValues
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+
+from amr_description.ros.cdr import (
+    InterfaceValues,
+    JointValues,
+    read_dynamic_joint_state,
+    read_joint_state,
+    read_odometry,
+    read_statistics_names,
+    read_statistics_values,
+    read_transforms,
+    read_twist,
+    read_twist_stamped,
+)
+from amr_description.ros.polled_topic import PolledTopic
+from amr_description.viewer.graph import FoundRobot, TWISTS
+from amr_description.viewer.protocol import FrameInfo, RobotLayout
+from amr_description.viewer.states import Floats, RobotFloats
+
+_STATIC = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Frames:
+    """Made and destroyed on the ROS thread, read on the server's."""
+
+    def __init__(self, node: Node, trees: Sequence[str] = ()) -> None:
+        """``trees``: namespaces with a TF of their own."""
+        self._topics = [
+            (f'{place[1:]}/' if place else '', topic)
+            for place in ('', *trees)
+            for topic in (
+                PolledTopic(node, TFMessage, f'{place}/tf_static', read_transforms, qos=_STATIC),
+                PolledTopic(node, TFMessage, f'{place}/tf', read_transforms, depth=100),
+            )
+        ]
+        self._poses: dict[str, tuple[float, ...]] = {}
+        self._parents: dict[str, str] = {}
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        for _, topic in self._topics:
+            topic.destroy()
+
+    def take(self) -> tuple[set[str], bool]:
+        """Look at the topics; return the frames that have moved, and whether the tree changed."""
+        moved: set[str] = set()
+        is_changed = False
+        for prefix, topic in self._topics:
+            while (transforms := topic.take()) is not None:
+                for each in transforms:
+                    name, parent = _within(prefix, each.name), _within(prefix, each.parent)
+                    is_changed |= self._parents.get(name) != parent
+                    self._parents[name] = parent
+                    self._poses[name] = each.pose
+                    moved.add(name)
+        return moved, is_changed
+
+    def pose(self, name: str) -> tuple[float, ...]:
+        """Return the last pose of a frame in its parent, x y z qx qy qz qw, m."""
+        return self._poses[name]
+
+    def tree(self) -> tuple[FrameInfo, ...]:
+        """Return the frames, parents before children; what hangs in a loop is left out."""
+        children: dict[str, list[str]] = {}
+        for name, parent in self._parents.items():
+            children.setdefault(parent, []).append(name)
+        pending = sorted(parent for parent in children if parent not in self._parents)
+        frames: list[FrameInfo] = []
+        while pending:
+            parent = pending.pop(0)
+            below = sorted(children.get(parent, ()))
+            frames += [FrameInfo(name, parent) for name in below]
+            pending += below
+        return tuple(frames)
+
+
+def _within(prefix: str, name: str) -> str:
+    return name if name.startswith(prefix) else f'{prefix}{name}'
+
+
+_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class CommandedVelocities:
+    """
+    The command interfaces ``<joint>/velocity`` of these joints; taken as a polled topic is.
+
+    ``place``: the name of the topics but for ``/names`` and ``/values``.
+    """
+
+    def __init__(self, node: Node, place: str, joints: Sequence[str]) -> None:
+        self._wanted = [f'command_interface.{joint}/velocity' for joint in joints]
+        self._names = PolledTopic(
+            node, StatisticsNames, f'{place}/names', read_statistics_names, qos=_LATCHED
+        )
+        self._values = PolledTopic(
+            node, StatisticsValues, f'{place}/values', read_statistics_values
+        )
+        self._version: int | None = None
+        self._places: list[int | None] = []
+
+    def take(self) -> tuple[float, ...] | None:
+        """Return the latest, rad/s or m/s, NaN without such an interface; None: nothing new."""
+        latest = self._values.take()
+        if latest is None:
+            return None
+        if latest.version != self._version:
+            self._read_names()
+        if latest.version != self._version:
+            return None  # they are still on their way
+        count = len(latest.values)
+        return tuple(
+            latest.values[place] if place is not None and place < count else math.nan
+            for place in self._places
+        )
+
+    def _read_names(self) -> None:
+        names = self._names.take()
+        if names is not None:
+            places = {name: place for place, name in enumerate(names.names)}
+            self._places = [places.get(name) for name in self._wanted]
+            self._version = names.version
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        self._names.destroy()
+        self._values.destroy()
+
+
+COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
+_WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
+
+
+class RobotTopics:
+    """The moving part of a robot; ``joints``: those of its description."""
+
+    def __init__(self, node: Node, found: FoundRobot, joints: Sequence[str]) -> None:
+        self.found = found
+        self._joints = {name: index for index, name in enumerate(joints)}
+        self.layout = RobotLayout(found.id, tuple(joints), ())
+        """What there is to tell; it changes when the wheels are heard of."""
+        self._latest: dict[str, Any] = {}
+        self._writers: dict[str, Callable[[Any, RobotFloats], None]] = {
+            'joint_states': self._write_joints,
+            'commanded': lambda values, floats: _copy(values, floats.commanded),
+            'odometry': lambda motion, floats: _copy(motion, floats.odometry),
+            'truth': lambda motion, floats: _copy(motion, floats.truth),
+            'wheels': _write_wheels,
+            'command': lambda command, floats: _copy(command, floats.command),
+        }
+        self._topics: dict[str, PolledTopic[Any] | CommandedVelocities] = {
+            part: PolledTopic(node, message_type, topic, read)
+            for part, message_type, topic, read in _sources(found)
+            if topic is not None
+        }
+        if found.introspection is not None:
+            self._topics['commanded'] = CommandedVelocities(node, found.introspection, joints)
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        for topic in self._topics.values():
+            topic.destroy()
+
+    def take(self) -> list[str]:
+        """Look at the topics; return which of the parts have something new."""
+        new = []
+        for part, topic in self._topics.items():
+            message = topic.take()
+            if message is not None:
+                self._latest[part] = message
+                new.append(part)
+        if 'wheels' in new and tuple(self._latest['wheels'].names) != self.layout.wheels:
+            wheels = tuple(self._latest['wheels'].names)
+            self.layout = RobotLayout(self.layout.id, self.layout.joints, wheels)
+        return new
+
+    def write(self, floats: RobotFloats, parts: Sequence[str] | None = None) -> None:
+        """Write these parts, or all, as they were last heard."""
+        for part in self._latest if parts is None else parts:
+            self._writers[part](self._latest[part], floats)
+
+    def _write_joints(self, message: JointValues, floats: RobotFloats) -> None:
+        for values, target in (
+            (message.positions, floats.positions),
+            (message.velocities, floats.velocities),
+        ):
+            for name, value in zip(message.names, values, strict=False):  # one may be left empty
+                index = self._joints.get(name)
+                if index is not None:
+                    target[index] = value
+
+
+def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable[[bytes], Any]]]:
+    """Yield part, message type, topic, and how a message is read."""
+    yield 'joint_states', JointState, found.joint_states, read_joint_state
+    yield 'odometry', Odometry, found.odometry, read_odometry
+    yield 'truth', Odometry, found.truth, read_odometry
+    yield 'wheels', DynamicJointState, found.wheels, read_dynamic_joint_state
+    if found.command is not None:
+        message_type = COMMAND_TYPES[found.command.message]
+        read = read_twist if message_type is Twist else read_twist_stamped
+        yield 'command', message_type, found.command.topic, read
+
+
+def _write_wheels(message: InterfaceValues, floats: RobotFloats) -> None:
+    for index, values in enumerate(message.values[: len(floats.wheels)]):
+        floats.wheels[index] = [values.get(name, math.nan) for name in _WHEEL_VALUES]
+
+
+def _copy(values: tuple[float, ...], floats: Floats) -> None:
+    floats[:] = values

@@ -1,0 +1,88 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""How well robot_state_publisher keeps its rate, and what that costs."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from rclpy.node import Node
+from tf2_msgs.msg import TFMessage
+
+from amr_description.ament_index import package_share
+from amr_description.ros.service_calls import wait_until
+from benchmarks.command_line import stream
+
+_FOLDER = '/benchmark'
+_JOINT_STATES = f'{_FOLDER}/joint_states'
+_TICK = os.sysconf('SC_CLK_TCK')
+
+
+def transform_figures(node: Node, seconds: float) -> str:
+    """
+    Measure, and return a table: joint states of four wheels in, 20 Hz of transforms out.
+
+    ``seconds``: wall time of each measurement.
+    """
+    lines = ['robot_state_publisher                        /tf          CPU']
+    for rate in (100.0, 1000.0):
+        with _publisher() as process, stream(node, _JOINT_STATES, rate):
+            published, load = _measured(node, process.pid, seconds)
+        name = f'{rate:g} Hz of joint states'
+        lines.append(f'{name:<42}{published:8.2f} Hz {load:8.1f} % of a core')
+    return '\n'.join(lines)
+
+
+@contextmanager
+def _publisher() -> Iterator[subprocess.Popen]:
+    """A robot_state_publisher whose topics are nobody else's."""
+    urdf = package_share('amr_description') / 'urdf' / 'amr.urdf'
+    remappings = [
+        word
+        for topic in ('joint_states', 'robot_description', '/tf', '/tf_static')
+        for word in ('-r', f'{topic}:={_FOLDER}/{topic.removeprefix("/")}')
+    ]
+    module = 'amr_description.nodes.robot_state_publisher'
+    process = subprocess.Popen(
+        [sys.executable, '-m', module, str(urdf), '--ros-args', *remappings],
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+
+
+def _measured(node: Node, pid: int, seconds: float) -> tuple[float, float]:
+    """Transforms per second of their stamps (Hz), and the load of the process (%)."""
+    stamps: list[float] = []
+
+    def hear(message: TFMessage) -> None:
+        stamp = message.transforms[0].header.stamp
+        stamps.append(stamp.sec + stamp.nanosec * 1e-9)
+
+    subscription = node.create_subscription(TFMessage, f'{_FOLDER}/tf', hear, 1000)
+    try:
+        wait_until(node, lambda: stamps or None, lambda: None, every=1.0, timeout=20.0)
+        stamps.clear()
+        before, begin = processor_time(pid), time.monotonic()
+        end = begin + seconds
+        wait_until(node, lambda: time.monotonic() >= end or None, lambda: None, every=seconds)
+        load = (processor_time(pid) - before) / (time.monotonic() - begin)
+    finally:
+        node.destroy_subscription(subscription)
+    if len(stamps) < 2:
+        return 0.0, 100.0 * load
+    return (len(stamps) - 1) / (stamps[-1] - stamps[0]), 100.0 * load
+
+
+def processor_time(pid: int) -> float:
+    """What a process has spent so far, in s (proc(5): utime and stime)."""
+    with open(f'/proc/{pid}/stat', encoding='ascii', errors='replace') as file:
+        fields = file.read().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / _TICK
