@@ -75,7 +75,13 @@ def package_share(package: str) -> Path:
 
 
 def executables_of(package: str) -> list[Path]:
-    """Return all executable files in ``lib/<package>``, sorted by path. Raises ResourceError."""
+    """
+    Return all executable files in ``lib/<package>``, sorted by path.
+
+    Raises ResourceError with the words of ``ros2 run``, which does not say where it searched.
+    """
+    if prefixes() and not is_installed(package):
+        raise ResourceError(f"Package '{shorten(package)}' not found")
     return sorted(_executables_below(package_prefix(package) / 'lib' / package))
 
 

@@ -22,16 +22,16 @@ import signal
 INTERRUPTED = 128 + signal.SIGINT
 
 
-class Program:
-    """A function that is imported when it is called: ``Program('package').module.function()``."""
+class LazyEntryPoint:
+    """A function that is imported when it is called: ``LazyEntryPoint('package').module.function()``."""
 
     def __init__(self, path: str) -> None:
         """``path``: dotted name."""
         self.path = path
 
-    def __getattr__(self, name: str) -> 'Program':
+    def __getattr__(self, name: str) -> 'LazyEntryPoint':
         """Return what is below."""
-        return Program(f'{self.path}.{name}')
+        return LazyEntryPoint(f'{self.path}.{name}')
 
     def __call__(self) -> int | None:
         """Import the function and call it; return the exit code."""
@@ -67,6 +67,6 @@ def run(
         return interrupted
 
 
-bringup = Program('amr_description.bringup')
-nodes = Program('amr_description.nodes')
-xacro = Program('xacro')
+bringup = LazyEntryPoint('amr_description.bringup')
+nodes = LazyEntryPoint('amr_description.nodes')
+xacro = LazyEntryPoint('xacro')

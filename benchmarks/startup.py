@@ -20,7 +20,7 @@ STAGES = (
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class StartupPhase:
     """A stage ended ``at`` s after the start; it ``took`` the time since the one before, s."""
 
     name: str
@@ -28,25 +28,25 @@ class Stage:
     took: float
 
 
-def stages_of(lines: Sequence[tuple[float, str]]) -> tuple[Stage, ...]:
+def stages_of(lines: Sequence[tuple[float, str]]) -> tuple[StartupPhase, ...]:
     """
     The stages of a start-up; ``lines``: when each came, s since the start, and its text.
 
     Raises BringupError naming the stage that was not reached, with the last line printed.
     """
-    stages: list[Stage] = []
+    stages: list[StartupPhase] = []
     before = 0.0
     for name, pattern in STAGES:
         at = _first(lines, pattern)
         if at is None:
             last = lines[-1][1] if lines else 'nothing'
             raise BringupError(f"the start-up did not come to '{name}'; its last line: {last}")
-        stages.append(Stage(name, at, at - before))
+        stages.append(StartupPhase(name, at, at - before))
         before = at
     return tuple(stages)
 
 
-def table(stages: Iterable[Stage]) -> str:
+def table(stages: Iterable[StartupPhase]) -> str:
     """The stages as text, one a line."""
     head = f'{"warm start-up":36} {"at":>8} {"took":>8}'
     rows = (f'{stage.name:36} {stage.at:6.2f} s {stage.took:6.2f} s' for stage in stages)

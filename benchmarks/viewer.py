@@ -16,7 +16,7 @@ from rclpy.node import Node
 
 from amr_description.errors import ViewerError
 from amr_description.ros.service_calls import wait_until
-from amr_description.viewer.client import Onlooker
+from amr_description.viewer.client import PageClient
 from benchmarks.robot_state_publisher import processor_time
 
 _URL = re.compile(r'The page is at (http://\S+)')
@@ -37,11 +37,11 @@ def viewer_figures(node: Node, seconds: float) -> str:
     with _viewer() as (process, url):
         for count in (1, 5):
             with ExitStack() as stack:
-                pages = [stack.enter_context(Onlooker(url)) for _ in range(count)]
+                pages = [stack.enter_context(PageClient(url)) for _ in range(count)]
                 rate, load = _measured(node, pages, process.pid, seconds)
             name = f'{count} page{"s" if count > 1 else ""}'
             lines.append(f'{name:<42}{rate:8.1f} Hz {load:8.1f} % of a core')
-        with Onlooker(url) as page:
+        with PageClient(url) as page:
             delays = _delays(node, page)
     median, *_ = statistics.quantiles(delays, n=2)
     late = statistics.quantiles(delays, n=20)[-1]
@@ -68,7 +68,9 @@ def _viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
         process.communicate()
 
 
-def _measured(node: Node, pages: list[Onlooker], pid: int, seconds: float) -> tuple[float, float]:
+def _measured(
+    node: Node, pages: list[PageClient], pid: int, seconds: float
+) -> tuple[float, float]:
     """States per second and page (Hz), and the load of the process (%)."""
     _wait(node, lambda: all(page.states for page in pages) and _topic(pages[0]))
     settled = time.monotonic() + seconds / 4  # the model has been read, and what else comes once
@@ -80,7 +82,7 @@ def _measured(node: Node, pages: list[Onlooker], pid: int, seconds: float) -> tu
     return rate, 100.0 * (processor_time(pid) - spent) / elapsed
 
 
-def _delays(node: Node, page: Onlooker) -> list[float]:
+def _delays(node: Node, page: PageClient) -> list[float]:
     """From what a page says to the callback that hears the command: s, of each of some keys."""
     _wait(node, lambda: _topic(page))
     said: dict[int, float] = {}
@@ -102,7 +104,7 @@ def _delays(node: Node, page: Onlooker) -> list[float]:
     return [heard[number] - at for number, at in said.items()]
 
 
-def _topic(page: Onlooker) -> str:
+def _topic(page: PageClient) -> str:
     """Where the commands of the robot go; nothing, as long as that is not known."""
     commands = [each['command'] for each in page.robots if each['id'] == '/']
     return commands[0]['topic'] if commands and commands[0] else ''

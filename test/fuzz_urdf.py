@@ -25,8 +25,8 @@ from amr_description.cli.check_urdf import exit_code
 from amr_description.cli.urdf_report import refusal, to_json, tree_lines
 from amr_description.controllers.drive_files import read_drives
 from amr_description.errors import AmrError
-from amr_description.model import checks, frames, urdf
-from amr_description.model.checks.context import Surroundings
+from amr_description.model import checks, kinematics, urdf
+from amr_description.model.checks.context import CheckInputs
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.sim.drop_test import drop_test
 
@@ -119,7 +119,7 @@ def judge(text: str, *, drop: bool = False) -> int:
     ``drop``: drop it, too, if it is sound.
     """
     drives = DRIVES if DRIVES[0].left_wheels[0] in text else ()
-    beside = Surroundings(is_there=lambda uri: 'wedge' in uri, drives=drives)
+    beside = CheckInputs(is_there=lambda uri: 'wedge' in uri, drives=drives)
     examination = checks.examine(text, 'f', beside)
     for finding in examination.findings:
         assert FINDING.fullmatch(str(finding)), str(finding)
@@ -133,7 +133,7 @@ def judge(text: str, *, drop: bool = False) -> int:
         assert tree_lines(examination.robot)[0].startswith('robot name is: ')
     if not checks.examine(text, 'f').errors:
         robot = urdf.parse(text, 'f')
-        assert len(frames.link_poses(robot)) == len(robot.links)
+        assert len(kinematics.link_poses(robot)) == len(robot.links)
         assert hardware_of(robot) == hardware_of(examination.robot)
         if drop:
             _drop(robot)

@@ -14,8 +14,8 @@ from rclpy.node import Node
 from amr_description.control.loop import Loop
 from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.controller_manager_node import ControllerManagerNode
-from amr_description.control.ros.loop_publisher import SimulatedOutgoing
-from amr_description.control.ros.loop_thread import Mailbox, Owner, WallPacer
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.loop_thread import CallQueue, LoopThread, WallPacer
 from amr_description.model.hardware_info import HardwareInfo, HardwareType
 from amr_description.ros.log_thread import LogThread
 
@@ -75,10 +75,10 @@ class Host:
         self.node = Node('host')
         self.executor = SingleThreadedExecutor()
         self.logs = LogThread()
-        outgoing = SimulatedOutgoing(self.node)
-        mailbox = Mailbox()
+        outgoing = ClockedLoopPublisher(self.node)
+        mailbox = CallQueue()
         loop = Loop(Clockwork(), WallPacer(1.0, mailbox), mailbox, outgoing, PERIOD)
-        self.owner = Owner(mailbox, self.executor)
+        self.owner = LoopThread(mailbox, self.executor)
         self.owner.loop = loop
         try:
             self.manager_node = ControllerManagerNode(

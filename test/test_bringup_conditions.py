@@ -21,8 +21,8 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.conditions import Graph, NodeState, PathLook, Situation, Verdict
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.conditions import Graph, NodeState, PathLook, StackState, Verdict
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.errors import BringupError
 
 HOLDS, NOT_YET, NEVER = Verdict.HOLDS, Verdict.NOT_YET, Verdict.NEVER
@@ -30,11 +30,11 @@ NODE = Node('n')
 
 
 def judge(condition, state=None, **situation):
-    return condition.judge(Situation({NODE: state or NodeState()}, **situation))
+    return condition.evaluate(StackState({NODE: state or NodeState()}, **situation))
 
 
 def lack(condition, state=None, **situation):
-    return condition.lack(Situation({NODE: state or NodeState()}, **situation), name)
+    return condition.explain_unmet(StackState({NODE: state or NodeState()}, **situation), name)
 
 
 def name(node):
@@ -67,14 +67,14 @@ def test_all_and_any_are_each_others_mirror(verdicts):
     of_state = dict(zip(nodes, (states[v] for v in verdicts), strict=True))
     conditions = [exited_cleanly(node) for node in nodes]
     weakest_first = [NEVER, NOT_YET, HOLDS]
-    situation = Situation(of_state)
-    assert all_of(*conditions).judge(situation) == min(verdicts, key=weakest_first.index)
-    assert any_of(*conditions).judge(situation) == max(verdicts, key=weakest_first.index)
+    situation = StackState(of_state)
+    assert all_of(*conditions).evaluate(situation) == min(verdicts, key=weakest_first.index)
+    assert any_of(*conditions).evaluate(situation) == max(verdicts, key=weakest_first.index)
 
 
 def test_a_line_counts_though_the_node_ended_since():
     node = Node('n')
-    progress = Progress(Stack([node, Node('next', start_when=logged(node, r'port \d+'))]))
+    progress = Scheduler(Stack([node, Node('next', start_when=logged(node, r'port \d+'))]))
     progress.start(node)
     assert not progress.hear(node, 'port closed')
     assert [n.executable for n in progress.startable()] == []
@@ -86,7 +86,7 @@ def test_a_line_counts_though_the_node_ended_since():
 
 def test_the_same_line_of_another_node_does_not_count():
     one, other = Node('one'), Node('other')
-    progress = Progress(Stack([one, other, Node('next', start_when=logged(one, 'up'))]))
+    progress = Scheduler(Stack([one, other, Node('next', start_when=logged(one, 'up'))]))
     for node in (one, other):
         progress.start(node)
     assert not progress.hear(other, 'up')
@@ -116,7 +116,7 @@ GRAPH = Graph(
 def test_the_graph(condition, holds):
     assert judge(condition, graph=GRAPH) == (HOLDS if holds else NOT_YET)
     assert judge(condition) == NOT_YET
-    assert condition.looks_outside
+    assert condition.is_external
 
 
 @pytest.mark.parametrize('bad', ['', '/', 'a b', '~/odom', '//odom', 'odom/', '1st', 'ö'])
@@ -145,7 +145,7 @@ def test_time_after_the_begin_and_after_a_condition():
     node = Node('n')
     late, later = Node('late', start_when=after(5)), Node('later')
     later = Node('later', start_when=after(2, after(1, exited_cleanly(node))))
-    progress = Progress(Stack([node, late, later]), begin=100.0)
+    progress = Scheduler(Stack([node, late, later]), begin=100.0)
     progress.start(node)
     assert progress.next_time() == 105.0
     progress.at(101.0)

@@ -10,7 +10,7 @@ from fixtures.bringup.running import Bringup, install_toys, STACKS
 from amr_description.bringup import Node, Stack, started
 from amr_description.bringup.command_line import jobs_of
 from amr_description.bringup.console import Console
-from amr_description.bringup.reporter import Narrator
+from amr_description.bringup.reporter import Reporter
 from amr_description.bringup.run_log import EventLog, json_line, LogFolder
 
 IN_ORDER = str(STACKS / 'in_order.py')
@@ -91,7 +91,7 @@ def test_a_condition_comes_to_hold_once_however_often_its_node_is_started(tmp_pa
     stack = Stack([worker, Node('step', package='toys', start_when=started(worker))])
     console = Console(io.StringIO(), LogFolder(tmp_path, 'run'), colour=False)
     events = []
-    narrator = Narrator(stack, jobs_of(stack, tmp_path), console, EventLog(events.append))
+    narrator = Reporter(stack, jobs_of(stack, tmp_path), console, EventLog(events.append))
     _, step = stack.nodes
     narrator.not_started(step, 'was busy')
     narrator.started(step, 5)

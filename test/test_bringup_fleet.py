@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amr_description.bringup.arguments import declared, resolve
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.fleet import fleet
 from amr_description.errors import AmrError
 from amr_description.model.shapes import horizontal_reach
@@ -53,7 +53,7 @@ def test_every_robot_has_its_own_of_everything_in_its_namespace():
 
 def test_each_waits_for_its_own_robot_only():
     made = stack(robots='2')
-    progress = Progress(made)
+    progress = Scheduler(made)
     for node in progress.startable():
         progress.start(node)
     first, second = of(made.nodes, 'create')

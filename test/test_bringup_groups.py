@@ -19,7 +19,7 @@ from amr_description.bringup import (
 )
 from amr_description.bringup.command_line import jobs_of
 from amr_description.bringup.placement import Placement
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.errors import BringupError
 
 
@@ -100,7 +100,7 @@ def test_ready_is_when_the_stack_says_wherever_it_is_asked():
 
 def test_a_stack_is_ready_once_those_in_it_are():
     inner, last = robot(), Node('last')
-    progress = Progress(Stack([inner, Group([last])]))
+    progress = Scheduler(Stack([inner, Group([last])]))
     for node in (inner.nodes[0], last, inner.nodes[1]):
         progress.start(node)
     assert not progress.ready
@@ -111,7 +111,7 @@ def test_a_stack_is_ready_once_those_in_it_are():
 def test_an_optional_node_that_never_starts_does_not_keep_a_stack_from_being_ready():
     fails = Node('fails', required=False)
     waits = Node('waits', required=False, start_when=exited_cleanly(fails))
-    progress = Progress(Stack([fails, waits, Node('worker')]))
+    progress = Scheduler(Stack([fails, waits, Node('worker')]))
     for node in progress.startable():
         progress.start(node)
     assert not progress.ready
@@ -122,7 +122,7 @@ def test_an_optional_node_that_never_starts_does_not_keep_a_stack_from_being_rea
 def test_all_of_a_group_wait_for_what_the_group_waits_for():
     first = Node('first')
     second, third = Node('second'), Node('third', start_when=logged(first, 'up'))
-    progress = Progress(Stack([first, Group([second, third], start_when=exited_cleanly(first))]))
+    progress = Scheduler(Stack([first, Group([second, third], start_when=exited_cleanly(first))]))
     progress.start(first)
     progress.hear(first, 'up')
     assert progress.startable() == []

@@ -19,7 +19,7 @@ from amr_description.bringup import (
     Shutdown,
     Stack,
 )
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 
 
 def ended(on_exit, *others, code=0, required=False):
@@ -31,7 +31,7 @@ def ended(on_exit, *others, code=0, required=False):
         return on_exit(event)
 
     node = Node('node', on_exit=handler, required=required)
-    progress = Progress(Stack([node, *others]))
+    progress = Scheduler(Stack([node, *others]))
     progress.start(node)
     progress.end(node, code, ['last words'])
     assert events == [Exited(node, code, ['last words'])]
@@ -118,7 +118,7 @@ def test_it_may_start_only_what_waits_for_it():
 
 
 def test_who_waits_to_be_asked_has_time_and_is_not_missed():
-    progress = Progress(Stack([Node('n'), Node('helper', start_when=on_request())]))
+    progress = Scheduler(Stack([Node('n'), Node('helper', start_when=on_request())]))
     progress.start(progress.startable()[0])
     assert progress.ready
     progress.at(1e9)

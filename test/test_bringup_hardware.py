@@ -8,7 +8,7 @@ import pytest
 
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.conditions import PathLook
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.hardware import mock, serial
 from amr_description.errors import AmrError
 from amr_description.hardware import HARDWARE
@@ -32,7 +32,7 @@ def stack(function, **given):
 
 
 def waves(stack):
-    progress = Progress(stack)
+    progress = Scheduler(stack)
     port = hardware(stack).parameters.get('port')
     if port:
         yield [node.executable for node in progress.startable()]
@@ -77,7 +77,7 @@ def test_a_real_board():
 
 
 def test_a_port_that_is_not_there_is_told_soon():
-    progress = Progress(stack(serial, port='/dev/nonsense'))
+    progress = Scheduler(stack(serial, port='/dev/nonsense'))
     progress.at(0.0)
     assert progress.next_time() == 10.0
     progress.see(paths={'/dev/nonsense': PathLook(False, frozenset({'ttyACM0', 'null'}))})

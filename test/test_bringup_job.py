@@ -7,7 +7,7 @@ import pytest
 
 from amr_description.bringup import Node, path_of, Stack
 from amr_description.bringup.command_line import jobs_of, LaunchPrefix
-from amr_description.errors import BringupError, UsageError
+from amr_description.errors import BringupError, ResourceError, UsageError
 
 
 @pytest.fixture
@@ -70,7 +70,7 @@ def test_of_a_script_the_missing_interpreter_is_named(prefix):
 
 
 def refuses(text, **changes):
-    with pytest.raises(BringupError, match=text):
+    with pytest.raises((BringupError, ResourceError), match=text):
         jobs_of(Stack([Node(**{'executable': 'step', 'package': 'toys', **changes})]), None)
 
 
@@ -118,7 +118,7 @@ def test_files_of_packages_and_others(prefix, tmp_path, monkeypatch):
     assert path_of('package://toys/a.urdf') == share / 'a.urdf'
     monkeypatch.chdir(share)
     assert path_of('a.urdf') == share / 'a.urdf'
-    with pytest.raises(BringupError, match="'package://toys/b.urdf' asked for, there is no such"):
+    with pytest.raises(ResourceError, match="'package://toys/b.urdf' asked for, there is no such"):
         path_of('package://toys/b.urdf')
-    with pytest.raises(BringupError, match='that is a folder at'):
+    with pytest.raises(ResourceError, match='that is a folder at'):
         path_of(str(tmp_path))

@@ -12,7 +12,7 @@ import pytest
 
 from amr_description.bringup import path_exists, topic
 from amr_description.bringup.conditions import Graph, PathLook
-from amr_description.bringup.graph_watcher import GraphWatch, look_at, Outlook
+from amr_description.bringup.graph_watcher import ExternalState, GraphWatch, look_at
 from amr_description.bringup.guardian import processes
 from amr_description.nodes.graph_watch import changes
 
@@ -137,7 +137,7 @@ def test_a_watch_that_dies_is_started_again_ever_later_and_forgets_what_it_saw()
 
 def test_it_runs_only_while_somebody_asks():
     watched = Watched()
-    outlook = Outlook(watched.watch)
+    outlook = ExternalState(watched.watch)
     outlook.look([], 0.0)
     assert watched.processes == []
     outlook.look([topic('/a')], 1.0)
@@ -154,7 +154,7 @@ def test_it_runs_only_while_somebody_asks():
 
 
 def test_paths_are_looked_at_while_somebody_asks(tmp_path):
-    outlook = Outlook(Watched().watch)
+    outlook = ExternalState(Watched().watch)
     port = tmp_path / 'port'
     asked = [path_exists(port)]
     outlook.look(asked, 1.0)

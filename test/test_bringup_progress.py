@@ -7,8 +7,8 @@ import itertools
 import pytest
 
 from amr_description.bringup import all_of, exited_cleanly, Node, Stack, started
-from amr_description.bringup.reporter import post_mortem
-from amr_description.bringup.scheduler import Failure, Progress
+from amr_description.bringup.reporter import failure_report
+from amr_description.bringup.scheduler import Failure, Scheduler
 from amr_description.errors import BringupError
 
 
@@ -23,7 +23,7 @@ def chain(length, **options):
 @pytest.mark.parametrize('order', list(itertools.permutations(range(3))))
 def test_the_order_of_the_list_does_not_matter(order):
     nodes = chain(3)
-    progress = Progress(Stack([nodes[i] for i in order]))
+    progress = Scheduler(Stack([nodes[i] for i in order]))
     for node in nodes:
         assert progress.startable() == [node]
         progress.start(node)
@@ -38,7 +38,7 @@ def test_the_order_of_the_list_does_not_matter(order):
 @pytest.mark.parametrize(('returncode', 'exit_code'), [(1, 1), (255, 255), (-9, 137), (-2, 130)])
 def test_a_failure_ends_the_stack_with_the_code_of_the_failed(returncode, exit_code):
     first, second, third = chain(3)
-    progress = Progress(Stack([first, second, third]))
+    progress = Scheduler(Stack([first, second, third]))
     progress.start(first)
     progress.end(first, returncode)
     assert progress.over
@@ -51,7 +51,7 @@ def test_a_failure_ends_the_stack_with_the_code_of_the_failed(returncode, exit_c
 
 def test_only_the_first_failure_counts():
     one, other = Node('a'), Node('b')
-    progress = Progress(Stack([one, other]))
+    progress = Scheduler(Stack([one, other]))
     progress.start(one)
     progress.start(other)
     progress.end(other, 7)
@@ -61,7 +61,7 @@ def test_only_the_first_failure_counts():
 
 def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
     optional = chain(3, required=False)
-    progress = Progress(Stack([*optional, Node('worker')]))
+    progress = Scheduler(Stack([*optional, Node('worker')]))
     for node in progress.startable():
         progress.start(node)
     progress.end(optional[0], 1)
@@ -69,7 +69,7 @@ def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
     assert not progress.over
 
     required = Node('required', start_when=exited_cleanly(optional[2]))
-    progress = Progress(Stack([*optional, required]))
+    progress = Scheduler(Stack([*optional, required]))
     progress.start(optional[0])
     progress.end(optional[0], 1)
     assert progress.failure == Failure(optional[0], 1)
@@ -78,7 +78,7 @@ def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
 
 def test_a_clean_end_may_end_all():
     boss, worker = Node('boss', on_exit='shutdown'), Node('worker')
-    progress = Progress(Stack([boss, worker]))
+    progress = Scheduler(Stack([boss, worker]))
     progress.start(boss)
     progress.start(worker)
     progress.end(boss, 0)
@@ -89,7 +89,7 @@ def test_a_clean_end_may_end_all():
 def test_started_and_all_of():
     one, other = Node('one'), Node('other')
     both = Node('both', start_when=all_of(started(one), exited_cleanly(other)))
-    progress = Progress(Stack([one, other, both]))
+    progress = Scheduler(Stack([one, other, both]))
     progress.start(one)
     progress.start(other)
     assert progress.startable() == []
@@ -101,7 +101,7 @@ def test_started_and_all_of():
 
 def test_ready_without_a_condition_is_when_all_were_started():
     first, second = chain(2)
-    progress = Progress(Stack([first, second]))
+    progress = Scheduler(Stack([first, second]))
     progress.start(first)
     progress.end(first, 0)
     assert not progress.ready
@@ -123,14 +123,14 @@ def test_a_stack_that_cannot_run_is_refused():
 
 def test_the_post_mortem_ends_with_one_line_that_says_it_all():
     failure = Failure(Node('create'), 2)
-    assert post_mortem('create-3', failure, ['begin', 'no clock', '  '], ['spawner-4']) == [
+    assert failure_report('create-3', failure, ['begin', 'no clock', '  '], ['spawner-4']) == [
         'the last lines of create-3:\n    begin\n    no clock\n      ',
         'stopped because create-3 ended with exit code 2 (never started: spawner-4): no clock',
     ]
-    assert post_mortem('sim-1', Failure(Node('sim'), -11), [], []) == [
+    assert failure_report('sim-1', Failure(Node('sim'), -11), [], []) == [
         'stopped because sim-1 died of SIGSEGV, without a word'
     ]
     line = "[FATAL] [1795282350.335513884] [left.sim]: world 'x' [1]: no file"
-    assert post_mortem('sim-1', Failure(Node('sim'), -40), [line], []) == [
+    assert failure_report('sim-1', Failure(Node('sim'), -40), [line], []) == [
         "stopped because sim-1 died of signal 40: world 'x' [1]: no file"
     ]

@@ -22,7 +22,7 @@ from amr_description.bringup import (
     topic,
 )
 from amr_description.bringup.conditions import Graph, Verdict
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 
 PATIENCE = 10.0
 """s"""
@@ -64,7 +64,7 @@ class Run:
 
     def __init__(self, seed):
         self.chance = random.Random(seed)
-        self.progress = Progress(stack(self.chance), begin=5.0)
+        self.progress = Scheduler(stack(self.chance), begin=5.0)
         self.running, self.starts, self.time = [], {}, 5.0
 
     def start_all(self):
@@ -73,7 +73,7 @@ class Run:
             condition = self.progress.waits_for(node)
             first = node not in self.starts
             if first and condition is not None:
-                assert condition.judge(self.progress.situation) is Verdict.HOLDS
+                assert condition.evaluate(self.progress.situation) is Verdict.HOLDS
             self.starts[node] = self.starts.get(node, 0) + 1
             assert node not in self.running
             self.progress.start(node)

@@ -9,7 +9,7 @@ import yaml
 
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.description import nodes_of
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.display import display
 from amr_description.bringup.stacks.hardware import mock
 from amr_description.bringup.stacks.simulation import simulation
@@ -55,7 +55,7 @@ def test_no_page_where_it_is_not_wanted(function):
 
 def test_display_shows_the_robot_and_moves_its_joints():
     stack = made(display)
-    progress = Progress(stack)
+    progress = Scheduler(stack)
     for wave in (['robot_state_publisher', 'joint_state_publisher'], ['viewer']):
         startable = progress.startable()
         assert [node.executable for node in startable] == wave

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amr_description.bringup.arguments import declared, resolve
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.errors import AmrError
 from amr_description.model.description_file import description_text
@@ -35,7 +35,7 @@ def stack(**given):
 
 
 def test_the_order_of_the_tutorial():
-    progress = Progress(stack())
+    progress = Scheduler(stack())
     waves = []
     while wave := progress.startable():
         for node in wave:
@@ -52,7 +52,7 @@ def test_the_order_of_the_tutorial():
 
 
 def test_it_is_ready_only_with_the_last_controller():
-    progress = Progress(stack())
+    progress = Scheduler(stack())
     for _ in range(3):
         assert not progress.ready
         *_, last = progress.startable()

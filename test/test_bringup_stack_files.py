@@ -19,7 +19,7 @@ from amr_description.bringup import (
 from amr_description.bringup.command_line import jobs_of
 from amr_description.bringup.main import listing
 from amr_description.bringup.placement import Placement
-from amr_description.errors import BringupError, UsageError
+from amr_description.errors import BringupError, ResourceError, UsageError
 
 CHATTY = STACKS / 'chatty.py'
 
@@ -53,7 +53,7 @@ def test_wrong_arguments_are_refused_by_name(values, text):
 def test_what_is_no_stack_is_refused(tmp_path):
     with pytest.raises(BringupError, match="missing required argument 'text'"):
         include(CHATTY)
-    with pytest.raises(BringupError, match="'simulaton' asked for, there is no such file at"):
+    with pytest.raises(ResourceError, match="'simulaton' asked for, there is no such file at"):
         include('simulaton')
     (tmp_path / 'nothing.py').write_text('def nothing(): pass')
     with pytest.raises(BringupError, match=r"nothing.py' returned None; a stack's function"):

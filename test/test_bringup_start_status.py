@@ -12,7 +12,7 @@ from amr_description.bringup import exited_cleanly, Node, Stack
 from amr_description.bringup.console import Console
 from amr_description.bringup.reporter import StartStatus, steps_text
 from amr_description.bringup.run_log import LogFolder
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 
 ERASED = '\r\x1b[K'
 LATE = str(STACKS / 'late.py')
@@ -26,7 +26,7 @@ class Watched:
         self.two = Node('two', start_when=exited_cleanly(self.one))
         self.three = Node('three', start_when=exited_cleanly(self.two))
         nodes = [self.one, self.two, self.three]
-        self.progress = Progress(Stack(nodes, ready_when=exited_cleanly(self.three)))
+        self.progress = Scheduler(Stack(nodes, ready_when=exited_cleanly(self.three)))
         self.now = 100.0
         console = Console(io.StringIO(), LogFolder(folder, 'run'), colour=False)
         self.status = StartStatus(console, lambda node: node.executable, lambda: self.now)

@@ -19,7 +19,7 @@ from amr_description.bringup import (
     topic,
 )
 from amr_description.bringup.conditions import Graph
-from amr_description.bringup.scheduler import Failure, Progress
+from amr_description.bringup.scheduler import Failure, Scheduler
 from amr_description.errors import BringupError
 
 
@@ -29,7 +29,7 @@ def name(node):
 
 def begun(*nodes, **options):
     """The progress of a stack of which all that can start at once was started, at 1000 s."""
-    progress = Progress(Stack(nodes, **options), begin=1000.0)
+    progress = Scheduler(Stack(nodes, **options), begin=1000.0)
     for node in progress.startable():
         progress.start(node)
     progress.at(1000.0)

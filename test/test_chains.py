@@ -5,7 +5,7 @@
 from hypothesis import given, settings, strategies as st
 import pytest
 
-from amr_description.control.chains import Chains, Ends
+from amr_description.control.chains import ChainInterfaces, Chains
 from amr_description.errors import ControllerError
 
 NAMES = 'abcdef'
@@ -15,7 +15,7 @@ def chains(**links):
     """``a='b ^c'``: a commands b and reads a state of c; every one offers both."""
     return Chains(
         {
-            name: Ends(
+            name: ChainInterfaces(
                 commands=tuple(f'{n}/reference' for n in text.split() if n[0] != '^'),
                 states=tuple(f'{n[1:]}/state' for n in text.split() if n[0] == '^'),
                 references=(f'{name}/reference',),
@@ -51,11 +51,11 @@ def test_orders_hold_for_every_link_or_there_is_a_circle(drawn):
         for needed in found.needs(name):
             assert activated.index(needed) < activated.index(name)
             assert name in found.needed_by(needed)
-            assert name in found.whole([needed])
+            assert name in found.affected_by([needed])
         for following in found.commands(name):
             assert updated.index(name) < updated.index(following)
             assert name in found.commanded_by(following)
-            assert following in found.whole([name])
+            assert following in found.affected_by([name])
 
 
 def test_unlinked_ones_come_by_the_alphabet():
@@ -83,10 +83,10 @@ def test_feedback_is_read_one_tick_later():
 
 def test_whole_goes_along_commands_and_to_the_readers_but_not_to_what_is_only_read():
     found = chains(a='c', b='c', c='', estimator='', reader='^estimator', other='')
-    assert found.whole(['a']) == {'a', 'b', 'c'}
-    assert found.whole(['estimator']) == {'estimator', 'reader'}
-    assert found.whole(['reader']) == {'reader'}
-    assert found.whole(['other', 'unknown']) == {'other', 'unknown'}
+    assert found.affected_by(['a']) == {'a', 'b', 'c'}
+    assert found.affected_by(['estimator']) == {'estimator', 'reader'}
+    assert found.affected_by(['reader']) == {'reader'}
+    assert found.affected_by(['other', 'unknown']) == {'other', 'unknown'}
 
 
 @pytest.mark.parametrize(
@@ -104,5 +104,7 @@ def test_circles(circle, said):
 
 
 def test_what_nobody_here_offers_makes_no_link():
-    found = Chains({'a': Ends(commands=('wheel/velocity',), states=('wheel/position',))})
+    found = Chains(
+        {'a': ChainInterfaces(commands=('wheel/velocity',), states=('wheel/position',))}
+    )
     assert (found.needs('a'), found.update_order) == (set(), ('a',))

@@ -7,7 +7,7 @@ import pytest
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
-from amr_description.cli.meters import BandwidthMeter, DelayMeter, Spread
+from amr_description.cli.meters import BandwidthMeter, DelayMeter, WindowStatistics
 from amr_description.cli.topic.delay import stamp_reader
 from amr_description.errors import AmrError
 
@@ -16,7 +16,7 @@ SECOND = 1_000_000_000  # ns
 
 
 def test_a_spread_is_that_of_the_population():
-    spread = Spread.of([100 * MS, 300 * MS, 200 * MS])
+    spread = WindowStatistics.of([100 * MS, 300 * MS, 200 * MS])
     assert (spread.mean, spread.shortest, spread.longest, spread.window) == (
         pytest.approx(0.2),
         pytest.approx(0.1),
@@ -24,7 +24,7 @@ def test_a_spread_is_that_of_the_population():
         3,
     )
     assert spread.deviation == pytest.approx((0.02 / 3) ** 0.5)
-    same = Spread.of([5 * MS] * 4)
+    same = WindowStatistics.of([5 * MS] * 4)
     assert same.deviation == 0.0
     assert str(same) == '\tmin: 0.005s max: 0.005s std dev: 0.00000s window: 4'
 

@@ -116,7 +116,7 @@ def test_two_of_one_name_are_told(run, prefix):
 def test_without_an_index_the_way_to_one_is_told():
     result = ros2('run', 'toys', 'deep', AMENT_PREFIX_PATH='')
     assert result.returncode == 1
-    assert result.stderr.startswith("Package 'toys' not found: AMENT_PREFIX_PATH is not set;")
+    assert result.stderr.startswith("Package 'toys' not found: AMENT_PREFIX_PATH is empty;")
 
 
 def test_a_failure_is_told_and_handed_on(run):

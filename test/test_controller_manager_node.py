@@ -18,8 +18,8 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
-from amr_description.control.ros.loop_publisher import Outgoing
-from amr_description.control.ros.loop_thread import Mailbox, Owner
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.errors import ParameterError
 from amr_description.ros.service_calls import call, wait_until
 
@@ -291,7 +291,7 @@ def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
 
 def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
     node = Node('speaker')
-    outgoing = Outgoing(node.get_logger())
+    outgoing = LoopPublisher(node.get_logger())
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     gone, there = (node.create_publisher(String, name, latched) for name in ('gone', 'there'))
     filled = []
@@ -305,7 +305,7 @@ def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
 
 
 def test_an_owner_that_was_never_started_stops_at_once(ros):
-    owner = Owner(Mailbox(), SingleThreadedExecutor())
+    owner = LoopThread(CallQueue(), SingleThreadedExecutor())
     owner.stop()
     assert not owner.failed
 

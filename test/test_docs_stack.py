@@ -13,7 +13,7 @@ import pytest
 
 from amr_description import bringup
 from amr_description.bringup import Exited, exited_cleanly, Shutdown, topic
-from amr_description.bringup.conditions import leaves
+from amr_description.bringup.conditions import walk
 from amr_description.bringup.description import nodes_of, PATIENCE
 from amr_description.bringup.placement import Placement
 from amr_description.bringup.scheduler import TIMED_OUT
@@ -63,7 +63,7 @@ def test_the_lab_is_in_its_namespace(folder, listen, count):
     stack = make_stack(str(folder / 'my_lab.py'), {'listen': listen})
     *arm, _ = placed = Placement(stack).nodes
     assert [each.namespace for each in placed] == 4 * [None] + count * ['/lab']
-    waits = {leaf for each in placed[4:] for leaf in leaves(each.start_when)}
+    waits = {leaf for each in placed[4:] for leaf in walk(each.start_when)}
     assert exited_cleanly(arm[3].node) in waits
     assert (topic('/lab/topic') in waits) == (count == 2)
 

@@ -10,13 +10,13 @@ from simulation_interfaces.msg import Bounds, EntityCategory, EntityFilters, Tag
 
 from amr_description.errors import RequestError
 from amr_description.sim.entity_state import Box
-from amr_description.sim.ros.entities import Category, Entity, Info
+from amr_description.sim.ros.entities import Category, Entity, EntityRecord
 from amr_description.sim.ros.entity_services import check_bounds, chosen, has_tags, overlaps
 
 ENTITIES = [
-    Entity('amr_1', Info(Category.ROBOT, tags=('fast', 'red')), None, None),
-    Entity('amr_2', Info(Category.ROBOT, tags=('red',)), None, None),
-    Entity('crate', Info(Category.DYNAMIC_OBJECT), None, None),
+    Entity('amr_1', EntityRecord(Category.ROBOT, tags=('fast', 'red')), None, None),
+    Entity('amr_2', EntityRecord(Category.ROBOT, tags=('red',)), None, None),
+    Entity('crate', EntityRecord(Category.DYNAMIC_OBJECT), None, None),
 ]
 UNIT = Box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
 eighths = integers(-24, 24).map(lambda n: n / 8)  # sums of their squares are exact

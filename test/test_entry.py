@@ -9,10 +9,10 @@ from fixtures.entry import slow
 import pytest
 from running_programs import Program
 
-from amr_description.entry import nodes, Program as Executable, run
+from amr_description.entry import LazyEntryPoint as Executable, nodes, run
 
-START = 'import sys; from amr_description.entry import Program; sys.exit({}())'
-SLOW = START.format("Program('fixtures.entry.slow').main")
+START = 'import sys; from amr_description.entry import LazyEntryPoint; sys.exit({}())'
+SLOW = START.format("LazyEntryPoint('fixtures.entry.slow').main")
 """A program whose module imports for ever, which it says; that Python would tell of."""
 
 
@@ -25,7 +25,9 @@ def test_ctrl_c_during_an_import_ends_it_quietly():
 
 def test_a_blocked_ctrl_c_waits_for_it_and_ends_it_quietly():
     early = 'import os, signal; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); '
-    with Program.of(f'{early}os.kill(os.getpid(), signal.SIGINT); {SLOW}', 'import') as program:
+    with Program.of(
+        f'{early}os.kill(os.getpid(), signal.SIGINT); {SLOW}', 'import'
+    ) as program:
         assert program.end() == 130
         assert program.output == ''
 

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from amr_description.model import frames, urdf
+from amr_description.model import frames, kinematics, urdf
 from amr_description.model.frames import Transform
 
 ROOT = Path(__file__).parent.parent
@@ -214,7 +214,7 @@ def test_forward_kinematics_agree_with_yourdfpy(path):
     for _ in range(20):
         positions = {name: chance.uniform(-2.0, 2.0) for name in theirs.actuated_joint_names}
         theirs.update_cfg(positions)
-        poses = frames.link_poses(robot, positions)
+        poses = kinematics.link_poses(robot, positions)
         assert set(poses) == {link.name for link in robot.links}
         for link, pose in poses.items():
             expected = theirs.get_transform(link, robot.root.name)
@@ -225,20 +225,20 @@ def test_joint_transform_moves_along_or_about_the_axis():
     arm = urdf.load(ROBOTS[1])
     lift, roll = arm.joint('lift'), arm.joint('roll')
     along = frames.rotate(lift.origin.rotation, lift.axis)
-    start, end = (frames.joint_transform(lift, q) for q in (0.0, 0.25))
+    start, end = (kinematics.joint_transform(lift, q) for q in (0.0, 0.25))
     travelled = [b - a for a, b in zip(start.translation, end.translation, strict=True)]
     assert travelled == pytest.approx([0.25 * part for part in along])
     assert start == lift.origin
-    assert_same(frames.joint_transform(roll, 0.3 + math.tau), frames.joint_transform(roll, 0.3))
+    assert_same(kinematics.joint_transform(roll, 0.3 + math.tau), kinematics.joint_transform(roll, 0.3))
 
 
 def test_fixed_joint_does_not_move():
     mount = urdf.load(ROBOTS[1]).joint('mount')
-    assert frames.joint_transform(mount, 1.0) == mount.origin
+    assert kinematics.joint_transform(mount, 1.0) == mount.origin
 
 
 def test_mimic_joint_follows_unless_it_has_a_position_itself():
     finger = urdf.load(ROBOTS[1]).joint('right_finger')
-    assert frames.joint_position(finger, {'left_finger': 0.02}) == pytest.approx(-0.028)
-    assert frames.joint_position(finger, {}) == pytest.approx(0.002)
-    assert frames.joint_position(finger, {'left_finger': 0.02, 'right_finger': 0.01}) == 0.01
+    assert kinematics.joint_position(finger, {'left_finger': 0.02}) == pytest.approx(-0.028)
+    assert kinematics.joint_position(finger, {}) == pytest.approx(0.002)
+    assert kinematics.joint_position(finger, {'left_finger': 0.02, 'right_finger': 0.01}) == 0.01

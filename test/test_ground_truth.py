@@ -14,7 +14,7 @@ from rclpy.node import Node
 from running_programs import PATIENCE
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.ros.loop_publisher import SimulatedOutgoing
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.model.frames import rotate, Transform
 from amr_description.ros.messages import nanoseconds, transform_of
 from amr_description.ros.service_calls import wait_until
@@ -33,7 +33,7 @@ class Host:
     def __init__(self, rate):
         self.node = Node('host')
         self.world = MujocoWorld('empty')
-        self.outgoing = SimulatedOutgoing(self.node)
+        self.outgoing = ClockedLoopPublisher(self.node)
         self.truth = GroundTruth(self.node, self.outgoing, self.world, rate)
 
     def spawn(self, name, namespace, pose=None, urdf=AMR):

@@ -8,7 +8,7 @@ import pytest
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.ros.pacing import HeardClock
+from amr_description.control.ros.pacing import SimTimePacer
 
 PERIOD = 10 * MS
 
@@ -37,14 +37,14 @@ def box():
 
 
 def started(box):
-    clock = HeardClock(box)
+    clock = SimTimePacer(box)
     clock.hear(1000 * MS)
     clock.resume(0)
     return clock
 
 
 def test_nothing_is_due_before_the_first_time_is_heard(box):
-    clock = HeardClock(box)
+    clock = SimTimePacer(box)
     clock.advance(PERIOD)
     box.during.append(lambda: None)
     assert not clock.pace(clock.time)
@@ -106,5 +106,5 @@ def test_a_manager_ticks_on_at_once_when_time_goes_back(box):
     heard = [1010, 1020, 0, 10, 20]
     box.during += [lambda each=each: clock.hear(each * MS) for each in heard]
     while box.during:
-        loop.turn()
+        loop.run_once()
     assert ticks == [1000 * MS, 1010 * MS, 1020 * MS, 0, 10 * MS]

@@ -97,7 +97,7 @@ def loop(outside):
 
 def turn(loop, count):
     for _ in range(count):
-        loop.turn()
+        loop.run_once()
 
 
 # --- time ----------------------------------------------------------------------------------------
@@ -108,7 +108,7 @@ def test_every_manager_ticks_exactly_at_the_multiples_of_its_period(outside, loo
     rates = (500, 30, 7)
     loop.managers += [Ticking(rate, outside.diary, str(rate)) for rate in rates]
     while loop.time < 20 * NANOSECONDS:
-        loop.turn()
+        loop.run_once()
     for name, rate in (('tick', 100), *((str(rate), rate) for rate in rates)):
         period = round(NANOSECONDS / rate)
         assert outside.times(name) == list(range(0, 20 * NANOSECONDS, period))
@@ -165,7 +165,7 @@ def test_a_manager_that_leaves_is_not_ticked_again(outside, loop):
 
 def test_a_turn(outside, loop):
     outside.queue.append(lambda: outside.diary.append(('command', loop.time)))
-    loop.turn()
+    loop.run_once()
     assert outside.diary == [
         ('command', 0),
         ('clocks', 0),
@@ -183,7 +183,7 @@ def test_what_controllers_say_is_published_in_the_same_turn_behind_the_clock(out
     said.sink = outside.diary.append
     start(manager, controller)
     loop.managers.append(manager)
-    loop.turn()
+    loop.run_once()
     assert [what for what, _ in outside.diary[:3]] == ['clocks', 'said', 'publish']
 
 
@@ -197,7 +197,7 @@ def test_an_output_without_a_node_drops_what_is_said():
 
 def test_all_managers_of_an_instant_tick_before_anything_is_published(outside, loop):
     loop.managers.append(Ticking(100, outside.diary, 'other'))
-    loop.turn()
+    loop.run_once()
     assert [what for what, _ in outside.diary[:4]] == ['clocks', 'tick', 'other', 'publish']
 
 
@@ -205,7 +205,7 @@ def test_commands_run_oldest_first_and_a_switch_counts_in_the_same_turn(outside)
     loop = Loop(outside, outside, outside, outside, clock_period=10 * MS)
     manager, controller = make_manager(), FakeController()
     outside.queue += [lambda: loop.managers.append(manager), lambda: start(manager, controller)]
-    loop.turn()
+    loop.run_once()
     assert controller.updates == [(0, 10 * MS)]
 
 
@@ -335,7 +335,7 @@ def test_a_step_is_as_long_as_asked_ticks_what_is_due_and_is_not_paced(outside, 
     missing = []
     paused(outside, loop, lambda: loop.step(period * MS, missing.append), lambda: None)
     while not missing:
-        loop.turn()
+        loop.run_once()
     assert (missing, loop.time) == ([0], period * MS)
     assert outside.times('tick') == list(range(0, period * MS, 10 * MS))
     assert outside.times('pace') == []
@@ -349,14 +349,14 @@ def test_many_steps_tick_at_the_same_times_as_a_running_loop(outside, loop, seed
     loop.managers.append(Ticking(30, outside.diary, '30'))
     paused(outside, loop)
     outside.while_paused = [[] for _ in range(200)]
-    loop.turn()
+    loop.run_once()
     end = 0
     while end < 500:
         length = dice.randint(1, 40)
         end += length
         loop.step(length * MS, lambda missing: None)
         while loop.is_stepping:
-            loop.turn()
+            loop.run_once()
     assert loop.time == end * MS
     for name, rate in (('tick', 100), ('30', 30)):
         assert outside.times(name) == list(range(0, end * MS, round(NANOSECONDS / rate)))

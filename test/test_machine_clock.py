@@ -6,7 +6,7 @@ from control_fakes import FakeLog, MS
 import pytest
 
 from amr_description.control.ros import pacing
-from amr_description.control.ros.pacing import MachineClock
+from amr_description.control.ros.pacing import SystemClockPacer
 
 PERIOD = 10 * MS
 EPOCH = 1_700_000_000_000_000_000
@@ -51,7 +51,7 @@ def machine(monkeypatch):
 
 def make(machine, **options):
     log = FakeLog()
-    return MachineClock(machine, log, 100, **options), log
+    return SystemClockPacer(machine, log, 100, **options), log
 
 
 def test_time_is_the_system_clocks(machine):

@@ -21,9 +21,9 @@ from amr_description.control.ros import (
     client,
 )
 from amr_description.control.ros.absence_diagnosis import (
-    DescriptionSight,
+    DescriptionObservation,
     errors_of,
-    ManagerSearch,
+    ManagerProbe,
 )
 from amr_description.control.ros.client import ManagerClient
 from amr_description.errors import ControllerError
@@ -76,7 +76,7 @@ def waiting_manager(topic=TOPIC, **options):
 
 def look(seeker, until, manager=NAME):
     """Look until it is seen; what is never seen ends the test."""
-    search = ManagerSearch(seeker, manager)
+    search = ManagerProbe(seeker, manager)
     sight = wait_until(
         seeker, lambda: seen if until(seen := search.look()) else None, timeout=20.0
     )
@@ -85,11 +85,11 @@ def look(seeker, until, manager=NAME):
 
 
 def test_nobody_is_there(seeker):
-    sight = ManagerSearch(seeker, NAME).look()
+    sight = ManagerProbe(seeker, NAME).look()
     assert not sight.is_there
     assert (sight.others, sight.simulators, sight.clock.publishers) == ((), (), 0)
     assert sight.domain == seeker.context.get_domain_id()
-    assert ManagerSearch(seeker, NAME).missing().startswith('there is no controller manager in')
+    assert ManagerProbe(seeker, NAME).missing().startswith('there is no controller manager in')
 
 
 def test_managers_of_others_and_simulators_are_named(seeker):
@@ -106,17 +106,19 @@ def test_managers_of_others_and_simulators_are_named(seeker):
 def test_a_manager_waits_for_a_description_that_nobody_publishes(seeker):
     with served(waiting_manager(), Node('elsewhere')) as (_, elsewhere):
         sight = look(seeker, lambda s: s.is_there)
-        assert sight.description == DescriptionSight(TOPIC)
+        assert sight.description == DescriptionObservation(TOPIC)
         elsewhere.create_publisher(String, '/robot_description', LATCHED)
         sight = look(seeker, lambda s: s.description.elsewhere)
-        assert sight.description == DescriptionSight(TOPIC, elsewhere=('/robot_description',))
+        assert sight.description == DescriptionObservation(
+            TOPIC, elsewhere=('/robot_description',)
+        )
 
 
 def test_a_remapped_description_that_is_not_latched_is_seen(seeker):
     with served(waiting_manager('/the_urdf'), Node('publisher')) as (_, publisher):
         publisher.create_publisher(String, '/the_urdf', 10)
         sight = look(seeker, lambda s: s.is_there and s.description.publishers)
-        assert sight.description == DescriptionSight('/the_urdf', publishers=1)
+        assert sight.description == DescriptionObservation('/the_urdf', publishers=1)
 
 
 def test_what_the_manager_says_of_its_description_is_told(seeker):
@@ -124,7 +126,7 @@ def test_what_the_manager_says_of_its_description_is_told(seeker):
         publisher.create_publisher(String, TOPIC, LATCHED)
         manager.get_logger().error('the robot has no <ros2_control> block')
         sight = look(seeker, lambda s: s.is_there and s.description.errors)
-        assert sight.description == DescriptionSight(
+        assert sight.description == DescriptionObservation(
             TOPIC, 1, 1, errors=('the robot has no <ros2_control> block',)
         )
         assert errors_of(seeker, ['/left/nobody']) == []
@@ -134,7 +136,7 @@ def test_a_manager_without_the_clock_that_it_needs(seeker):
     with served(waiting_manager(parameter_overrides=SIM_TIME)):
         sight = look(seeker, lambda s: s.needs_clock)
         assert sight.clock.publishers == 0
-        fault = ManagerSearch(seeker, NAME).clock_fault()
+        fault = ManagerProbe(seeker, NAME).clock_fault()
         assert fault.startswith('there is no clock: use_sim_time is true, and nobody publishes')
 
 
@@ -143,7 +145,7 @@ def test_a_clock_that_stands_still_and_one_that_runs(seeker):
         publisher = simulation.create_publisher(Clock, '/clock', 10)
         message = Clock()
         message.clock.sec = 12
-        search = ManagerSearch(seeker, NAME)
+        search = ManagerProbe(seeker, NAME)
         simulation.create_timer(0.01, lambda: publisher.publish(message))
         assert wait_until(
             seeker,

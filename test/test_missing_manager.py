@@ -8,8 +8,8 @@ import pytest
 
 from amr_description.control.ros.absence_diagnosis import (
     clock_fault,
-    ClockSight,
-    DescriptionSight,
+    ClockObservation,
+    DescriptionObservation,
     ManagerSight,
     missing,
 )
@@ -18,9 +18,9 @@ NAME = '/left/controller_manager'
 NOBODY = ManagerSight(NAME, domain=7)
 TOPIC = '/left/robot_description'
 WAITS = f'{NAME} is there, and waits for a robot description on {TOPIC}'
-SILENT = ClockSight(0)
-PAUSED = ClockSight(1, (1_500_000_000, 1_500_000_000))
-RUNNING = ClockSight(1, (1_500_000_000, 1_510_000_000))
+SILENT = ClockObservation(0)
+PAUSED = ClockObservation(1, (1_500_000_000, 1_500_000_000))
+RUNNING = ClockObservation(1, (1_500_000_000, 1_510_000_000))
 
 
 @pytest.mark.parametrize(
@@ -51,18 +51,18 @@ def test_no_manager(sight, said):
 @pytest.mark.parametrize(
     ('description', 'said'),
     [
-        (DescriptionSight(TOPIC), 'which nobody publishes: start robot_state_publisher'),
+        (DescriptionObservation(TOPIC), 'which nobody publishes: start robot_state_publisher'),
         (
-            DescriptionSight(TOPIC, elsewhere=('/robot_description',)),
+            DescriptionObservation(TOPIC, elsewhere=('/robot_description',)),
             'which nobody publishes; there is /robot_description: remap one of the two',
         ),
         (
-            DescriptionSight(TOPIC, 1),
+            DescriptionObservation(TOPIC, 1),
             'whose publisher is VOLATILE: it must be TRANSIENT_LOCAL to reach it',
         ),
-        (DescriptionSight(TOPIC, 1, 1), 'which has 1 publisher: see its log'),
+        (DescriptionObservation(TOPIC, 1, 1), 'which has 1 publisher: see its log'),
         (
-            DescriptionSight(TOPIC, 2, 1, errors=('no block.', 'Could not load')),
+            DescriptionObservation(TOPIC, 2, 1, errors=('no block.', 'Could not load')),
             'which has 2 publishers; its log says: no block. Could not load',
         ),
     ],
@@ -76,10 +76,10 @@ def test_no_description(description, said):
 @pytest.mark.parametrize(
     ('clock', 'said'),
     [
-        (ClockSight(1), 'nothing comes from /clock, which has a publisher'),
+        (ClockObservation(1), 'nothing comes from /clock, which has a publisher'),
         (PAUSED, '/clock stands still at 1.500 s: is the simulation paused?'),
         (RUNNING, ''),
-        (ClockSight(1, (2, 1)), ''),
+        (ClockObservation(1, (2, 1)), ''),
     ],
 )
 def test_a_clock_that_is_there_must_run(clock, said, needed):
@@ -96,7 +96,7 @@ def test_everything_that_is_missing_is_told_in_one_line():
     sight = replace(
         NOBODY,
         is_there=True,
-        description=DescriptionSight(TOPIC),
+        description=DescriptionObservation(TOPIC),
         clock=SILENT,
         needs_clock=True,
     )

@@ -9,7 +9,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros_processes import PATIENCE
 from std_msgs.msg import String
 
-from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -37,7 +37,7 @@ def say(outgoing, publisher, sample):
 
 
 def test_what_nobody_hears_is_not_even_made_a_message_of(node):
-    outgoing = Outgoing(node.get_logger())
+    outgoing = LoopPublisher(node.get_logger())
     publisher = node.create_publisher(String, 'said', 1)
     assert say(outgoing, publisher, 'first') == 'nothing'
     heard = []
@@ -49,7 +49,7 @@ def test_what_nobody_hears_is_not_even_made_a_message_of(node):
 
 
 def test_what_is_kept_for_who_comes_later_is_said(node):
-    outgoing = Outgoing(node.get_logger())
+    outgoing = LoopPublisher(node.get_logger())
     publisher = node.create_publisher(String, 'kept', LATCHED)
     assert say(outgoing, publisher, 'first') == 'first'
     heard = []

@@ -10,7 +10,7 @@ import pytest
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.ros import loop_thread
-from amr_description.control.ros.loop_thread import Mailbox, Owner, WallPacer
+from amr_description.control.ros.loop_thread import CallQueue, LoopThread, WallPacer
 
 
 class WallClock:
@@ -38,7 +38,7 @@ def paced(monkeypatch, factor):
 
 
 def test_calls_come_out_in_the_order_in_which_they_were_put():
-    box = Mailbox()
+    box = CallQueue()
     for number in range(3):
         box.put(number)
     assert list(box.take()) == [0, 1, 2]
@@ -46,7 +46,7 @@ def test_calls_come_out_in_the_order_in_which_they_were_put():
 
 
 def test_waiting_ends_with_a_call_and_only_with_a_call():
-    box = Mailbox()
+    box = CallQueue()
     box.put(1)
     box.take()
     arrived = []
@@ -59,7 +59,7 @@ def test_waiting_ends_with_a_call_and_only_with_a_call():
 
 
 def test_a_call_that_was_taken_already_does_not_keep_the_owner_awake():
-    box = Mailbox()
+    box = CallQueue()
     box.put(1)
     box._calls.clear()  # taken by a turn that had cleared the event before the put set it
     assert list(box.take()) == []
@@ -86,7 +86,7 @@ def test_a_late_turn_is_made_good_but_a_stop_of_the_machine_is_not(monkeypatch):
 
 
 def test_as_fast_as_possible_still_yields_now_and_then():
-    pacer = WallPacer(0.0, Mailbox())
+    pacer = WallPacer(0.0, CallQueue())
     pacer.resume(0)
     begin = time.monotonic()
     for tick in range(1000):
@@ -105,11 +105,11 @@ def test_another_factor_counts_from_now_on(monkeypatch):
 
 
 def test_an_impatient_queue_ends_a_wait_with_nothing():
-    assert Mailbox(patience=0.001).wait() is False
+    assert CallQueue(patience=0.001).wait() is False
 
 
 def test_a_call_ends_the_sleep_of_slow_motion():
-    box = Mailbox()
+    box = CallQueue()
     pacer = WallPacer(1e-9, box)
     pacer.resume(0)
     box.put(print)
@@ -148,7 +148,7 @@ class EndingLoop:
 @pytest.mark.parametrize('error', [ValueError('a bug'), SystemExit(3)])
 def test_whatever_ends_the_loop_every_robot_is_stopped_and_the_process_hears_of_it(error, capfd):
     ended = threading.Event()
-    dead = Owner(Mailbox(), SimpleNamespace(wake=ended.set))
+    dead = LoopThread(CallQueue(), SimpleNamespace(wake=ended.set))
     dead.loop = EndingLoop(error, [Manager(SystemExit(4)), Manager()])
     dead.start()
     assert ended.wait(10.0)

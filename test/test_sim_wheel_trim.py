@@ -11,7 +11,7 @@ import pytest
 
 from amr_description.model.frames import Transform
 from amr_description.sim.robot_spec import build_robot
-from amr_description.sim.spawning import read_description, say_nothing
+from amr_description.sim.spawning import null_log, read_description
 from amr_description.sim.wheel_contact import WHEEL_CONTACT
 from amr_description.sim.wheel_trim import trimmed_contacts
 from amr_description.sim.world import MujocoWorld
@@ -52,7 +52,7 @@ def heavier(factor):
 
 
 def contacts(urdf, gravity=9.81):
-    model = build_robot(read_description(urdf, 'robot'), say_nothing)
+    model = build_robot(read_description(urdf, 'robot'), null_log)
     return trimmed_contacts(model, WHEEL_CONTACT, gravity)
 
 

@@ -6,7 +6,7 @@ from fixtures.sim.driving import AMR, ROOT
 import pytest
 
 from amr_description.ament_index import package_share, resolve_uri
-from amr_description.errors import DescriptionError, SimulationError
+from amr_description.errors import DescriptionError, ResourceError, SimulationError
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
@@ -180,7 +180,7 @@ def test_uris(source_tree, tmp_path):
     assert str(resolve_uri('file:///a%20b/c.stl')) == '/a b/c.stl'
     assert resolve_uri('meshes/c.stl', tmp_path) == tmp_path / 'meshes' / 'c.stl'
     assert str(resolve_uri('/meshes/c.stl', tmp_path)) == '/meshes/c.stl'
-    with pytest.raises(SimulationError, match="scheme 'model' is not known"):
+    with pytest.raises(ResourceError, match="scheme 'model' is not known"):
         resolve_uri('model://sun')
 
 

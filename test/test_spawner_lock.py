@@ -10,7 +10,7 @@ import pytest
 from rclpy.node import Node
 
 from amr_description.control.ros import spawner
-from amr_description.control.ros.spawner import alone_with
+from amr_description.control.ros.spawner import exclusive_lock
 
 MANAGER = '/left/controller_manager'
 
@@ -38,14 +38,17 @@ def is_free(path):
 
 def test_a_lock_is_for_one_controller_of_one_manager_in_one_domain(node, home):
     domain = node.context.get_domain_id()
-    with alone_with(node, MANAGER, ['b', 'a', 'a']):
+    with exclusive_lock(node, MANAGER, ['b', 'a', 'a']):
         names = [f'spawner.{domain}.left.controller_manager.{name}.lock' for name in 'ab']
         paths = sorted((home / 'locks').iterdir())
         assert [path.name for path in paths] == names
         for path in paths:
             with pytest.raises(BlockingIOError), is_free(path):
                 raise AssertionError(f'{path} is free')
-        with alone_with(node, MANAGER, ['c']), alone_with(node, '/controller_manager', ['a']):
+        with (
+            exclusive_lock(node, MANAGER, ['c']),
+            exclusive_lock(node, '/controller_manager', ['a']),
+        ):
             pass  # these do not wait
     for path in paths:
         with is_free(path):
@@ -54,7 +57,7 @@ def test_a_lock_is_for_one_controller_of_one_manager_in_one_domain(node, home):
 
 def test_whoever_waits_says_for_whom_and_goes_on_when_that_one_ends(node, home, monkeypatch):
     monkeypatch.setattr(spawner, '_EVERY', 0.05)
-    with alone_with(node, MANAGER, ['a']):
+    with exclusive_lock(node, MANAGER, ['a']):
         (path,) = (home / 'locks').iterdir()
     lines = []
     with path.open('a') as file:
@@ -68,7 +71,7 @@ def test_whoever_waits_says_for_whom_and_goes_on_when_that_one_ends(node, home, 
                 fcntl.flock(file, fcntl.LOCK_UN)
 
         monkeypatch.setattr(node, 'get_logger', Log)
-        with alone_with(node, MANAGER, ['a']):
+        with exclusive_lock(node, MANAGER, ['a']):
             assert lines == [
                 f'Waiting for the spawner that works on controller a of {MANAGER} ({path})'
             ]
@@ -76,5 +79,5 @@ def test_whoever_waits_says_for_whom_and_goes_on_when_that_one_ends(node, home, 
 
 def test_without_a_folder_for_locks_there_is_none(node, home):
     (home / 'locks').write_text('a file')
-    with alone_with(node, MANAGER, ['a']):
+    with exclusive_lock(node, MANAGER, ['a']):
         assert (home / 'locks').is_file()

@@ -6,7 +6,7 @@ from fixtures.sim.driving import Lines
 import pytest
 
 from amr_description.control.loop import Loop
-from amr_description.sim.ros.loop_timing import StageWatch
+from amr_description.sim.ros.loop_timing import LoopProfiler
 
 MILLISECOND = 1_000_000
 TURN = 10 * MILLISECOND
@@ -24,7 +24,7 @@ class Machine:
         self.kept_from = kept_from
         self.start = 0, 0
         self.log = Lines()
-        watch = StageWatch(
+        watch = LoopProfiler(
             self.log, lambda: self.factor, lambda: self.wall, lambda: self.processor
         )
         self.loop = Loop(watch.stepper(self), watch.pacer(self), self, watch.publisher(self), TURN)
@@ -59,7 +59,7 @@ class Machine:
     def run(self, seconds):
         """Turn for so many simulated seconds."""
         for _ in range(round(seconds * 100)):
-            self.loop.turn()
+            self.loop.run_once()
 
 
 def running(**costs):

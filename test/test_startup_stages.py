@@ -5,7 +5,7 @@
 import pytest
 
 from amr_description.errors import BringupError
-from benchmarks.startup import Stage, stages_of, table
+from benchmarks.startup import stages_of, StartupPhase, table
 
 LINES = [
     (0.1, '[INFO] [mujoco_sim-1]: process started with pid [10]'),
@@ -43,7 +43,7 @@ def test_stage_that_was_not_reached_is_named(end, name):
 
 
 def test_table():
-    assert table([Stage('ready', 3.0, 0.25)]).splitlines() == [
+    assert table([StartupPhase('ready', 3.0, 0.25)]).splitlines() == [
         'warm start-up                              at     took',
         'ready                                  3.00 s   0.25 s',
     ]

@@ -15,7 +15,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from amr_description.model.frames import rotate
 from amr_description.ros.service_calls import wait_until
 from amr_description.sim.ros.world_markers import ENDLESS, LATCHED, markers, publish_world
-from amr_description.sim.static_geometry import Kind, surroundings
+from amr_description.sim.static_geometry import Kind, visible_shapes
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world, shipped_worlds
 from amr_description.viewer.ros.markers import shapes_of
@@ -48,7 +48,7 @@ GEOMS = """
 
 @pytest.fixture(scope='module')
 def shapes():
-    return {shape.name: shape for shape in surroundings(mujoco.MjSpec.from_string(GEOMS))}
+    return {shape.name: shape for shape in visible_shapes(mujoco.MjSpec.from_string(GEOMS))}
 
 
 def test_what_stands_is_there_and_what_moves_or_is_hidden_is_not(shapes):
@@ -109,14 +109,14 @@ def test_a_field_of_heights_is_two_triangles_a_cell_that_look_up(shapes):
 def test_the_world_is_left_as_it_was():
     spec = mujoco.MjSpec.from_string(GEOMS)
     before = spec.to_xml()
-    surroundings(spec)
+    visible_shapes(spec)
     assert spec.to_xml() == before
 
 
 @pytest.mark.parametrize('world', shipped_worlds())
 def test_every_geom_of_a_shipped_world_is_there(world):
     spec = load_world(world)
-    assert [shape.name for shape in surroundings(spec)] == [geom.name for geom in spec.geoms]
+    assert [shape.name for shape in visible_shapes(spec)] == [geom.name for geom in spec.geoms]
 
 
 def test_markers_are_what_rviz_draws(shapes):

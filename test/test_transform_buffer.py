@@ -19,7 +19,7 @@ from amr_description.errors import (
 from amr_description.model.frames import normalize, quaternion_from_yaw, Transform
 from amr_description.model.kinematics import joint_transform, link_poses
 from amr_description.model.urdf import load
-from amr_description.tf2_ros.buffer_core import TransformBuffer
+from amr_description.tf2_ros.buffer_core import BufferCore
 from amr_description.tf2_ros.time_cache import StampedTransform
 
 ROOT = Path(__file__).parent.parent
@@ -35,7 +35,7 @@ def at_x(parent, child, x, time=0):
 
 
 def buffer_of(*moving, static=()):
-    buffer = TransformBuffer()
+    buffer = BufferCore()
     for stamped in moving:
         assert buffer.set_transform(stamped) is None
     for stamped in static:
@@ -51,7 +51,7 @@ def same(a, b):
 @st.composite
 def trees(draw):
     """A buffer with a tree of static frames f0, f1 …, and each one's pose in f0."""
-    buffer, poses = TransformBuffer(), [Transform()]
+    buffer, poses = BufferCore(), [Transform()]
     for child in range(1, draw(st.integers(2, 7))):
         parent, step = draw(st.integers(0, child - 1)), draw(transforms)
         poses.append(poses[parent] @ step)
@@ -124,7 +124,7 @@ def test_a_robot_stands_as_forward_kinematics_says(path, seed):
         if joint.has_position and joint.mimic is None
     }
     poses = link_poses(robot, positions)
-    buffer = TransformBuffer()
+    buffer = BufferCore()
     for joint in robot.joints:
         pose = poses[joint.parent].inverse() @ poses[joint.child]
         stamped = StampedTransform(joint.parent, joint.child, NANOSECONDS, pose)
@@ -232,7 +232,7 @@ def test_what_is_missing_is_told_in_the_words_of_tf2():
         'Invalid frame ID "map" passed to canTransform argument target_frame - '
         'frame does not exist. Known are: odom, base_link'
     )
-    assert TransformBuffer().obstacle('a', 'b').endswith('does not exist. Known are: none yet')
+    assert BufferCore().obstacle('a', 'b').endswith('does not exist. Known are: none yet')
 
 
 @pytest.mark.parametrize(
@@ -315,7 +315,7 @@ def test_a_refusal_is_told_and_changes_nothing():
 
 
 def test_records_tell_what_is_known():
-    buffer = TransformBuffer()
+    buffer = BufferCore()
     buffer.set_transform(at_x('odom', 'base', 1.0, 1 * NANOSECONDS), 'wheels')
     buffer.set_transform(at_x('odom', 'base', 1.0, 3 * NANOSECONDS), 'odometry')
     (record,) = buffer.records()

@@ -10,19 +10,19 @@ import pytest
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import ExtrapolationException
 from amr_description.model.frames import quaternion_from_yaw, Transform, yaw_of
-from amr_description.tf2_ros.time_cache import MovingFrame, Sample, seconds, StaticFrame
+from amr_description.tf2_ros.time_cache import seconds, StaticCache, TimeCache, TransformStorage
 
 KEPT = 10 * NANOSECONDS
 times = st.integers(1, KEPT)
 
 
 def at_x(time, x, parent='odom'):
-    return Sample(time, parent, Transform((x, 0.0, 0.0)))
+    return TransformStorage(time, parent, Transform((x, 0.0, 0.0)))
 
 
 def frame_of(samples):
     first, *others = samples
-    frame = MovingFrame(first, KEPT)
+    frame = TimeCache(first, KEPT)
     for sample in others:
         assert frame.insert(sample)
     return frame
@@ -54,8 +54,10 @@ def test_rotations_turn_evenly_on_the_shorter_arc(start, turn, ratio):
     end = start + turn
     frame = frame_of(
         [
-            Sample(1, 'odom', Transform(rotation=quaternion_from_yaw(start))),
-            Sample(1 + NANOSECONDS, 'odom', Transform(rotation=quaternion_from_yaw(end))),
+            TransformStorage(1, 'odom', Transform(rotation=quaternion_from_yaw(start))),
+            TransformStorage(
+                1 + NANOSECONDS, 'odom', Transform(rotation=quaternion_from_yaw(end))
+            ),
         ]
     )
     moved = 1 + round(ratio * NANOSECONDS)
@@ -69,8 +71,8 @@ def test_the_opposite_quaternion_is_the_same_rotation():
     opposite = tuple(-part for part in turn)
     frame = frame_of(
         [
-            Sample(1, 'odom', Transform(rotation=turn)),
-            Sample(3, 'odom', Transform(rotation=opposite)),
+            TransformStorage(1, 'odom', Transform(rotation=turn)),
+            TransformStorage(3, 'odom', Transform(rotation=opposite)),
         ]
     )
     assert yaw_of(frame.at(2).transform.rotation) == pytest.approx(1.0)
@@ -148,7 +150,7 @@ def test_late_messages_are_no_new_life():
 
 
 def test_a_static_frame_is_there_at_all_times():
-    frame = StaticFrame(at_x(7, 1.0))
+    frame = StaticCache(at_x(7, 1.0))
     assert all(frame.at(time) == at_x(7, 1.0) for time in (-5, 0, 7, 10**18))
     assert (frame.latest_time, frame.oldest_time, len(frame)) == (0, 0, 1)
 
@@ -169,7 +171,7 @@ def test_times_are_written_as_tf2_does(time, text):
 
 def test_the_memory_does_not_grow_for_ever():
     """The oldest goes as the newest comes: a day at 100 Hz is still 10 s of memory."""
-    frame = MovingFrame(at_x(0, 0.0), KEPT)
+    frame = TimeCache(at_x(0, 0.0), KEPT)
     for tick in range(1, 3000):
         frame.insert(at_x(tick * NANOSECONDS // 100, 0.0))
         assert len(frame) <= 1001

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amr_description.errors import DescriptionError
-from amr_description.model import frames, urdf
+from amr_description.model import frames, kinematics, urdf
 from amr_description.model.robot import (
     Box,
     Cylinder,
@@ -69,7 +69,7 @@ def test_shipped_robot():
 def test_shipped_wheels_roll_to_plus_x():
     """Speed of the hub over the ground = ω × (up from contact): axle +y gives +x."""
     amr = urdf.load(AMR)
-    poses = frames.link_poses(amr)
+    poses = kinematics.link_poses(amr)
     for place in WHEELS:
         joint = amr.joint(f'joint_wheel_{place}')
         _, axle_y, _ = frames.rotate(poses[joint.child].rotation, joint.axis)

@@ -11,7 +11,7 @@ from amr_description.cli import check_urdf
 from amr_description.model import urdf
 from amr_description.sim.drop_test import drop_test
 from amr_description.sim.robot_spec import build_robot
-from amr_description.sim.spawning import say_nothing
+from amr_description.sim.spawning import null_log
 
 ROOT = Path(__file__).parent.parent
 FIXTURES = ROOT / 'test/fixtures'
@@ -60,7 +60,7 @@ def test_yourdfpy_finds_the_same_links_joints_and_masses(path):
 @named(READABLE)
 def test_mujoco_finds_the_same_links_joints_and_masses(path):
     robot = urdf.load(path)
-    model = build_robot(robot, say_nothing).spec.compile()
+    model = build_robot(robot, null_log).spec.compile()
     bodies = {model.body(i).name: model.body(i) for i in range(model.nbody)}
     # Slip clutches of the simulator stand beside the links and joints.
     names = {name for name in bodies if not name.endswith('/rotor')}

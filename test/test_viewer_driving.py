@@ -4,11 +4,11 @@
 
 from hypothesis import given, strategies as st
 
-from amr_description.viewer.drive_lock import DRIVE_TIMEOUT, Driving
+from amr_description.viewer.drive_lock import DRIVE_TIMEOUT, DriveLock
 
 
 def test_the_first_takes_the_wheel_and_keeps_it():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     assert driving.drive('/', 'a', 0.0)
     assert not driving.drive('/', 'b', 0.1)
     assert driving.drive('/', 'a', 0.3)
@@ -17,14 +17,14 @@ def test_the_first_takes_the_wheel_and_keeps_it():
 
 
 def test_another_robot_is_another_wheel():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     assert driving.drive('/r1', 'a', 0.0)
     assert driving.drive('/r2', 'b', 0.0)
     assert (driving.driver('/r1'), driving.driver('/r2')) == ('a', 'b')
 
 
 def test_who_is_silent_loses_the_wheel_once():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     driving.drive('/', 'a', 1.0)
     assert driving.expire(1.39) == []
     assert driving.expire(1.4) == ['/']
@@ -34,14 +34,14 @@ def test_who_is_silent_loses_the_wheel_once():
 
 
 def test_whose_time_is_over_can_be_relieved_before_anybody_has_looked():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     driving.drive('/', 'a', 0.0)
     assert driving.drive('/', 'b', 0.4)
     assert driving.driver('/') == 'b'
 
 
 def test_who_leaves_gives_all_wheels_back():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     for robot, client in (('/r1', 'a'), ('/r2', 'b'), ('/r3', 'a')):
         driving.drive(robot, client, 0.0)
     assert driving.leave('a') == ['/r1', '/r3']
@@ -50,7 +50,7 @@ def test_who_leaves_gives_all_wheels_back():
 
 
 def test_everybody_may_stop():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     driving.drive('/', 'a', 0.0)
     assert driving.stop('/', 'b', 0.1) == 'a'
     assert driving.stop('/', 'b', 0.1) is None
@@ -59,7 +59,7 @@ def test_everybody_may_stop():
 
 
 def test_who_was_stopped_by_another_must_let_go_first():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     driving.drive('/', 'a', 0.0)
     driving.stop('/', 'b', 0.1)
     assert not driving.drive('/', 'a', 0.13)  # a key that is still held
@@ -68,7 +68,7 @@ def test_who_was_stopped_by_another_must_let_go_first():
 
 
 def test_who_was_stopped_by_another_and_stops_has_let_go():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     driving.drive('/', 'a', 0.0)
     driving.stop('/', 'b', 0.1)
     driving.stop('/', 'a', 0.2)
@@ -76,7 +76,7 @@ def test_who_was_stopped_by_another_and_stops_has_let_go():
 
 
 def test_who_stops_may_drive_at_once():
-    driving = Driving(0.4)
+    driving = DriveLock(0.4)
     driving.drive('/', 'a', 0.0)
     assert driving.stop('/', 'a', 0.1) is None
     assert driving.drive('/', 'a', 0.1)
@@ -91,7 +91,7 @@ EVENTS = st.lists(
 
 @given(EVENTS)
 def test_every_drive_is_ended_by_a_stop_within_the_time(events):
-    driving, now, last = Driving(), 0.0, None
+    driving, now, last = DriveLock(), 0.0, None
     for elapsed, client, event in events:
         now += elapsed
         stopped = driving.expire(now)

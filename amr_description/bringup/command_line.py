@@ -23,7 +23,7 @@ import shutil
 from amr_description.ament_index import executable_of, path_of
 from amr_description.bringup.description import Node, ParameterValue, Stack
 from amr_description.bringup.environment import interpreter_of
-from amr_description.bringup.placement import Placed, Placement
+from amr_description.bringup.placement import Placement, ResolvedNode
 from amr_description.errors import BringupError, UsageError
 
 # JSON leaves these as they are, YAML forbids them or reads them as line ends.
@@ -94,10 +94,10 @@ def _string(text: str) -> str:
 
 
 @dataclass(frozen=True)
-class Job:
+class ProcessSpec:
     """What the orchestrator starts for one node."""
 
-    placed: Placed
+    placed: ResolvedNode
     name: str
     """``<executable>-<number in the stack, from 1>``, as on the screen."""
     executable: Path
@@ -191,7 +191,7 @@ def check_prefix(prefix: str) -> None:
         raise BringupError(f"prefix {prefix!r}: there is no command '{words[0]}' on the PATH")
 
 
-def jobs_of(stack: Stack, folder: Path, prefix: LaunchPrefix | None = None) -> list[Job]:
+def jobs_of(stack: Stack, folder: Path, prefix: LaunchPrefix | None = None) -> list[ProcessSpec]:
     """
     Make the nodes of a stack ready to run; starts and writes nothing.
 
@@ -205,7 +205,7 @@ def jobs_of(stack: Stack, folder: Path, prefix: LaunchPrefix | None = None) -> l
     return [_job(each, number, folder, prefix) for number, each in enumerate(placed, start=1)]
 
 
-def _job(placed: Placed, number: int, folder: Path, prefix: LaunchPrefix) -> Job:
+def _job(placed: ResolvedNode, number: int, folder: Path, prefix: LaunchPrefix) -> ProcessSpec:
     node = placed.node
     check_prefix(node.prefix)
     name = f'{node.executable}-{number}'
@@ -217,10 +217,10 @@ def _job(placed: Placed, number: int, folder: Path, prefix: LaunchPrefix) -> Job
         else:
             files.append((path_of(str(entry)), None))
     executable = executable_of(node.package, node.executable)
-    return Job(placed, name, executable, files, prefix.of(node.executable))
+    return ProcessSpec(placed, name, executable, files, prefix.of(node.executable))
 
 
-def _parameters(name: str, placed: Placed, table: Mapping[str, ParameterValue]) -> str:
+def _parameters(name: str, placed: ResolvedNode, table: Mapping[str, ParameterValue]) -> str:
     try:
         return yaml_text(node_key(placed.node.name, placed.namespace), table)
     except BringupError as error:

@@ -3,7 +3,7 @@
 """
 When a node of a stack starts: what a condition is, how conditions combine, and time.
 
-A condition is pure: it judges a :class:`Situation`, and is asked again after every event. Those on
+A condition is pure: it judges a :class:`StackState`, and is asked again after every event. Those on
 nodes stand in ``node_conditions.py``, those on the world outside in ``outside_conditions.py``.
 
 Conditions on what became of the nodes of the stack, what they wrote, and who asks for one.
@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 import enum
 import re
 
-from amr_description.bringup.validation import Kind, NUMBER, require, TEXT
+from amr_description.bringup.validation import NUMBER, require, TEXT, Validator
 from amr_description.errors import BringupError
 
 
@@ -72,7 +72,7 @@ class PathLook:
 
 
 @dataclass(frozen=True)
-class Situation:
+class StackState:
     """All that conditions may look at; a new one is made after each event."""
 
     states: Mapping[NodeRef, NodeState]
@@ -130,17 +130,17 @@ class Condition(ABC):
         """How long it waits on purpose, s; no patience is lost by that."""
         return max((part.delay for part in self.parts), default=0.0)
 
-    def is_dormant(self, situation: Situation) -> bool:
+    def waits_forever(self, situation: StackState) -> bool:
         """Say whether it waits for a failure or a request, which has not come and need not."""
-        return any(part.is_dormant(situation) for part in self.parts)
+        return any(part.waits_forever(situation) for part in self.parts)
 
     @property
-    def looks_outside(self) -> bool:
+    def is_external(self) -> bool:
         """Whether it can come to hold although no process of the stack does anything."""
-        return any(part.looks_outside for part in self.parts)
+        return any(part.is_external for part in self.parts)
 
     @abstractmethod
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         """Say whether it holds; called after every event of the stack."""
 
     @abstractmethod
@@ -148,7 +148,7 @@ class Condition(ABC):
         """Say it in words: ``create-3 exited with code 0``."""
 
     @abstractmethod
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         """Say why it does not hold, and what is there instead: ``create-3 still runs``."""
 
     def resolved(self, scope: Scope) -> 'Condition':
@@ -156,16 +156,16 @@ class Condition(ABC):
         return self
 
 
-CONDITION = Kind(
+CONDITION = Validator(
     'a condition, as exited_cleanly(node)', lambda value: isinstance(value, Condition)
 )
 
 
-def leaves(condition: Condition | None) -> Iterator[Condition]:
+def walk(condition: Condition | None) -> Iterator[Condition]:
     """Yield a condition, or what it is made of, innermost first."""
     if condition is not None:
         for part in condition.parts:
-            yield from leaves(part)
+            yield from walk(part)
         yield condition
 
 
@@ -185,15 +185,15 @@ class _Combined(Condition):
     def resolved(self, scope: Scope) -> Condition:
         return replace(self, conditions=tuple(part.resolved(scope) for part in self.parts))
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
-        lacking = [c for c in self.conditions if c.judge(situation) is not Verdict.HOLDS]
-        return '; '.join(dict.fromkeys(c.lack(situation, name_of) for c in lacking))
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
+        lacking = [c for c in self.conditions if c.evaluate(situation) is not Verdict.HOLDS]
+        return '; '.join(dict.fromkeys(c.explain_unmet(situation, name_of) for c in lacking))
 
 
 @dataclass(frozen=True)
 class _AllOf(_Combined):
-    def judge(self, situation: Situation) -> Verdict:
-        verdicts = {condition.judge(situation) for condition in self.conditions}
+    def evaluate(self, situation: StackState) -> Verdict:
+        verdicts = {condition.evaluate(situation) for condition in self.conditions}
         for verdict in (Verdict.NEVER, Verdict.NOT_YET):
             if verdict in verdicts:
                 return verdict
@@ -205,8 +205,8 @@ class _AllOf(_Combined):
 
 @dataclass(frozen=True)
 class _AnyOf(_Combined):
-    def judge(self, situation: Situation) -> Verdict:
-        verdicts = {condition.judge(situation) for condition in self.conditions}
+    def evaluate(self, situation: StackState) -> Verdict:
+        verdicts = {condition.evaluate(situation) for condition in self.conditions}
         for verdict in (Verdict.HOLDS, Verdict.NOT_YET):
             if verdict in verdicts:
                 return verdict
@@ -232,20 +232,20 @@ class After(Condition):
         return self.seconds + super().delay
 
     @property
-    def looks_outside(self) -> bool:
-        return self.condition is None or self.condition.looks_outside
+    def is_external(self) -> bool:
+        return self.condition is None or self.condition.is_external
 
-    def due(self, situation: Situation) -> float | None:
+    def due(self, situation: StackState) -> float | None:
         """Return the time at which it will hold; None: that is not known yet."""
         if self.condition is None:
             return situation.began + self.seconds
         since = situation.held_since.get(self.condition)
         return None if since is None else since + self.seconds
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         due = self.due(situation)
         if due is None:
-            verdict = self.condition.judge(situation)
+            verdict = self.condition.evaluate(situation)
             return Verdict.NEVER if verdict is Verdict.NEVER else Verdict.NOT_YET
         return Verdict.HOLDS if situation.time >= due else Verdict.NOT_YET
 
@@ -253,10 +253,10 @@ class After(Condition):
         origin = f'since {self.condition.describe(name_of)}' if self.condition else 'of the stack'
         return f'{self.seconds:g} s have passed {origin}'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         due = self.due(situation)
         if due is None:
-            return self.condition.lack(situation, name_of)
+            return self.condition.explain_unmet(situation, name_of)
         return f'{due - situation.time:.1f} s are left'
 
     def resolved(self, scope: Scope) -> Condition:
@@ -295,7 +295,7 @@ class _OfNode(Condition):
     def nodes(self) -> tuple[NodeRef, ...]:
         return (self.node,)
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         state, name = situation.states[self.node], name_of(self.node)
         if state.returncode is not None:
             return f'{name} ended with {state.returncode}'
@@ -306,7 +306,7 @@ class _OfNode(Condition):
 
 @dataclass(frozen=True)
 class _ExitedCleanly(_OfNode):
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         state = situation.states[self.node]
         if state.returncode is None:
             return Verdict.NEVER if state.never else Verdict.NOT_YET
@@ -318,10 +318,10 @@ class _ExitedCleanly(_OfNode):
 
 @dataclass(frozen=True)
 class _Failed(_OfNode):
-    def is_dormant(self, situation: Situation) -> bool:
-        return self.judge(situation) is Verdict.NOT_YET
+    def waits_forever(self, situation: StackState) -> bool:
+        return self.evaluate(situation) is Verdict.NOT_YET
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         state = situation.states[self.node]
         if state.returncode is None:
             return Verdict.NEVER if state.never else Verdict.NOT_YET
@@ -333,7 +333,7 @@ class _Failed(_OfNode):
 
 @dataclass(frozen=True)
 class _Started(_OfNode):
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         state = situation.states[self.node]
         if state.started:
             return Verdict.HOLDS
@@ -347,9 +347,9 @@ class _Started(_OfNode):
 class _Settled(_Started):
     """Started, or optional and given up."""
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         given_up = situation.states[self.node].never and not self.node.required
-        return Verdict.HOLDS if given_up else super().judge(situation)
+        return Verdict.HOLDS if given_up else super().evaluate(situation)
 
 
 @dataclass(frozen=True)
@@ -370,7 +370,7 @@ class Logged(_OfNode):
         """Say whether this is the line."""
         return re.search(self.pattern, line) is not None
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         if self in situation.said:
             return Verdict.HOLDS
         state = situation.states[self.node]
@@ -380,7 +380,7 @@ class Logged(_OfNode):
     def describe(self, name_of: NameOf) -> str:
         return f'{name_of(self.node)} said {self.pattern!r}'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         return f'{name_of(self.node)} has not said {self.pattern!r}'
 
 
@@ -388,16 +388,16 @@ class Logged(_OfNode):
 class OnRequest(Condition):
     """See :func:`on_request`; each is another one."""
 
-    def is_dormant(self, situation: Situation) -> bool:
-        return self.judge(situation) is Verdict.NOT_YET
+    def waits_forever(self, situation: StackState) -> bool:
+        return self.evaluate(situation) is Verdict.NOT_YET
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         return Verdict.HOLDS if self in situation.said else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         return 'a handler asks for it'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         return 'no handler asks for it'
 
 
@@ -437,9 +437,9 @@ def on_request() -> Condition:
 
 def may_never_hold(condition: Condition | None) -> bool:
     """Say whether it is no fault if it never holds: it is for a failure, or for a request."""
-    return any(isinstance(part, OnRequest | _Failed) for part in leaves(condition))
+    return any(isinstance(part, OnRequest | _Failed) for part in walk(condition))
 
 
 def waits_for_request(condition: Condition | None) -> bool:
     """Say whether a handler has to ask before it can hold."""
-    return any(isinstance(part, OnRequest) for part in leaves(condition))
+    return any(isinstance(part, OnRequest) for part in walk(condition))

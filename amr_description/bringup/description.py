@@ -18,7 +18,7 @@ from amr_description.bringup.conditions import (
     NodeRef,
     Scope,
     settled,
-    Situation,
+    StackState,
     Verdict,
 )
 from amr_description.bringup.console import Level
@@ -32,7 +32,7 @@ type Parameters = Sequence[Mapping[str, ParameterValue] | str | Path]
 PATIENCE = 60.0
 """s"""
 
-_MEMBERS = validation.a_list('nodes, groups and stacks')
+_MEMBERS = validation.list_of('nodes, groups and stacks')
 _COMMON_KINDS = {
     'namespace': validation.NAMESPACE.or_none(),
     'environment': validation.ENVIRONMENT,
@@ -73,8 +73,8 @@ _NODE_KINDS = {
     'prefix': validation.TEXT,
     'patience': validation.NUMBER.or_none(),
     'required': validation.TRUTH,
-    'respawn': validation.Kind('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
-    'on_exit': validation.Kind(
+    'respawn': validation.Validator('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
+    'on_exit': validation.Validator(
         "'continue', 'shutdown' or a function",
         lambda value: value in ('continue', 'shutdown') or callable(value),
     ),
@@ -85,7 +85,7 @@ _STACK_KINDS = {
     'patience': validation.NUMBER,
     'on_shutdown': validation.FUNCTION.or_none(),
     'next_steps': validation.TEXT,
-    'notes': validation.a_list("pairs, as [('INFO', 'a text')]", validation.is_pair),
+    'notes': validation.list_of("pairs, as [('INFO', 'a text')]", validation.is_pair),
 }
 
 
@@ -203,7 +203,7 @@ class Stack(Member):
             for node in condition.nodes if condition else ():
                 if node not in nodes:
                     raise BringupError(
-                        f'a condition waits for {validation.brief(node)}, '
+                        f'a condition waits for {validation.shortened(node)}, '
                         'which is not in the list of the stack'
                     )
         _check_patience(self.patience)
@@ -244,14 +244,14 @@ class _Ready(Condition):
     def parts(self) -> tuple[Condition, ...]:
         return (self.stack.readiness,)
 
-    def judge(self, situation: Situation) -> Verdict:
-        return self.stack.readiness.judge(situation)
+    def evaluate(self, situation: StackState) -> Verdict:
+        return self.stack.readiness.evaluate(situation)
 
     def describe(self, name_of: NameOf) -> str:
         return self.stack.readiness.describe(name_of)
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
-        return self.stack.readiness.lack(situation, name_of)
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
+        return self.stack.readiness.explain_unmet(situation, name_of)
 
     def resolved(self, scope: Scope) -> Condition:
         return self.stack.readiness.resolved(replace(scope, namespace=scope.stacks[self.stack]))
@@ -260,7 +260,7 @@ class _Ready(Condition):
 def ready(stack: Stack) -> Condition:
     """Hold once a stack that stands in this one is ready."""
     validation.require(
-        'ready(%s)', stack, validation.Kind('a Stack', lambda value: isinstance(value, Stack))
+        'ready(%s)', stack, validation.Validator('a Stack', lambda value: isinstance(value, Stack))
     )
     return _Ready(stack)
 
@@ -277,7 +277,7 @@ def nodes_of(members: Sequence[Member], *, into_stacks: bool = True) -> Iterator
                 yield from nodes_of(member.nodes) if into_stacks else ()
             case _:
                 raise BringupError(
-                    f'{validation.brief(member)} stands in a stack; there can be Node, Group, Stack'
+                    f'{validation.shortened(member)} stands in a stack; there can be Node, Group, Stack'
                 )
 
 

@@ -14,12 +14,12 @@ from os import PathLike
 from pathlib import Path
 import re
 
-from amr_description.bringup.conditions import Condition, NameOf, Scope, Situation, Verdict
-from amr_description.bringup.validation import Kind, require, TEXT, TOKEN
+from amr_description.bringup.conditions import Condition, NameOf, Scope, StackState, Verdict
+from amr_description.bringup.validation import require, TEXT, TOKEN, Validator
 from amr_description.errors import BringupError
 
 _NAME = re.compile(f'/?{TOKEN}(/{TOKEN})*')
-_TYPE = Kind(
+_TYPE = Validator(
     'a type as std_msgs/msg/String',
     lambda value: isinstance(value, str) and bool(re.fullmatch(f'{TOKEN}/msg/{TOKEN}', value)),
 )
@@ -48,7 +48,7 @@ class OnGraph(Condition):
             )
 
     @property
-    def looks_outside(self) -> bool:
+    def is_external(self) -> bool:
         return True
 
     def resolved(self, scope: Scope) -> Condition:
@@ -59,7 +59,7 @@ class OnGraph(Condition):
 class _Topic(OnGraph):
     type: str | None
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         types = situation.graph.topics.get(self.name)
         there = types is not None and (self.type is None or self.type in types)
         return Verdict.HOLDS if there else Verdict.NOT_YET
@@ -68,7 +68,7 @@ class _Topic(OnGraph):
         of_type = f' ({self.type})' if self.type else ''
         return f'somebody publishes {self.name}{of_type}'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         topics = situation.graph.topics
         if self.name in topics:
             types = ', '.join(sorted(topics[self.name]))
@@ -78,27 +78,27 @@ class _Topic(OnGraph):
 
 @dataclass(frozen=True)
 class _Service(OnGraph):
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         there = self.name in situation.graph.services
         return Verdict.HOLDS if there else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         return f'the service {self.name} is there'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         others = _others(self.name, situation.graph.services)
         return f'the service {self.name} is not there; {others}'
 
 
 @dataclass(frozen=True)
 class _RosNode(OnGraph):
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         return Verdict.HOLDS if self.name in situation.graph.nodes else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         return f'the node {self.name} is there'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         others = _others(self.name, situation.graph.nodes)
         return f'the node {self.name} is not there; {others}'
 
@@ -110,17 +110,17 @@ class PathExists(Condition):
     path: str
 
     @property
-    def looks_outside(self) -> bool:
+    def is_external(self) -> bool:
         return True
 
-    def judge(self, situation: Situation) -> Verdict:
+    def evaluate(self, situation: StackState) -> Verdict:
         look = situation.paths.get(self.path)
         return Verdict.HOLDS if look and look.there else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         return f'{self.path} is there'
 
-    def lack(self, situation: Situation, name_of: NameOf) -> str:
+    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
         look = situation.paths.get(self.path)
         path = Path(self.path)
         beside = sorted(look.beside) if look else []
@@ -175,5 +175,5 @@ def ros_node(name: str) -> Condition:
 
 def path_exists(path: str | Path) -> Condition:
     """Hold while there is a file, a folder or a device: ``path_exists('/dev/ttyUSB0')``."""
-    require('path_exists(%s)', path, Kind('a path', lambda v: isinstance(v, str | PathLike)))
+    require('path_exists(%s)', path, Validator('a path', lambda v: isinstance(v, str | PathLike)))
     return PathExists(str(Path(path).expanduser().absolute()))

@@ -115,7 +115,7 @@ class GraphWatch:
         self._wake()
 
 
-class Outlook:
+class ExternalState:
     """All that conditions may want to know of the world outside."""
 
     def __init__(self, watch: GraphWatch) -> None:

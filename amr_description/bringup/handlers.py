@@ -44,7 +44,7 @@ class Stopping:
     """That of the whole, as it is known now."""
 
 
-_EXIT_CODE = validation.Kind(
+_EXIT_CODE = validation.Validator(
     'a whole number from 0 to 255', lambda value: isinstance(value, int) and 0 <= value <= 255
 )
 
@@ -69,7 +69,7 @@ type StopHandler = Callable[[Stopping], None]
 
 
 @dataclass(frozen=True)
-class Wishes:
+class HandlerResult:
     """What a handler wants."""
 
     members: Sequence[Member] = ()
@@ -77,19 +77,19 @@ class Wishes:
     shutdown: Shutdown | None = None
 
 
-def call_exit_handler(handler: ExitHandler, event: Exited) -> Wishes:
+def call_exit_handler(handler: ExitHandler, event: Exited) -> HandlerResult:
     """Return what a handler wants; one that fails wants the stack to stop."""
     try:
         reaction = handler(event)
     except (Exception, SystemExit) as error:  # a stranger's must not end the supervisor
-        return Wishes(shutdown=Shutdown(complaint('on_exit', error), exit_code=1))
+        return HandlerResult(shutdown=Shutdown(complaint('on_exit', error), exit_code=1))
     if reaction is None:
-        return Wishes()
+        return HandlerResult()
     if isinstance(reaction, Shutdown):
-        return Wishes(shutdown=reaction)
-    return Wishes(tuple(reaction) if isinstance(reaction, list | tuple) else (reaction,))
+        return HandlerResult(shutdown=reaction)
+    return HandlerResult(tuple(reaction) if isinstance(reaction, list | tuple) else (reaction,))
 
 
 def complaint(name: str, error: BaseException) -> str:
     """Return one line on what a handler raised, and where."""
-    return f'{name} failed: {user_errors.told(error)}'
+    return f'{name} failed: {user_errors.describe(error)}'

@@ -21,7 +21,7 @@ import threading
 
 from amr_description.bringup import environment, run_registry
 from amr_description.bringup.arguments import declared, parse, show
-from amr_description.bringup.command_line import Job, jobs_of, LaunchPrefix
+from amr_description.bringup.command_line import jobs_of, LaunchPrefix, ProcessSpec
 from amr_description.bringup.conditions import NameOf
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
 from amr_description.bringup.description import Group, Member, Node, nodes_of, Stack
@@ -46,7 +46,7 @@ from amr_description.errors import AmrError
 _INDENT = '    '
 
 
-def listing(stack: Stack, jobs: Sequence[Job]) -> str:
+def listing(stack: Stack, jobs: Sequence[ProcessSpec]) -> str:
     """Return the text."""
     by_node = {job.node: job for job in jobs}
 
@@ -59,7 +59,9 @@ def listing(stack: Stack, jobs: Sequence[Job]) -> str:
     return '\n'.join(lines)
 
 
-def _tree(members: Sequence[Member], jobs: Mapping[Node, Job], name_of: NameOf) -> Iterator[str]:
+def _tree(
+    members: Sequence[Member], jobs: Mapping[Node, ProcessSpec], name_of: NameOf
+) -> Iterator[str]:
     for member in members:
         if isinstance(member, Node):
             yield from _of_job(jobs[member], name_of)
@@ -73,7 +75,7 @@ def _group(group: Group) -> str:
     return f'group {group.namespace}' if group.namespace else 'group'
 
 
-def _of_job(job: Job, name_of: NameOf) -> Iterator[str]:
+def _of_job(job: ProcessSpec, name_of: NameOf) -> Iterator[str]:
     condition = job.placed.start_when
     when = f'when {condition.describe(name_of)}' if condition else 'at once'
     yield f'{job.name}: {", ".join([when, *_manners(job.node)])}'
@@ -238,7 +240,7 @@ def _console(stack: Stack, folder: LogFolder) -> Console:
 
 
 async def _orchestrate(
-    stack: Stack, jobs: list[Job], console: Console, run: str, events: EventLog
+    stack: Stack, jobs: list[ProcessSpec], console: Console, run: str, events: EventLog
 ) -> int:
     # The log files that the nodes write themselves belong to this run, too.
     environment = {**os.environ, 'ROS_LOG_DIR': console.log_folder}

@@ -20,17 +20,17 @@ import functools
 import signal
 import time
 
-from amr_description.bringup.command_line import Job
+from amr_description.bringup.command_line import ProcessSpec
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
-from amr_description.bringup.graph_watcher import COMMAND, GraphWatch, Outlook
+from amr_description.bringup.graph_watcher import COMMAND, ExternalState, GraphWatch
 from amr_description.bringup.handlers import complaint, Stopping
 from amr_description.bringup.lifeline import Lifeline
 from amr_description.bringup.process import Child, held_back, RunningProcess
-from amr_description.bringup.reporter import Narrator
+from amr_description.bringup.reporter import Reporter
 from amr_description.bringup.run_log import EventLog
-from amr_description.bringup.scheduler import Progress
+from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.terminal import TerminalChild
 
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed
@@ -46,7 +46,7 @@ class Orchestrator:
     def __init__(
         self,
         stack: Stack,
-        jobs: Sequence[Job],
+        jobs: Sequence[ProcessSpec],
         console: Console,
         run_name: str,
         environment: Mapping[str, str],
@@ -60,16 +60,16 @@ class Orchestrator:
         :param environment: The environment variables of the children.
         :param events: Is told all that happens.
         """
-        self._jobs: dict[Node, Job] = {job.node: job for job in jobs}
+        self._jobs: dict[Node, ProcessSpec] = {job.node: job for job in jobs}
         self._run_name = run_name
         self._environment = environment
-        self._narrator = Narrator(stack, jobs, console, events)
-        self._progress = Progress(stack, time.monotonic())
+        self._narrator = Reporter(stack, jobs, console, events)
+        self._progress = Scheduler(stack, time.monotonic())
         self._children: dict[Node, RunningProcess] = {}  # in the order of their start
         self._last_lines: dict[Node, Collection[str]] = {}
         self._wake = asyncio.Event()
         watch = GraphWatch(self._spawn_watch, self._wake.set, self._narrator.graph_watch_said)
-        self._outlook = Outlook(watch)
+        self._outlook = ExternalState(watch)
         self._stop_handlers = stack.stop_handlers
         self._stop_requests = 0
         self._exit_code = 0
@@ -184,7 +184,7 @@ class Orchestrator:
         self._last_lines[node] = child.last_lines
         self._narrator.started(node, child.pid)
 
-    def _child(self, job: Job, environment: Mapping[str, str]) -> RunningProcess:
+    def _child(self, job: ProcessSpec, environment: Mapping[str, str]) -> RunningProcess:
         reader, narrator = self._lifeline.reader, self._narrator
         with held_back(signal.SIGINT) if job.takes_sigint_later else contextlib.nullcontext():
             if not job.node.terminal:

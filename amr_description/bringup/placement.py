@@ -10,7 +10,7 @@ from amr_description.bringup.description import Group, Member, Node, Parameters,
 
 
 @dataclass(frozen=True)
-class Placed:
+class ResolvedNode:
     """A node, and what it has of its groups and stacks."""
 
     node: Node
@@ -62,12 +62,12 @@ class Placement:
         for each in members:
             yield from self._walk(each, inside)
 
-    def _placed(self, node: Node, place: _Place) -> Placed:
+    def _placed(self, node: Node, place: _Place) -> ResolvedNode:
         namespace = _joined(place.namespace, node.namespace)
         conditions = [c.resolved(self._scope(where)) for c, where in place.conditions]
         if node.start_when is not None:
             conditions.append(node.start_when.resolved(self._scope(place.namespace)))
-        return Placed(
+        return ResolvedNode(
             node,
             namespace,
             {**place.environment, **node.environment},

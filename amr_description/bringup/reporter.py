@@ -17,15 +17,15 @@ import re
 import signal
 import time
 
-from amr_description.bringup.command_line import Job
-from amr_description.bringup.conditions import Condition, may_never_hold, NameOf, Situation
+from amr_description.bringup.command_line import ProcessSpec
+from amr_description.bringup.conditions import Condition, may_never_hold, NameOf, StackState
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.graph_watcher import GRAPH_WATCH
 from amr_description.bringup.handlers import Shutdown
 from amr_description.bringup.process import RunningProcess
 from amr_description.bringup.run_log import EventLog
-from amr_description.bringup.scheduler import Expired, Failure, Progress, Wait
+from amr_description.bringup.scheduler import Expired, Failure, Scheduler, Wait
 
 _REFRESH = 0.25  # s between two states of the line on a terminal
 _PATIENCE = 5.0  # s between two lines elsewhere
@@ -45,7 +45,7 @@ class StartStatus:
         self._since: dict[Node | None, float] = {}
         self._timer: asyncio.TimerHandle | None = None
 
-    def follow(self, progress: Progress) -> None:
+    def follow(self, progress: Scheduler) -> None:
         """Tell of it from here on; called after each event, so that it is known since when."""
         if _is_done(progress):
             return
@@ -60,7 +60,7 @@ class StartStatus:
             self._timer = None
         self._console.status('')
 
-    def text(self, progress: Progress) -> str:
+    def text(self, progress: Scheduler) -> str:
         """Return the line; empty: nothing is waited for that could happen next."""
         waits = self._look(progress)
         if not waits:
@@ -74,7 +74,7 @@ class StartStatus:
             f'({now - self._since[node]:.1f} s){more}'
         )
 
-    def _look(self, progress: Progress) -> list[Wait]:
+    def _look(self, progress: Scheduler) -> list[Wait]:
         """Return the waits that can be over next; note since when they are."""
         states = progress.situation.states
         waits = [
@@ -86,12 +86,12 @@ class StartStatus:
         self._since = {node: self._since.get(node, now) for node, _ in waits}
         return waits
 
-    def _plan(self, progress: Progress) -> None:
+    def _plan(self, progress: Scheduler) -> None:
         period = _REFRESH if self._console.erases else _PATIENCE
         loop = asyncio.get_running_loop()
         self._timer = loop.call_later(period, self._tell, progress)
 
-    def _tell(self, progress: Progress) -> None:
+    def _tell(self, progress: Scheduler) -> None:
         if _is_done(progress):
             self.end()
             return
@@ -103,7 +103,7 @@ class StartStatus:
         self._plan(progress)
 
 
-def _is_done(progress: Progress) -> bool:
+def _is_done(progress: Scheduler) -> bool:
     return progress.ready or progress.over
 
 
@@ -111,7 +111,7 @@ _LONGEST_REASON = 500  # characters
 _ROS_LOG_PREFIX = re.compile(r'\[[A-Z]+\] \[[\d.]+\] \[\S+\]: ')
 
 
-def post_mortem(
+def failure_report(
     name: str, failure: Failure, last_lines: Collection[str], never_started: Sequence[str]
 ) -> list[str]:
     """
@@ -163,11 +163,11 @@ _POLITE = (signal.SIGINT, signal.SIGTERM)  # what a program may leave to its def
 _MOST_STEPS = 6  # on a line
 
 
-class Narrator:
+class Reporter:
     """Tells each event of a stack once, on the console and to the log of events."""
 
     def __init__(
-        self, stack: Stack, jobs: Sequence[Job], console: Console, events: EventLog
+        self, stack: Stack, jobs: Sequence[ProcessSpec], console: Console, events: EventLog
     ) -> None:
         """``jobs``: the nodes of the stack."""
         self._stack = stack
@@ -223,7 +223,7 @@ class Narrator:
             text = f"process has died [pid {child.pid}, {code}, cmd '{command}']."
             self._console.say('ERROR', self._name_of(node), text)
 
-    def progress(self, progress: Progress) -> None:
+    def progress(self, progress: Scheduler) -> None:
         """Say that the stack is ready, what it waits for, and what of it can never start."""
         self._status.follow(progress)
         for expired in progress.gave_up:
@@ -268,7 +268,7 @@ class Narrator:
         """Note whether a process has the terminal."""
         self._console.lend(is_lent)
 
-    def respawn(self, node: Node, situation: Situation) -> None:
+    def respawn(self, node: Node, situation: StackState) -> None:
         """Say that its process will be started again, if so."""
         state, rule = situation.states[node], node.respawn
         if state.restart_at is None or rule is None:
@@ -333,7 +333,7 @@ class Narrator:
         )
         self._console.say('ERROR', name, text)
 
-    def failure(self, progress: Progress, last_lines: Mapping[Node, Collection[str]]) -> None:
+    def failure(self, progress: Scheduler, last_lines: Mapping[Node, Collection[str]]) -> None:
         """Say, last of all, which failure stopped the stack, if one did, and why."""
         failure, wish = progress.failure, progress.shutdown
         if failure is None:
@@ -345,7 +345,7 @@ class Narrator:
             texts = expiry(failure, self._name_of, last_lines)
         else:
             name = self._name_of(failure.node)
-            texts = post_mortem(name, failure, last_lines[failure.node], waiting)
+            texts = failure_report(name, failure, last_lines[failure.node], waiting)
         self._note('failure', failure.node, reason=texts[-1])
         for text in texts:
             self._console.say('ERROR', LAUNCH, text)

@@ -32,7 +32,7 @@ from amr_description.bringup.run_log import Event
 from amr_description.errors import BringupError
 
 if TYPE_CHECKING:
-    from amr_description.bringup.command_line import Job
+    from amr_description.bringup.command_line import ProcessSpec
 
 
 type State = dict[str, Any]
@@ -213,13 +213,13 @@ def add_option(parser: ArgumentParser) -> None:
     )
 
 
-def of(jobs: 'Sequence[Job]') -> set[str]:
+def of(jobs: 'Sequence[ProcessSpec]') -> set[str]:
     """Return their full names: ``/mujoco_sim``, ``/robot1/controller_manager``."""
     pairs = ((job.placed.namespace or '', name) for job in jobs for name in _names(job))
     return {f'{namespace.rstrip("/")}/{name}' for namespace, name in pairs}
 
 
-def _names(job: 'Job') -> Sequence[str]:
+def _names(job: 'ProcessSpec') -> Sequence[str]:
     node = job.node
     fixed = _FIXED.get(node.executable, ()) if node.package == 'amr_description' else ()
     return (node.name, *fixed[1:]) if node.name else fixed

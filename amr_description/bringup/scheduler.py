@@ -20,18 +20,18 @@ from amr_description.bringup.conditions import (
     After,
     Condition,
     Graph,
-    leaves,
     Logged,
     NameOf,
     NodeState,
     OnRequest,
     PathLook,
-    Situation,
+    StackState,
     Verdict,
     waits_for_request,
+    walk,
 )
 from amr_description.bringup.description import Node, nodes_of, Stack
-from amr_description.bringup.handlers import call_exit_handler, Exited, Shutdown, Wishes
+from amr_description.bringup.handlers import call_exit_handler, Exited, HandlerResult, Shutdown
 from amr_description.bringup.placement import Placement
 from amr_description.errors import BringupError
 
@@ -51,7 +51,7 @@ class Expired:
     condition: Condition
     seconds: float
     """How long it waited."""
-    situation: Situation
+    situation: StackState
     """How it was at the end."""
 
     exit_code = TIMED_OUT
@@ -59,7 +59,7 @@ class Expired:
     def text(self, name_of: NameOf) -> str:
         """Say what was waited for, how long, and what is there instead."""
         who = name_of(self.node) if self.node else 'the stack, to be ready,'
-        lack = self.condition.lack(self.situation, name_of)
+        lack = self.condition.explain_unmet(self.situation, name_of)
         told = f'{who} waited {self.seconds:.0f} s in vain: {lack}'
         others = [
             f'{name_of(node)} still runs'
@@ -69,7 +69,7 @@ class Expired:
         return '; '.join([told, *others])
 
 
-class Waits:
+class Timeouts:
     """When each wait began, and when it is over."""
 
     def __init__(self, patience: Mapping[Node, float], patience_of_stack: float) -> None:
@@ -77,7 +77,7 @@ class Waits:
         self._patience: Mapping[Node | None, float] = {**patience, None: patience_of_stack}
         self._began: dict[Node | None, float] = {}
 
-    def expired(self, waits: Iterable[Wait], situation: Situation) -> Expired | None:
+    def expired(self, waits: Iterable[Wait], situation: StackState) -> Expired | None:
         """Return the first wait whose patience is over."""
         for node, condition in waits:
             deadline = self._deadline(node, condition, situation)
@@ -86,17 +86,17 @@ class Waits:
                 return Expired(node, condition, seconds, situation)
         return None
 
-    def deadlines(self, waits: Iterable[Wait], situation: Situation) -> list[float]:
+    def deadlines(self, waits: Iterable[Wait], situation: StackState) -> list[float]:
         """Return the times at which the patience of those waits is over that have begun."""
         found = (self._deadline(node, condition, situation) for node, condition in waits)
         return [deadline for deadline in found if deadline is not None]
 
     def _deadline(
-        self, node: Node | None, condition: Condition, situation: Situation
+        self, node: Node | None, condition: Condition, situation: StackState
     ) -> float | None:
         states = situation.states
         if node not in self._began:
-            if condition.is_dormant(situation):
+            if condition.waits_forever(situation):
                 return None
             if not all(states[n].started or states[n].never for n in condition.nodes):
                 return None
@@ -121,7 +121,7 @@ class Failure:
         return (self.returncode or 1) if self.returncode >= 0 else 128 - self.returncode
 
 
-class Progress:
+class Scheduler:
     """The states of all nodes of a stack; owned by the orchestrator's event loop."""
 
     def __init__(self, stack: Stack, begin: float = 0.0) -> None:
@@ -130,12 +130,12 @@ class Progress:
         self._conditions = {placed.node: placed.start_when for placed in placement.nodes}
         self._ready_when = placement.ready_when
         all_conditions = [*self._conditions.values(), self._ready_when]
-        self._parts = dict.fromkeys(part for each in all_conditions for part in leaves(each))
+        self._parts = dict.fromkeys(part for each in all_conditions for part in walk(each))
         self._logged = [part for part in self._parts if isinstance(part, Logged)]
         self._states = {node: NodeState() for node in self._conditions}
         self._last_start: dict[Node, float] = {}
-        self._situation = Situation(self._states, time=begin, began=begin)
-        self._waits = Waits(
+        self._situation = StackState(self._states, time=begin, began=begin)
+        self._waits = Timeouts(
             {placed.node: placed.patience for placed in placement.nodes}, stack.patience
         )
         self._ready = False
@@ -148,7 +148,7 @@ class Progress:
         """Whether nothing more is to be started and what runs is to be stopped."""
 
     @property
-    def situation(self) -> Situation:
+    def situation(self) -> StackState:
         """What the conditions judge now."""
         return self._situation
 
@@ -226,7 +226,7 @@ class Progress:
         """Return the time at which :meth:`at` has something to say; None: only events matter."""
         times = [state.restart_at for state in self._states.values()]
         for _, condition in self._pending():
-            times += [p.due(self._situation) for p in leaves(condition) if isinstance(p, After)]
+            times += [p.due(self._situation) for p in walk(condition) if isinstance(p, After)]
         times += self._waits.deadlines(self._pending(), self._situation)
         return min((t for t in times if t is not None and t > self._situation.time), default=None)
 
@@ -253,21 +253,21 @@ class Progress:
     def lookouts(self) -> Iterator[Condition]:
         """Yield the parts of all conditions that somebody still waits for."""
         for _, condition in self._pending():
-            yield from leaves(condition)
+            yield from walk(condition)
 
     @property
     def ready(self) -> bool:
         """Whether the stack came up: ``ready_when`` held, or every node was started."""
-        self._ready = self._ready or self._ready_when.judge(self._situation) is Verdict.HOLDS
+        self._ready = self._ready or self._ready_when.evaluate(self._situation) is Verdict.HOLDS
         return self._ready
 
     @property
     def never_ready(self) -> Condition | None:
         """What the stack needs to be ready and can no longer have; None: it still may."""
-        lost = not self.ready and self._ready_when.judge(self._situation) is Verdict.NEVER
+        lost = not self.ready and self._ready_when.evaluate(self._situation) is Verdict.NEVER
         return self._ready_when if lost else None
 
-    def _obey(self, wishes: Wishes) -> None:
+    def _obey(self, wishes: HandlerResult) -> None:
         """Note what a handler wants."""
         self.shutdown = wishes.shutdown
         try:
@@ -283,7 +283,7 @@ class Progress:
                     exit_code=1,
                 )
                 return
-        parts = (part for node in nodes for part in leaves(self._conditions[node]))
+        parts = (part for node in nodes for part in walk(self._conditions[node]))
         requests = {part for part in parts if isinstance(part, OnRequest)}
         self._changed(said=self._situation.said | requests)
 
@@ -296,7 +296,7 @@ class Progress:
             condition = self._conditions[node]
             if condition is not None and not self._states[node].never:
                 yield node, condition
-        if not self.ready and self._ready_when.judge(self._situation) is Verdict.NOT_YET:
+        if not self.ready and self._ready_when.evaluate(self._situation) is Verdict.NOT_YET:
             yield None, self._ready_when
 
     def _is_due(self, node: Node, state: NodeState) -> bool:
@@ -306,7 +306,7 @@ class Progress:
 
     def _judge(self, node: Node) -> Verdict:
         condition = self._conditions[node]
-        return Verdict.HOLDS if condition is None else condition.judge(self._situation)
+        return Verdict.HOLDS if condition is None else condition.evaluate(self._situation)
 
     def _is_started_again(self, node: Node) -> bool:
         rule, now = node.respawn, self._situation.time
@@ -325,7 +325,7 @@ class Progress:
         """Nothing runs, and nothing that waits will ever start."""
         alive = any(s.running or s.restart_at is not None for s in self._states.values())
         outlook = any(
-            condition.looks_outside for node, condition in self._pending() if node is not None
+            condition.is_external for node, condition in self._pending() if node is not None
         )
         return not (alive or outlook or self.startable())
 
@@ -352,5 +352,5 @@ class Progress:
         since, now = self._situation.held_since, self._situation
         if not isinstance(part, After) or part.condition is None or part.condition in since:
             return
-        if part.condition.judge(now) is Verdict.HOLDS:
+        if part.condition.evaluate(now) is Verdict.HOLDS:
             self._situation = replace(now, held_since={**since, part.condition: now.time})

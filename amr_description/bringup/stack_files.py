@@ -15,7 +15,7 @@ from amr_description.bringup import user_errors
 from amr_description.bringup.arguments import as_typed, declared, resolve
 from amr_description.bringup.description import Stack
 from amr_description.bringup.stacks import STACKS
-from amr_description.bringup.validation import brief, require, VALUE
+from amr_description.bringup.validation import require, shortened, VALUE
 from amr_description.errors import AmrError, BringupError, UsageError
 from amr_description.registry import resolve as import_target
 from amr_description.text import suggestion
@@ -63,11 +63,11 @@ def _blaming(name: str) -> Iterator[None]:
         yield
     except AmrError as error:
         if name not in STACKS and not getattr(error, 'is_placed', False):
-            error.args = (f'{error}{user_errors.place(error)}',)
+            error.args = (f'{error}{user_errors.location(error)}',)
             error.is_placed = True
         raise
     except Exception as error:
-        raise BringupError(f"'{name}' failed: {user_errors.told(error)}") from error
+        raise BringupError(f"'{name}' failed: {user_errors.describe(error)}") from error
 
 
 def include(name: str | Path, **values: object) -> Stack:
@@ -103,5 +103,7 @@ def make_stack(name: str, given: Mapping[str, str]) -> Stack:
     finally:
         _making.pop()
     if not isinstance(stack, Stack):
-        raise BringupError(f"'{name}' returned {brief(stack)}; a stack's function returns a Stack")
+        raise BringupError(
+            f"'{name}' returned {shortened(stack)}; a stack's function returns a Stack"
+        )
     return stack

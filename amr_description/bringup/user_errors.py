@@ -15,16 +15,16 @@ _NOT_OF_USERS = (
 )
 
 
-def told(error: BaseException) -> str:
+def describe(error: BaseException) -> str:
     """Return ``ValueError: no such arm (my_arm.py, line 7)``; of errors on purpose no type."""
     text = ' '.join(str(error).split())
     if isinstance(error, AmrError):
-        return f'{text}{place(error)}'
+        return f'{text}{location(error)}'
     name = type(error).__name__
-    return f'{name}: {text}{place(error)}' if text else f'{name}{place(error)}'
+    return f'{name}: {text}{location(error)}' if text else f'{name}{location(error)}'
 
 
-def place(error: BaseException) -> str:
+def location(error: BaseException) -> str:
     """Return `` (my_arm.py, line 7)``: the innermost place that is not of a library."""
     if isinstance(error, SyntaxError) and error.filename:
         return ''  # its text says it

@@ -22,31 +22,31 @@ _NAMESPACE = re.compile(f'/?({TOKEN}(/{TOKEN})*)?/?')
 
 
 @dataclass(frozen=True)
-class Kind:
+class Validator:
     """What a value can be."""
 
     text: str
     """As a person would say it."""
     fits: Callable[[object], bool]
 
-    def or_none(self) -> 'Kind':
+    def or_none(self) -> 'Validator':
         """Return the kind that has None, too."""
-        return Kind(self.text, lambda value: value is None or self.fits(value))
+        return Validator(self.text, lambda value: value is None or self.fits(value))
 
 
-def require(what: str, value: object, kind: Kind) -> None:
+def require(what: str, value: object, kind: Validator) -> None:
     """Raise BringupError unless the value is of the kind; ``what``: ``Node('arm', name=%s)``."""
     if not kind.fits(value):
-        raise BringupError(f'{what.replace("%s", brief(value), 1)}: it takes {kind.text}')
+        raise BringupError(f'{what.replace("%s", shortened(value), 1)}: it takes {kind.text}')
 
 
-def require_fields(begin: str, word: object, kinds: Mapping[str, Kind]) -> None:
+def require_fields(begin: str, word: object, kinds: Mapping[str, Validator]) -> None:
     """Require what each field of a word takes; ``begin``: ``Node('talker'``."""
     for name, kind in kinds.items():
         require(f'{begin}, {name}=%s)', getattr(word, name), kind)
 
 
-def brief(value: object) -> str:
+def shortened(value: object) -> str:
     """Return a value in few characters."""
     short = reprlib.Repr()
     short.maxother = short.maxstring = 60
@@ -65,13 +65,13 @@ def _is_word(value: object) -> bool:
     return isinstance(value, str | int | float | PathLike) and '\0' not in str(value)
 
 
-def a_list(of: str, fits: Callable[[object], bool] = lambda _: True) -> Kind:
+def list_of(of: str, fits: Callable[[object], bool] = lambda _: True) -> Validator:
     """Return the kind of lists and tuples; a text or a table is none, nor is a generator."""
 
     def is_list(value: object) -> bool:
         return isinstance(value, Sequence) and not isinstance(value, str) and all(map(fits, value))
 
-    return Kind(f'a list of {of}', is_list)
+    return Validator(f'a list of {of}', is_list)
 
 
 def _is_environment(value: object) -> bool:
@@ -86,23 +86,23 @@ def is_pair(value: object) -> bool:
     return isinstance(value, tuple | list) and len(value) == 2 and all(map(_is_text, value))
 
 
-TEXT = Kind('a text', _is_text)
-NUMBER = Kind('a number', _is_number)
-TRUTH = Kind('True or False', lambda value: isinstance(value, bool))
-FUNCTION = Kind('a function', callable)
-NAME = Kind(
+TEXT = Validator('a text', _is_text)
+NUMBER = Validator('a number', _is_number)
+TRUTH = Validator('True or False', lambda value: isinstance(value, bool))
+FUNCTION = Validator('a function', callable)
+NAME = Validator(
     'a name of letters, digits and _', lambda v: _is_text(v) and bool(re.fullmatch(TOKEN, v))
 )
-NAMESPACE = Kind(
+NAMESPACE = Validator(
     'a namespace of letters, digits, _ and /, as robot1/arm',
     lambda value: _is_text(value) and bool(_NAMESPACE.fullmatch(value)),
 )
-FILE_NAME = Kind('a name without a path', lambda v: _is_text(v) and bool(v) and '/' not in v)
-PARAMETERS = a_list(
+FILE_NAME = Validator('a name without a path', lambda v: _is_text(v) and bool(v) and '/' not in v)
+PARAMETERS = list_of(
     "tables and files, as [{'speed': 1.0}, 'arm.yaml']",
     lambda entry: isinstance(entry, Mapping | str | PathLike),
 )
-REMAPPINGS = a_list("pairs, as [('/cmd_vel', '/arm/cmd_vel')]", is_pair)
-ARGUMENTS = a_list("words, as ['--times', 3]", _is_word)
-VALUE = Kind('a text, a number, True, False or a path', _is_word)
-ENVIRONMENT = Kind("a table of texts, as {'DEBUG': '1'}", _is_environment)
+REMAPPINGS = list_of("pairs, as [('/cmd_vel', '/arm/cmd_vel')]", is_pair)
+ARGUMENTS = list_of("words, as ['--times', 3]", _is_word)
+VALUE = Validator('a text, a number, True, False or a path', _is_word)
+ENVIRONMENT = Validator("a table of texts, as {'DEBUG': '1'}", _is_environment)

@@ -38,7 +38,7 @@ from amr_description.errors import (
     SimulationError,
 )
 from amr_description.model.checks import Examination, examine
-from amr_description.model.checks.context import DriveSettings, IsThere, Surroundings
+from amr_description.model.checks.context import CheckInputs, DriveSettings, IsThere
 from amr_description.model.description_file import description_text, mappings_of, source_name
 from amr_description.model.findings import Finding
 from amr_description.model.xml_reader import read_stream
@@ -71,7 +71,7 @@ def main(argv: list[str]) -> int:
         drives = _drives(arguments.controllers)
     except ParameterError as error:
         return _fail(error, UNUSABLE, arguments)
-    surroundings = Surroundings(is_there=_file_finder(source), drives=drives)
+    surroundings = CheckInputs(is_there=_file_finder(source), drives=drives)
     examination = examine(text, source, surroundings)
     drop = _drop(examination) if arguments.drop else None
     code = exit_code(examination, drop, strict=arguments.strict)

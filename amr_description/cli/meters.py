@@ -77,7 +77,7 @@ class BandwidthMeter:
 
 
 @dataclass(frozen=True)
-class Spread:
+class WindowStatistics:
     """
     Times of a window, s.
 
@@ -112,7 +112,7 @@ class Spread:
         )
 
 
-class Delay(Spread):
+class Delay(WindowStatistics):
     """The ages of the messages of a window, s."""
 
     def __str__(self) -> str:
@@ -161,7 +161,7 @@ class DelayMeter:
 _REPORT_PERIOD = 1_000_000_000  # ns
 
 
-class Rate(Spread):
+class Rate(WindowStatistics):
     """The intervals between the messages of a window, s."""
 
     @property

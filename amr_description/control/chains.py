@@ -20,7 +20,7 @@ from amr_description.errors import ControllerError
 
 
 @dataclass(frozen=True, slots=True)
-class Ends:
+class ChainInterfaces:
     """The interfaces, by their full names, by which one controller can be linked to others."""
 
     commands: tuple[str, ...] = ()
@@ -32,7 +32,7 @@ class Ends:
 class Chains:
     """The links between some controllers; every answer is in alphabetical or in update order."""
 
-    def __init__(self, ends: Mapping[str, Ends]) -> None:
+    def __init__(self, ends: Mapping[str, ChainInterfaces]) -> None:
         """``ends``: of each controller, by its name. Raises ControllerError at a circle."""
         commanded = {each: name for name in ends for each in ends[name].references}
         exported = {each: name for name in ends for each in ends[name].exported_states}
@@ -59,7 +59,7 @@ class Chains:
         """The controllers that command it."""
         return [user for user in sorted(self._commands) if name in self._commands[user]]
 
-    def whole(self, names: Iterable[str]) -> set[str]:
+    def affected_by(self, names: Iterable[str]) -> set[str]:
         """
         These controllers and all that cannot go on without them.
 

@@ -76,5 +76,5 @@ class ControllerList:
 
     def active_chains_of(self, chosen: Iterable[LoadedController]) -> list[LoadedController]:
         """Those chosen and all that cannot go on without them, as far as they are active."""
-        names = self.chains.whole(loaded.name for loaded in chosen)
+        names = self.chains.affected_by(loaded.name for loaded in chosen)
         return [loaded for loaded in self.active if loaded.name in names]

@@ -26,9 +26,9 @@ from typing import Any
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Controller, Log, Severity
 from amr_description.control.controller_list import ControllerList
-from amr_description.control.failure_handling import Faults
+from amr_description.control.failure_handling import FailureHandler
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.loaded_controller import LoadedController, look_away, Watch
+from amr_description.control.loaded_controller import ignore_transition, LoadedController, Watch
 from amr_description.control.plugin_errors import describe
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshot import ManagerSnapshot, take_snapshot
@@ -43,7 +43,7 @@ from amr_description.control.switching import (
 from amr_description.errors import ControllerError
 
 
-class Configuring:
+class PendingConfigure:
     """
     The configuration of one controller, under way.
 
@@ -72,7 +72,7 @@ class Configuring:
             self.failure = None
 
 
-def stride_of(controller: Controller, manager_rate: int, log: Log) -> int:
+def update_divisor(controller: Controller, manager_rate: int, log: Log) -> int:
     """
     Return the ticks of the manager (``manager_rate``, Hz) for each update of the controller.
 
@@ -110,7 +110,7 @@ class ControllerLifecycles:
         self._log = log
         self._controllers = ControllerList()
         self._execution = SwitchExecution(self._controllers, resources, log)
-        self._faults = Faults(self._controllers, resources, self._execution, log)
+        self._failures = FailureHandler(self._controllers, resources, self._execution, log)
         self.on_change: Callable[[ManagerSnapshot], None] = lambda _: None
         """Called with every new snapshot."""
         self.snapshot = ManagerSnapshot()
@@ -121,7 +121,7 @@ class ControllerLifecycles:
         controller: Controller,
         type_name: str,
         fallbacks: Iterable[str] = (),
-        watch: Watch = look_away,
+        watch: Watch = ignore_transition,
     ) -> None:
         """
         Take a controller that was made elsewhere.
@@ -139,7 +139,7 @@ class ControllerLifecycles:
             raise ControllerError(
                 f"Controller '{name}' cannot be a fallback controller for itself."
             )
-        stride = stride_of(controller, self.update_rate, self._log)
+        stride = update_divisor(controller, self.update_rate, self._log)
         stopwatch = self.resources.stopwatch
         self._controllers.add(
             LoadedController(controller, type_name, stride, fallbacks, watch, stopwatch)
@@ -152,7 +152,7 @@ class ControllerLifecycles:
         configuring.run(parameters)
         return self.finish_configure(configuring)
 
-    def begin_configure(self, name: str) -> Configuring:
+    def begin_configure(self, name: str) -> PendingConfigure:
         """
         Check, clean up what is inactive, and set the controller aside. Raises ControllerError.
 
@@ -167,9 +167,9 @@ class ControllerLifecycles:
         self._clean_up(loaded)
         loaded.is_busy = True
         self.refresh()
-        return Configuring(loaded)
+        return PendingConfigure(loaded)
 
-    def finish_configure(self, configuring: Configuring) -> Controller:
+    def finish_configure(self, configuring: PendingConfigure) -> Controller:
         """
         Take the controller in again: inactive, or unconfigured where its ``configure`` raised.
 
@@ -223,7 +223,7 @@ class ControllerLifecycles:
     def _clean_up(self, controller: LoadedController) -> None:
         """Inactive → unconfigured, which it is whatever its ``cleanup`` raises."""
         if controller.state is LifecycleState.INACTIVE:
-            self._faults.survives('cleaning up', controller, controller.cleanup)
+            self._failures.call_guarded('cleaning up', controller, controller.cleanup)
             self._controllers.link()
 
     # --- helpers ------------------------------------------------------------------------------
@@ -361,14 +361,14 @@ class ControllerManager(ControllerLifecycles):
             self.on_tick(time)
 
     def _update(self, time: int, period: int) -> None:
-        survives, nominal = self._faults.survives, self.period
+        call_guarded, nominal = self._failures.call_guarded, self.period
         failed = [
             controller
             for controller in self._controllers.active
-            if not survives('updating', controller, controller.update, time, nominal)
+            if not call_guarded('updating', controller, controller.update, time, nominal)
         ]
         if failed:
-            self._faults.replace(failed, 'update', time)
+            self._failures.switch_to_fallbacks(failed, 'update', time)
             self.refresh()
         self.resources.enforce_limits(period)
 
@@ -379,7 +379,7 @@ class ControllerManager(ControllerLifecycles):
         elif gone:
             states = {name: self.resources.components[name].state for name in gone}
             failed = [name for name in gone if states[name] is not LifecycleState.INACTIVE]
-            self._faults.abandon(failed, time)
+            self._failures.deactivate_orphans(failed, time)
             self.refresh()
 
     def _warn_of_overrun(self, *durations: int) -> None:
@@ -408,10 +408,12 @@ class ControllerManager(ControllerLifecycles):
         self._tell('setting the clock of', lambda each: each.set_clock(time), time)
 
     def _tell(self, doing: str, tell: Callable[[LoadedController], None], time: int) -> None:
-        survives = self._faults.survives
-        failed = [each for each in self._controllers if not survives(doing, each, tell, each)]
+        call_guarded = self._failures.call_guarded
+        failed = [each for each in self._controllers if not call_guarded(doing, each, tell, each)]
         if failed:
-            self._faults.replace([each for each in failed if each.is_active], 'reset', time)
+            self._failures.switch_to_fallbacks(
+                [each for each in failed if each.is_active], 'reset', time
+            )
             self.refresh()
 
     def shut_down(self, time: int) -> None:
@@ -437,7 +439,7 @@ class ControllerManager(ControllerLifecycles):
     def _abandon(self, components: Sequence[str], time: int) -> None:
         """Deactivate what used components that have just gone."""
         if components:
-            self._faults.abandon(components, time)
+            self._failures.deactivate_orphans(components, time)
             self.refresh()
 
     # --- switch -------------------------------------------------------------------------------

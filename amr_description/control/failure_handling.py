@@ -19,7 +19,7 @@ from amr_description.control.switching import names_of, Strictness, SwitchExecut
 from amr_description.errors import AmrError, ControllerError
 
 
-class Faults:
+class FailureHandler:
     """Takes controllers down, and starts their fallbacks."""
 
     def __init__(
@@ -34,7 +34,7 @@ class Faults:
         self._execution = execution
         self._log = log
 
-    def survives(
+    def call_guarded(
         self, doing: str, controller: LoadedController, method: Callable[..., None], *args: Any
     ) -> bool:
         """Call a controller; the others must go on whatever it raises, which is logged."""
@@ -53,7 +53,9 @@ class Faults:
             return True
         return False
 
-    def replace(self, failed: Sequence[LoadedController], doing: str, time: int) -> None:
+    def switch_to_fallbacks(
+        self, failed: Sequence[LoadedController], doing: str, time: int
+    ) -> None:
         """
         Deactivate the chains of those that failed while ``doing`` something; start the fallbacks.
 
@@ -81,7 +83,7 @@ class Faults:
         if fallbacks:
             self._start(fallbacks, time)
 
-    def abandon(self, components: Sequence[str], time: int) -> None:
+    def deactivate_orphans(self, components: Sequence[str], time: int) -> None:
         """Deactivate the controllers whose interfaces have gone with these components."""
         # A command and a state often have the same name: each kind is looked up by itself.
         known = self._resources.components

@@ -27,7 +27,7 @@ from amr_description.control.interfaces import (
     StateInterface,
     VELOCITY,
 )
-from amr_description.control.loaded_component import OwnedComponent
+from amr_description.control.loaded_component import LoadedComponent
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import ComponentInfo, InterfaceInfo
 from amr_description.model.robot import Joint, JointType
@@ -278,7 +278,7 @@ class JointLimiter:
         )
 
 
-def limiters_of(owned: OwnedComponent, robot: 'Robot | None', log: Log) -> list[JointLimiter]:
+def limiters_of(owned: LoadedComponent, robot: 'Robot | None', log: Log) -> list[JointLimiter]:
     """
     Make a limiter for every joint of a component, and tell of each, as ros2_control does.
 

@@ -8,7 +8,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import HardwareComponent, Log, Severity
 from amr_description.control.interfaces import Handle, LifecycleState
 from amr_description.control.plugin_errors import describe, log_traceback
-from amr_description.control.statistics import RunningCycleStatistic, standing_still, Stopwatch
+from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import HardwareType
 
@@ -28,7 +28,7 @@ _TRANSITIONS = {
 }
 
 
-class OwnedComponent:
+class LoadedComponent:
     """
     A component with its lifecycle; the resource manager is the only one to move it.
 
@@ -36,7 +36,7 @@ class OwnedComponent:
     """
 
     def __init__(
-        self, component: HardwareComponent, log: Log, stopwatch: Stopwatch = standing_still
+        self, component: HardwareComponent, log: Log, stopwatch: Stopwatch = zero_clock
     ) -> None:
         """Raises HardwareError: it exports one name twice, or is a sensor with commands."""
         self.component = component

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from amr_description.control.chains import Ends
+from amr_description.control.chains import ChainInterfaces
 from amr_description.control.contracts import Controller, Input
 from amr_description.control.interfaces import (
     Claim,
@@ -17,14 +17,14 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.statistics import RunningCycleStatistic, standing_still, Stopwatch
+from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
 from amr_description.errors import ControllerError
 
 type Watch = Callable[[LifecycleState, LifecycleState, LifecycleState | None], None]
 """Told of a transition: its start, its goal, and at its end the state that was reached."""
 
 
-def look_away(_: LifecycleState, __: LifecycleState, ___: LifecycleState | None) -> None:
+def ignore_transition(_: LifecycleState, __: LifecycleState, ___: LifecycleState | None) -> None:
     """Watch nothing."""
 
 
@@ -43,8 +43,8 @@ class LoadedController:
         type_name: str,
         stride: int,
         fallbacks: Iterable[str] = (),
-        watch: Watch = look_away,
-        stopwatch: Stopwatch = standing_still,
+        watch: Watch = ignore_transition,
+        stopwatch: Stopwatch = zero_clock,
     ) -> None:
         self._watch = watch
         self._stopwatch = stopwatch
@@ -59,7 +59,7 @@ class LoadedController:
         self.required_states: tuple[str, ...] = ()
         self.references: tuple[CommandInterface, ...] = ()
         self.exported_states: tuple[StateInterface, ...] = ()
-        self.ends = Ends()
+        self.ends = ChainInterfaces()
         """What links it to other controllers, once configured."""
         self.is_busy = False
         """True while its ``configure`` may be running, on whatever thread."""
@@ -112,7 +112,7 @@ class LoadedController:
         if controller.is_chainable:
             self.references = tuple(controller.references())
             self.exported_states = tuple(controller.exported_states())
-        self.ends = Ends(
+        self.ends = ChainInterfaces(
             _listed(commands),
             _listed(states),
             tuple(handle.name for handle in self.references),
@@ -225,7 +225,7 @@ class LoadedController:
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands = self.required_states = ()
         self.references = self.exported_states = ()
-        self.ends = Ends()
+        self.ends = ChainInterfaces()
         self._wishes, self._inputs = (NO_INTERFACES, NO_INTERFACES), ()
         self.controller.cleanup()
 

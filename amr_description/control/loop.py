@@ -72,7 +72,7 @@ class Publisher(Protocol):
         """Publish ``/clock``, and then what was sent since the last call."""
 
 
-class _Stretch(NamedTuple):
+class StepRequest(NamedTuple):
     """Time that passes while paused."""
 
     end: int
@@ -102,7 +102,7 @@ class Loop:
         self._clock_period = clock_period
         self._is_stopped = False
         self._is_running = True
-        self._stretch: _Stretch | None = None
+        self._stretch: StepRequest | None = None
         self.managers: list[ControllerManager] = []
 
     @property
@@ -124,11 +124,11 @@ class Loop:
         """Turn until :meth:`stop`."""
         self._pacer.resume(self.time)
         while not self._is_stopped:
-            self.turn()
+            self.run_once()
 
-    def turn(self) -> None:
+    def run_once(self) -> None:
         """Do one turn; while paused, only what the queue asks."""
-        self._obey()
+        self._run_calls()
         if self._is_stopped:
             return
         if self._stretch is not None:
@@ -139,10 +139,10 @@ class Loop:
             self._commands.wait()
             return
         self.tick()
-        self._stepper.advance(self._until_next(self.time))
+        self._stepper.advance(self._time_to_next_tick(self.time))
         # In slow motion the next instant may be far off; nobody has to wait for it to be heard.
         while not self._pacer.pace(self.time):
-            self._obey()
+            self._run_calls()
             if self._is_stopped or not self._is_running:
                 return
 
@@ -183,7 +183,7 @@ class Loop:
         if period <= 0:
             done(0)
             return
-        self._stretch = _Stretch(self.time + period, done)
+        self._stretch = StepRequest(self.time + period, done)
 
     def resume(self) -> None:
         """Let time go on; for commands."""
@@ -208,10 +208,10 @@ class Loop:
             tell(manager, time)
         self._pacer.resume(time)
 
-    def _step(self, stretch: _Stretch) -> None:
+    def _step(self, stretch: StepRequest) -> None:
         """Do one turn of a stretch of time."""
         self.tick()
-        self._stepper.advance(min(self._until_next(self.time), stretch.end - self.time))
+        self._stepper.advance(min(self._time_to_next_tick(self.time), stretch.end - self.time))
         if self.time >= stretch.end:
             self._stretch = None
             self._show_time()  # before whoever waits for the end hears of it
@@ -227,11 +227,11 @@ class Loop:
         self._publisher.set_clocks(self.time)  # a command may have brought a new node
         self._publisher.publish(self.time)
 
-    def _obey(self) -> None:
+    def _run_calls(self) -> None:
         for command in self._commands.take():
             command()
 
-    def _until_next(self, time: int) -> int:
+    def _time_to_next_tick(self, time: int) -> int:
         """Time to the next instant at which a manager or ``/clock`` is due, ns; above 0."""
         next_clock = time - time % self._clock_period + self._clock_period
         return min([next_clock, *(manager.next_tick for manager in self.managers)]) - time

@@ -26,9 +26,9 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.joint_limits import JointLimiter, limiters_of, value_at_rest
-from amr_description.control.loaded_component import by_name, OwnedComponent
+from amr_description.control.loaded_component import by_name, LoadedComponent
 from amr_description.control.plugin_errors import describe
-from amr_description.control.statistics import standing_still, Stopwatch
+from amr_description.control.statistics import Stopwatch, zero_clock
 from amr_description.errors import (
     HardwareDeactivationError,
     HardwareError,
@@ -49,7 +49,7 @@ class HardwareComponents:
         log: Log,
         robot: 'Robot | None' = None,
         enforce_command_limits: bool = False,
-        stopwatch: Stopwatch = standing_still,
+        stopwatch: Stopwatch = zero_clock,
     ) -> None:
         """
         ``robot``: where the limits of the joints are from; else only from parameters.
@@ -57,7 +57,7 @@ class HardwareComponents:
         """
         self.log = log
         self.stopwatch = stopwatch
-        self.components: dict[str, OwnedComponent] = {}
+        self.components: dict[str, LoadedComponent] = {}
         self._robot = robot
         self._enforces_limits = enforce_command_limits
         self._limiters: dict[str, list[JointLimiter]] = {}
@@ -84,7 +84,7 @@ class HardwareComponents:
 
     def add(self, component: HardwareComponent) -> None:
         """Take a component and its interfaces. Raises HardwareError where a name is taken."""
-        owned = OwnedComponent(component, self.log, self.stopwatch)
+        owned = LoadedComponent(component, self.log, self.stopwatch)
         name = owned.info.name
         if name in self.components:
             raise HardwareError(f"Hardware component '{name}' is there twice")
@@ -198,7 +198,7 @@ class HardwareComponents:
         """
         return self._each('write', lambda owned: owned.write(time, period))
 
-    def _each(self, action: str, do: Callable[[OwnedComponent], None]) -> list[str]:
+    def _each(self, action: str, do: Callable[[LoadedComponent], None]) -> list[str]:
         lost: list[str] = []
         for owned in self.components.values():
             try:
@@ -207,7 +207,7 @@ class HardwareComponents:
                 lost += self._lose(owned, action, error)
         return lost
 
-    def _lose(self, failed: OwnedComponent, action: str, error: Exception) -> list[str]:
+    def _lose(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:
         """Deactivate a component that asked for it; else bring it and its group down."""
         failed.report(action, error)
         name, group = failed.info.name, failed.info.group
@@ -240,7 +240,7 @@ class ResourceManager(HardwareComponents):
         log: Log,
         robot: 'Robot | None' = None,
         enforce_command_limits: bool = False,
-        stopwatch: Stopwatch = standing_still,
+        stopwatch: Stopwatch = zero_clock,
     ) -> None:
         """See the base."""
         super().__init__(log, robot, enforce_command_limits, stopwatch)
@@ -329,7 +329,7 @@ class ResourceManager(HardwareComponents):
 
     def _concerned(
         self, start: Sequence[str], stop: Sequence[str]
-    ) -> Iterator[tuple[OwnedComponent, list[str], list[str]]]:
+    ) -> Iterator[tuple[LoadedComponent, list[str], list[str]]]:
         """The available components that own some of these, each with its own."""
         for owned in self.components.values():
             begin = [name for name in start if name in owned.commands]
@@ -356,7 +356,7 @@ class ResourceManager(HardwareComponents):
                         self._stop(command)
                 self._bound(name, owned, period)
 
-    def _bound(self, name: str, owned: OwnedComponent, period: int) -> None:
+    def _bound(self, name: str, owned: LoadedComponent, period: int) -> None:
         """Raises TypeError or OverflowError where a command is no number."""
         for limiter in self._limiters.get(name, ()):
             limiter.enforce(period / NANOSECONDS)

@@ -15,7 +15,7 @@ from itertools import chain
 
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.interfaces import Handle, LifecycleState
-from amr_description.control.loaded_component import OwnedComponent
+from amr_description.control.loaded_component import LoadedComponent
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.resource_manager import ResourceManager
 
@@ -140,7 +140,7 @@ def _controller(
     )
 
 
-def _component(owned: OwnedComponent, claims: Container[str], rate: int) -> ComponentSnapshot:
+def _component(owned: LoadedComponent, claims: Container[str], rate: int) -> ComponentSnapshot:
     return ComponentSnapshot(
         name=owned.info.name,
         type=owned.info.type,

@@ -16,7 +16,7 @@ type Stopwatch = Callable[[], int]
 """Returns ns since some instant; it never goes back."""
 
 
-def standing_still() -> int:
+def zero_clock() -> int:
     """A stopwatch for whoever does not ask how long anything takes: 0, always."""
     return 0
 

@@ -45,7 +45,7 @@ class SwitchRequest:
         """Tell whether somebody will command it."""
         return any(map(self.will_be_active, self.controllers.commanding(controller)))
 
-    def restart_what_changes_mode(self) -> frozenset[str]:
+    def add_mode_changes(self) -> frozenset[str]:
         """
         Add to both lists whoever stays active but is commanded from now on, or no longer.
 
@@ -276,8 +276,8 @@ class Switching:
         request = self._request
         request.leaving = self._known(deactivate, 'deactivate')
         request.entering = self._known(activate, 'activate')
-        self._drop_what_may_not_be()
-        restarted = request.restart_what_changes_mode()
+        self._drop_invalid()
+        restarted = request.add_mode_changes()
         ordered = self._controllers.activation_order
         return SwitchPlan(
             deactivate=tuple(reversed(ordered(request.leaving))),
@@ -310,7 +310,7 @@ class Switching:
             )
         return known
 
-    def _drop_what_may_not_be(self) -> None:
+    def _drop_invalid(self) -> None:
         """Until nothing is objected to: what goes may have been the ground of something else."""
         is_settled = False
         while not is_settled:

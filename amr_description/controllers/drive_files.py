@@ -20,7 +20,7 @@ import yaml
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import ParameterError
 from amr_description.model.checks import examine
-from amr_description.model.checks.context import DriveSettings, Place, Surroundings
+from amr_description.model.checks.context import CheckInputs, DriveSettings, SourceLocation
 from amr_description.model.findings import Finding
 from amr_description.model.robot import Robot
 from amr_description.parameter_files import read_parameter_file
@@ -38,9 +38,9 @@ class _Block:
     """The parameters below one ``ros__parameters``, by dotted name; wildcards in ``node``."""
 
     node: str
-    place: Place
+    place: SourceLocation
     values: dict[str, Any]
-    places: dict[str, Place]
+    places: dict[str, SourceLocation]
 
     def is_of(self, node: str) -> bool:
         """Tell whether this block speaks of a node, given by its full name."""
@@ -83,7 +83,7 @@ def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
         for drive in drives
         if all(map(robot.has_joint, (*drive.left_wheels, *drive.right_wheels)))
     )
-    found = examine(robot.text, robot.source, Surroundings(drives=mine)).warnings
+    found = examine(robot.text, robot.source, CheckInputs(drives=mine)).warnings
     return tuple(finding for finding in found if finding.source != robot.source)
 
 
@@ -120,7 +120,7 @@ def _drive_nodes(blocks: list[_Block]) -> Iterator[str]:
 
 def _settings(node: str, blocks: list[_Block]) -> DriveSettings:
     values: dict[str, Any] = {}
-    places: dict[str, Place] = {}
+    places: dict[str, SourceLocation] = {}
     mine = [block for block in blocks if block.is_of(node)]
     for block in mine:
         values |= block.values
@@ -162,8 +162,8 @@ def _blocks(content: dict, tree: yaml.Node, path: str, above: str) -> Iterator[_
         values, places = {}, {}
         parameters = _flatten(value[_PARAMETERS], tree_below, '')
         for parameter, (number, item) in islice(parameters, _MOST):
-            values[parameter], places[parameter] = item, Place(path, number)
-        yield _Block(name, Place(path, line), values, places)
+            values[parameter], places[parameter] = item, SourceLocation(path, number)
+        yield _Block(name, SourceLocation(path, line), values, places)
 
 
 def _flatten(content: Any, tree: yaml.Node, prefix: str) -> Iterator[tuple[str, tuple[int, Any]]]:

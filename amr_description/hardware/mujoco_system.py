@@ -133,14 +133,14 @@ class MujocoSystem(HardwareComponent):
                 }[interface]
                 self._sources.append((cells, read))
         self._imus = imus_of(self.info, world)
-        self._tell_what_is_left_out()
+        self._warn_unsupported()
         self._states += [state for imu in self._imus for state in imu.states]
         self._modes = CommandModes(self._commands)
         self._followers: list[_Follower] = []
         self._idle: tuple[str, ...] = ()
         self._idle_group = world.joints(self._modes.joints)
 
-    def _tell_what_is_left_out(self) -> None:
+    def _warn_unsupported(self) -> None:
         simulated = [imu.info for imu in self._imus]
         others = [sensor for sensor in self.info.sensors if sensor not in simulated]
         host = ros2_control_host_of(self._world.description)

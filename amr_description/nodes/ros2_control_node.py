@@ -30,10 +30,10 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.controller_manager_node import ControllerManagerNode, NODE_NAME
-from amr_description.control.ros.loop_publisher import Outgoing
-from amr_description.control.ros.loop_thread import Mailbox, Owner
-from amr_description.control.ros.pacing import HeardClock, MachineClock
-from amr_description.control.ros.realtime import ask_for_cores, ask_for_priority, lock_memory
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import CallQueue, LoopThread
+from amr_description.control.ros.pacing import SimTimePacer, SystemClockPacer
+from amr_description.control.ros.realtime import lock_memory, set_cpu_affinity, set_fifo_priority
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareStartError, ParameterError
 from amr_description.model.hardware_info import HardwareInfo
@@ -53,10 +53,10 @@ class StandAlone:
         self.failure: HardwareStartError | None = None
         """What ended the start, see ``shutdown_on_initial_state_failure``."""
         self._executor = executor
-        self._mailbox = Mailbox()
+        self._mailbox = CallQueue()
         self.logs = LogThread()
-        self._outgoing = Outgoing(get_logger(NODE_NAME))
-        self.owner = Owner(self._mailbox, executor)
+        self._outgoing = LoopPublisher(get_logger(NODE_NAME))
+        self.owner = LoopThread(self._mailbox, executor)
         try:
             self._manager = ControllerManagerNode(
                 self.owner, self._outgoing, self.logs, namespace='/', arguments=arguments
@@ -101,21 +101,21 @@ class StandAlone:
         rate = self._manager.parameters.update_rate
         self._log(Severity.INFO, f'update rate is {rate} Hz')
         if self.node.get_parameter('use_sim_time').value:
-            clock = HeardClock(self._mailbox)
+            clock = SimTimePacer(self._mailbox)
         else:
             self._log(
                 Severity.INFO,
                 'Using Steady (Monotonic) clock for triggering controller manager cycles.',
             )
             manages = self._manages_overruns
-            clock = MachineClock(self._mailbox, self._log, rate, manages_overruns=manages)
+            clock = SystemClockPacer(self._mailbox, self._log, rate, manages_overruns=manages)
             self._log(
                 Severity.INFO, f'Overruns handling is : {"enabled" if manages else "disabled"}'
             )
         self._clock = clock
         loop = Loop(clock, clock, self._mailbox, self._outgoing, self._period)
         clock.on_step = loop.set_clock
-        if isinstance(clock, HeardClock):
+        if isinstance(clock, SimTimePacer):
             clock.on_step = loop.reset
             loop.pause()
             clock.on_start = loop.resume
@@ -148,8 +148,8 @@ class StandAlone:
 
     def _ask_linux(self) -> None:
         """On the owner's thread, before its first turn."""
-        ask_for_priority(self._priority, self._log)
-        ask_for_cores(self._cores, self._log)
+        set_fifo_priority(self._priority, self._log)
+        set_cpu_affinity(self._cores, self._log)
         if self._locks_memory:
             lock_memory(self._log)
 

@@ -26,7 +26,12 @@ from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
 from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner import _yellow, alone_with, files_in_arguments, Spawner
+from amr_description.control.ros.spawner import (
+    _yellow,
+    exclusive_lock,
+    files_in_arguments,
+    Spawner,
+)
 from amr_description.control.ros.spawner_arguments import parse, SpawnOptions
 from amr_description.errors import ParameterError
 from amr_description.ros.runtime import program, ros
@@ -48,7 +53,9 @@ def spawn(args: list[str] | None) -> None:
                 call_timeout=options.call_timeout,
             )
             spawner = Spawner(node, manager, options, files_in_arguments(words))
-            alone = partial(alone_with, node, manager.name, [plan.name for plan in options.plans])
+            alone = partial(
+                exclusive_lock, node, manager.name, [plan.name for plan in options.plans]
+            )
             if options.unload_on_kill:
                 _spawn_and_stay(node, spawner, stop, alone)
             else:

@@ -69,7 +69,7 @@ def declare_missing(
             _declare(node, dataclasses.replace(spec, default=default))
 
 
-def declare_the_rest(node: Node) -> None:
+def declare_overrides(node: Node) -> None:
     """
     Declare what the node was given beyond its tables, for a node with undeclared parameters.
 
@@ -92,7 +92,7 @@ def values[Table](
     return build(table, found | {each.name: each.value for each in changed}, prefix)
 
 
-def refuse_what_the_table_refuses(node: Node, *tables: type) -> None:
+def add_validation_callback(node: Node, *tables: type) -> None:
     """Check every set of parameters against ``tables``; what is refused has a reason."""
 
     def check(changed: list[Parameter]) -> SetParametersResult:
@@ -106,7 +106,7 @@ def refuse_what_the_table_refuses(node: Node, *tables: type) -> None:
     node.add_on_set_parameters_callback(check)
 
 
-def let_parameter_events_be_overridden(node: Node) -> None:
+def add_parameter_event_qos_overrides(node: Node) -> None:
     """
     Let ``qos_overrides./parameter_events.publisher.…`` decide, as every plain node of rclcpp does.
     """

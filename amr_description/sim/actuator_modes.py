@@ -43,7 +43,7 @@ _ACTING: Mapping[Mode, Sequence[str]] = {
 """The actuators of each mode; see :mod:`amr_description.sim.actuators`."""
 
 
-class Drive:
+class JointActuators:
     """The actuators of one commanded joint."""
 
     def __init__(self, engine: Engine, robot: str, joint: str) -> None:
@@ -147,7 +147,7 @@ class Drive:
         return min(max(position, lower), upper)
 
 
-class Drives:
+class JointActuatorSet:
     """The commanded joints of one robot."""
 
     def __init__(
@@ -158,7 +158,7 @@ class Drives:
         self.changes = 0
         """Counts the switches: who remembers a mode looks here whether it still holds."""
         self._drives = {
-            joint: Drive(engine, robot, joint)
+            joint: JointActuators(engine, robot, joint)
             for joint, interfaces in commands.items()
             if any(interface in COMMANDS for interface in interfaces)
         }

@@ -57,7 +57,7 @@ CLUTCH_SOLREF, CLUTCH_IMPEDANCE = (0.004, 1.0), (0.9999, 0.9999, 0.001, 0.5, 2.0
 """
 Nearly rigid below the limit: at an impedance of 0.95 a turning robot loses 13 % of its speed in
 the clutch, and at 0.999 and MuJoCo's time constant (0.02 s) an arm sinks by 1 degree a minute; so
-it sinks by 0.04, while nobody brings it back (:meth:`~amr_description.sim.actuator_modes.Drives.hold`).
+it sinks by 0.04, while nobody brings it back (:meth:`~amr_description.sim.actuator_modes.JointActuatorSet.hold`).
 """
 
 LIMIT_SOLREF, LIMIT_IMPEDANCE = (0.004, 1.0), (0.99, 0.999, 0.001, 0.5, 2.0)

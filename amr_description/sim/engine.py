@@ -22,7 +22,7 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.errors import SimulationError
-from amr_description.sim.spawning import say_nothing
+from amr_description.sim.spawning import null_log
 
 
 def one_line(text: str) -> str:
@@ -147,7 +147,7 @@ class Engine:
 
     def recompile(self) -> None:
         """Follow the edits of ``spec``, keeping state and time. Raises ValueError, unchanged."""
-        with compiler_warnings(say_nothing, ''):  # told of the world and of each robot by itself
+        with compiler_warnings(null_log, ''):  # told of the world and of each robot by itself
             self.model, self.data = self.spec.recompile(self.model, self.data)
         self.generation += 1
 

@@ -53,7 +53,7 @@ _MOST_HITS = 100
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class DofName:
     """A degree of freedom of a robot."""
 
     robot: str
@@ -67,7 +67,7 @@ class Place:
         return f"robot '{self.robot}': {self.part}" if self.robot else self.part
 
 
-def place_of_dof(model: mujoco.MjModel, dof: int) -> Place:
+def place_of_dof(model: mujoco.MjModel, dof: int) -> DofName:
     """Name an index into ``qvel``."""
     joint = int(model.dof_jntid[dof])
     robot, name = _split(model.joint(joint).name)
@@ -76,9 +76,9 @@ def place_of_dof(model: mujoco.MjModel, dof: int) -> Place:
     if kind == mujoco.mjtJoint.mjJNT_FREE:
         _, link = _split(model.body(int(model.jnt_bodyid[joint])).name)
         unit = 'm/s' if dof - int(model.jnt_dofadr[joint]) < 3 else 'rad/s'
-        return Place(robot, f"link '{link}'", unit)
+        return DofName(robot, f"link '{link}'", unit)
     unit = 'm/s' if kind == mujoco.mjtJoint.mjJNT_SLIDE else 'rad/s'
-    return Place(robot, f"joint '{name}'", unit)
+    return DofName(robot, f"joint '{name}'", unit)
 
 
 def dof_of_position(model: mujoco.MjModel, index: int) -> int:
@@ -87,12 +87,12 @@ def dof_of_position(model: mujoco.MjModel, index: int) -> int:
     return int(model.jnt_dofadr[joint])
 
 
-def place_of_actuator(model: mujoco.MjModel, actuator: int) -> Place:
+def place_of_actuator(model: mujoco.MjModel, actuator: int) -> DofName:
     """Name an index into ``ctrl``, by the joint that it drives if it drives one."""
     if model.actuator_trntype[actuator] == mujoco.mjtTrn.mjTRN_JOINT:
         return place_of_dof(model, int(model.jnt_dofadr[model.actuator_trnid[actuator, 0]]))
     robot, name = _split(model.actuator(actuator).name)
-    return Place(robot, f"actuator '{name}'", '')
+    return DofName(robot, f"actuator '{name}'", '')
 
 
 def robots_of_dofs(model: mujoco.MjModel, dofs: Sequence[int]) -> list[str]:

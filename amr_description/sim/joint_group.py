@@ -20,7 +20,7 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SimulationError
 from amr_description.model.robot import Joint
-from amr_description.sim.actuator_modes import Drives, EffortReader, Mode
+from amr_description.sim.actuator_modes import EffortReader, JointActuatorSet, Mode
 from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name
 from amr_description.sim.engine import Engine
 
@@ -73,7 +73,12 @@ class MujocoJointGroup:
     """The :class:`~amr_description.control.world.JointGroup` of a simulated robot."""
 
     def __init__(
-        self, engine: Engine, robot: str, joints: Sequence[Joint], drives: Drives, log: Log
+        self,
+        engine: Engine,
+        robot: str,
+        joints: Sequence[Joint],
+        drives: JointActuatorSet,
+        log: Log,
     ) -> None:
         """Bind these joints of ``robot``. Raises SimulationError if one is not there."""
         self._engine = engine

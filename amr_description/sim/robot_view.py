@@ -20,7 +20,7 @@ from amr_description.model.frames import (
     xyzw_from_wxyz,
 )
 from amr_description.model.robot import Robot, WORLD_LINK
-from amr_description.sim.actuator_modes import Drives
+from amr_description.sim.actuator_modes import JointActuatorSet
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
 from amr_description.sim.robot_spec import RobotSpec, root_joint
@@ -60,7 +60,7 @@ class RobotView:
         self._bodies: dict[str, int] = {}
         self._generation = -1
         self._initial = model.initial
-        self._drives = Drives(engine, name, model.commands)
+        self._drives = JointActuatorSet(engine, name, model.commands)
         self.start()
 
     def start(self) -> None:

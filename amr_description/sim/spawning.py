@@ -39,7 +39,7 @@ class SpawnCode(enum.IntEnum):
     INVALID_POSE = 109
 
 
-def say_nothing(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+def null_log(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
     """A log that nobody reads."""
 
 
@@ -82,7 +82,7 @@ def checked_pose(pose: Transform) -> Transform:
     return Transform(pose.translation, rotation)
 
 
-def read_description(text: str, source: str, log: Log = say_nothing) -> Robot:
+def read_description(text: str, source: str, log: Log = null_log) -> Robot:
     """
     The robot of a URDF; ``source`` names the text in messages.
 

@@ -45,7 +45,7 @@ class Shape:
     points: tuple[Vector, ...] = ()
 
 
-def surroundings(spec: mujoco.MjSpec) -> tuple[Shape, ...]:
+def visible_shapes(spec: mujoco.MjSpec) -> tuple[Shape, ...]:
     """
     Return what stands around, visible and static; of a world that no robot has come to yet.
 

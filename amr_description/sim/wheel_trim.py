@@ -22,7 +22,7 @@ import numpy as np
 from amr_description.sim.engine import compiler_warnings
 from amr_description.sim.faults import listen_to_mujoco
 from amr_description.sim.robot_spec import RobotSpec, tread_name
-from amr_description.sim.spawning import say_nothing
+from amr_description.sim.spawning import null_log
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
 from amr_description.sim.world_file import apply_settings, WorldSettings
 
@@ -69,7 +69,7 @@ def _rest_heights(
     round_ones = [*(tread_name(wheel.link) for wheel in model.wheels), *model.balls]
     for geom in round_ones:
         add_wheel_contact(spec, f'robot/{geom}', ground, settings)
-    with compiler_warnings(say_nothing, ''):  # told when the robot was built
+    with compiler_warnings(null_log, ''):  # told when the robot was built
         compiled = spec.compile()
     data = mujoco.MjData(compiled)
     _set_down(compiled, data, model)

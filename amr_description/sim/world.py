@@ -29,8 +29,8 @@ from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import (
     check_name,
     checked_pose,
+    null_log,
     read_description,
-    say_nothing,
     SpawnCode,
 )
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
@@ -56,7 +56,7 @@ class MujocoWorld:
         timestep: int | None = None,
         contact: ContactSettings = WHEEL_CONTACT,
         seed: int = 0,
-        log: Log = say_nothing,
+        log: Log = null_log,
     ) -> None:
         """
         Load a shipped world by name or an MJCF file by path.

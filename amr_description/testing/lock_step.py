@@ -33,7 +33,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
 from amr_description.ros.service_calls import ask_until_answered, wait_until
-from amr_description.testing.program import Program
+from amr_description.testing.program import SimulatorProcess
 from amr_description.testing.readings import nanoseconds
 
 PATIENCE = 30.0
@@ -49,7 +49,7 @@ type Condition = Callable[[], Any]
 class LockStep:
     """Asks one simulator, in the thread that calls."""
 
-    def __init__(self, node: Node, program: Program, name: str = '/mujoco_sim') -> None:
+    def __init__(self, node: Node, program: SimulatorProcess, name: str = '/mujoco_sim') -> None:
         """``node`` is served by its executor here, and by nobody else."""
         self.node = node
         self._program = program

@@ -32,7 +32,7 @@ _MODULE = 'amr_description.nodes.mujoco_sim'
 _LINE = re.compile(r'^\[(?:ERROR|FATAL)\] (?:\[[^]]*\] ?)*:? ?(.*)', re.MULTILINE)
 
 
-class Program:
+class SimulatorProcess:
     """The running process, and what it has said."""
 
     def __init__(self, process: subprocess.Popen[bytes], log: Path) -> None:
@@ -75,7 +75,7 @@ class Program:
 
 
 @contextmanager
-def simulator(parameters: Mapping[str, Any]) -> Iterator[Program]:
+def simulator(parameters: Mapping[str, Any]) -> Iterator[SimulatorProcess]:
     """
     Run ``mujoco_sim`` with these parameters while inside.
 
@@ -97,7 +97,7 @@ def simulator(parameters: Mapping[str, Any]) -> Iterator[Program]:
                     pass_fds=(reader,),
                     start_new_session=True,  # Ctrl-C is for the test, which ends it then
                 )
-            program = Program(process, log)
+            program = SimulatorProcess(process, log)
             try:
                 yield program
                 program.stop()

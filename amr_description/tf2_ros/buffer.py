@@ -3,7 +3,7 @@
 """
 Transforms ↔ ROS messages.
 
-``Buffer``: :class:`~amr_description.tf2_ros.buffer_core.TransformBuffer` behind the interface
+``Buffer``: :class:`~amr_description.tf2_ros.buffer_core.BufferCore` behind the interface
 of ``tf2_ros``, for any number of threads.
 
 Better than the original where that hurts its users: waiting ends the moment the transform is
@@ -29,7 +29,7 @@ from tf2_msgs.srv import FrameGraph
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
 from amr_description.errors import TransformException
 from amr_description.model.frames import Transform
-from amr_description.tf2_ros.buffer_core import CACHE_TIME, Remark, TransformBuffer
+from amr_description.tf2_ros.buffer_core import BufferCore, CACHE_TIME, Remark
 from amr_description.tf2_ros.frame_graph import FrameRecord, frames_as_string, frames_as_yaml
 from amr_description.tf2_ros.time_cache import StampedTransform
 
@@ -66,7 +66,7 @@ def nanoseconds(time: Time | TimeMessage) -> int:
 _SLICE = 0.5  # s: how soon a wait sees that ROS was shut down
 _QUIET = 5.0  # s between two remarks about one matter
 
-type _Lookup = Callable[[TransformBuffer], TransformStamped]
+type _Lookup = Callable[[BufferCore], TransformStamped]
 
 
 class Buffer:
@@ -90,7 +90,7 @@ class Buffer:
         *,
         clock: Clock | None = None,
     ) -> None:
-        self._core = TransformBuffer(CACHE_TIME if cache_time is None else cache_time.nanoseconds)
+        self._core = BufferCore(CACHE_TIME if cache_time is None else cache_time.nanoseconds)
         self._changed = threading.Condition()  # its lock guards all that is below
         self._awaited: list[tuple[_Lookup, Future]] = []
         self._said: dict[tuple[str, str], float] = {}

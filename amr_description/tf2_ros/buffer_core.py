@@ -42,10 +42,10 @@ from amr_description.tf2_ros.frame_graph import FrameRecord, FrameTree, listed, 
 from amr_description.tf2_ros.time_cache import (
     Frame,
     LATEST,
-    MovingFrame,
-    Sample,
     seconds,
     StampedTransform,
+    TimeCache,
+    TransformStorage,
 )
 
 DEFAULT_AUTHORITY = 'default_authority'
@@ -171,7 +171,7 @@ class Remark:
     """Kind and frame; remarks about one matter need not be said all the time."""
 
 
-class TransformBuffer:
+class BufferCore:
     """
     The memory; see the module.
 
@@ -332,19 +332,19 @@ class TransformBuffer:
         return f'Known are: {listed(self._tree.names) or "none yet"}'
 
 
-def _sample(name: str, frame: Frame, time: int, way: str) -> Sample:
+def _sample(name: str, frame: Frame, time: int, way: str) -> TransformStorage:
     """Return where a frame was. Raises ExtrapolationException, which names it."""
     try:
         return frame.at(time)
     except ExtrapolationException as error:
-        gap = frame.gap_to(time) if isinstance(frame, MovingFrame) else 0
+        gap = frame.gap_to(time) if isinstance(frame, TimeCache) else 0
         raise ExtrapolationException(
             f"{error}, when looking up transform from {way}; it is '{name}' in "
             f"'{frame.latest.parent}' that lacks {seconds(gap)} s"
         ) from error
 
 
-def _climb(name: str, sample: Sample, reached: dict[str, Transform]) -> str:
+def _climb(name: str, sample: TransformStorage, reached: dict[str, Transform]) -> str:
     """Add the parent to what was reached from below, and return it. Raises LookupException."""
     if sample.parent in reached:
         raise loop_error(list(reached), sample.parent)

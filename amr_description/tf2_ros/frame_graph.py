@@ -20,11 +20,11 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import ConnectivityException, LookupException
 from amr_description.tf2_ros.time_cache import (
     Frame,
-    MovingFrame,
-    Sample,
     seconds,
     StampedTransform,
-    StaticFrame,
+    StaticCache,
+    TimeCache,
+    TransformStorage,
 )
 
 _SHOWN = 8  # names of a tree, in an error
@@ -87,13 +87,13 @@ class FrameTree:
 
     def insert(self, stamped: StampedTransform, authority: str, *, static: bool) -> bool:
         """Take a pose; False: it is older than what is kept, and ignored."""
-        sample = Sample(stamped.time, stamped.parent, stamped.transform)
+        sample = TransformStorage(stamped.time, stamped.parent, stamped.transform)
         frame = self._frames.get(stamped.child)
-        if isinstance(frame, MovingFrame) and not static:
+        if isinstance(frame, TimeCache) and not static:
             if not frame.insert(sample):
                 return False
         else:
-            made = StaticFrame(sample) if static else MovingFrame(sample, self._cache_time)
+            made = StaticCache(sample) if static else TimeCache(sample, self._cache_time)
             self._frames[stamped.child] = made
         self._authorities[stamped.child] = authority
         self._names.setdefault(stamped.parent)

@@ -21,7 +21,7 @@ _RESTART = 3  # refused samples in a row, each later than the one before
 
 
 @dataclass(frozen=True, slots=True)
-class Sample:
+class TransformStorage:
     """The pose of a frame in ``parent`` (``transform_child_to_parent``) at ``time``, ns."""
 
     time: int
@@ -29,24 +29,24 @@ class Sample:
     transform: Transform
 
 
-class StaticFrame:
+class StaticCache:
     """A frame that does not move: its pose is good for every time."""
 
     is_static = True
 
-    def __init__(self, sample: Sample) -> None:
+    def __init__(self, sample: TransformStorage) -> None:
         self.latest = sample
         self.latest_time = self.oldest_time = LATEST
 
     def __len__(self) -> int:
         return 1
 
-    def at(self, time: int) -> Sample:
+    def at(self, time: int) -> TransformStorage:
         """Return the pose, whatever the time."""
         return self.latest
 
 
-class MovingFrame:
+class TimeCache:
     """
     The poses of a frame over the last ``duration`` ns before the latest; never empty.
 
@@ -55,17 +55,17 @@ class MovingFrame:
 
     is_static = False
 
-    def __init__(self, sample: Sample, duration: int) -> None:
+    def __init__(self, sample: TransformStorage, duration: int) -> None:
         self._duration = duration
         self._samples = [sample]
         self._times = [sample.time]
-        self._refused: list[Sample] = []
+        self._refused: list[TransformStorage] = []
 
     def __len__(self) -> int:
         return len(self._samples)
 
     @property
-    def latest(self) -> Sample:
+    def latest(self) -> TransformStorage:
         """The pose of the latest time."""
         return self._samples[-1]
 
@@ -79,7 +79,7 @@ class MovingFrame:
         """The time of the oldest pose that is kept, ns."""
         return self._times[0]
 
-    def insert(self, sample: Sample) -> bool:
+    def insert(self, sample: TransformStorage) -> bool:
         """
         Take a sample; False: it is older than what is kept, and ignored.
 
@@ -99,7 +99,7 @@ class MovingFrame:
         del self._samples[:kept], self._times[:kept]
         return True
 
-    def at(self, time: int) -> Sample:
+    def at(self, time: int) -> TransformStorage:
         """
         Return the pose at ``time``, interpolated between its neighbours.
 
@@ -117,7 +117,7 @@ class MovingFrame:
             return before
         ratio = (time - before.time) / (following.time - before.time)
         between = before.transform.interpolate(following.transform, ratio)
-        return Sample(time, before.parent, between)
+        return TransformStorage(time, before.parent, between)
 
     def gap_to(self, time: int) -> int:
         """Return how far ``time`` lies outside of what is known, ns."""
@@ -139,7 +139,7 @@ class MovingFrame:
             f'{seconds(time)} but the {which} data is at time {seconds(known)}'
         )
 
-    def _is_restart(self, sample: Sample) -> bool:
+    def _is_restart(self, sample: TransformStorage) -> bool:
         if self._refused and sample.time <= self._refused[-1].time:
             self._refused = []
         self._refused.append(sample)
@@ -150,7 +150,7 @@ class MovingFrame:
         return True
 
 
-type Frame = StaticFrame | MovingFrame
+type Frame = StaticCache | TimeCache
 
 
 def seconds(time: int) -> str:

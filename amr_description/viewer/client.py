@@ -29,7 +29,7 @@ def page_socket(
     )
 
 
-class Onlooker:
+class PageClient:
     """A page that counts the states and remembers the graph; a thread of its own reads."""
 
     def __init__(self, url: str) -> None:

@@ -25,7 +25,7 @@ class _Drive:
     until: float
 
 
-class Driving:
+class DriveLock:
     """The wheel of every robot."""
 
     def __init__(self, timeout: float = DRIVE_TIMEOUT) -> None:

@@ -33,7 +33,7 @@ from amr_description.viewer.protocol import (
     SUBPROTOCOL,
 )
 from amr_description.viewer.requests import decode
-from amr_description.viewer.sessions import Conversation, MOST_PAGES, Page, Pages
+from amr_description.viewer.sessions import MessageRouter, MOST_PAGES, Page, Pages
 
 STATIC = Path(__file__).parent / 'static'
 DEFAULT_HOST = '127.0.0.1'
@@ -97,7 +97,7 @@ class Server:
         self._ended = asyncio.Event()
         self._somebody_looks = asyncio.Event()
         self._undecided: dict[ServerConnection, None] = {}
-        self._talk = Conversation(backend, self._pages, say)
+        self._talk = MessageRouter(backend, self._pages, say)
         self._thread = threading.Thread(target=self._run, name='viewer')
 
     @property

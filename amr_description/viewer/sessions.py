@@ -19,7 +19,7 @@ from websockets.asyncio.server import ServerConnection
 
 from amr_description.errors import AmrError
 from amr_description.viewer.backend import Backend
-from amr_description.viewer.drive_lock import Driving
+from amr_description.viewer.drive_lock import DriveLock
 from amr_description.viewer.protocol import Driver, encode, Notice, Reply, ServerMessage
 from amr_description.viewer.requests import ClientMessage, Drive, Request, SetJoints, Stop
 
@@ -123,14 +123,14 @@ _QUIET = 2.0
 """s between two equal notices to one page."""
 
 
-class Conversation:
+class MessageRouter:
     """On the server's thread."""
 
     def __init__(self, backend: Backend, pages: Pages, say: Callable[[str], object]) -> None:
         self._backend = backend
         self._pages = pages
         self._say = say
-        self._driving = Driving()
+        self._driving = DriveLock()
         self._expiry: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._noticed: dict[tuple[str, str], float] = {}

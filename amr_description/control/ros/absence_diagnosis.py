@@ -26,7 +26,7 @@ from amr_description.ros.service_calls import call, NoAnswerError, wait_until
 
 
 @dataclass(frozen=True)
-class DescriptionSight:
+class DescriptionObservation:
     """What is seen of the robot description that a manager waits for."""
 
     topic: str
@@ -40,7 +40,7 @@ class DescriptionSight:
 
 
 @dataclass(frozen=True)
-class ClockSight:
+class ClockObservation:
     """What is seen of ``/clock``; ``stamps``: what came from it in a while, ns."""
 
     publishers: int
@@ -64,8 +64,8 @@ class ManagerSight:
     """The managers under other names."""
     simulators: tuple[str, ...] = ()
     """The nodes that robots can be spawned with."""
-    description: DescriptionSight | None = None
-    clock: ClockSight | None = None
+    description: DescriptionObservation | None = None
+    clock: ClockObservation | None = None
     needs_clock: bool = False
     """``use_sim_time`` is true for the manager or for this program."""
 
@@ -77,7 +77,7 @@ def missing(sight: ManagerSight) -> str:
     return '; '.join([*parts, *([fault] if fault else [])])
 
 
-def clock_fault(clock: ClockSight, *, needed: bool) -> str:
+def clock_fault(clock: ClockObservation, *, needed: bool) -> str:
     """Say what is wrong with ``/clock``; empty: nothing, or it is not needed and not there."""
     if clock.runs:
         return ''
@@ -114,7 +114,7 @@ def _manager_parts(sight: ManagerSight) -> Iterator[str]:
         yield 'a simulator starts one for its robot, ros2_control_node for a real one'
 
 
-def _description_fault(manager: str, description: DescriptionSight | None) -> str:
+def _description_fault(manager: str, description: DescriptionObservation | None) -> str:
     """Say why a manager that is there has no services."""
     if description is None:
         return f'{manager} is there, but has no services yet'
@@ -154,7 +154,7 @@ _STRING = 'std_msgs/msg/String'
 _DESCRIPTION = 'robot_description'
 
 
-class ManagerSearch:
+class ManagerProbe:
     """Looks at the graph for ``manager``, an absolute name, by means of ``node``."""
 
     def __init__(self, node: Node, manager: str) -> None:
@@ -224,21 +224,21 @@ class ManagerSearch:
             return bool(values) and values[0].bool_value
         return False
 
-    def _clock(self) -> ClockSight:
+    def _clock(self) -> ClockObservation:
         """Listen until time is seen to go on."""
         publishers = self._node.count_publishers('/clock')
         if not publishers:
-            return ClockSight(0)
+            return ClockObservation(0)
         with _listening(self._node, Clock, '/clock', _CLOCK) as messages:
 
-            def sight() -> ClockSight:
+            def sight() -> ClockObservation:
                 stamps = (m.clock.sec * NANOSECONDS + m.clock.nanosec for m in messages)
-                return ClockSight(publishers, tuple(stamps))
+                return ClockObservation(publishers, tuple(stamps))
 
             wait_until(self._node, lambda: sight().runs or None, timeout=_CLOCK_PATIENCE)
             return sight()
 
-    def _description(self) -> DescriptionSight:
+    def _description(self) -> DescriptionObservation:
         """Look at the topic that the manager subscribes to; it may be remapped."""
         topic = f'{self._namespace}/{_DESCRIPTION}'
         with suppress(rclpy_implementation.NodeNameNonExistentError):  # it has gone since
@@ -248,7 +248,7 @@ class ManagerSearch:
             topic = next((name for name, types in heard if _STRING in types), topic)
         offers = self._node.get_publishers_info_by_topic(topic)
         latched = [o for o in offers if o.qos_profile.durability != DurabilityPolicy.VOLATILE]
-        return DescriptionSight(
+        return DescriptionObservation(
             topic,
             len(offers),
             len(latched),

@@ -16,7 +16,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.control.ros.absence_diagnosis import errors_of, ManagerSearch
+from amr_description.control.ros.absence_diagnosis import errors_of, ManagerProbe
 from amr_description.errors import ControllerError
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.service_calls import ask_until_answered, call, NoAnswerError, wait_until
@@ -56,7 +56,7 @@ class ManagerClient:
         with argument_errors():
             self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
-        self._search = ManagerSearch(node, self.name)
+        self._search = ManagerProbe(node, self.name)
         first = first or srv.ListControllers
         client = node.create_client(first, self._service(first))
         try:

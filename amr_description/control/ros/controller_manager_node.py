@@ -18,8 +18,8 @@ from rclpy.parameter import Parameter
 from amr_description.control.contracts import Log, Severity, World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.ros.loop_publisher import Outgoing
-from amr_description.control.ros.loop_thread import Owner
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.ros.plugin_nodes import ComponentNode, ControllerNode
 from amr_description.control.ros.requests import ManagerRequests
@@ -35,7 +35,7 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.arguments import inherited
 from amr_description.ros.log_thread import LogThread
-from amr_description.ros.parameters import let_parameter_events_be_overridden
+from amr_description.ros.parameters import add_parameter_event_qos_overrides
 
 
 class ManagerTopics:
@@ -47,7 +47,7 @@ class ManagerTopics:
     """
 
     def __init__(
-        self, node: Node, owner: Owner, outgoing: Outgoing, parameters: ManagerParameters
+        self, node: Node, owner: LoopThread, outgoing: LoopPublisher, parameters: ManagerParameters
     ) -> None:
         self._node = node
         self._owner = owner
@@ -110,8 +110,8 @@ class ControllerManagerNode:
 
     def __init__(
         self,
-        owner: Owner,
-        outgoing: Outgoing,
+        owner: LoopThread,
+        outgoing: LoopPublisher,
         logs: LogThread,
         *,
         name: str = NODE_NAME,
@@ -131,7 +131,7 @@ class ControllerManagerNode:
         )
         self.log: Log = logs.log_of(self.node.get_logger())
         try:
-            let_parameter_events_be_overridden(self.node)
+            add_parameter_event_qos_overrides(self.node)
             self.parameters = ManagerParameters(self.node, arguments)
             self._topics = ManagerTopics(self.node, owner, outgoing, self.parameters)
         except Exception:

@@ -46,7 +46,7 @@ TOPIC = '~/received'
 QOS = QoSProfile(depth=100)
 
 
-class Receipts:
+class CommandAcknowledgements:
     """Says them, on the ROS thread."""
 
     def __init__(self, node: Node) -> None:
@@ -63,12 +63,12 @@ CLOCK_QOS = QoSProfile(depth=10)
 """Reliable, as ros_gz_bridge publishes it; time sources that subscribe best effort match too."""
 
 
-class Outgoing:
+class LoopPublisher:
     """
     The ``Publisher`` port of the loop, and who sets the clocks of the nodes in this process.
 
     Here nobody does: they go by the machine, or by the ``/clock`` of another process where
-    ``use_sim_time`` says so. :class:`SimulatedOutgoing` is for the process that owns the time.
+    ``use_sim_time`` says so. :class:`ClockedLoopPublisher` is for the process that owns the time.
     """
 
     _parameter_overrides: Sequence[Parameter] = ()
@@ -154,7 +154,7 @@ class Outgoing:
         return keeps
 
 
-class SimulatedOutgoing(Outgoing):
+class ClockedLoopPublisher(LoopPublisher):
     """Of the process that owns the time: ``/clock`` goes first, and every clock shows it."""
 
     _parameter_overrides = (Parameter('use_sim_time', value=True),)
@@ -166,7 +166,7 @@ class SimulatedOutgoing(Outgoing):
         self._changing_clocks = threading.Lock()
         self._message = Clock()
         self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
-        self._receipts = Receipts(node)
+        self._receipts = CommandAcknowledgements(node)
 
     def adopt(self, node: Node) -> None:
         """

@@ -3,7 +3,7 @@
 """
 The owner's thread, its queue and its pace: how the loop of ``control`` lives in a process.
 
-Other threads ask with :meth:`Owner.submit` and get an rclpy future; nothing else is shared.
+Other threads ask with :meth:`LoopThread.submit` and get an rclpy future; nothing else is shared.
 """
 
 from collections import deque
@@ -27,7 +27,7 @@ _SHARE = 0.005
 """s: how long the owner keeps going, as fast as possible, before it yields."""
 
 
-class Mailbox:
+class CallQueue:
     """The queue of commands; any thread puts, the owner takes (``Commands`` of the loop)."""
 
     def __init__(self, patience: float | None = None) -> None:
@@ -67,7 +67,7 @@ class WallPacer:
     real-time factor, never results. A call that arrives in ``mailbox`` ends a sleep.
     """
 
-    def __init__(self, factor: float, mailbox: Mailbox) -> None:
+    def __init__(self, factor: float, mailbox: CallQueue) -> None:
         self.factor = factor
         """The one it keeps to; :meth:`set_factor` sets it."""
         self._mailbox = mailbox
@@ -105,7 +105,7 @@ class WallPacer:
             self._yielded = time.monotonic()
 
 
-class Owner:
+class LoopThread:
     """
     Runs the loop in a thread of its own; when it ends, every manager is shut down, motors first.
 
@@ -116,7 +116,7 @@ class Owner:
     loop: Loop
     """Set before :meth:`start`: what paces it may depend on parameters of a node that needs us."""
 
-    def __init__(self, mailbox: Mailbox, executor: Executor) -> None:
+    def __init__(self, mailbox: CallQueue, executor: Executor) -> None:
         self.failed = False
         """What keeps the robots going has ended by a bug; so shall the process."""
         self.on_failure: Callable[[], None] = executor.wake

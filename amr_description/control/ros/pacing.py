@@ -17,13 +17,13 @@ import time
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.ros.loop_thread import Mailbox
+from amr_description.control.ros.loop_thread import CallQueue
 
 CLOCK_STEP = 50_000_000
 """ns: how far the system clock may drift from the monotonic one before it counts as set anew."""
 
 
-class MachineClock:
+class SystemClockPacer:
     """
     ``Stepper`` and ``Pacer`` of the loop at once, for a manager at ``rate`` Hz.
 
@@ -31,7 +31,7 @@ class MachineClock:
     """
 
     def __init__(
-        self, mailbox: Mailbox, log: Log, rate: int, *, manages_overruns: bool = True
+        self, mailbox: CallQueue, log: Log, rate: int, *, manages_overruns: bool = True
     ) -> None:
         """
         ``manages_overruns``: leave out the cycles that were missed; otherwise they are made good
@@ -115,10 +115,10 @@ def _offset() -> int:
     return min(readings)[1]
 
 
-class HeardClock:
+class SimTimePacer:
     """``Stepper`` and ``Pacer`` of the loop at once; :meth:`hear` is called by the ROS thread."""
 
-    def __init__(self, mailbox: Mailbox) -> None:
+    def __init__(self, mailbox: CallQueue) -> None:
         self._mailbox = mailbox
         self._heard: int | None = None
         self._now = 0

@@ -22,10 +22,10 @@ from amr_description.parameter_files import read_parameter_file
 from amr_description.parameters import group, parameter
 from amr_description.ros.arguments import inherited, ros_arguments
 from amr_description.ros.parameters import (
+    add_validation_callback,
     declare,
     declare_missing,
-    declare_the_rest,
-    refuse_what_the_table_refuses,
+    declare_overrides,
     values,
 )
 from amr_description.ros.runtime import argument_errors
@@ -145,8 +145,8 @@ class ManagerParameters:
             self.start = declare(
                 node, ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time}
             )
-            declare_the_rest(node)
-        refuse_what_the_table_refuses(node, ManagerTable)
+            declare_overrides(node)
+        add_validation_callback(node, ManagerTable)
         if not self.start.handle_exceptions:
             node.get_logger().warning(
                 'handle_exceptions is false; what raises an exception is taken down all the same, '

@@ -38,16 +38,16 @@ from amr_description.control.contracts import (
 )
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.parameters import CommonParameters
 from amr_description.model.robot import Robot
 from amr_description.registry import resolve
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
+    add_parameter_event_qos_overrides,
+    add_validation_callback,
     declare,
-    let_parameter_events_be_overridden,
-    refuse_what_the_table_refuses,
     values,
 )
 
@@ -61,13 +61,13 @@ class ComponentNode:
         arguments: Sequence[str],
         *,
         namespace: str,
-        outgoing: Outgoing,
+        outgoing: LoopPublisher,
         logs: LogThread,
     ) -> None:
         """``name``: of the ``<ros2_control>`` block; ``arguments``: ROS arguments."""
         self._outgoing = outgoing
         self.node: Node = outgoing.make_node(node_name(name), namespace, arguments)
-        let_parameter_events_be_overridden(self.node)
+        add_parameter_event_qos_overrides(self.node)
         self.log = logs.log_of(self.node.get_logger())
 
     def destroy(self) -> None:
@@ -152,7 +152,7 @@ class ControllerNode:
     One controller and its node.
 
     ``controller`` is unconfigured at first. Everything here runs on the ROS thread, but for what
-    the owner calls: ``Outgoing.send``, by the ports, and ``watch``, which publishes transitions.
+    the owner calls: ``LoopPublisher.send``, by the ports, and ``watch``, which publishes transitions.
     """
 
     def __init__(
@@ -164,7 +164,7 @@ class ControllerNode:
         namespace: str,
         update_rate: int,
         robot: Robot | None,
-        outgoing: Outgoing,
+        outgoing: LoopPublisher,
         logs: LogThread,
     ) -> None:
         """
@@ -225,7 +225,7 @@ class ControllerNode:
         """Declare both tables; what is set later counts at the next configure."""
         declare(self.node, self._table)
         common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})
-        refuse_what_the_table_refuses(self.node, self._table, CommonParameters)
+        add_validation_callback(self.node, self._table, CommonParameters)
         if common.is_async:
             self.log(
                 Severity.WARN,

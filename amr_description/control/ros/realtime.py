@@ -17,7 +17,7 @@ _LOCK_ALL = 1 | 2
 """MCL_CURRENT | MCL_FUTURE of mlockall(2)."""
 
 
-def ask_for_priority(priority: int, log: Log) -> None:
+def set_fifo_priority(priority: int, log: Log) -> None:
     """Schedule the calling thread by SCHED_FIFO at ``priority``, 1 to 99."""
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
@@ -35,7 +35,7 @@ def ask_for_priority(priority: int, log: Log) -> None:
         )
 
 
-def ask_for_cores(cores: Sequence[int], log: Log) -> None:
+def set_cpu_affinity(cores: Sequence[int], log: Log) -> None:
     """Run the calling thread on these cores only; none: on any."""
     if not cores:
         return

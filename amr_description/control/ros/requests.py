@@ -20,8 +20,8 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.loop_publisher import Outgoing
-from amr_description.control.ros.loop_thread import Owner
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import LoopThread
 from amr_description.control.ros.parameters import ControllerEntry, ManagerParameters
 from amr_description.control.ros.plugin_nodes import ControllerNode
 from amr_description.control.switching import Strictness
@@ -65,8 +65,8 @@ class ManagerRequests:
         manager: ControllerManager,
         *,
         robot: Robot | None,
-        owner: Owner,
-        outgoing: Outgoing,
+        owner: LoopThread,
+        outgoing: LoopPublisher,
         logs: LogThread,
     ) -> None:
         self.node = node
@@ -203,7 +203,7 @@ class ManagerRequests:
         )
 
     def _ask[Result](self, call: Callable[[], Result]) -> Future:
-        """Have the owner make a call; see :meth:`Owner.submit`."""
+        """Have the owner make a call; see :meth:`LoopThread.submit`."""
         return self._owner.submit(call, self.node.executor)
 
     def _make(self, name: str, entry: ControllerEntry) -> ControllerNode:

@@ -33,7 +33,7 @@ _EVERY = 10.0
 
 
 @contextmanager
-def alone_with(node: Node, manager: str, controllers: Sequence[str]) -> Iterator[None]:
+def exclusive_lock(node: Node, manager: str, controllers: Sequence[str]) -> Iterator[None]:
     """
     Be the only spawner of these controllers of ``manager`` (an absolute name) while inside.
 

@@ -33,8 +33,8 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.diagnostics import HARDWARE_ID, Report, reports, take_measurements
 from amr_description.control.introspection import interfaces_of, Registry, statistics_of
-from amr_description.control.ros.loop_publisher import Outgoing
-from amr_description.control.ros.loop_thread import Owner
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
 
@@ -42,7 +42,7 @@ from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapsh
 class DiagnosticsTopic:
     """The topic and its timer; everything here runs on the ROS thread."""
 
-    def __init__(self, node: Node, owner: Owner, parameters: ManagerParameters) -> None:
+    def __init__(self, node: Node, owner: LoopThread, parameters: ManagerParameters) -> None:
         """``parameters``: of which only those at the start count, but for the thresholds."""
         self.manager: ControllerManager | None = None
         """Set once there is hardware."""
@@ -151,7 +151,7 @@ class RegistryTopics:
         node: Node,
         name: str,
         registry_of: Callable[[ControllerManager], Registry],
-        outgoing: Outgoing,
+        outgoing: LoopPublisher,
     ) -> None:
         self._registry_of = registry_of
         self._registry = Registry((), list)
@@ -205,7 +205,7 @@ class RegistryTopics:
 class Introspection:
     """Both registries of a manager, and who is interested in them."""
 
-    def __init__(self, node: Node, owner: Owner, outgoing: Outgoing) -> None:
+    def __init__(self, node: Node, owner: LoopThread, outgoing: LoopPublisher) -> None:
         self._owner = owner
         self._manager: ControllerManager | None = None
         self._topics = (

@@ -6,7 +6,7 @@ The checker of robot descriptions.
 A fault of the text (XML, names, numbers, the tree, the ``<ros2_control>`` block) is found where it
 is read. What can be read and is still broken is found by the rules: one function each, one line in
 :data:`RULES`, or in :data:`RULES_OF_THE_WHOLE`. A rule is pure, takes a
-:class:`~amr_description.model.checks.context.Subject`, which need not be sound, and yields findings; it
+:class:`~amr_description.model.checks.context.CheckContext`, which need not be sound, and yields findings; it
 keeps silent on what a reader has reported already, such as a number that is none (NaN).
 """
 
@@ -15,7 +15,7 @@ from itertools import islice
 
 from amr_description.errors import DescriptionError
 from amr_description.model.checks import inertia, joints, markup, ros2_control, shapes
-from amr_description.model.checks.context import Rule, Subject, Surroundings
+from amr_description.model.checks.context import CheckContext, CheckInputs, Rule
 from amr_description.model.findings import Finding, Report, Severity
 from amr_description.model.gazebo import read_gazebo_plugins
 from amr_description.model.robot import Robot
@@ -70,7 +70,7 @@ RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
 )
 """What shows in the parts together; only of a robot without errors, or one fault brings many."""
 
-NO_SURROUNDINGS = Surroundings()
+NO_SURROUNDINGS = CheckInputs()
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ class _TooManyFindingsError(Exception):
 
 
 def examine(
-    text: str, source: str = '<string>', surroundings: Surroundings = NO_SURROUNDINGS
+    text: str, source: str = '<string>', surroundings: CheckInputs = NO_SURROUNDINGS
 ) -> Examination:
     """
     Return everything that is wrong with a URDF; ``source`` names the file in messages.
@@ -130,7 +130,9 @@ def examine(
     return Examination(tuple(findings), subject.robot)
 
 
-def _read(text: str, source: str, surroundings: Surroundings, report: Report) -> Subject | None:
+def _read(
+    text: str, source: str, surroundings: CheckInputs, report: Report
+) -> CheckContext | None:
     """Return what the rules look at; None when the text is no XML."""
     xml = parse_xml(text, source, report)
     if xml is None:
@@ -138,7 +140,7 @@ def _read(text: str, source: str, surroundings: Surroundings, report: Report) ->
     robot = read_robot(xml, text, source, report)
     hardware = read_hardware(xml, robot, report)
     plugins = read_gazebo_plugins(xml, source, report)
-    return Subject(robot, hardware, plugins, xml, surroundings)
+    return CheckContext(robot, hardware, plugins, xml, surroundings)
 
 
 def check(text: str, source: str = '<string>') -> list[Finding]:

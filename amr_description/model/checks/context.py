@@ -22,7 +22,7 @@ from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.wheels import find_wheels, Wheel
 
 
-class Place(NamedTuple):
+class SourceLocation(NamedTuple):
     """A line of a file."""
 
     source: str
@@ -39,7 +39,7 @@ class DriveSettings:
     """
 
     name: str
-    place: Place
+    place: SourceLocation
     left_wheels: tuple[str, ...]
     right_wheels: tuple[str, ...]
     separation: float
@@ -50,9 +50,9 @@ class DriveSettings:
     publishes_transform: bool
     position_feedback: bool
     open_loop: bool
-    places: Mapping[str, Place] = field(default_factory=dict)
+    places: Mapping[str, SourceLocation] = field(default_factory=dict)
 
-    def place_of(self, parameter: str) -> Place:
+    def place_of(self, parameter: str) -> SourceLocation:
         """Return where a parameter stands, or the controller when no file sets it."""
         return self.places.get(parameter, self.place)
 
@@ -70,7 +70,7 @@ type IsThere = Callable[[str], bool]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Surroundings:
+class CheckInputs:
     """
     What a description is checked against, beyond itself.
 
@@ -83,14 +83,14 @@ class Surroundings:
 
 
 @dataclass(frozen=True)
-class Subject:
+class CheckContext:
     """A description as far as it could be read; the robot's tree need not be sound."""
 
     robot: Robot
     hardware: tuple[HardwareInfo, ...]
     gazebo_plugins: tuple[GazeboPlugin, ...]
     xml: etree._Element
-    surroundings: Surroundings
+    surroundings: CheckInputs
 
     @cached_property
     def poses(self) -> dict[str, Transform]:
@@ -141,4 +141,4 @@ class Subject:
         return Finding.warning(self.robot.source, line, what, **details)
 
 
-type Rule = Callable[[Subject], Iterator[Finding]]
+type Rule = Callable[[CheckContext], Iterator[Finding]]

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from itertools import permutations, product
 import math
 
-from amr_description.model.checks.context import Subject
+from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.robot import Box, Cylinder, Inertia, Inertial, Link, Mesh, Sphere
@@ -42,7 +42,7 @@ _MOST_POINTS = 10_000
 type _Point = tuple[float, float]
 
 
-def mass_is_supported(subject: Subject) -> Iterator[Finding]:
+def mass_is_supported(subject: CheckContext) -> Iterator[Finding]:
     """
     The centre of mass is above the support polygon: the robot does not tip over.
 
@@ -72,7 +72,7 @@ def mass_is_supported(subject: Subject) -> Iterator[Finding]:
         )
 
 
-def _centre_of_mass(subject: Subject) -> _Point | None:
+def _centre_of_mass(subject: CheckContext) -> _Point | None:
     """Return x and y of the centre of mass in the root's frame; None when there is none."""
     total, moment_x, moment_y = 0.0, 0.0, 0.0
     for link in subject.robot.links:
@@ -88,7 +88,7 @@ def _centre_of_mass(subject: Subject) -> _Point | None:
     return centre if all(map(math.isfinite, centre)) else None
 
 
-def _ground_points(subject: Subject) -> list[_Point]:
+def _ground_points(subject: CheckContext) -> list[_Point]:
     """Return where the lowest collision shapes touch the ground, x and y in the root's frame."""
     solids = [
         solid
@@ -167,7 +167,7 @@ _FACTOR = 3.0
 _SWAPPED, _NOT_SWAPPED = 1.1, 1.5
 
 
-def inertia_fits_the_shape(subject: Subject) -> Iterator[Finding]:
+def inertia_fits_the_shape(subject: CheckContext) -> Iterator[Finding]:
     """
     The inertia is about that of a solid of the link's mass and collision shape.
 
@@ -197,7 +197,7 @@ def inertia_fits_the_shape(subject: Subject) -> Iterator[Finding]:
         )
 
 
-def root_has_no_inertial(subject: Subject) -> Iterator[Finding]:
+def root_has_no_inertial(subject: CheckContext) -> Iterator[Finding]:
     """The root of a robot that moves is a mere frame: KDL takes no inertia of it."""
     root = subject.robot.roots[0] if subject.robot.roots else None
     if root is not None and root.inertial is not None and subject.robot.child_joints(root.name):
@@ -247,7 +247,7 @@ _LIGHTEST, _SMALLEST_MOMENT = 1e-14, 1e-14
 _FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
 
 
-def inertial_is_present(subject: Subject) -> Iterator[Finding]:
+def inertial_is_present(subject: CheckContext) -> Iterator[Finding]:
     """Whatever touches something, and whatever a moving joint carries, has an ``<inertial>``."""
     robot = subject.robot
     static = subject.standing_links
@@ -273,7 +273,7 @@ def inertial_is_present(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def base_has_mass(subject: Subject) -> Iterator[Finding]:
+def base_has_mass(subject: CheckContext) -> Iterator[Finding]:
     """The body of the root has mass when something moves on it: it falls and is pushed around."""
     robot = subject.robot
     massive, static = _bodies_with_inertial(subject), subject.standing_links
@@ -288,7 +288,7 @@ def base_has_mass(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def mass_is_positive(subject: Subject) -> Iterator[Finding]:
+def mass_is_positive(subject: CheckContext) -> Iterator[Finding]:
     """Mass is above 0, and that of a thing on earth."""
     for link in subject.robot.links:
         if link.inertial is None or _LIGHTEST < link.inertial.mass < _HEAVIEST:
@@ -303,7 +303,7 @@ def mass_is_positive(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def inertia_is_possible(subject: Subject) -> Iterator[Finding]:
+def inertia_is_possible(subject: CheckContext) -> Iterator[Finding]:
     """
     Some distribution of mass has this inertia.
 
@@ -358,7 +358,7 @@ def _is_finite(inertia: Inertia) -> bool:
     return all(map(math.isfinite, moments))
 
 
-def _bodies_with_inertial(subject: Subject) -> set[str]:
+def _bodies_with_inertial(subject: CheckContext) -> set[str]:
     """Return the topmost links of the rigid bodies in which some link has an ``<inertial>``."""
     links = (link.name for link in subject.robot.links if link.inertial is not None)
     return {subject.bodies.get(link, '') for link in links}

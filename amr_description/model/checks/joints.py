@@ -9,7 +9,7 @@ Rules of the checker on the wheels of a robot.
 from collections.abc import Iterator
 import math
 
-from amr_description.model.checks.context import Subject
+from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
 from amr_description.model.frames import rotate
 from amr_description.model.robot import Joint, JointType, Robot
@@ -25,7 +25,7 @@ _EXTREME = 1e6
 _LONGEST_CHAIN = 100
 
 
-def limits_are_ordered(subject: Subject) -> Iterator[Finding]:
+def limits_are_ordered(subject: CheckContext) -> Iterator[Finding]:
     """The lower limit of a joint that has limits is below the upper one."""
     for joint in subject.robot.joints:
         if joint.type not in (JointType.REVOLUTE, JointType.PRISMATIC) or joint.limit is None:
@@ -49,7 +49,7 @@ def limits_are_ordered(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def limits_let_it_move(subject: Subject) -> Iterator[Finding]:
+def limits_let_it_move(subject: CheckContext) -> Iterator[Finding]:
     """Limits of effort and velocity are above 0."""
     for joint in subject.robot.joints:
         if joint.limit is None or not joint.is_moving:
@@ -66,7 +66,7 @@ def limits_let_it_move(subject: Subject) -> Iterator[Finding]:
                 )
 
 
-def damping_takes_energy(subject: Subject) -> Iterator[Finding]:
+def damping_takes_energy(subject: CheckContext) -> Iterator[Finding]:
     """Damping and friction are not negative: such a joint would drive itself."""
     for joint in subject.robot.joints:
         for name in ('damping', 'friction') if joint.dynamics is not None else ():
@@ -80,7 +80,7 @@ def damping_takes_energy(subject: Subject) -> Iterator[Finding]:
                 )
 
 
-def axis_is_a_unit_vector(subject: Subject) -> Iterator[Finding]:
+def axis_is_a_unit_vector(subject: CheckContext) -> Iterator[Finding]:
     """The axis is written with length 1: programs differ in what they make of another."""
     for element in subject.xml.iterchildren('joint'):
         axis = element.find('axis')
@@ -109,7 +109,7 @@ def _length(text: str) -> float:
         return math.nan
 
 
-def mimicked_joint_exists(subject: Subject) -> Iterator[Finding]:
+def mimicked_joint_exists(subject: CheckContext) -> Iterator[Finding]:
     """A mimic joint follows another joint of the robot, one that moves and is no mimic itself."""
     robot = subject.robot
     known = quote_all([joint.name for joint in robot.joints])
@@ -126,7 +126,7 @@ def mimicked_joint_exists(subject: Subject) -> Iterator[Finding]:
             yield from _judge_source(subject, joint, robot.joint(source))
 
 
-def _judge_source(subject: Subject, joint: Joint, source: Joint) -> Iterator[Finding]:
+def _judge_source(subject: CheckContext, joint: Joint, source: Joint) -> Iterator[Finding]:
     """Judge a joint that is followed and exists."""
     name = f'joint {quote(joint.name)}'
     if not (source.has_position and joint.has_position):
@@ -165,7 +165,7 @@ _ALONG_Y = 0.9
 _TOLERANCE = 0.001
 
 
-def wheels_roll_forward(subject: Subject) -> Iterator[Finding]:
+def wheels_roll_forward(subject: CheckContext) -> Iterator[Finding]:
     """
     A positive speed of a wheel carries the robot to +x.
 
@@ -190,7 +190,7 @@ def wheels_roll_forward(subject: Subject) -> Iterator[Finding]:
     )
 
 
-def _axle_to_the_left(subject: Subject, joint: Joint) -> float:
+def _axle_to_the_left(subject: CheckContext, joint: Joint) -> float:
     """Return the part of a joint's axis along +y of the root."""
     return rotate(subject.poses[joint.child].rotation, joint.axis)[1]
 
@@ -201,7 +201,7 @@ def _turn_round(joints: list[Joint]) -> str:
     return f'write <axis xyz="{axes.pop()}"/>' if len(axes) == 1 else 'turn each <axis> round'
 
 
-def sides_are_symmetric(subject: Subject) -> Iterator[Finding]:
+def sides_are_symmetric(subject: CheckContext) -> Iterator[Finding]:
     """
     Each wheel on the left has one on the right: as far out, as far ahead, as high, as large.
 
@@ -225,11 +225,11 @@ def sides_are_symmetric(subject: Subject) -> Iterator[Finding]:
         yield from _judge_pair(subject, one, other)
 
 
-def _hub(subject: Subject, wheel: Wheel) -> tuple[float, float, float]:
+def _hub(subject: CheckContext, wheel: Wheel) -> tuple[float, float, float]:
     return subject.poses[wheel.link].translation
 
 
-def _uneven(subject: Subject, left: list[Wheel], right: list[Wheel]) -> Finding:
+def _uneven(subject: CheckContext, left: list[Wheel], right: list[Wheel]) -> Finding:
     named = [quote_all([wheel.joint for wheel in side]) for side in (left, right)]
     lines = [subject.robot.joint(wheel.joint).line for wheel in max(left, right, key=len)]
     return subject.warning(
@@ -241,7 +241,7 @@ def _uneven(subject: Subject, left: list[Wheel], right: list[Wheel]) -> Finding:
     )
 
 
-def _judge_pair(subject: Subject, left: Wheel, right: Wheel) -> Iterator[Finding]:
+def _judge_pair(subject: CheckContext, left: Wheel, right: Wheel) -> Iterator[Finding]:
     """Report the first way in which two wheels are not each other's mirror image."""
     (x, y, z), (x2, y2, z2) = _hub(subject, left), _hub(subject, right)
     measures = (

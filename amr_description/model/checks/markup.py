@@ -19,7 +19,7 @@ import re
 from lxml import etree
 
 from amr_description.errors import AmrError
-from amr_description.model.checks.context import IsThere, Subject
+from amr_description.model.checks.context import CheckContext, IsThere
 from amr_description.model.findings import Finding
 from amr_description.model.xml_reader import line_of
 from amr_description.text import closest_match, quote, quote_all
@@ -39,7 +39,7 @@ class _NamedFile:
     takes_package: bool = True
 
 
-def files_are_there(subject: Subject) -> Iterator[Finding]:
+def files_are_there(subject: CheckContext) -> Iterator[Finding]:
     """Meshes and textures exist; without that of a collision no simulator takes the robot."""
     is_there = subject.surroundings.is_there
     for file in _meshes_and_textures(subject) if is_there is not None else ():
@@ -65,7 +65,7 @@ def files_are_there(subject: Subject) -> Iterator[Finding]:
         )
 
 
-def paths_hold_everywhere(subject: Subject) -> Iterator[Finding]:
+def paths_hold_everywhere(subject: CheckContext) -> Iterator[Finding]:
     """
     No path is that of one machine.
 
@@ -92,7 +92,7 @@ def _is_of_a_package(path: str, is_there: IsThere) -> bool:
         return False
 
 
-def _named_files(subject: Subject) -> Iterator[_NamedFile]:
+def _named_files(subject: CheckContext) -> Iterator[_NamedFile]:
     """Yield the files of which a description may give the path of this machine."""
     yield from _meshes_and_textures(subject)
     for element in subject.xml.iterfind('gazebo/plugin/parameters'):
@@ -106,7 +106,7 @@ def _named_files(subject: Subject) -> Iterator[_NamedFile]:
         )
 
 
-def _meshes_and_textures(subject: Subject) -> Iterator[_NamedFile]:
+def _meshes_and_textures(subject: CheckContext) -> Iterator[_NamedFile]:
     for element in subject.xml.iter('mesh', 'texture'):
         part = next(element.iterancestors('visual', 'collision', 'link'), None)
         above = next(element.iterancestors('link', 'robot'), None)
@@ -246,7 +246,7 @@ _EXPRESSION = re.compile(r'=\s*["\'][^"\'<]*\$[{(]')
 _READ_STRICTLY = ('ros2_control', 'geometry')
 
 
-def xacro_is_expanded(subject: Subject) -> Iterator[Finding]:
+def xacro_is_expanded(subject: CheckContext) -> Iterator[Finding]:
     """No element of xacro is left, and nothing that it would evaluate."""
     left = [element for uri in _XACRO for element in subject.xml.iter(f'{{{uri}}}*')]
     making = [each for each in left if etree.QName(each).localname not in _MAKES_NOTHING]
@@ -259,7 +259,7 @@ def xacro_is_expanded(subject: Subject) -> Iterator[Finding]:
         )
 
 
-def markup_is_known(subject: Subject) -> Iterator[Finding]:
+def markup_is_known(subject: CheckContext) -> Iterator[Finding]:
     """
     No element and no attribute is unknown, and none is there twice where only one counts.
 
@@ -289,7 +289,7 @@ def markup_is_known(subject: Subject) -> Iterator[Finding]:
         stack.extend(reversed(children))
 
 
-def one_shape_counts(subject: Subject) -> Iterator[Finding]:
+def one_shape_counts(subject: CheckContext) -> Iterator[Finding]:
     """A geometry holds one shape; all but the first are ignored."""
     for geometry in subject.xml.iterfind('link/*/geometry'):
         shapes = list(geometry.iterchildren(etree.Element))
@@ -302,7 +302,7 @@ def one_shape_counts(subject: Subject) -> Iterator[Finding]:
 
 
 def _judge_attributes(
-    subject: Subject, element: etree._Element, grammar: Element
+    subject: CheckContext, element: etree._Element, grammar: Element
 ) -> Iterator[Finding]:
     for name in element.attrib:
         if name not in grammar.attributes and not name.startswith('{'):
@@ -313,7 +313,9 @@ def _judge_attributes(
             )
 
 
-def _judge_tag(subject: Subject, element: etree._Element, grammar: Element) -> Iterator[Finding]:
+def _judge_tag(
+    subject: CheckContext, element: etree._Element, grammar: Element
+) -> Iterator[Finding]:
     parent = element.getparent()
     strict = next(element.iterancestors(*_READ_STRICTLY), None) is not None
     if parent is None or strict or element.tag.startswith('{'):
@@ -339,7 +341,7 @@ def _hint(name: str, known: Collection[str], form: str) -> dict[str, str]:
 _ODD = re.compile(r'\A/|\s')
 
 
-def names_are_usable(subject: Subject) -> Iterator[Finding]:
+def names_are_usable(subject: CheckContext) -> Iterator[Finding]:
     """Names hold no blanks and begin with no slash: tf2 refuses such frames."""
     robot = subject.robot
     parts = [('link', each.name, each.line) for each in robot.links]
@@ -355,7 +357,7 @@ def names_are_usable(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def gazebo_refers_to_something(subject: Subject) -> Iterator[Finding]:
+def gazebo_refers_to_something(subject: CheckContext) -> Iterator[Finding]:
     """What a ``<gazebo reference="…">`` names is a link or a joint."""
     robot = subject.robot
     known = [link.name for link in robot.links] + [joint.name for joint in robot.joints]

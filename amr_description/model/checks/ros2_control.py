@@ -13,7 +13,7 @@ That their joints exist and that their tags are known is seen to where they are 
 from collections.abc import Iterator
 import math
 
-from amr_description.model.checks.context import DriveSettings, Subject
+from amr_description.model.checks.context import CheckContext, DriveSettings
 from amr_description.model.findings import Finding
 from amr_description.model.hardware_info import ComponentInfo, ComponentType, HardwareInfo
 from amr_description.model.robot import JointType
@@ -25,7 +25,7 @@ _TOLERANCE = 0.01
 _SCRUBBING = 0.01
 
 
-def wheel_names_are_joints(subject: Subject) -> Iterator[Finding]:
+def wheel_names_are_joints(subject: CheckContext) -> Iterator[Finding]:
     """Each wheel that a controller names is a joint, takes a velocity and tells what it does."""
     for drive in subject.surroundings.drives:
         for parameter, names in _named_wheels(drive):
@@ -41,7 +41,7 @@ def _named_wheels(drive: DriveSettings) -> tuple[tuple[str, tuple[str, ...]], ..
 
 
 def _judge_wheel(
-    subject: Subject, drive: DriveSettings, parameter: str, name: str
+    subject: CheckContext, drive: DriveSettings, parameter: str, name: str
 ) -> Iterator[Finding]:
     robot = subject.robot
     what = f'{parameter} holds {quote(name)}'
@@ -69,7 +69,7 @@ def _judge_wheel(
             )
 
 
-def _offered(subject: Subject, joint: str, interfaces: str) -> set[str]:
+def _offered(subject: CheckContext, joint: str, interfaces: str) -> set[str]:
     """Return the names of the command or state interfaces that blocks offer of a joint."""
     components: list[ComponentInfo] = [
         component
@@ -80,7 +80,7 @@ def _offered(subject: Subject, joint: str, interfaces: str) -> set[str]:
     return {each.name for component in components for each in getattr(component, interfaces)}
 
 
-def sides_are_not_swapped(subject: Subject) -> Iterator[Finding]:
+def sides_are_not_swapped(subject: CheckContext) -> Iterator[Finding]:
     """The left wheels are on the left (y > 0), the right ones on the right."""
     for drive in subject.surroundings.drives:
         left, right = _mean_y(subject, drive.left_wheels), _mean_y(subject, drive.right_wheels)
@@ -94,7 +94,7 @@ def sides_are_not_swapped(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def wheel_radius_agrees(subject: Subject) -> Iterator[Finding]:
+def wheel_radius_agrees(subject: CheckContext) -> Iterator[Finding]:
     """The radius is that of the wheels' collision shapes."""
     radii = {wheel.joint: wheel.radius for wheel in subject.wheels}
     for drive in subject.surroundings.drives:
@@ -111,7 +111,7 @@ def wheel_radius_agrees(subject: Subject) -> Iterator[Finding]:
                 break
 
 
-def wheel_separation_agrees(subject: Subject) -> Iterator[Finding]:
+def wheel_separation_agrees(subject: CheckContext) -> Iterator[Finding]:
     """The separation is the distance between the left and the right wheels along y."""
     for drive in subject.surroundings.drives:
         apart = _track(subject, drive)
@@ -125,7 +125,7 @@ def wheel_separation_agrees(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def scrubbing_is_accounted_for(subject: Subject) -> Iterator[Finding]:
+def scrubbing_is_accounted_for(subject: CheckContext) -> Iterator[Finding]:
     """
     A robot with fixed wheels one behind the other has a separation multiplier.
 
@@ -152,7 +152,7 @@ def scrubbing_is_accounted_for(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def base_frame_is_the_root(subject: Subject) -> Iterator[Finding]:
+def base_frame_is_the_root(subject: CheckContext) -> Iterator[Finding]:
     """A frame has one parent in TF: what odometry moves is the root of the robot."""
     roots = subject.robot.roots
     for drive in subject.surroundings.drives if roots else ():
@@ -173,7 +173,7 @@ def base_frame_is_the_root(subject: Subject) -> Iterator[Finding]:
         )
 
 
-def _mean_y(subject: Subject, names: tuple[str, ...]) -> float:
+def _mean_y(subject: CheckContext, names: tuple[str, ...]) -> float:
     """Return the mean y of the wheels that are there (m); NaN when none is."""
     y = [
         subject.poses[joint.child].translation[1]
@@ -183,7 +183,7 @@ def _mean_y(subject: Subject, names: tuple[str, ...]) -> float:
     return math.fsum(y) / len(y) if y and all(map(math.isfinite, y)) else math.nan
 
 
-def _track(subject: Subject, drive: DriveSettings) -> float:
+def _track(subject: CheckContext, drive: DriveSettings) -> float:
     """Return how far apart left and right wheels are along y (m); NaN when it cannot be told."""
     return abs(_mean_y(subject, drive.left_wheels) - _mean_y(subject, drive.right_wheels))
 
@@ -200,7 +200,7 @@ _OF_JOINTS = ('position', 'velocity', 'acceleration', 'effort', 'torque', 'force
 _MISSPELT = 0.8
 
 
-def commanded_joints_have_a_position(subject: Subject) -> Iterator[Finding]:
+def commanded_joints_have_a_position(subject: CheckContext) -> Iterator[Finding]:
     """What takes commands is one number: no planar and no floating joint."""
     for hardware, component in _components(subject):
         if component.type is not ComponentType.JOINT or not component.command_interfaces:
@@ -215,7 +215,7 @@ def commanded_joints_have_a_position(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def components_offer_interfaces(subject: Subject) -> Iterator[Finding]:
+def components_offer_interfaces(subject: CheckContext) -> Iterator[Finding]:
     """Every joint, sensor and GPIO of a block has an interface; what is commanded can be read."""
     for hardware, component in _components(subject):
         where = f'{component.type} {quote(component.name)} of ros2_control {quote(hardware.name)}'
@@ -234,7 +234,7 @@ def components_offer_interfaces(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def interface_names_are_spelt_right(subject: Subject) -> Iterator[Finding]:
+def interface_names_are_spelt_right(subject: CheckContext) -> Iterator[Finding]:
     """No interface of a joint has nearly the name of a standard one."""
     for hardware, component in _components(subject):
         if component.type is not ComponentType.JOINT:
@@ -252,7 +252,7 @@ def interface_names_are_spelt_right(subject: Subject) -> Iterator[Finding]:
                 )
 
 
-def one_block_commands(subject: Subject) -> Iterator[Finding]:
+def one_block_commands(subject: CheckContext) -> Iterator[Finding]:
     """No command interface is offered by two blocks."""
     first: dict[tuple[str, str], str] = {}
     for hardware, component in _components(subject):
@@ -267,7 +267,7 @@ def one_block_commands(subject: Subject) -> Iterator[Finding]:
                 )
 
 
-def _components(subject: Subject) -> Iterator[tuple[HardwareInfo, ComponentInfo]]:
+def _components(subject: CheckContext) -> Iterator[tuple[HardwareInfo, ComponentInfo]]:
     for hardware in subject.hardware:
         for component in hardware.components:
             yield hardware, component

@@ -4,7 +4,7 @@
 
 from collections.abc import Iterator
 
-from amr_description.model.checks.context import Subject
+from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
 from amr_description.model.robot import Collision, Geometry, Link, Mesh, Visual
 from amr_description.model.shapes import overlap, reach, sizes, Solid, solids_of
@@ -17,7 +17,7 @@ _DEPTH = 0.002
 _MOST_PAIRS = 20_000
 
 
-def sizes_are_positive(subject: Subject) -> Iterator[Finding]:
+def sizes_are_positive(subject: CheckContext) -> Iterator[Finding]:
     """No shape has a side, radius, length or scale of 0 or below; a mirrored mesh may."""
     for link in subject.robot.links:
         parts: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
@@ -40,7 +40,7 @@ def _sizes(geometry: Geometry) -> tuple[float, ...]:
     return sizes(geometry)
 
 
-def collision_is_present(subject: Subject) -> Iterator[Finding]:
+def collision_is_present(subject: CheckContext) -> Iterator[Finding]:
     """What has mass and is seen can be touched."""
     for link in subject.robot.links:
         if link.inertial is not None and link.visuals and not link.collisions:
@@ -52,7 +52,7 @@ def collision_is_present(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def colors_are_visible(subject: Subject) -> Iterator[Finding]:
+def colors_are_visible(subject: CheckContext) -> Iterator[Finding]:
     """Colours are within 0..1, and a material of the robot's own list has one."""
     for element in subject.xml.iter('material'):
         parent = element.getparent()
@@ -83,7 +83,7 @@ def _numbers(text: str) -> list[float]:
         return []
 
 
-def shapes_do_not_overlap(subject: Subject) -> Iterator[Finding]:
+def shapes_do_not_overlap(subject: CheckContext) -> Iterator[Finding]:
     """
     Collision shapes of links that are not neighbours are apart, all joints at 0.
 
@@ -111,7 +111,7 @@ def shapes_do_not_overlap(subject: Subject) -> Iterator[Finding]:
 type _Placed = tuple[Link, Solid]
 
 
-def _placed_solids(subject: Subject) -> list[_Placed]:
+def _placed_solids(subject: CheckContext) -> list[_Placed]:
     """Return the primitive collision shapes of all links, placed in the root's frame."""
     return [
         (link, solid)
@@ -121,7 +121,7 @@ def _placed_solids(subject: Subject) -> list[_Placed]:
     ]
 
 
-def _neighbours(subject: Subject) -> set[tuple[str, str]]:
+def _neighbours(subject: CheckContext) -> set[tuple[str, str]]:
     """Return the pairs of rigid bodies that a joint connects, either way round."""
     pairs = {
         (subject.bodies.get(joint.parent, ''), subject.bodies.get(joint.child, ''))

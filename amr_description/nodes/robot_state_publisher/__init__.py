@@ -65,8 +65,8 @@ from amr_description.parameters import parameter
 from amr_description.ros.arguments import read_description, split_arguments
 from amr_description.ros.cdr import HeadReader
 from amr_description.ros.parameters import (
+    add_parameter_event_qos_overrides,
     declare,
-    let_parameter_events_be_overridden,
     PUBLISHER_POLICIES,
     values,
 )
@@ -99,7 +99,7 @@ class RobotStatePublisher(Node):
 
     def __init__(self, description: Sequence[str] = (), **options: Any) -> None:
         super().__init__('robot_state_publisher', **options)
-        let_parameter_events_be_overridden(self)
+        add_parameter_event_qos_overrides(self)
         self._settings = declare(self, Settings)
         if not self._settings.robot_description and description:
             self._take_file(description)

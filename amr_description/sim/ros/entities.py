@@ -19,8 +19,8 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.controller_manager_node import ControllerManagerNode
-from amr_description.control.ros.loop_publisher import Outgoing
-from amr_description.control.ros.loop_thread import Owner
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import LoopThread
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.controllers.drive_files import drive_warnings
 from amr_description.errors import RequestError, SpawnError
@@ -50,7 +50,7 @@ class Category(enum.IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Info:
+class EntityRecord:
     """What is told of an entity; anybody may change it."""
 
     category: Category
@@ -63,14 +63,14 @@ class Entity:
     """A robot in the world, its spawning done."""
 
     name: str
-    info: Info
+    info: EntityRecord
     manager: ControllerManagerNode | None
     """Of a robot that asks for control."""
     thread: ExecutorThread | None
     """Serves the manager, its components and controllers."""
 
 
-class Robots:
+class EntityManager:
     """
     All robots. The coroutines run on the ROS thread and await the owner.
 
@@ -80,9 +80,9 @@ class Robots:
 
     def __init__(
         self,
-        owner: Owner,
+        owner: LoopThread,
         world: MujocoWorld,
-        outgoing: Outgoing,
+        outgoing: LoopPublisher,
         ground_truth: GroundTruth,
         *,
         executor: Executor,
@@ -152,7 +152,7 @@ class Robots:
             raise
         thread = self._serve(node, robot, given) if node is not None else None
         self._ground_truth.add(given, namespace)
-        self._entities[given] = Entity(given, Info(_category_of(robot)), node, thread)
+        self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), node, thread)
         return given
 
     async def remove(self, name: str) -> None:

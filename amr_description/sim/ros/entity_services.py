@@ -45,10 +45,10 @@ from amr_description.ros.messages import (
     vector_of,
 )
 from amr_description.sim.entity_state import bounds_of, Box, motion_of, place, pose_of
-from amr_description.sim.ros.entities import Category, Entity, Info
+from amr_description.sim.ros.entities import Category, Entity, EntityRecord
 from amr_description.sim.ros.ground_truth import WORLD_FRAME
 from amr_description.sim.ros.posix_regex import PosixRegex
-from amr_description.sim.ros.service_replies import serve
+from amr_description.sim.ros.service_replies import create_services
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import checked_pose
 
@@ -132,7 +132,7 @@ class EntityServices:
         self._robots = simulation.robots
         self._world = simulation.world
         self._owner = simulation.owner
-        serve(
+        create_services(
             node,
             simulation.log,
             (
@@ -211,7 +211,7 @@ class EntityServices:
                 f'category {category} is given; there are: {choices}',
                 Result.RESULT_OPERATION_FAILED,
             )
-        entity.info = Info(known[category], info.description, tuple(info.tags))
+        entity.info = EntityRecord(known[category], info.description, tuple(info.tags))
 
     async def _get_entity_bounds(
         self, request: GetEntityBounds.Request, response: GetEntityBounds.Response

@@ -35,7 +35,7 @@ from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.ros.converters import fill_dynamic_joint_state
-from amr_description.control.ros.loop_publisher import Outgoing
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.samples import DynamicJointStateSample, DynamicLayout
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.robot import Robot, WORLD_LINK
@@ -73,7 +73,9 @@ class GroundTruth:
     the owner's.
     """
 
-    def __init__(self, node: Node, outgoing: Outgoing, world: MujocoWorld, rate: float) -> None:
+    def __init__(
+        self, node: Node, outgoing: LoopPublisher, world: MujocoWorld, rate: float
+    ) -> None:
         """
         ``node`` has the topics; ``rate``: Hz of simulated time, but no more often than the loop
         turns; 0: never.

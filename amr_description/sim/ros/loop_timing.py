@@ -53,7 +53,7 @@ class _Window:
     spent: dict[str, int] = field(default_factory=lambda: {PHYSICS: 0, PUBLISHING: 0})
 
 
-class StageWatch:
+class LoopProfiler:
     """
     Everything on the owner's thread.
 
@@ -150,7 +150,7 @@ class StageWatch:
 
 
 class _WatchedStepper:
-    def __init__(self, stepper: Stepper, watch: StageWatch) -> None:
+    def __init__(self, stepper: Stepper, watch: LoopProfiler) -> None:
         self._stepper = stepper
         self._watch = watch
 
@@ -165,7 +165,7 @@ class _WatchedStepper:
 
 
 class _WatchedPublisher:
-    def __init__(self, publisher: Publisher, watch: StageWatch) -> None:
+    def __init__(self, publisher: Publisher, watch: LoopProfiler) -> None:
         self.set_clocks = publisher.set_clocks
         self._publisher = publisher
         self._watch = watch
@@ -177,7 +177,7 @@ class _WatchedPublisher:
 
 
 class _WatchedPacer:
-    def __init__(self, pacer: Pacer, watch: StageWatch) -> None:
+    def __init__(self, pacer: Pacer, watch: LoopProfiler) -> None:
         self._pacer = pacer
         self._watch = watch
 

@@ -23,7 +23,7 @@ type Handler = Callable[[Any, Any], Awaitable[None]]
 """``async (request, response)``; the response has a ``result``."""
 
 
-def serve(node: Node, log: Log, handlers: Iterable[tuple[type, Handler]]) -> None:
+def create_services(node: Node, log: Log, handlers: Iterable[tuple[type, Handler]]) -> None:
     """Offer a service ``~/do_this`` for every handler ``_do_this``, with its type."""
     group = ReentrantCallbackGroup()
     for service_type, handler in handlers:
@@ -33,7 +33,7 @@ def serve(node: Node, log: Log, handlers: Iterable[tuple[type, Handler]]) -> Non
         )
 
 
-def refuse(result: Result, error: Exception) -> None:
+def fill_error(result: Result, error: Exception) -> None:
     """Write in one line what went wrong, and its code."""
     is_coded = isinstance(error, RequestError)
     result.result = error.code if is_coded else Result.RESULT_OPERATION_FAILED
@@ -46,7 +46,7 @@ def _answering(handler: Handler, log: Log) -> Callable[[Any, Any], Awaitable[Any
             await handler(request, response)
             response.result.result = Result.RESULT_OK
         except Exception as error:  # a stranger's class may raise anything; others go on
-            refuse(response.result, error)
+            fill_error(response.result, error)
             if not isinstance(error, AmrError):
                 log_error(log, error)
         return response

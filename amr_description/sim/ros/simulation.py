@@ -25,14 +25,14 @@ from rclpy.parameter import Parameter
 
 from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
-from amr_description.control.ros.loop_publisher import SimulatedOutgoing
-from amr_description.control.ros.loop_thread import Mailbox, Owner, WallPacer
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.loop_thread import CallQueue, LoopThread, WallPacer
 from amr_description.parameters import group, parameter
 from amr_description.ros.log_thread import LogThread
-from amr_description.ros.parameters import refuse_what_the_table_refuses, values
-from amr_description.sim.ros.entities import Robots
+from amr_description.ros.parameters import add_validation_callback, values
+from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
-from amr_description.sim.ros.loop_timing import StageWatch
+from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import WorldSettings
 
@@ -131,7 +131,7 @@ class Simulation:
         self.logs = LogThread()
         try:
             self.log = self.logs.log_of(node.get_logger())
-            outgoing = SimulatedOutgoing(node)
+            outgoing = ClockedLoopPublisher(node)
             outgoing.adopt(node)
             self.world = MujocoWorld(
                 parameters.world,
@@ -140,10 +140,10 @@ class Simulation:
                 log=self.log,
             )
             ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
-            mailbox = Mailbox(CLOCK_REMINDER)
+            mailbox = CallQueue(CLOCK_REMINDER)
             self._pacer = WallPacer(parameters.real_time_factor, mailbox)
-            watch = StageWatch(self.log, lambda: self._pacer.factor)
-            self.owner = Owner(mailbox, executor)
+            watch = LoopProfiler(self.log, lambda: self._pacer.factor)
+            self.owner = LoopThread(mailbox, executor)
             self.owner.loop = Loop(
                 watch.stepper(WorldStepper(self.world)),
                 watch.pacer(self._pacer),
@@ -152,10 +152,10 @@ class Simulation:
                 CLOCK_PERIOD,
             )
             self._pauses_on_fault = parameters.on_fault == 'pause'
-            self.world.faults.on_fault = lambda: mailbox.put(self._mind_fault)
+            self.world.faults.on_fault = lambda: mailbox.put(self._on_fault)
             if parameters.paused:
                 self.owner.loop.pause()
-            self.robots = Robots(
+            self.robots = EntityManager(
                 self.owner,
                 self.world,
                 outgoing,
@@ -169,8 +169,8 @@ class Simulation:
         except Exception:
             self.logs.stop()
             raise
-        refuse_what_the_table_refuses(node, SimulationParameters)
-        node.add_post_set_parameters_callback(self._mind_parameters)
+        add_validation_callback(node, SimulationParameters)
+        node.add_post_set_parameters_callback(self._on_parameters_set)
 
     def start(self) -> None:
         """Let the owner's thread run; time begins, unless it is paused."""
@@ -245,7 +245,7 @@ class Simulation:
 
         await self.owner.submit(reset)
 
-    def _mind_parameters(self, _: Sequence[Parameter]) -> None:
+    def _on_parameters_set(self, _: Sequence[Parameter]) -> None:
         """One was set: the factor, or what a fault does, as no other can be."""
         now = values(self._node, SimulationParameters)
         self._pauses_on_fault = now.on_fault == 'pause'
@@ -253,7 +253,7 @@ class Simulation:
             loop = self.owner.loop
             self.owner.submit(lambda: self._pacer.set_factor(now.real_time_factor, loop.time))
 
-    def _mind_fault(self) -> None:
+    def _on_fault(self) -> None:
         """Between two turns, after a fault was told; on the owner's thread."""
         if self._pauses_on_fault:
             self.owner.loop.pause()

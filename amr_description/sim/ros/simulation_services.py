@@ -46,7 +46,7 @@ from amr_description.ament_index import resolve_uri
 from amr_description.control.contracts import Severity
 from amr_description.errors import RequestError, ResourceError, SimulationError
 from amr_description.sim.ros.entity_services import has_tags
-from amr_description.sim.ros.service_replies import refuse, serve
+from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, State
 from amr_description.sim.world_file import shipped_worlds, world_path
 
@@ -91,7 +91,7 @@ class SimulationServices:
         node.create_service(
             GetSimulatorFeatures, '~/get_simulator_features', self._get_simulator_features
         )
-        serve(
+        create_services(
             node,
             simulation.log,
             (
@@ -199,7 +199,7 @@ class SimulationServices:
         except Exception as error:
             if goal.is_active:
                 goal.abort()
-            refuse(result.result, error)
+            fill_error(result.result, error)
         return result
 
     async def _step(self, count: int) -> None:
@@ -238,7 +238,7 @@ class WorldServices:
 
     def __init__(self, node: Node, simulation: Simulation) -> None:
         self._world = simulation.parameters.world
-        serve(
+        create_services(
             node,
             simulation.log,
             (

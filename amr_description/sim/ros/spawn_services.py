@@ -28,7 +28,7 @@ from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.ros.log_thread import log_error
 from amr_description.ros.messages import transform_of
 from amr_description.sim.ros.ground_truth import WORLD_FRAME
-from amr_description.sim.ros.service_replies import refuse, serve
+from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import read_description, SpawnCode
 
@@ -54,7 +54,7 @@ class SpawnServices:
     def __init__(self, node: Node, simulation: Simulation) -> None:
         self._node = node
         self._simulation = simulation
-        serve(
+        create_services(
             node,
             simulation.log,
             (
@@ -92,7 +92,7 @@ class SpawnServices:
                 spawned.result.result = Result.RESULT_OK
             except Exception as error:  # a stranger's component may raise anything
                 log_error(self._simulation.log, error)
-                refuse(spawned.result, error)
+                fill_error(spawned.result, error)
             response.results.append(spawned)
         failed = sum(each.result.result != Result.RESULT_OK for each in response.results)
         if failed:

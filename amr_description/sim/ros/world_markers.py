@@ -26,7 +26,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
 from amr_description.sim.ros.ground_truth import WORLD_FRAME
-from amr_description.sim.static_geometry import Kind, Shape, surroundings
+from amr_description.sim.static_geometry import Kind, Shape, visible_shapes
 from amr_description.sim.world import MujocoWorld
 
 TOPIC = '~/world'
@@ -47,7 +47,7 @@ _TYPES = {
 def publish_world(node: Node, world: MujocoWorld) -> None:
     """Tell once, for all who come later, what stands in a world that no robot has come to yet."""
     publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
-    publisher.publish(markers(surroundings(world.engine.spec)))
+    publisher.publish(markers(visible_shapes(world.engine.spec)))
 
 
 def markers(shapes: Sequence[Shape]) -> MarkerArray:

@@ -22,7 +22,7 @@ from amr_description.viewer.protocol import (
     World,
 )
 from amr_description.viewer.requests import Request, Spawn, Switch
-from amr_description.viewer.ros.graph_monitor import Audience, Stage
+from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
 from amr_description.viewer.ros.markers import DiagnosticsBoard, shapes_of
 from amr_description.viewer.ros.robot import RobotLink
 from amr_description.viewer.ros.service_clients import (
@@ -41,9 +41,9 @@ _STATUS_PERIOD = 0.25
 """s between two messages about a simulator's time."""
 
 
-class GraphBackend(Audience):
+class GraphBackend(GraphObserver):
     """
-    On the server's thread, but for what :class:`Audience` has.
+    On the server's thread, but for what :class:`GraphObserver` has.
 
     :attr:`server` has to be set before the server starts; ``say`` logs a fault of ours.
     """
@@ -56,7 +56,7 @@ class GraphBackend(Audience):
         self._say = say
         self._services = Services(node)
         self._states = States()
-        self._stage = Stage(node, self._states, self._services)
+        self._stage = GraphMonitor(node, self._states, self._services)
         self._stage.audience = self
         self._simulators: dict[str, Simulator] = {}
         self._diagnostics = DiagnosticsBoard()

@@ -5,8 +5,8 @@ The names of the ROS graph as discovery (viewer/discovery.py) wants them.
 
 The viewer's side towards ROS: looks at the graph, and connects with what is there.
 
-Everything here runs on the ROS thread. What the server's thread reads, :attr:`Stage.links`,
-:attr:`Stage.found` and ``states.scene``, is replaced as a whole and never changed.
+Everything here runs on the ROS thread. What the server's thread reads, :attr:`GraphMonitor.links`,
+:attr:`GraphMonitor.found` and ``states.scene``, is replaced as a whole and never changed.
 """
 
 from collections.abc import Callable, Mapping
@@ -73,7 +73,7 @@ _PERIOD = 0.5
 """s between two looks at the graph."""
 
 
-class Audience:
+class GraphObserver:
     """Whom the stage tells; all is called on the ROS thread, and does nothing by default."""
 
     def graph_changed(self) -> None:
@@ -92,11 +92,11 @@ class Audience:
         """Somebody said how it is."""
 
 
-class Stage:
+class GraphMonitor:
     """Closed at first: nothing is subscribed."""
 
     def __init__(self, node: Node, states: States, services: Services) -> None:
-        self.audience = Audience()
+        self.audience = GraphObserver()
         self.found = Found()
         self.links: Mapping[str, RobotLink] = {}
         self._node = node
