@@ -68,10 +68,13 @@ def package_share(package: str) -> Path:
     """
     try:
         return package_prefix(package) / 'share' / package
-    except ResourceError:
+    except ResourceError as error:
         if package == OWN_PACKAGE and (_SOURCE_TREE / 'config').is_dir():
             return _SOURCE_TREE
-        raise
+        raise ResourceError(
+            f"package '{package}' is not found in {_VARIABLE}; build it and source its workspace "
+            'first'
+        ) from error
 
 
 def executables_of(package: str) -> list[Path]:

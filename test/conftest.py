@@ -18,7 +18,8 @@ import pytest
 from amr_description.testing.program import take_domain
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces')]  # their parts are tested too
+# The parts of these are tested too, and benchmarks/ is imported from the checkout.
+sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 
 KEPT = {}  # what has to last as long as the run
 

@@ -6,14 +6,14 @@
 It owns ``/clock``, takes robots in and runs their controller managers. It is asked by the services
 of ``simulation_interfaces``, below ``/mujoco_sim/``::
 
-    ~/spawn_entity, ~/delete_entity …     nodes/spawn_services.py
-    ~/get_entity_state …                  nodes/entity_services.py
+    ~/spawn_entity, ~/delete_entity …     sim/ros/spawn_services.py
+    ~/get_entity_state …                  sim/ros/entity_services.py
     ~/set_simulation_state, ~/step_simulation, ~/reset_simulation …
-                                          nodes/simulation_services.py
-    ~/get_available_worlds …              nodes/world_services.py
+                                          sim/ros/simulation_services.py
+    ~/get_available_worlds …              sim/ros/simulation_services.py
 
-On ``~/world`` it tells its static surroundings, as markers (nodes/surroundings_topic.py), and on
-``~/received`` which commands have arrived (nodes/receipts.py).
+On ``~/world`` it tells its static surroundings, as markers (sim/ros/world_markers.py), and on
+``~/received`` which commands have arrived (control/ros/loop_publisher.py).
 """
 
 from collections.abc import Sequence

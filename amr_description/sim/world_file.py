@@ -12,7 +12,7 @@ what               when nobody sets    why not MuJoCo's default
 ``friction``       0.5                 with 1 driven wheels climb walls: see
                                        :mod:`amr_description.sim.friction`
 ``physics_step``   2 ms                MuJoCo's own; :mod:`amr_description.sim.wheel_contact` is tuned
-                                       for it. It is the longest: see ``sim/stepping.py``
+                                       for it. It is the longest: see ``sim/engine.py``
 ``integrator``     ``discrete``        it puts the stiff speed servos of the wheels inside the
                                        friction problem; with any other the robot loses 0.8 of a
                                        turn, or never comes to rest

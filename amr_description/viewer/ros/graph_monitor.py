@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The names of the ROS graph as discovery (viewer/discovery.py) wants them.
+The names of the ROS graph as discovery (viewer/graph.py) wants them.
 
 The viewer's side towards ROS: looks at the graph, and connects with what is there.
 

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Markers of a world, ours (nodes/surroundings_topic.py) or a stranger's, as a page draws them.
+Markers of a world, ours (sim/ros/world_markers.py) or a stranger's, as a page draws them.
 
 ``/diagnostics`` as pages show it: the last word of each name, by robot.
 """

@@ -1,0 +1,171 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Samples as messages: what is written each time, and what only once."""
+
+import math
+
+from control_msgs.msg import DynamicJointState
+from geometry_msgs.msg import Twist
+import pytest
+from rclpy.serialization import deserialize_message, serialize_message
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64MultiArray
+from support.control_fakes import FakeLog
+
+from amr_description.control.contracts import ControllerContext
+from amr_description.control.ros import converters
+from amr_description.control.samples import (
+    CommandsSample,
+    DynamicJointStateSample,
+    DynamicLayout,
+    ImuConstants,
+    ImuSample,
+    JointStateSample,
+    TwistSample,
+)
+from amr_description.controllers import CONTROLLERS
+from amr_description.parameters import build
+from amr_description.registry import resolve
+from amr_description.ros.message_types import message_type
+
+STAMP = 3_000_000_007
+LAYOUT = DynamicLayout('base', ('wheel', 'imu'), (('position', 'velocity'), ('gyro.x',)))
+
+
+def sent(message):
+    """What arrives at the other end."""
+    return deserialize_message(serialize_message(message), type(message))
+
+
+def dynamic(values, layout=LAYOUT, stamp=STAMP):
+    return DynamicJointStateSample(stamp, values, layout)
+
+
+def test_joint_states_arrive_as_they_were():
+    message = JointState()
+    sample = JointStateSample(STAMP, 'base', ('a', 'b'), (1.0, 2.0), (3.0, math.nan), (5.0, 6.0))
+    converters.fill_joint_state(sample, message)
+    arrived = sent(message)
+    assert (arrived.header.stamp.sec, arrived.header.stamp.nanosec) == (3, 7)
+    assert arrived.header.frame_id == 'base'
+    assert arrived.name == ['a', 'b']
+    assert list(arrived.position) == [1.0, 2.0]
+    assert arrived.velocity[0] == 3.0
+    assert math.isnan(arrived.velocity[1])
+    assert list(arrived.effort) == [5.0, 6.0]
+
+
+def test_joint_names_that_change_are_written_again():
+    message = JointState()
+    for name in (('a', 'b'), ('b', 'a')):
+        zeros = (0.0, 0.0)
+        sample = JointStateSample(STAMP, 'base', name, zeros, zeros, zeros)
+        converters.fill_joint_state(sample, message)
+        assert sent(message).name == list(name)
+
+
+def test_dynamic_joint_states_arrive_as_they_were():
+    message = DynamicJointState()
+    converters.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
+    arrived = sent(message)
+    assert (arrived.header.stamp.sec, arrived.header.frame_id) == (3, 'base')
+    assert arrived.joint_names == ['wheel', 'imu']
+    assert [row.interface_names for row in arrived.interface_values] == [
+        ['position', 'velocity'],
+        ['gyro.x'],
+    ]
+    assert [list(row.values) for row in arrived.interface_values] == [[1.0, 2.0], [3.0]]
+
+
+def test_only_values_and_stamp_of_a_dynamic_joint_state_are_written_again():
+    message = DynamicJointState()
+    converters.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
+    rows = message.interface_values
+    converters.fill_dynamic_joint_state(dynamic(((4.0, 5.0), (6.0,)), stamp=0), message)
+    assert message.interface_values is rows
+    arrived = sent(message)
+    assert [list(row.values) for row in arrived.interface_values] == [[4.0, 5.0], [6.0]]
+    assert arrived.header.stamp.sec == 0
+
+
+def test_other_interfaces_of_the_same_joints_are_written_again():
+    message = DynamicJointState()
+    converters.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
+    names = ('wheel', 'imu')
+    other = DynamicLayout('map', tuple(list(names)), (('effort',), ('gyro.x', 'gyro.y')))
+    converters.fill_dynamic_joint_state(dynamic(((1.0,), (3.0, 4.0)), other), message)
+    arrived = sent(message)
+    assert arrived.header.frame_id == 'map'
+    assert [row.interface_names for row in arrived.interface_values] == [
+        ['effort'],
+        ['gyro.x', 'gyro.y'],
+    ]
+
+
+def test_commands_are_the_plain_list_of_numbers():
+    message = Float64MultiArray(data=[1.0, -2.5])
+    assert converters.commands_sample(sent(message)) == CommandsSample((1.0, -2.5))
+
+
+def test_an_imu_message_arrives_as_it_was():
+    covariances = [tuple(first + i for i in range(9)) for first in (0.0, 10.0, 20.0)]
+    constants = ImuConstants('imu_link', *covariances)
+    message = Imu()
+    for stamp in (0, STAMP):
+        sample = ImuSample(
+            stamp, (0.1, 0.2, 0.3, 0.4), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), constants
+        )
+        converters.fill_imu(sample, message)
+    arrived = sent(message)
+    assert (arrived.header.stamp.sec, arrived.header.frame_id) == (3, 'imu_link')
+    orientation = arrived.orientation
+    assert (orientation.x, orientation.y, orientation.z, orientation.w) == (0.1, 0.2, 0.3, 0.4)
+    assert (arrived.angular_velocity.x, arrived.angular_velocity.z) == (1.0, 3.0)
+    assert (arrived.linear_acceleration.y, arrived.linear_acceleration.z) == (5.0, 6.0)
+    found = (
+        arrived.orientation_covariance,
+        arrived.angular_velocity_covariance,
+        arrived.linear_acceleration_covariance,
+    )
+    assert [tuple(covariance) for covariance in found] == covariances
+
+
+@pytest.mark.parametrize(
+    ('controller', 'values'),
+    [
+        ('joint_state_broadcaster/JointStateBroadcaster', {}),
+        (
+            'forward_command_controller/ForwardCommandController',
+            {'joints': ['a'], 'interface_name': 'velocity'},
+        ),
+        (
+            'imu_sensor_broadcaster/IMUSensorBroadcaster',
+            {'sensor_name': 'imu', 'frame_id': 'imu_link'},
+        ),
+    ],
+)
+def test_the_converters_of_every_port_exist(controller, values):
+    found = CONTROLLERS.find(controller)
+    made = found(ControllerContext('made', FakeLog()))
+    made.configure(build(found.parameters_type, values))
+    ports = [each.port for each in (*made.inputs(), *made.outputs())]
+    assert ports
+    for port in ports:
+        assert callable(resolve(port.convert))
+        assert message_type(port.message)()
+
+
+@pytest.mark.parametrize('count', [0, 1, 40])
+def test_any_number_of_joints_goes(count):
+    names = tuple(f'joint_{i}' for i in range(count))
+    values = tuple((float(i),) for i in range(count))
+    message = DynamicJointState()
+    layout = DynamicLayout('', names, (('position',),) * count)
+    converters.fill_dynamic_joint_state(dynamic(values, layout), message)
+    assert [row.values[0] for row in sent(message).interface_values] == list(range(count))
+
+
+def test_a_plain_twist_has_no_stamp_and_keeps_the_planar_part():
+    message = Twist()
+    message.linear.x, message.linear.y, message.angular.z = 0.5, 9.0, -0.25
+    assert converters.unstamped_twist_sample(message) == TwistSample(0, 0.5, -0.25)

@@ -1,0 +1,134 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a program hears of a controller manager that answers badly, or not at all."""
+
+import threading
+
+from controller_manager_msgs.srv import ListControllers, SwitchController
+import pytest
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from rosgraph_msgs.msg import Clock
+from support.manager_host import ros_in_this_process
+
+from amr_description.control.ros import absence_diagnosis
+from amr_description.control.ros.client import ManagerClient
+from amr_description.errors import ControllerError
+from amr_description.ros.service_calls import NoAnswerError
+
+TIMED_OUT = 'Switch controller timed out after 5 seconds!'
+
+
+class Manager(Node):
+    """Answers nothing while ``silent``, switches never, and takes no parameter."""
+
+    def __init__(self):
+        super().__init__('controller_manager', allow_undeclared_parameters=True)
+        self.silent = False
+        self.switches = []
+        group = ReentrantCallbackGroup()
+        for service_type, name, serve in (
+            (ListControllers, '~/list_controllers', self.list_controllers),
+            (SwitchController, '~/switch_controller', self.switch_controller),
+        ):
+            self.create_service(service_type, name, serve, callback_group=group)
+        self.add_on_set_parameters_callback(
+            lambda _: SetParametersResult(successful=False, reason='it is full')
+        )
+        self.clock = self.create_publisher(Clock, '/clock', 10)
+
+    async def list_controllers(self, _, response):
+        if self.silent:
+            await Future()
+        return response
+
+    async def switch_controller(self, request, response):
+        self.switches.append(request)
+        if self.silent:
+            await Future()
+        response.message = TIMED_OUT
+        return response
+
+
+@pytest.fixture(scope='module')
+def manager():
+    with ros_in_this_process():
+        node, executor = Manager(), SingleThreadedExecutor()
+        node.create_timer(0.01, lambda: node.clock.publish(Clock()))
+        executor.add_node(node)
+        thread = threading.Thread(target=executor.spin)
+        thread.start()
+        yield node
+        executor.shutdown()
+        thread.join()
+        node.destroy_node()
+
+
+@pytest.fixture
+def client(manager, monkeypatch):
+    """Made while the manager answers."""
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 1.0)
+    monkeypatch.setattr(manager, 'switches', [])
+    node = Node('asker')
+    yield ManagerClient(node, 'controller_manager', call_timeout=0.5)
+    node.destroy_node()
+
+
+@pytest.fixture
+def silence(manager, client, monkeypatch):
+    monkeypatch.setattr(manager, 'silent', True)
+
+
+def test_a_manager_that_does_not_answer_is_asked_once_and_its_clock_is_looked_at(
+    manager, client, silence
+):
+    with pytest.raises(NoAnswerError) as error:
+        client.switch(activate=['a'], timeout=0.1)
+    service, clock = str(error.value).split('. ')
+    assert service == (
+        'Could not successfully call service /controller_manager/switch_controller after 3 '
+        'attempts'
+    )
+    assert clock.startswith('/clock stands still at 0.000 s: is the simulation paused?')
+    assert len(manager.switches) == 1
+
+
+def test_what_changes_nothing_is_waited_for_too(client, silence):
+    with pytest.raises(NoAnswerError, match='/list_controllers after 3 attempts'):
+        client.states()
+
+
+def test_a_switch_that_timed_out_is_explained_by_the_clock(client):
+    assert client.switch(activate=['a'], timeout=0.1) == (
+        f'{TIMED_OUT}; /clock stands still at 0.000 s: is the simulation paused?'
+    )
+
+
+def test_a_switch_has_the_time_that_was_asked_for(manager, client):
+    client.request_switch(['a'], ['b'], 1, timeout=2.5, activate_asap=False)
+    (request,) = manager.switches
+    assert (request.activate_controllers, request.deactivate_controllers) == (['a'], ['b'])
+    assert (request.strictness, request.activate_asap) == (1, False)
+    assert (request.timeout.sec, request.timeout.nanosec) == (2, 500_000_000)
+
+
+def test_a_parameter_that_is_refused_is_told(client):
+    with pytest.raises(ControllerError) as error:
+        client.set_parameters('arm', {'type': 'a/Type'})
+    assert str(error.value) == (
+        'Could not set controller param "type" to "a/Type" for arm: /controller_manager refuses '
+        'it: it is full'
+    )
+    assert not client.has_type('arm')
+
+
+def test_a_manager_that_never_answers_keeps_nobody(manager, monkeypatch):
+    monkeypatch.setattr(manager, 'silent', True)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 1.0)
+    node = Node('hopeful')
+    with pytest.raises(NoAnswerError, match='after 3 attempts'):
+        ManagerClient(node, '/controller_manager', call_timeout=0.1)
+    node.destroy_node()

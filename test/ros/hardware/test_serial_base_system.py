@@ -1,0 +1,624 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""amr_description/SerialBaseSystem against a board on a pseudo-terminal, well and ill-treated."""
+
+from contextlib import suppress
+import errno
+import math
+import os
+from pathlib import Path
+import threading
+import time
+
+from hypothesis import given, strategies as st
+import pytest
+import serial
+from support.control_fakes import FakeLog, MS
+from support.motor_boards import BoardOnPty, on_motor_board, SIDES, TamperedBoard
+
+from amr_description.control.contracts import Severity
+from amr_description.errors import HardwareDeactivationError, HardwareError
+from amr_description.hardware import HARDWARE
+from amr_description.hardware.serial_base_system import SerialBaseSystem
+from amr_description.hardware.serial_protocol import (
+    Arm,
+    Board,
+    Disarm,
+    encode,
+    Get,
+    Hello,
+    LineReader,
+    Mode,
+    Refused,
+    Set,
+    State,
+)
+from amr_description.hardware.simulated_motor_board import MotorConstants
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.urdf import parse
+
+PATIENCE = 20.0
+"""s; a bound that only a broken test reaches."""
+REMEDY = 'check its cable and power, then: ros2 control set_hardware_component_state AmrSystem act'
+
+
+class Rig:
+    """The component of the shipped robot on a port, and an owner who turns by hand."""
+
+    def __init__(self, port, **parameters):
+        (info,) = hardware_of(parse(on_motor_board(port, **parameters)))
+        self.log = FakeLog()
+        self.system = SerialBaseSystem(info, self.log)
+        self.states = {s.name: s for s in self.system.state_interfaces()}
+        self.commands = {c.name: c for c in self.system.command_interfaces()}
+
+    def start(self):
+        self.system.configure()
+        self.system.activate()
+
+    def command(self, left, right):
+        for name, command in self.commands.items():
+            command.value = left if 'left' in name else right
+
+    def turn(self):
+        self.system.read(0, 10 * MS)
+        if self.system._is_active:
+            self.system.write(0, 10 * MS)
+
+    def turn_until(self, condition, board=None):
+        """Turn in the rhythm of the board's answers, or fast where it has none."""
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < deadline
+            self.run_once()
+            if board is not None:
+                board.answered.wait(0.01)
+                board.answered.clear()
+
+    def state(self, interface):
+        """The values of the left and of the right joints."""
+        values = {n: s.value for n, s in self.states.items() if n.endswith(interface)}
+        sides = [{v for n, v in values.items() if side in n} for side in ('left', 'right')]
+        assert [len(side) for side in sides] == [1, 1], 'joints of a side differ'
+        return tuple(value for (value,) in sides)
+
+
+class Wire:
+    """In the place of SerialBoard: keeps the velocities that are sent."""
+
+    description = Board(1, 1, 'none', 4096, 30.0)
+
+    def __init__(self, _parameters, _component):
+        self.sent = []
+
+    def ask(self, _kind, *_values):
+        return State(1, 0, 0, 0, 0.0, 0.0, Mode.ARMED)
+
+    def post(self, _kind, left, right):
+        self.sent.append((left, right))
+
+
+def threads():
+    return [thread for thread in threading.enumerate() if thread.name.startswith('serial')]
+
+
+def descriptors():
+    return len(os.listdir('/proc/self/fd'))
+
+
+@pytest.fixture
+def plugged():
+    with BoardOnPty() as plugged:
+        yield plugged
+
+
+@pytest.fixture
+def board(plugged):
+    return plugged.board
+
+
+@pytest.fixture
+def rig(plugged):
+    """Connected and active."""
+    rig = Rig(plugged.port)
+    rig.start()
+    yield rig
+    rig.system.cleanup()
+    assert threads() == []
+
+
+def drive(rig, board, left=5.0, right=-3.0):
+    rig.command(left, right)
+    rig.turn_until(lambda: rig.state('velocity') == (left, right), board)
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+def test_found_by_its_name():
+    assert HARDWARE.find('amr_description/SerialBaseSystem') is SerialBaseSystem
+
+
+def test_interfaces_are_those_of_the_tag_in_its_order():
+    rig = Rig('/dev/nowhere')
+    joints = [joint.name for joint in rig.system.info.joints]
+    assert list(rig.commands) == [f'{joint}/velocity' for joint in joints]
+    assert list(rig.states) == [f'{j}/{i}' for j in joints for i in ('position', 'velocity')]
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'text'),
+    [
+        ({'port': ''}, "parameter 'port' must not be empty"),
+        ({'baud_rate': 'fast'}, "parameter 'baud_rate' must be of type integer, found 'fast'"),
+        ({'baud_rate': '0'}, "parameter 'baud_rate' must be at least 1, found 0 bit/s"),
+        ({'max_velocity': '0'}, "parameter 'max_velocity' must be greater than 0, found 0.0"),
+        ({'max_velocity': 'nan'}, "parameter 'max_velocity' must be a finite number, found nan"),
+        ({'left_reduction': '0'}, "parameter 'left_reduction' must not be zero"),
+        ({'watchdog_timeout': '6'}, "parameter 'watchdog_timeout' must be at most 5, found 6.0 s"),
+        ({'left_joints': ''}, "parameter 'left_joints' must not be empty"),
+        (
+            {'left_joints': 'wheel'},
+            r'left_joints \(wheel\) and right_joints \(joint_wheel_front_right, joint_wheel_back_r'
+            r'ight\) must name each joint of the block once; it has joint_wheel_front_left, ',
+        ),
+        ({'left_joints': SIDES['right_joints']}, '.*must name each joint of the block once; it'),
+    ],
+)
+def test_a_wrong_parameter_is_told(parameters, text):
+    with pytest.raises(HardwareError, match=f"^hardware component 'AmrSystem': {text}"):
+        Rig(**{'port': '/dev/nowhere', **parameters})
+
+
+def test_a_parameter_that_has_no_effect_is_told():
+    (line,) = Rig('/dev/nowhere', max_velcity='3').log.texts(Severity.WARN)
+    assert line.startswith("hardware component 'AmrSystem': parameter 'max_velcity' has no effect")
+    assert 'Known: port, left_joints' in line
+
+
+def test_lists_are_written_with_commas_too():
+    rig = Rig('/dev/nowhere', left_joints='joint_wheel_front_left,joint_wheel_back_left')
+    assert len(rig.commands) == 4
+
+
+def test_a_sensor_of_the_tag_is_told_not_to_be_there():
+    sensor = '<sensor name="imu"><state_interface name="x"/></sensor></ros2_control>'
+    text = on_motor_board('/dev/nowhere').replace('</ros2_control>', sensor)
+    (info,) = hardware_of(parse(text))
+    log = FakeLog()
+    SerialBaseSystem(info, log)
+    assert ["sensor 'imu' is not on the motor board" in line for line in log.texts()] == [True]
+
+
+# --- connecting ----------------------------------------------------------------------------------
+
+
+def fails_to_connect(match, port, **parameters):
+    before = descriptors()
+    with pytest.raises(HardwareError, match=match):
+        Rig(port, **parameters).system.configure()
+    assert threads() == []
+    assert descriptors() == before
+
+
+@pytest.mark.parametrize('port', ['/dev/null', '/dev', __file__])
+def test_what_is_no_serial_port_is_refused(port):
+    fails_to_connect(f"^cannot open the serial port '{port}': it is not a serial port$", port)
+
+
+def test_a_port_that_is_not_there_is_refused_with_those_that_are():
+    fails_to_connect("'/dev/nope': there is no such file.*Ports that are there: ", '/dev/nope')
+
+
+def test_a_port_without_permission_is_refused_with_the_group_to_join(plugged, monkeypatch):
+    def refuse(path, *_args, **_keywords):
+        raise PermissionError(errno.EACCES, 'Permission denied')
+
+    monkeypatch.setattr(serial.serialposix.os, 'open', refuse)  # root may open everything
+    group = Path(plugged.port).group()
+    match = f'permission denied; join its group.*sudo usermod -aG {group} [$]USER$'
+    with pytest.raises(HardwareError, match=match):
+        Rig(plugged.port).system.configure()
+
+
+def test_a_port_that_another_program_has_is_refused(rig, plugged, board):
+    with pytest.raises(HardwareError, match='another program has it; end that one, or give'):
+        Rig(plugged.port).system.configure()
+    drive(rig, board)  # undisturbed
+
+
+def test_silence_at_the_port_is_told(plugged, board):
+    board.is_deaf = True
+    fails_to_connect(
+        f'no motor board answered on {plugged.port} at 9600 bit/s within 0.15 s; what came '
+        'instead: nothing; check port, baud_rate and',
+        plugged.port,
+        connect_timeout=0.15,
+        baud_rate=9600,
+    )
+
+
+def test_what_came_instead_of_a_board_is_told(plugged, board):
+    board.tamper = lambda answer: b'$GPGGA,0*00\n' if answer else b''
+    fails_to_connect(
+        r"what came instead: \d lines such as b'[$]GPGGA,0\*00'; check",
+        plugged.port,
+        connect_timeout=0.15,
+    )
+
+
+def test_a_board_of_another_version_is_refused(plugged, monkeypatch):
+    monkeypatch.setattr('amr_description.hardware.simulated_motor_board.VERSION', 2)
+    fails_to_connect('speaks version 2 of the protocol, version 1 is needed; upd', plugged.port)
+
+
+def test_a_board_without_encoders_is_refused():
+    with BoardOnPty(board=TamperedBoard(MotorConstants(ticks=0))) as plugged:
+        fails_to_connect('says that its encoders have 0 ticks', plugged.port)
+
+
+def test_a_board_that_is_slow_to_start_is_waited_for(plugged, board):
+    answers = iter([b'ets Jul 29 2019\nrst:0x1', b'\n'])
+    board.tamper = lambda answer: next(answers, answer) if answer else b''
+    rig = Rig(plugged.port)
+    rig.start()
+    rig.system.cleanup()
+
+
+def test_what_an_earlier_host_left_unread_is_not_believed(plugged, board):
+    with Path(plugged.port).open('wb') as earlier:
+        for _ in range(100):
+            earlier.write(encode(Hello(1, 1)) + encode(Get(1)))
+    wait_until(lambda: len(heard(board)) == 200)
+    board.left.position = 1000.0
+    rig = Rig(plugged.port)
+    rig.system.configure()
+    assert rig.system._state.left_ticks == board.left.ticks
+    rig.system.cleanup()
+
+
+# --- driving -------------------------------------------------------------------------------------
+
+
+def test_wheels_turn_as_commanded_and_say_so(rig, board):
+    drive(rig, board, 5.0, -3.0)
+    assert (board.left.target, board.right.target) == (5.0, -3.0)
+    rig.turn_until(lambda: rig.state('position')[0] > 1.0, board)
+    left, right = rig.state('position')
+    assert right / left == pytest.approx(-3.0 / 5.0, rel=0.05)
+
+
+def test_reads_the_encoders_while_inactive(plugged, board):
+    rig = Rig(plugged.port)
+    rig.system.configure()
+    assert rig.state('position') == rig.state('velocity') == (0.0, 0.0)
+    board.left.position += 1.0  # pushed by hand
+    rig.turn_until(lambda: rig.state('position')[0] > 0.99)
+    assert Set not in {type(message) for message in heard(board)}
+    rig.system.cleanup()
+
+
+def test_a_gear_and_a_mirrored_motor_are_undone(plugged, board):
+    rig = Rig(plugged.port, left_reduction=3.0, right_reduction=-2.0)
+    rig.start()
+    drive(rig, board, 5.0, 4.0)
+    assert (board.left.target, board.right.target) == (15.0, -8.0)
+    rig.system.cleanup()
+
+
+def test_too_fast_keeps_the_curve(plugged, board):
+    rig = Rig(plugged.port, max_velocity=10.0)
+    rig.start()
+    rig.command(40.0, -20.0)
+    rig.turn_until(lambda: rig.state('velocity') == (10.0, -5.0), board)
+    assert 'commanded 40 rad/s, they may turn at 10: both' in rig.log.texts(Severity.WARN)[0]
+    rig.system.cleanup()
+
+
+def test_the_board_may_allow_less(plugged, board):
+    rig = Rig(plugged.port, max_velocity=1000.0, left_reduction=7.3)
+    rig.start()
+    rig.command(1e300, 1e300)
+    expected = pytest.approx((30.0 / 7.3, 30.0 / 7.3), abs=1e-4)
+    rig.turn_until(lambda: rig.state('velocity') == expected, board)
+    assert rig.system._board._link.status.complaints == 0
+    rig.system.cleanup()
+
+
+def test_no_command_is_no_command(rig, board):
+    drive(rig, board, 5.0, 5.0)
+    rig.command(math.nan, 2.0)
+    rig.turn_until(lambda: rig.state('velocity') == (5.0, 2.0), board)
+
+
+@given(
+    st.lists(st.floats(), min_size=4, max_size=4),
+    st.floats(0.1, 100.0),
+    st.floats(0.1, 50.0) | st.floats(-50.0, -0.1),
+)
+def test_whatever_is_commanded_the_wire_carries_finite_and_bounded_speeds(values, most, gear):
+    rig = Rig('/dev/nowhere', max_velocity=most, left_reduction=gear)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr('amr_description.hardware.serial_base_system.SerialBoard', Wire)
+        rig.start()
+    for wish, (name, command) in zip(values, rig.commands.items(), strict=True):
+        command.value = values[0] if 'left' in name else wish
+    with suppress(HardwareDeactivationError):
+        rig.system.write(0, 10 * MS)
+    for left, right in rig.system._board.sent:
+        assert encode(Set(1, left, right))
+        assert max(abs(left), abs(right)) <= 30.0 * (1 + 1e-12)
+        assert max(abs(left / gear), abs(right)) <= most * (1 + 1e-12)
+
+
+@pytest.mark.parametrize('bad', [math.inf, -math.inf])
+def test_nothing_infinite_reaches_the_wire(rig, board, bad):
+    drive(rig, board)
+    rig.command(1.0, bad)
+    with pytest.raises(HardwareDeactivationError, match='a finite number is needed'):
+        rig.run_once()
+    rig.system.deactivate()
+    assert board.mode is Mode.IDLE
+    assert {(m.left, m.right) for m in heard(board) if isinstance(m, Set)} <= {(5.0, -3.0)}
+
+
+def test_wheels_of_a_side_must_be_commanded_alike(rig):
+    rig.command(1.0, 1.0)
+    rig.commands['joint_wheel_back_left/velocity'].value = 2.0
+    with pytest.raises(HardwareDeactivationError, match='differ, but one motor turns both'):
+        rig.run_once()
+
+
+def test_a_side_that_changes_hands_stops(rig, board):
+    drive(rig, board, 5.0, 3.0)
+    rig.system.perform_command_mode_switch([], [n for n in rig.commands if 'left' in n])
+    rig.turn_until(lambda: rig.state('velocity') == (0.0, 3.0), board)
+
+
+def test_what_waited_for_a_stuck_line_moves_nothing_after_the_next_arm(rig, board):
+    drive(rig, board)
+    board.tamper = lambda answer: b''
+    board.heard.clear()
+    while len(heard(board)) < 2:
+        rig.system.write(0, 10 * MS)
+    rig.system.write(0, 10 * MS)  # waits, as two have no answer yet
+    board.tamper = lambda answer: answer
+    rig.system.deactivate()
+    rig.system.activate()
+    armed_at = board._uptime
+    wait_until(lambda: board._uptime > armed_at + 0.1)  # a lost answer is given up after 50 ms
+    assert [type(message) for message in heard(board)][-2:] == [Disarm, Arm]
+
+
+def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
+    """They would arrive when nobody wants them any more."""
+    drive(rig, board)
+    board.tamper = lambda answer: b''
+    board.heard.clear()
+    with pytest.raises(HardwareError, match='has not told its state'):
+        rig.turn_until(lambda: False)
+    # At first two, then one each 50 ms of the 250 ms.
+    assert 2 <= len([m for m in heard(board) if isinstance(m, Set)]) <= 8
+
+
+def test_a_program_that_was_stopped_for_a_while_goes_on(plugged, board):
+    rig = Rig(plugged.port, answer_timeout=0.05)
+    rig.start()
+    port, stopped = rig.system._board._link._serial, threading.Event()
+    read = port.read
+
+    def stop(_size):
+        port.read = read
+        threading.Event().wait(0.2)
+        stopped.set()
+        return b''
+
+    port.read = stop
+    rig.system.write(0, 10 * MS)
+    assert stopped.wait(PATIENCE)
+    drive(rig, board)
+    rig.system.cleanup()
+
+
+def heard(board):
+    return [m for m in LineReader().feed(bytes(board.heard)) if not isinstance(m, Refused)]
+
+
+# --- stopping ------------------------------------------------------------------------------------
+
+
+def test_deactivating_stops_the_motors(rig, board):
+    drive(rig, board)
+    rig.system.deactivate()
+    assert (board.mode, board.left.target, board.right.target) == (Mode.IDLE, 0.0, 0.0)
+    assert type(heard(board)[-1]) is Disarm
+
+
+def test_activating_again_begins_at_rest(rig, board):
+    drive(rig, board)
+    rig.system.deactivate()
+    rig.system.activate()
+    rig.turn_until(lambda: rig.state('velocity') == (0.0, 0.0), board)
+    assert all(math.isnan(command.value) for command in rig.commands.values())
+
+
+def test_an_owner_who_hangs_is_stopped_by_the_watchdog_and_may_go_on(plugged, board):
+    rig = Rig(plugged.port, watchdog_timeout=0.05)
+    rig.start()
+    drive(rig, board)
+    wait_until(lambda: board.mode is Mode.TIMEOUT)
+    assert board.left.target == 0.0
+    drive(rig, board)
+    rig.system.cleanup()
+
+
+def wait_until(condition):
+    deadline = time.monotonic() + PATIENCE
+    tick = threading.Event()
+    while not condition():
+        assert time.monotonic() < deadline
+        tick.wait(0.005)
+
+
+@pytest.mark.parametrize(
+    'steps',
+    [
+        ['cleanup'],
+        ['deactivate', 'cleanup', 'cleanup'],
+        ['configure', 'cleanup'],
+        ['configure', 'configure', 'cleanup'],
+        ['configure', 'activate', 'cleanup'],
+        ['configure', 'activate', 'deactivate', 'deactivate', 'cleanup'],
+        ['configure', 'activate', 'deactivate', 'activate', 'deactivate', 'cleanup', 'shutdown'],
+    ],
+)
+def test_nothing_is_left_whatever_the_order(plugged, steps):
+    rig, before = Rig(plugged.port), descriptors()
+    for step in steps:
+        getattr(rig.system, step)()
+    assert threads() == []
+    assert descriptors() == before
+
+
+@pytest.mark.parametrize('step', ['activate', 'turn'])
+def test_what_needs_a_board_says_that_there_is_none(step):
+    rig = Rig('/dev/nowhere')
+    with pytest.raises(HardwareError, match='board on /dev/nowhere is not connected'):
+        (rig.turn if step == 'turn' else rig.system.activate)()
+
+
+# --- a board that goes away ----------------------------------------------------------------------
+
+
+def is_lost(rig, board, match):
+    """It is told once and clearly, and the manager can bring the component down."""
+    with pytest.raises(HardwareError, match=match) as caught:
+        rig.turn_until(lambda: False, board)
+    assert REMEDY in str(caught.value)
+    assert '\n' not in str(caught.value)
+    with pytest.raises(HardwareError, match=match):
+        rig.system.read(0, 10 * MS)
+    rig.system.deactivate()
+    rig.system.cleanup()
+    assert threads() == []
+
+
+def test_unplugged(rig, board, plugged):
+    drive(rig, board)
+    plugged.unplug()
+    is_lost(rig, board, f'^the motor board on {plugged.port} is gone, as if it were unplugged; ch')
+
+
+def test_what_is_written_to_a_board_that_is_lost_is_refused(rig, board, plugged):
+    plugged.unplug()
+    wait_until(lambda: rig.system._board.is_lost)
+    with pytest.raises(HardwareError, match='is gone, as if it were unplugged'):
+        rig.system.write(0, 10 * MS)
+
+
+def test_silent(rig, board):
+    drive(rig, board)
+    board.tamper = lambda answer: b''
+    is_lost(rig, board, 'has not told its state for 0.25 s; check')
+
+
+def test_deaf(rig, board):
+    drive(rig, board)
+    board.is_deaf = True
+    is_lost(rig, board, 'has not told its state for 0.25 s; check')
+
+
+def test_hears_only_noise(rig, board, monkeypatch):
+    drive(rig, board)
+    noise = b'$NOISE*0000\n'
+    hear = board.hear
+    monkeypatch.setattr(board, 'hear', lambda data: hear(noise if data else b''))
+    is_lost(rig, board, r'has not told its state for 0.25 s, but refused \d+ lines \(CHECKSUM\);')
+
+
+@pytest.mark.parametrize(
+    ('error', 'text'),
+    [
+        (serial.SerialTimeoutException('Write timeout'), 'takes no more bytes; check'),
+        (RuntimeError('a bug'), r'cannot be talked to \(RuntimeError: a bug\); check'),
+    ],
+)
+def test_cannot_be_written_to(rig, board, monkeypatch, error, text):
+    def fail(_data):
+        raise error
+
+    drive(rig, board)
+    monkeypatch.setattr(rig.system._board._link._serial, 'write', fail)
+    is_lost(rig, board, text)
+
+
+def test_says_much_noise(rig, board):
+    drive(rig, board)
+    board.tamper = lambda answer: b'\x00noise\n' + answer if answer else b''
+    is_lost(rig, board, r"sends noise: 2. of its last 100 lines were refused, the last one b'.x00")
+
+
+def test_says_noise_without_end(rig, board):
+    drive(rig, board)
+    board.tamper = lambda answer: b'x' * 10
+    is_lost(rig, board, 'has not told its state for 0.25 s; check')
+
+
+def test_says_a_little_noise(rig, board):
+    count = iter(range(10**9))
+    board.tamper = lambda answer: answer + b'noise\n' * (next(count) % 10 == 0) if answer else b''
+    rig.turn_until(lambda: rig.system._board._link.status.refused > 30, board)
+
+
+def test_restarted(rig, board):
+    drive(rig, board)
+    rig.turn_until(lambda: board._uptime > 0.2, board)
+    board._uptime = 0.0
+    is_lost(rig, board, 'has restarted by itself, as after a power failure; check')
+
+
+def test_the_clock_of_the_board_may_wrap(plugged, board):
+    board._uptime = 2**32 / 1000 - 0.05
+    rig = Rig(plugged.port)
+    rig.start()
+    rig.turn_until(lambda: board._uptime > 2**32 / 1000 + 0.05, board)
+    rig.system.cleanup()
+
+
+def test_lets_its_motors_go(rig, board):
+    drive(rig, board)
+    board.break_down()
+    is_lost(rig, board, 'has let go of its motors: it is in the mode FAULT')
+
+
+def test_a_board_with_a_fault_is_not_activated(plugged, board):
+    rig = Rig(plugged.port, answer_timeout=0.05)
+    rig.system.configure()
+    board.break_down()
+    with pytest.raises(
+        HardwareError, match='does not arm its motors: it is in the mode FAULT; check'
+    ):
+        rig.system.activate()
+    rig.system.cleanup()
+
+
+def test_comes_back_and_positions_go_on(tmp_path):
+    link = tmp_path / 'board'
+    with BoardOnPty(link) as first:
+        rig = Rig(link)
+        rig.start()
+        drive(rig, first.board)
+        rig.turn_until(lambda: rig.state('position')[0] > 1.0, first.board)
+        first.unplug()
+        is_lost(rig, first.board, 'is gone')
+    before = rig.state('position')
+    with pytest.raises(HardwareError, match=f"'{link}': there is no such file"):
+        rig.system.configure()
+    with BoardOnPty(link) as second:
+        second.board.left.position = second.board.right.position = 123.0
+        rig.start()
+        assert rig.state('position') == before
+        drive(rig, second.board, 2.0, 2.0)
+        rig.turn_until(lambda: rig.state('position')[0] > before[0] + 0.1, second.board)
+        assert rig.state('position')[0] < before[0] + 2.0
+        rig.system.cleanup()

@@ -1,0 +1,121 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Calls of services that are slow, silent or not there."""
+
+import threading
+
+import pytest
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from std_srvs.srv import Trigger
+from support.manager_host import ros_in_this_process
+from support.ros_processes import PATIENCE
+
+from amr_description.ros.service_calls import ask_until_answered, call, NoAnswerError
+
+
+class Server(Node):
+    """Answers the first request when it is told to, and no other."""
+
+    def __init__(self):
+        super().__init__('server')
+        self.requests = 0
+        self.answer = Future()
+        self.leaves = False
+        group = ReentrantCallbackGroup()
+        self.service = self.create_service(Trigger, 'slow', self.serve, callback_group=group)
+
+    async def serve(self, _, response):
+        self.requests += 1
+        if self.leaves:
+            self.destroy_service(self.service)
+        response.message = await self.answer
+        return response
+
+
+@pytest.fixture(scope='module', autouse=True)
+def ros():
+    with ros_in_this_process():
+        yield
+
+
+@pytest.fixture
+def server():
+    node, executor = Server(), SingleThreadedExecutor()
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    yield node
+    executor.shutdown()
+    thread.join()
+    node.destroy_node()
+
+
+@pytest.fixture
+def caller():
+    node = Node('caller')
+    yield node
+    node.destroy_node()
+
+
+def trigger(caller, **options):
+    return call(caller, Trigger, '/slow', Trigger.Request(), **options)
+
+
+def test_a_silent_service_is_asked_once_and_waited_for_thrice(server, caller, capfd):
+    trigger_failed = r'^Could not successfully call service /slow after 3 attempts\.$'
+    with pytest.raises(NoAnswerError, match=trigger_failed):
+        trigger(caller, timeout=0.2, attempts=3)
+    assert server.requests == 1
+    said = [line.partition(': ')[2] for line in capfd.readouterr().err.splitlines()]
+    assert said == [
+        f'Failed getting a result from calling /slow in 0.2. (Attempt {attempt} of 3.)'
+        for attempt in (1, 2, 3)
+    ]
+    server.answer.set_result('late')
+
+
+def test_an_answer_in_a_later_wait_is_taken(server, caller, monkeypatch):
+    log = caller.get_logger()
+    monkeypatch.setattr(caller, 'get_logger', lambda: Listener(log, server))
+    assert trigger(caller, timeout=0.5, attempts=3).message == 'here'
+    assert server.requests == 1
+
+
+class Listener:
+    """A logger that has the server answer at the first complaint."""
+
+    def __init__(self, log, server):
+        self.log, self.server = log, server
+
+    def warning(self, text):
+        self.log.warning(text)
+        self.server.executor.create_task(self.server.answer.set_result, 'here')
+
+
+def test_a_single_wait_has_words_of_its_own(server, caller):
+    with pytest.raises(NoAnswerError, match=r'^service /slow has not answered within 0\.2 s$'):
+        trigger(caller, timeout=0.2)
+    server.answer.set_result('late')
+
+
+def test_a_service_that_is_not_there_is_told(caller):
+    with pytest.raises(NoAnswerError, match=r'^service /slow is not there after 0\.1 s; '):
+        trigger(caller, timeout=0.1)
+
+
+def test_a_server_that_goes_away_is_not_waited_for(server, caller):
+    server.leaves = True
+    with pytest.raises(NoAnswerError, match='^service /slow went away before it answered$'):
+        trigger(caller, timeout=PATIENCE)
+    server.answer.set_result('late')
+
+
+def test_a_question_is_asked_until_it_is_answered(server, caller):
+    client = caller.create_client(Trigger, '/slow')
+    with pytest.raises(NoAnswerError, match='after 2 attempts'):
+        ask_until_answered(caller, client, Trigger.Request(), timeout=0.7, attempts=2)
+    server.answer.set_result('here')
+    assert ask_until_answered(caller, client, Trigger.Request()).message == 'here'

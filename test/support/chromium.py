@@ -1,0 +1,283 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A real headless Chromium, asked by its DevTools protocol: what a test of the page needs of it.
+
+https://chromedevtools.github.io/devtools-protocol/ says what the methods mean.
+"""
+
+import base64
+from contextlib import ExitStack
+import itertools
+import json
+import os
+import queue
+import re
+import shutil
+import subprocess
+import tempfile
+import threading
+
+from support.running_programs import PATIENCE
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+NAMES = ('chromium', 'chromium-browser', 'google-chrome')
+"""What the browser is called where it is installed."""
+
+_FLAGS = (
+    '--headless', '--no-sandbox', '--enable-unsafe-swiftshader', '--disable-gpu',
+    # A test's browser asks nobody but the page under test.
+    '--disable-quic', '--no-first-run', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync', '--disable-default-apps',
+    '--disable-dev-shm-usage', '--remote-debugging-port=0',
+)  # fmt: skip
+_MODIFIERS = {'Alt': 1, 'Control': 2, 'Meta': 4, 'Shift': 8}
+
+
+def executable():
+    """Return the path of a browser on this machine, or None."""
+    return next(filter(None, map(shutil.which, NAMES)), None)
+
+
+class BrowserError(AssertionError):
+    """The browser refused, or the page threw."""
+
+
+class Chromium:
+    """
+    One browser process with a profile of its own; a context manager.
+
+    :param flags: More of its options.
+    """
+
+    def __init__(self, *flags):
+        self._profile = tempfile.TemporaryDirectory(
+            prefix='amr-browser-', ignore_cleanup_errors=True
+        )  # its helper processes may still write
+        profile = f'--user-data-dir={self._profile.name}'
+        command = [executable(), *_FLAGS, *flags, profile, 'about:blank']
+        self._process = subprocess.Popen(
+            command,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=_environment(),
+        )
+        self._stack = ExitStack()
+        try:
+            self._connection = self._stack.enter_context(
+                connect(self._address(), max_size=None, open_timeout=PATIENCE)
+            )
+        except BaseException:
+            self._process.kill()
+            self._end()
+            raise
+        self._ids = itertools.count(1)
+        self._answers = {}
+        self._pages = {}
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _address(self):
+        """Return where it listens; what it says on stderr is read on, so that it never blocks."""
+        for line in self._process.stderr:
+            if found := re.search(r'DevTools listening on (ws://\S+)', line):
+                threading.Thread(target=self._process.stderr.read, daemon=True).start()
+                return found[1]
+        raise BrowserError(f'the browser ended with {self._process.wait()} before it listened')
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.call('Browser.close')  # it ends its helper processes, too
+        self._stack.close()
+        self._end()
+
+    def _end(self):
+        try:
+            self._process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._profile.cleanup()
+
+    def open(self, url, *, width=1440, height=900, phone=False, dark=False):
+        """Open a page in a tab of its own, and wait until it is loaded."""
+        target = self.call('Target.createTarget', {'url': 'about:blank', 'newWindow': True})
+        attached = self.call(
+            'Target.attachToTarget', {'targetId': target['targetId'], 'flatten': True}
+        )
+        page = Page(self, target['targetId'], attached['sessionId'])
+        self._pages[attached['sessionId']] = page
+        for domain in ('Page', 'Runtime', 'Network', 'Log'):
+            page.call(f'{domain}.enable')
+        page.look_like(width, height, phone=phone, dark=dark)
+        page.go(url)
+        return page
+
+    def call(self, method, params=None, session=None):
+        """Call a method of the protocol and return its result."""
+        number = next(self._ids)
+        answer = self._answers[number] = queue.Queue()
+        message = {'id': number, 'method': method, 'params': params or {}}
+        if session:
+            message['sessionId'] = session
+        self._connection.send(json.dumps(message))
+        try:
+            reply = answer.get(timeout=PATIENCE)
+        except queue.Empty:
+            raise BrowserError(f'{method} {params} was not answered') from None
+        finally:
+            del self._answers[number]
+        if 'error' in reply:
+            raise BrowserError(f'{method}: {reply["error"]["message"]}')
+        return reply['result']
+
+    def _read(self):
+        try:
+            for text in self._connection:
+                message = json.loads(text)
+                if answer := self._answers.get(message.get('id')):
+                    answer.put(message)
+                elif page := self._pages.get(message.get('sessionId')):
+                    page.hear(message['method'], message['params'])
+        except ConnectionClosed:
+            pass  # the browser was ended
+
+
+class Page:
+    """A tab: what was loaded, what it complained of, and what a person would do in it."""
+
+    def __init__(self, browser, target, session):
+        self._browser = browser
+        self._target = target
+        self._session = session
+        self._loaded = threading.Event()
+        self.errors = []
+        """What the console shows in red: errors and uncaught exceptions."""
+        self.requests = []
+        """Every URL that was asked for, WebSockets too."""
+
+    def call(self, method, params=None):
+        """Call a method of the protocol in this tab."""
+        return self._browser.call(method, params, self._session)
+
+    def hear(self, method, params):
+        """Take note of an event; called by the thread that reads."""
+        if method == 'Page.loadEventFired':
+            self._loaded.set()
+        elif method == 'Network.requestWillBeSent':
+            self.requests.append(params['request']['url'])
+        elif method == 'Network.webSocketCreated':
+            self.requests.append(params['url'])
+        elif method == 'Runtime.exceptionThrown':
+            self.errors.append(str(params['exceptionDetails'].get('exception')))
+        elif method == 'Runtime.consoleAPICalled' and params['type'] in ('error', 'assert'):
+            self.errors.append(str([part.get('value') for part in params['args']]))
+        elif method == 'Log.entryAdded' and params['entry']['level'] == 'error':
+            self.errors.append(f'{params["entry"]["text"]} {params["entry"].get("url", "")}')
+
+    def go(self, url):
+        """Load a URL."""
+        self._loaded.clear()
+        self.call('Page.navigate', {'url': url})
+        if not self._loaded.wait(PATIENCE):
+            raise BrowserError(f'{url} did not load')
+
+    def look_like(self, width, height, *, phone=False, dark=False):
+        """Be a screen of that size in CSS pixels."""
+        self.call(
+            'Emulation.setDeviceMetricsOverride',
+            {'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': phone},
+        )
+        self.call('Emulation.setTouchEmulationEnabled', {'enabled': phone})
+        scheme = {'name': 'prefers-color-scheme', 'value': 'dark' if dark else 'light'}
+        self.call('Emulation.setEmulatedMedia', {'features': [scheme]})
+
+    def evaluate(self, expression):
+        """Return the value of a JavaScript expression, a promise's too, as JSON would carry it."""
+        answer = self.call(
+            'Runtime.evaluate',
+            {'expression': expression, 'returnByValue': True, 'awaitPromise': True},
+        )
+        if details := answer.get('exceptionDetails'):
+            thrown = details.get('exception', {}).get('description') or details['text']
+            raise BrowserError(f'{expression}: {thrown}')
+        return answer['result'].get('value')
+
+    def wait_until(self, expression):
+        """Wait until a JavaScript expression is true, and return its value."""
+        look = f"""
+            new Promise((resolve) => {{
+              const begin = performance.now();
+              const look = () => {{
+                let value;
+                try {{ value = {expression}; }} catch (error) {{ value = null; }}
+                if (value instanceof Node) value = true;
+                if (value || performance.now() - begin > {0.9 * PATIENCE * 1000}) resolve(value);
+                else setTimeout(look, 20);
+              }};
+              look();
+            }})"""
+        value = self.evaluate(look)
+        if not value:
+            raise BrowserError(f'never true: {expression}; the page says {self.errors}')
+        return value
+
+    def key_down(self, code, key=None, modifiers=()):
+        """Press a key, by its physical place: ``KeyW``, ``ArrowUp``, ``Space``."""
+        self._key('rawKeyDown', code, key, modifiers)
+
+    def key_up(self, code, key=None, modifiers=()):
+        """Let a key go."""
+        self._key('keyUp', code, key, modifiers)
+
+    def _key(self, kind, code, key, modifiers):
+        letter = code.removeprefix('Key').removeprefix('Digit')
+        letter = letter.lower() if len(letter) == 1 else letter
+        flags = sum(_MODIFIERS[name] for name in modifiers)
+        event = {'type': kind, 'code': code, 'key': key or letter, 'modifiers': flags}
+        self.call('Input.dispatchKeyEvent', event)
+
+    def click(self, selector):
+        """Click with the mouse at the middle of the first element of a CSS selector."""
+        x, y = self.centre_of(selector)
+        self.mouse('mousePressed', x, y)
+        self.mouse('mouseReleased', x, y)
+
+    def centre_of(self, selector):
+        """Return where the middle of an element is, scrolled into view, in CSS pixels."""
+        text = json.dumps(selector)
+        self.wait_until(f'document.querySelector({text})')
+        return self.evaluate(
+            f"""(() => {{
+              const element = document.querySelector({text});
+              element.scrollIntoView({{block: 'nearest', inline: 'nearest'}});
+              const box = element.getBoundingClientRect();
+              return [box.x + box.width / 2, box.y + box.height / 2];
+            }})()"""
+        )
+
+    def mouse(self, kind, x, y):
+        """Move, press or release the left button: ``mouseMoved``, ``mousePressed``, …"""
+        is_pressed = kind != 'mouseReleased'
+        self.call(
+            'Input.dispatchMouseEvent',
+            {'type': kind, 'x': x, 'y': y, 'button': 'left', 'buttons': int(is_pressed),
+             'clickCount': 1},
+        )  # fmt: skip
+
+    def screenshot(self, path):
+        """Write what is seen as a PNG."""
+        shot = self.call('Page.captureScreenshot', {'format': 'png'})
+        path.write_bytes(base64.b64decode(shot['data']))
+
+    def close(self):
+        """Close the tab, as a person does: the page is not asked."""
+        self._browser.call('Target.closeTarget', {'targetId': self._target})
+
+
+def _environment():
+    """Return the environment without what makes a browser's libraries those of the ROS wheels."""
+    return {key: value for key, value in os.environ.items() if key != 'LD_LIBRARY_PATH'}

@@ -1,0 +1,76 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A simulated motor board behind a pseudo-terminal, to be ill-treated; and a robot on it."""
+
+from contextlib import ExitStack
+from threading import Event, Thread
+
+from support.paths import ROOT
+
+from amr_description.bringup.stacks.hardware import swap_hardware
+from amr_description.hardware.simulated_motor_board import MotorConstants, SimulatedMotorBoard
+from amr_description.nodes.motor_board import linked, PseudoTerminal, serve
+
+AMR = (ROOT / 'urdf' / 'amr.urdf').read_text()
+SIDES = {
+    'left_joints': 'joint_wheel_front_left joint_wheel_back_left',
+    'right_joints': 'joint_wheel_front_right joint_wheel_back_right',
+}
+QUICK = MotorConstants(time_constant=0.001, acceleration=1e5)
+
+
+def on_motor_board(port, **parameters):
+    """The text of the shipped description, driven by a motor board on a serial port."""
+    given = {'port': port, **SIDES, **parameters}
+    texts = {name: str(value) for name, value in given.items()}
+    return swap_hardware(AMR, 'amr_description/SerialBaseSystem', texts)
+
+
+class TamperedBoard(SimulatedMotorBoard):
+    """Keeps what it hears; ``tamper`` changes what it says, ``is_deaf`` what it hears."""
+
+    def __init__(self, constants=QUICK):
+        self.said = []
+        super().__init__(self.said.append, constants)
+        self.heard = bytearray()
+        self.tamper = lambda answer: answer
+        self.is_deaf = False
+        self.answered = Event()
+
+    def hear(self, data):
+        self.heard += data
+        answer = self.tamper(super().hear(b'' if self.is_deaf else data))
+        if data:
+            self.answered.set()
+        return answer
+
+
+class BoardOnPty:
+    """
+    The board on its port; plugged in as long as the ``with`` lasts, or until :meth:`unplug`.
+
+    ``link``: a Path; the port is then reached by this name.
+    """
+
+    def __init__(self, link=None, board=None):
+        self.board = board or TamperedBoard()
+        self._exits = ExitStack()
+        terminal = self._exits.enter_context(PseudoTerminal())
+        self.port = terminal.port
+        if link is not None:
+            self._exits.enter_context(linked(link, self.port))
+        unplugged = Event()
+        thread = Thread(target=serve, args=(self.board, terminal.line, unplugged.is_set))
+        self._exits.callback(thread.join)
+        self._exits.callback(unplugged.set)
+        thread.start()
+
+    def unplug(self):
+        """Gone, as when its cable is pulled; returns when it is."""
+        self._exits.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_error):
+        self.unplug()

@@ -1,0 +1,61 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Make the pictures of the README: the page in a real browser, over a robot that really drives."""
+
+from contextlib import contextmanager
+from pathlib import Path
+import signal
+import sys
+
+from ament_index_python.packages import get_package_prefix
+from support import chromium
+from support.paths import ROOT
+from support.running_programs import Program
+
+from amr_description.testing.program import own_domain
+
+BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
+IMAGES = ROOT / 'docs' / 'images'
+
+
+@contextmanager
+def page_of(browser, *words, **look):
+    """A page over a stack of its own that is up."""
+    with own_domain(), Program(BRINGUP, *words) as stack:
+        page = browser.open(stack.expect(r'The page is at (http://\S+)')[1], **look)
+        page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
+        yield page
+        page.close()
+        stack.end(signal.SIGINT)
+
+
+def drive(page, *holds):
+    """Hold keys, each for some simulated seconds."""
+    for code, seconds in holds:
+        begin = page.evaluate('amr.now.time')
+        page.key_down(code)
+        page.wait_until(f'amr.now.time > {begin + seconds}')
+        page.key_up(code)
+
+
+def main():
+    """Write all of them."""
+    IMAGES.mkdir(exist_ok=True)
+    with chromium.Chromium() as browser:
+        with page_of(browser, 'simulation', 'world:=warehouse') as page:
+            drive(page, ('KeyW', 2.0), ('KeyA', 1.0), ('KeyW', 2.0), ('KeyD', 1.5), ('KeyW', 1.0))
+            page.screenshot(IMAGES / 'simulation.png')
+            page.look_like(1440, 900, dark=True)
+            page.wait_until("matchMedia('(prefers-color-scheme: dark)').matches")
+            drive(page, ('KeyW', 1.0))
+            page.screenshot(IMAGES / 'simulation_dark.png')
+        with page_of(browser, 'simulation', width=390, height=844, phone=True) as page:
+            drive(page, ('KeyW', 1.0), ('KeyA', 1.0))
+            page.screenshot(IMAGES / 'phone.png')
+        with page_of(browser, 'display') as page:
+            page.click('[role=tab]:nth-child(2)')
+            page.screenshot(IMAGES / 'display.png')
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,80 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The way into the executables: quiet on Ctrl-C, also in the midst of an import."""
+
+import signal
+import sys
+
+from fixtures.entry import slow
+import pytest
+from support.running_programs import Program
+
+from amr_description.entry import LazyEntryPoint as Executable, nodes, run
+
+START = 'import sys; from amr_description.entry import LazyEntryPoint; sys.exit({}())'
+SLOW = START.format("LazyEntryPoint('fixtures.entry.slow').main")
+"""A program whose module imports for ever, which it says; that Python would tell of."""
+
+
+def test_ctrl_c_during_an_import_ends_it_quietly():
+    with Program.of(SLOW, 'import') as program:
+        program.expect('importing\n')
+        assert program.end(signal.SIGINT) == 130
+        assert program.lines == ['importing']
+
+
+def test_a_blocked_ctrl_c_waits_for_it_and_ends_it_quietly():
+    early = 'import os, signal; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); '
+    with Program.of(f'{early}os.kill(os.getpid(), signal.SIGINT); {SLOW}', 'import') as program:
+        assert program.end() == 130
+        assert program.output == ''
+
+
+def test_ctrl_c_that_a_program_leaves_to_python_ends_it_quietly_after_its_clean_up():
+    with Program.of(SLOW, 'main') as program:
+        program.expect('in main\n')
+        assert program.end(signal.SIGINT) == 130
+        assert program.lines == ['in main', 'cleaned up']
+
+
+def test_an_ignored_ctrl_c_stays_ignored():
+    ignoring = f'import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); {SLOW}'
+    with Program.of(ignoring, 'end') as program:
+        assert program.end() == 7
+        assert program.lines == ['handler SIG_IGN']
+
+
+def test_the_program_has_the_handler_of_python_and_its_exit_code_counts():
+    with Program.of(SLOW, 'end') as program:
+        assert program.end() == 7
+        assert program.lines == ['handler default_int_handler']
+
+
+def test_a_name_stands_for_what_is_imported_when_called():
+    assert nodes.talker.main.path == 'amr_description.nodes.talker.main'
+    assert Executable('fixtures.entry.slow').main.find() is slow.main
+    assert Executable('fixtures.entry.slow').seven() == 7
+
+
+def test_a_missing_function_is_no_interrupt():
+    with pytest.raises(AttributeError, match='nothing'):
+        Executable('fixtures.entry.slow').nothing()
+
+
+def test_the_exit_code_after_ctrl_c_can_be_another():
+    def main():
+        signal.raise_signal(signal.SIGINT)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert run(lambda: main, interrupted=2) == 2
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize('command', ['ros2', 'check_urdf'])
+def test_the_commands_go_the_same_way(command):
+    words = (sys.executable, '-m', 'amr_description.cli', command, '--help')
+    with Program(*words) as program:
+        assert program.end() == 0
+        assert f'usage: {command}' in program.output

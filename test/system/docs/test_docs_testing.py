@@ -1,0 +1,49 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""docs/test_your_robot.md: its tests pass where a reader runs them; what it names is there."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from support.doc_pages import Page, ROOT
+
+from amr_description.testing.simulation import Simulation
+
+PAGE = Page('test_your_robot.md')
+FIRST, CONFTEST, TESTS, FLEET, ARM, SAME_BITS = PAGE.blocks('python')
+(ARM_YAML,) = PAGE.blocks('yaml')
+ARM_URDF = ROOT / 'test' / 'fixtures' / 'sim' / 'arm.urdf'
+
+
+@pytest.mark.parametrize('block', [FIRST, FLEET, SAME_BITS])
+def test_a_block_holds(block):
+    PAGE.run(block)
+
+
+def test_the_tests_of_the_page_pass(tmp_path):
+    (tmp_path / 'conftest.py').write_text(CONFTEST)
+    (tmp_path / 'test_my_robot.py').write_text(TESTS)
+    (tmp_path / 'test_my_arm.py').write_text(ARM)
+    (tmp_path / 'arm.yaml').write_text(ARM_YAML)
+    (tmp_path / 'arm.urdf').write_text(ARM_URDF.read_text())
+    ended = subprocess.run(
+        [sys.executable, '-m', 'pytest', '-q', '-p', 'no:cacheprovider', str(tmp_path)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        cwd=tmp_path,
+        env=os.environ | {'PYTHONPATH': os.pathsep.join(filter(None, sys.path))},
+    )
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert '5 passed' in ended.stdout
+
+
+def test_what_the_page_names_is_there():
+    assert PAGE.is_sound()
+    named = set(re.findall(r'\bsim\.(\w+)', PAGE.text))
+    # An instance attribute; all others are of the class.
+    assert named - {'node'} <= set(vars(Simulation))

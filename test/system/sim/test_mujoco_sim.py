@@ -1,0 +1,305 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulator as a process: what it takes in, what it refuses, how create and spawner end."""
+
+from pathlib import Path
+import signal
+import subprocess
+
+from geometry_msgs.msg import PoseStamped
+import pytest
+import rclpy
+from rclpy.node import Node
+from simulation_interfaces.msg import Result
+from simulation_interfaces.srv import GetEntityState, SpawnEntity
+from support.ros_processes import command, environment, PATIENCE, ROOT, run, running
+
+from amr_description.ros.service_calls import call, wait_until
+from amr_description.sim.spawning import SpawnCode
+
+URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
+YAML = (ROOT / 'config' / 'controllers.yaml').read_text(encoding='utf-8')
+SERVICES = '/mujoco_sim'
+
+
+@pytest.fixture
+def node():
+    rclpy.init(args=[])
+    node = Node('test_mujoco_sim')
+    yield node
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def sim():
+    with running('mujoco_sim', until='waiting for robots') as process:
+        yield process
+
+
+def spawn(node, **fields):
+    return call(
+        node, SpawnEntity, f'{SERVICES}/spawn_entity', SpawnEntity.Request(**fields), timeout=20.0
+    )
+
+
+def aside(y):
+    """A pose that far to the left of the origin, m."""
+    pose = PoseStamped()
+    pose.pose.position.y = y
+    return pose
+
+
+def state(node, entity):
+    request = GetEntityState.Request(entity=entity)
+    return call(node, GetEntityState, f'{SERVICES}/get_entity_state', request, timeout=20.0)
+
+
+def test_a_robot_is_spawned_falls_and_rests(sim, node):
+    request = SpawnEntity.Request(name='amr', resource_string=URDF)
+    request.initial_pose.pose.position.x = 1.5
+    request.initial_pose.pose.position.z = 0.2
+    response = call(node, SpawnEntity, f'{SERVICES}/spawn_entity', request, timeout=20.0)
+    assert (response.result.result, response.entity_name) == (Result.RESULT_OK, 'amr')
+
+    def at_rest():
+        it = state(node, 'amr').state
+        still = abs(it.twist.linear.z) < 1e-4 and it.pose.position.z < 0.1
+        return it if still else None
+
+    pose = wait_until(node, at_rest, lambda: None, every=1.0, timeout=20.0).pose
+    assert pose.position.x == pytest.approx(1.5, abs=1e-3)
+    assert pose.position.z == pytest.approx(0.0, abs=1e-3)
+    assert pose.orientation.w == pytest.approx(1.0, abs=1e-6)
+
+
+def test_what_cannot_be_spawned_is_refused_with_its_code(sim, node):
+    assert spawn(node, name='amr', resource_string=URDF).result.result == Result.RESULT_OK
+    refusals = {
+        SpawnCode.NAME_NOT_UNIQUE: {'name': 'amr', 'resource_string': URDF},
+        SpawnCode.NAME_INVALID: {'name': 'my robot', 'resource_string': URDF},
+        SpawnCode.NO_RESOURCE: {'name': 'empty'},
+        SpawnCode.RESOURCE_PARSE_ERROR: {
+            'name': 'half',
+            'resource_string': URDF[: len(URDF) // 2],
+        },
+        SpawnCode.UNSUPPORTED_FORMAT: {'name': 'sdf', 'resource_string': '<sdf version="1.9"/>'},
+    }
+    for code, fields in refusals.items():
+        result = spawn(node, **fields).result
+        assert (result.result, bool(result.error_message)) == (code, True), fields['name']
+        assert '\n' not in result.error_message
+    second = spawn(node, name='second', resource_string=URDF).result
+    assert second.result == SpawnCode.NAMESPACE_INVALID
+    assert "the namespace '/' has a controller manager already" in second.error_message
+    second = {'name': 'second', 'resource_string': URDF, 'entity_namespace': 'second'}
+    inside = spawn(node, **second).result
+    assert inside.result == SpawnCode.INVALID_POSE
+    assert "spawned inside link 'base_link' of robot 'amr'" in inside.error_message
+    apart = spawn(node, **second, initial_pose=aside(2.0))
+    assert apart.result.result == Result.RESULT_OK
+    renamed = spawn(
+        node,
+        name='amr',
+        resource_string=URDF.replace('ros2_control', 'ignored'),
+        allow_renaming=True,
+        initial_pose=aside(-2.0),
+    )
+    assert renamed.entity_name == 'amr_1'
+    assert state(node, 'nobody').result.result == Result.RESULT_NOT_FOUND
+
+
+def test_hardware_that_nobody_knows_leaves_no_robot_behind(sim, node):
+    urdf = URDF.replace('amr_description/MujocoSystem', 'acme/Motor')
+    result = spawn(node, name='amr', resource_string=urdf).result
+    assert result.result == Result.RESULT_OPERATION_FAILED
+    assert "hardware plugin 'acme/Motor' is not known" in result.error_message
+    assert state(node, 'amr').result.result == Result.RESULT_NOT_FOUND
+    assert 'controller_manager' not in node.get_node_names()
+
+
+@pytest.mark.parametrize(
+    ('fields', 'code', 'message'),
+    [
+        ({'entity_namespace': 'my robot'}, SpawnCode.NAMESPACE_INVALID, "'my robot'"),
+        (
+            {'resource_string': URDF.replace('amr_description/MujocoSystem', 'builtins/int')},
+            SpawnCode.OPERATION_FAILED,
+            'TypeError: int()',
+        ),
+    ],
+)
+def test_what_only_others_refuse_leaves_the_simulator_running(sim, node, fields, code, message):
+    result = spawn(node, **{'name': 'amr', 'resource_string': URDF} | fields).result
+    assert result.result == code
+    assert message in result.error_message
+    assert '\n' not in result.error_message
+    assert state(node, 'amr').result.result == Result.RESULT_NOT_FOUND
+    assert spawn(node, name='amr', resource_string=URDF).result.result == Result.RESULT_OK
+
+
+def test_a_refused_update_rate_leaves_no_node_behind(tmp_path, node):
+    path = tmp_path / 'controllers.yaml'
+    path.write_text(YAML.replace('update_rate: 100', 'update_rate: 0'))
+    with running(
+        'mujoco_sim', '--ros-args', '-p', f'controllers:={path}', until='waiting for robots'
+    ):
+        result = spawn(node, name='amr', resource_string=URDF).result
+        assert "parameter 'update_rate'" in result.error_message
+        assert wait_until(
+            node,
+            lambda: 'controller_manager' not in node.get_node_names() or None,
+            lambda: None,
+            every=1.0,
+            timeout=PATIENCE,
+        )
+
+
+@pytest.mark.parametrize(
+    ('old', 'new', 'message'),
+    [
+        ('<parent link="base_link"/>', '<parent link="trailer"/>', '"trailer"'),
+        ('<inertial>', '<unknown>', 'inertial'),
+        ('</robot>', '', ':'),
+    ],
+)
+def test_create_tells_what_is_wrong_with_a_urdf_and_fails(sim, tmp_path, old, new, message):
+    urdf = URDF.replace(old, new)
+    if '<unknown>' in urdf:
+        urdf = urdf.replace('</inertial>', '</unknown>')
+    path = tmp_path / 'broken.urdf'
+    path.write_text(urdf)
+    ended = run('create', '-file', str(path), '-name', 'amr')
+    assert ended.returncode == 1
+    (line,) = ended.stderr.splitlines()
+    assert f'Entity creation failed. {path}:' in line
+    assert message in line
+
+
+def test_xacro_files_are_expanded_with_their_arguments(sim, node, tmp_path):
+    path = tmp_path / 'twin.urdf.xacro'
+    path.write_text(
+        '<robot name="$(arg name)" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:arg name="name" default="nobody"/>'
+        '<xacro:include filename="$(find amr_description)/urdf/amr.urdf"/></robot>'
+    )
+    assert spawn(node, uri=f'{path}?name=one').entity_name == 'one'
+    ended = run(
+        'create', '-file', str(path), 'name:=two', '-x', '2', '--ros-args', '-r', '__ns:=/two'
+    )
+    assert (ended.returncode, 'remap rule' in ended.stderr) == (0, False)
+    assert state(node, 'two').state.pose.position.x == pytest.approx(2.0, abs=1e-3)
+    result = spawn(node, uri=str(path)).result
+    assert result.result == SpawnCode.NO_RESOURCE
+    assert f'{path}: Undefined substitution argument name' in result.error_message
+    ended = run('create', '-topic', 'robot_description', 'name:=two')
+    assert ended.returncode == 2
+    assert 'name:=two is for a xacro file, and there is no -file' in ended.stderr
+
+
+def test_create_without_a_source_or_with_a_missing_file():
+    ended = run('create')
+    assert ended.returncode == 255
+    assert 'Must specify either -file, -param, -string or -topic' in ended.stderr
+    ended = run('create', '-file', '/no/such.urdf')
+    assert ended.returncode == 2
+    assert '-file /no/such.urdf' in ended.stderr
+
+
+def test_spawners_tell_why_they_fail(tmp_path):
+    wrong = tmp_path / 'wrong.yaml'
+    wrong.write_text(YAML.replace('"joint_wheel_front_left"', '"joint_wheel_typo"'))
+    with running(
+        'mujoco_sim',
+        '--ros-args',
+        '-p',
+        f'controllers:={wrong}',
+        until='waiting for robots',
+    ):
+        assert run('create', '-string', URDF, '-z', '0.2').returncode == 0
+        failures = {
+            'nobody': 'no type is set for it; the parameters of /controller_manager hold one for: '
+            'diff_drive_controller, joint_state_broadcaster',
+            'diff_drive_controller': "the command interface 'joint_wheel_typo/velocity' is not "
+            'available',
+        }
+        for name, reason in failures.items():
+            ended = run('spawner', name)
+            assert ended.returncode == 1
+            assert reason in ended.stderr
+            assert 'Traceback' not in ended.stderr
+        assert run('spawner', 'joint_state_broadcaster').returncode == 0
+        again = run('spawner', 'joint_state_broadcaster')
+        assert again.returncode == 0
+        assert 'is active already' in again.stderr
+
+
+def test_each_fault_of_the_tutorial_is_named_once_and_nothing_else():
+    tutorial = ROOT / 'test' / 'fixtures' / 'tutorial'
+    controllers = tutorial / 'controllers.yaml'
+    arguments = ['--ros-args', '-p', f'controllers:={controllers}']
+    with running('mujoco_sim', *arguments, until='waiting for robots') as process:
+        assert run('create', '-file', str(tutorial / 'amr.urdf'), '-name', 'amr').returncode == 0
+        said = []
+        for line in process.stderr:
+            said.append(line)
+            if "Successful 'activate' of hardware" in line:
+                break
+    axles, frames, scrubbing = [line for line in said if '[WARN]' in line or '[ERROR]' in line]
+    assert 'a positive speed drives the robot backwards' in axles
+    place = f'{controllers}:{{}}: diff_drive_controller: {{}}'
+    assert place.format(20, '"base_link" gets two parents in TF') in frames
+    assert place.format(16, 'wheels one behind the other scrub in a turn') in scrubbing
+
+
+def test_a_parameter_file_that_is_not_yaml_is_named_with_its_line(tmp_path):
+    broken = tmp_path / 'broken.yaml'
+    broken.write_text('controller_manager:\n  ros__parameters: {update_rate: 100\n')
+    with running(
+        'mujoco_sim',
+        '--ros-args',
+        '-p',
+        f'controllers:={broken}',
+        until='waiting for robots',
+    ):
+        ended = run('create', '-string', URDF)
+        assert ended.returncode == 1
+        assert f'{broken}:3:1' in ended.stderr
+
+
+def test_the_spawner_waits_only_as_long_as_it_is_told():
+    ended = run('spawner', 'some', '--controller-manager-timeout', '0.3')
+    assert ended.returncode == 1
+    assert (
+        'Could not contact service /controller_manager/list_controllers within 0.3' in ended.stderr
+    )
+
+
+@pytest.mark.parametrize(
+    ('parameter', 'message'),
+    [
+        ('world:=atlantis', "world 'atlantis'"),
+        ('physics.solver:=newton', "'physics.solver' must be one of world, PGS, CG, Newton"),
+    ],
+)
+def test_a_world_that_cannot_be_ends_the_simulator(parameter, message):
+    ended = run('mujoco_sim', '--ros-args', '-p', parameter)
+    assert ended.returncode == 1
+    assert message in ended.stderr
+    assert 'Traceback' not in ended.stderr
+
+
+@pytest.mark.parametrize('library', ['librcl.so', 'librmw_fastrtps_cpp.so', 'libmujoco.so'])
+def test_a_stop_during_the_start_ends_it_too(library):
+    process = subprocess.Popen(
+        command('mujoco_sim'), stderr=subprocess.DEVNULL, env=environment(), start_new_session=True
+    )
+    try:
+        maps = Path(f'/proc/{process.pid}/maps')
+        while library not in maps.read_text():
+            assert process.poll() is None
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(PATIENCE) in (0, -signal.SIGTERM)
+    finally:
+        process.kill()
+        process.wait()

@@ -1,0 +1,341 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A robot that lives through pauses and resets, and one that leaves others behind: over real DDS.
+
+The simulator begins paused, and everything is brought up before time begins.
+"""
+
+from collections import defaultdict
+from itertools import pairwise
+import math
+import signal
+import subprocess
+
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+import pytest
+from rclpy.clock import Clock
+from rclpy.parameter import Parameter
+from rclpy.time import ClockType
+from sensor_msgs.msg import JointState
+from simulation_interfaces.msg import SimulationState
+from simulation_interfaces.srv import (
+    DeleteEntity,
+    GetEntityState,
+    ResetSimulation,
+    SetSimulationState,
+    SpawnEntity,
+    StepSimulation,
+)
+from support.ros_processes import command, environment, PATIENCE, run
+from support.simulator import simulator, URDF
+from tf2_msgs.msg import TFMessage
+
+from amr_description.clock import NANOSECONDS
+from amr_description.control.ros.client import ManagerClient
+from amr_description.ros.messages import nanoseconds
+
+MS = 1_000_000
+CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
+KEEPING = ResetSimulation.Request.SCOPE_TIME | ResetSimulation.Request.SCOPE_STATE
+YAML = """
+/**/controller_manager:
+  ros__parameters:
+    update_rate: 100
+    joint_state_broadcaster: {type: joint_state_broadcaster/JointStateBroadcaster}
+    diff_drive_controller: {type: diff_drive_controller/DiffDriveController}
+/**/diff_drive_controller:
+  ros__parameters:
+    left_wheel_names: [joint_wheel_front_left, joint_wheel_back_left]
+    right_wheel_names: [joint_wheel_front_right, joint_wheel_back_right]
+    wheel_separation: 0.3
+    wheel_radius: 0.1
+    base_frame_id: base_footprint
+"""
+HEARD = ('joint_states', 'odom', 'odom_tf', 'wheel_tf')
+LONGEST_SILENCE = 500 * MS
+"""
+ns between two messages, beginning at the reset. They come every 10 to 50 ms, but a writer keeps
+one sample: on a busy machine some are lost.
+"""
+FASTEST = 0.55
+"""m/s; what the robot is told, and a little."""
+
+
+@pytest.fixture(scope='module')
+def sim(tmp_path_factory):
+    path = tmp_path_factory.mktemp('reset') / 'controllers.yaml'
+    path.write_text(YAML)
+    with simulator('paused:=true', f'controllers:={path}') as asked:
+        asked.node.set_parameters([Parameter('use_sim_time', value=True)])
+        yield asked
+
+
+@pytest.fixture(scope='module')
+def publisher(tmp_path_factory, sim):
+    """A robot_state_publisher of the robot in the root namespace."""
+    path = tmp_path_factory.mktemp('robot') / 'amr.urdf'
+    path.write_text(URDF)
+    line = command('robot_state_publisher', str(path), '--ros-args', '-p', 'use_sim_time:=true')
+    process = subprocess.Popen(
+        line, stderr=subprocess.DEVNULL, env=environment(), start_new_session=True
+    )
+    yield process
+    process.send_signal(signal.SIGINT)
+    assert process.wait(PATIENCE) == 0
+
+
+class Driver:
+    """Commands one robot 20 times a second, and hears what it says."""
+
+    def __init__(self, sim, namespace='', *, linear=0.5, angular=0.0):
+        self.node = node = sim.node
+        self.heard = defaultdict(list)
+        """Stamps (ns) by what was heard."""
+        self.odometry = []
+        drive = f'{namespace}/diff_drive_controller'
+        self._command = TwistStamped()
+        self._command.twist.linear.x, self._command.twist.angular.z = linear, angular
+        self._publisher = node.create_publisher(TwistStamped, f'{drive}/cmd_vel', 10)
+        self._timer = node.create_timer(
+            0.05, self._drive, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+        self._subscriptions = [
+            node.create_subscription(Odometry, f'{drive}/odom', self._hear_odometry, 2000),
+            node.create_subscription(
+                JointState, f'{namespace}/joint_states', self._hear_joints, 100
+            ),
+            node.create_subscription(TFMessage, '/tf', self._hear_transforms, 100),
+        ]
+
+    def _drive(self):
+        self._command.header.stamp = self.node.get_clock().now().to_msg()
+        self._publisher.publish(self._command)
+
+    def _hear_odometry(self, message):
+        self.heard['odom'].append(nanoseconds(message.header.stamp))
+        self.odometry.append(message)
+
+    def _hear_joints(self, message):
+        self.heard['joint_states'].append(nanoseconds(message.header.stamp))
+
+    def _hear_transforms(self, message):
+        for each in message.transforms:
+            stamp = nanoseconds(each.header.stamp)
+            if each.header.frame_id == 'odom':
+                self.heard['odom_tf'].append(stamp)
+            elif each.child_frame_id == 'wheel_front_left':
+                self.heard['wheel_tf'].append(stamp)
+
+    @property
+    def travelled(self):
+        """m from where odometry began."""
+        if not self.odometry:
+            return 0.0
+        place = self.odometry[-1].pose.pose.position
+        return (place.x**2 + place.y**2) ** 0.5
+
+    def forget(self):
+        """Forget what was heard."""
+        self.heard.clear()
+        self.odometry.clear()
+
+    def close(self):
+        self.node.destroy_timer(self._timer)
+        self.node.destroy_publisher(self._publisher)
+        for subscription in self._subscriptions:
+            self.node.destroy_subscription(subscription)
+
+
+@pytest.fixture
+def driver(sim):
+    found = Driver(sim)
+    yield found
+    found.close()
+
+
+def compare_with_truth(sim, driver):
+    """Odometry and truth at one instant: the robot itself was put back too."""
+    state = sim.do(GetEntityState, entity='amr').state
+    asked = nanoseconds(state.header.stamp)
+    sim.wait(lambda: driver.heard['odom'][-1] >= asked)
+    stamps = since_reset(driver.heard['odom'])  # an older one may bear the same time
+    heard = zip(stamps, driver.odometry[-len(stamps) :], strict=True)
+    stamp, odometry = min(heard, key=lambda pair: abs(pair[0] - asked))
+    meanwhile = FASTEST * abs(stamp - asked) / NANOSECONDS
+    truth = state.pose.position.x
+    assert odometry.pose.pose.position.x == pytest.approx(truth, abs=0.01 + meanwhile)
+
+
+def turn(sim, state):
+    sim.do(SetSimulationState, state=SimulationState(state=state))
+
+
+def namespaces(sim):
+    return {namespace for _, namespace in sim.node.get_node_names_and_namespaces()}
+
+
+def insert(sim, name, namespace='', y=0.0):
+    """A robot without controllers."""
+    request = SpawnEntity.Request()
+    request.initial_pose.pose.position.y = y
+    sim.do(
+        SpawnEntity,
+        name=name,
+        resource_string=URDF,
+        entity_namespace=namespace,
+        initial_pose=request.initial_pose,
+    )
+
+
+def spawn(sim, name, namespace='', y=0.0):
+    """A robot with both controllers active."""
+    insert(sim, name, namespace, y)
+    spawn_controllers(f'{namespace}/controller_manager')
+
+
+def spawn_controllers(manager='controller_manager', names=CONTROLLERS):
+    ended = run('spawner', *names, '-c', manager)
+    assert ended.returncode == 0, ended.stderr
+    return ended.stderr
+
+
+def test_everything_is_brought_up_while_paused_and_drives_from_the_first_step(
+    sim, publisher, driver
+):
+    sim.wait(lambda: sim.clock)
+    assert run('create', '-string', URDF, '-name', 'amr').returncode == 0
+    spawn_controllers()
+    assert sim.time == 0
+    states = ManagerClient(sim.node, 'controller_manager', timeout=PATIENCE).states()
+    assert states == dict.fromkeys(CONTROLLERS, 'active')
+    assert driver.odometry == []
+    sim.do(StepSimulation, steps=5)
+    sim.wait(lambda: driver.odometry)
+    assert driver.heard['odom'] == [0]
+    turn(sim, SimulationState.STATE_PLAYING)
+    sim.wait(lambda: driver.travelled > 0.1)
+    turn(sim, SimulationState.STATE_PAUSED)
+
+
+TICK_STEPS = 5
+"""Physics steps of 2 ms in a tick of the controllers at 100 Hz."""
+TICKS = [at * 10 * MS for at in range(24)]
+# Odometry comes every 20 ms, when more than that has passed: at 0, 30, 50 … ms.
+ODOMETRY = [0, *TICKS[3::2]]
+EXPECTED = {'joint_states': TICKS, 'odom': ODOMETRY, 'odom_tf': ODOMETRY}
+
+
+def tick(sim, driver, stamp):
+    """One tick, and every message that it brings; ``stamp``: its time, ns."""
+    sim.do(StepSimulation, steps=TICK_STEPS)
+    due = [name for name, stamps in EXPECTED.items() if stamp in stamps]
+    sim.wait(lambda: all(driver.heard[name][-1:] == [stamp] for name in due))
+
+
+def test_ten_resets_in_lock_step_lose_nothing_and_begin_at_exactly_zero(sim, publisher, driver):
+    for _ in range(10):
+        sim.do(ResetSimulation, scope=KEEPING)
+        driver.forget()
+        for stamp in TICKS:
+            tick(sim, driver, stamp)
+        # Without a gap, from the first tick on: nothing is lost, nothing comes late.
+        assert {name: driver.heard[name] for name in EXPECTED} == EXPECTED
+        first, last = driver.odometry[0], driver.odometry[-1]
+        place = first.pose.pose
+        assert (place.position.x, place.position.y, place.orientation.w) == (0.0, 0.0, 1.0)
+        assert first.twist.twist.linear.x == 0.0
+        assert last.twist.twist.linear.x > 0.1  # it drives at the next reset
+
+
+def test_ten_resets_while_driving_silence_nothing_and_odometry_begins_at_zero(
+    sim, publisher, driver
+):
+    turn(sim, SimulationState.STATE_PLAYING)
+    for _ in range(10):
+        reset_and_drive_on(sim, driver)
+    assert sim.time < 5 * NANOSECONDS
+    assert 'is active already' in spawn_controllers(names=['joint_state_broadcaster'])
+    client = ManagerClient(sim.node, 'controller_manager', timeout=PATIENCE)
+    assert client.switch(deactivate=['diff_drive_controller']) is None
+    assert client.unload('diff_drive_controller')
+    spawn_controllers(names=['diff_drive_controller'])
+    driver.forget()
+    sim.wait(lambda: driver.odometry)
+
+
+def reset_and_drive_on(sim, driver):
+    """One reset of the ten."""
+    sim.wait(lambda: driver.travelled > 0.05)
+    before = driver.heard['odom'][-1]
+    driver.forget()
+    sim.do(ResetSimulation, scope=KEEPING)
+    # What was on its way at the reset still bears a time of before.
+    sim.wait(lambda: any(stamp < before for stamp in driver.heard['odom']))
+    sim.wait(lambda: driver.travelled > 0.05)
+    sim.wait(lambda: all(len(since_reset(driver.heard[name])) > 5 for name in HEARD))
+    for name in HEARD:
+        stamps = since_reset(driver.heard[name])
+        assert stamps[0] <= LONGEST_SILENCE, name
+        assert max(after - last for last, after in pairwise(stamps)) <= LONGEST_SILENCE, name
+    first = min(driver.heard['odom'])
+    place = driver.odometry[driver.heard['odom'].index(first)].pose.pose.position
+    assert math.hypot(place.x, place.y) <= FASTEST * first / NANOSECONDS
+    compare_with_truth(sim, driver)
+
+
+def since_reset(stamps):
+    """The stamps from the last one that is smaller than the one before it."""
+    begin = max((at for at in range(1, len(stamps)) if stamps[at] < stamps[at - 1]), default=0)
+    return stamps[begin:]
+
+
+def test_a_reset_of_the_state_alone_puts_the_robot_back_and_time_goes_on(sim, publisher, driver):
+    before = sim.time
+    sim.wait(lambda: driver.travelled > 0.1)
+    sim.do(ResetSimulation, scope=ResetSimulation.Request.SCOPE_STATE)
+    sim.wait(lambda: driver.travelled < 0.05)
+    assert driver.heard['odom'] == sorted(driver.heard['odom'])
+    assert sim.time > before
+    sim.wait(lambda: driver.travelled > 0.1)
+
+
+def test_a_reset_of_time_alone_lets_the_robot_go_on_from_where_it_is(sim, publisher, driver):
+    sim.wait(lambda: driver.travelled > 0.1)
+    before = driver.heard['odom'][-1]
+    travelled = driver.travelled
+    sim.do(ResetSimulation, scope=ResetSimulation.Request.SCOPE_TIME)
+    sim.wait(lambda: driver.heard['odom'][-1] < before)
+    assert driver.travelled >= travelled
+    sim.wait(lambda: driver.travelled > travelled + 0.1)
+
+
+def test_a_robot_is_removed_and_comes_again_while_another_drives_on(sim):
+    spawn(sim, 'one', '/one', y=2.0)
+    spawn(sim, 'two', '/two', y=4.0)
+    bystander = Driver(sim, '/two', angular=0.5)
+    sim.wait(lambda: bystander.travelled > 0.1)
+    sim.do(DeleteEntity, entity='one')
+    sim.wait(lambda: '/one' not in namespaces(sim))
+    assert '/two' in namespaces(sim)
+    _, reason = sim.refused(GetEntityState, entity='one')
+    assert 'there are: amr, two' in reason
+    spawn(sim, 'one', '/one', y=2.0)
+    again = Driver(sim, '/one')
+    sim.wait(lambda: again.travelled > 0.1)
+    # Odometry's period is counted from the first time, which is longer.
+    stamps = bystander.heard['odom'][1:]
+    assert {after - last for last, after in pairwise(stamps)} == {20 * MS}
+    sim.do(DeleteEntity, entity='two')
+    insert(sim, 'three', '/two', y=4.0)  # by another name, what was its namespace is free
+    for each in (bystander, again):
+        each.close()
+
+
+def test_stopped_is_empty_and_a_robot_comes_up_again(sim, driver):
+    turn(sim, SimulationState.STATE_STOPPED)
+    sim.wait(lambda: 'controller_manager' not in sim.node.get_node_names())
+    spawn(sim, 'amr')
+    turn(sim, SimulationState.STATE_PLAYING)
+    sim.wait(lambda: driver.travelled > 0.1)

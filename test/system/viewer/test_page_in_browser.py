@@ -1,0 +1,308 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The page in a real browser, over a real simulation: what a person sees, presses and lets go.
+
+What the robot does is heard on its topics by the test itself, not believed of the page.
+"""
+
+from contextlib import ExitStack
+from math import hypot
+from pathlib import Path
+import re
+import signal
+
+from ament_index_python.packages import get_package_prefix
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+import pytest
+import rclpy
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from support import chromium
+from support.needs import need
+from support.running_programs import PATIENCE, Program
+
+from amr_description.clock import NANOSECONDS
+from amr_description.ros.service_calls import wait_until
+from amr_description.testing.program import own_domain
+
+BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
+AT_REST = 0.01  # m/s
+STOPS_WITHIN = 0.5
+"""s of simulated time, from the command to stop; from 0.5 m/s the controller's limits allow it."""
+
+
+@pytest.fixture(scope='module')
+def browser():
+    need(chromium.executable(), 'no chromium; apt install chromium')
+    with chromium.Chromium() as browser:
+        yield browser
+
+
+@pytest.fixture(scope='module')
+def simulation():
+    with Program(BRINGUP, 'simulation', 'viewer:=false') as stack:
+        stack.expect('ready in')
+        yield stack
+        assert stack.end(signal.SIGINT) == 0
+
+
+@pytest.fixture(scope='module')
+def viewer(simulation):
+    with serving() as program:
+        yield program
+        assert program.end(signal.SIGINT) == 0
+        assert 'Traceback' not in program.output
+
+
+def serving(port=0):
+    return Program.module('viewer', '--ros-args', '-p', f'port:={port}')
+
+
+def url_of(program):
+    return program.expect(r'The page is at (http://\S+)')[1]
+
+
+class Ears(Node):
+    """What the test hears of the robot."""
+
+    def __init__(self):
+        super().__init__('test_page_in_browser')
+        self.truth = []
+        self.commands = []
+        self.joints = {}
+        self.create_subscription(Odometry, '/ground_truth/odom', self.truth.append, 50)
+        self.create_subscription(
+            TwistStamped, '/diff_drive_controller/cmd_vel', self.commands.append, 50
+        )
+        self.create_subscription(JointState, '/joint_states', self.hear_joints, 10)
+
+    def hear_joints(self, message):
+        self.joints.update(zip(message.name, message.position, strict=True))
+
+    @property
+    def speed(self):
+        velocity = self.truth[-1].twist.twist.linear
+        return hypot(velocity.x, velocity.y)
+
+    @property
+    def commanded(self):
+        """The last speed that anybody commanded, m/s."""
+        return self.commands[-1].twist.linear.x if self.commands else 0.0
+
+    def wait(self, condition):
+        assert wait_until(
+            self, lambda: condition() or None, lambda: None, every=9.0, timeout=PATIENCE
+        )
+
+    def drives(self):
+        self.wait(lambda: self.truth and self.speed > 0.3 and self.commanded > 0.3)
+
+    def has_stopped(self):
+        """Wait until it rests, and return how long that took from the command to stop, s."""
+        self.wait(
+            lambda: (
+                self.commands
+                and self.commanded == 0.0
+                and self.speed < AT_REST
+                and stamp_of(self.truth[-1]) > stamp_of(self.commands[-1])
+            )
+        )
+        moving = [number for number, each in enumerate(self.commands) if each.twist.linear.x]
+        begin = stamp_of(self.commands[moving[-1] + 1])
+        rest = next(
+            stamp_of(each)
+            for each in self.truth
+            if stamp_of(each) > begin and abs(each.twist.twist.linear.x) < AT_REST
+        )
+        return rest - begin
+
+
+def stamp_of(message):
+    """When it was made, s of simulated time."""
+    return message.header.stamp.sec + message.header.stamp.nanosec / NANOSECONDS
+
+
+@pytest.fixture
+def ears(simulation):
+    rclpy.init(args=[])
+    ears = Ears()
+    ears.wait(lambda: ears.truth and ears.joints)
+    yield ears
+    ears.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def page(browser, viewer):
+    page = browser.open(url_of(viewer))
+    is_shown(page)
+    yield page
+    page.close()
+
+
+def is_shown(page):
+    page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
+
+
+def test_it_loads_without_an_error_and_asks_nobody_else(page, viewer):
+    page.wait_until('amr.now.scene.frames > 1 && amr.now.scene.triangles > 500')
+    assert page.errors == []
+    host = re.match(r'http://([^/]+)/', url_of(viewer))[1]
+    assert len(page.requests) > 3
+    assert [url for url in page.requests if f'//{host}/' not in url] == []
+
+
+def test_a_key_drives_and_its_release_stops(page, ears):
+    page.key_down('KeyW')
+    ears.drives()
+    page.wait_until('amr.now.driver === amr.now.client')
+    page.wait_until("document.body.innerText.match('You drive')")
+    page.key_up('KeyW')
+    assert ears.has_stopped() < STOPS_WITHIN
+    page.wait_until('amr.now.driver === null')
+
+
+def test_the_other_keys(page, ears):
+    begin = ears.truth[-1].pose.pose.position.x
+    page.key_down('ArrowDown')
+    ears.wait(lambda: ears.commanded < -0.3 and ears.truth[-1].pose.pose.position.x < begin)
+    page.key_up('ArrowDown')
+    ears.has_stopped()
+    page.key_down('KeyA')
+    ears.wait(lambda: ears.commands[-1].twist.angular.z > 0.5)  # to the left
+    page.key_up('KeyA')
+    ears.wait(lambda: ears.commands[-1].twist.angular.z == 0.0)
+
+
+@pytest.mark.parametrize(
+    'happening',
+    [
+        "window.dispatchEvent(new Event('blur'))",
+        "Object.defineProperty(document, 'hidden', {value: true});"
+        "document.dispatchEvent(new Event('visibilitychange'))",
+        "window.dispatchEvent(new Event('pagehide'))",
+    ],
+    ids=['blur', 'hidden', 'left'],
+)
+def test_who_looks_away_stops(page, ears, happening):
+    page.key_down('KeyW')
+    ears.drives()
+    page.evaluate(happening)
+    assert ears.has_stopped() < STOPS_WITHIN
+    page.key_up('KeyW')
+
+
+def test_a_closed_tab_stops(browser, viewer, ears):
+    page = browser.open(url_of(viewer))
+    is_shown(page)
+    page.key_down('KeyW')
+    ears.drives()
+    page.close()
+    assert ears.has_stopped() < STOPS_WITHIN
+
+
+def test_the_joystick(page, ears):
+    x, y = page.centre_of('.joystick')
+    page.mouse('mousePressed', x, y)
+    page.mouse('mouseMoved', x, y - 200)  # beyond its rim
+    ears.drives()
+    page.mouse('mouseReleased', x, y - 200)
+    assert ears.has_stopped() < STOPS_WITHIN
+
+
+def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
+    other = browser.open(url_of(viewer))
+    is_shown(other)
+    page.key_down('KeyW')
+    ears.drives()
+    name = page.evaluate('amr.now.client')
+    other.wait_until(f"document.body.innerText.match('{name} drives')")
+    other.click('.stop')
+    assert ears.has_stopped() < STOPS_WITHIN
+    page.wait_until('!amr.now.driving')  # though the key is still down
+    page.key_up('KeyW')
+    other.close()
+
+
+def test_pause_step_play_and_reset(page, ears):
+    page.click('.transport .play')
+    page.wait_until("document.querySelector('.transport .play').title === 'Play'")
+    begin = page.evaluate('amr.now.time')
+    page.click('.transport .step')
+    page.wait_until(f'amr.now.time > {begin}')
+    page.click('.transport .play')
+    page.wait_until(f'amr.now.time > {begin} + 1')
+    page.key_down('KeyW')
+    ears.wait(lambda: ears.truth[-1].pose.pose.position.x > 0.3)
+    page.key_up('KeyW')
+    ears.has_stopped()
+    before = page.evaluate('amr.now.time')
+    page.click('.transport [title^=Reset]')
+    page.wait_until(f'amr.now.time < {before} - 1')
+    ears.wait(lambda: abs(ears.truth[-1].pose.pose.position.x) < 0.01)
+    page.wait_until('amr.now.time > 1')
+    assert page.errors == []
+
+
+def test_the_page_comes_back_when_the_server_does(browser, simulation):
+    with ExitStack() as stack:
+        first = stack.enter_context(serving())
+        url = url_of(first)
+        page = browser.open(url)
+        is_shown(page)
+        assert first.end(signal.SIGKILL) == -signal.SIGKILL
+        page.wait_until("amr.now.link !== 'open'")
+        port = url.rstrip('/').rpartition(':')[2]
+        second = stack.enter_context(serving(port))
+        assert url_of(second) == url
+        count = page.evaluate('amr.now.states')
+        page.wait_until(f"amr.now.link === 'open' && amr.now.states > {count} + 20")
+        page.close()
+        assert second.end(signal.SIGINT) == 0
+
+
+def test_without_webgl_one_still_drives(viewer, ears):
+    need(chromium.executable(), 'no chromium; apt install chromium')
+    with chromium.Chromium('--disable-3d-apis') as browser:
+        page = browser.open(url_of(viewer))
+        is_shown(page)
+        assert page.evaluate('amr.now.scene') is None
+        page.wait_until("document.body.innerText.match('WebGL')")
+        page.key_down('KeyW')
+        ears.drives()
+        page.key_up('KeyW')
+        assert ears.has_stopped() < STOPS_WITHIN
+
+
+def test_an_empty_graph_says_what_to_start(browser):
+    with own_domain(), serving() as program:
+        page = browser.open(url_of(program))
+        page.wait_until("document.body.innerText.match('nothing publishes /robot_description')")
+        assert page.errors == []
+        page.close()
+        assert program.end(signal.SIGINT) == 0
+
+
+def test_sliders_move_joints(browser):
+    """The stack ``display`` in a domain of its own, its page included."""
+    with own_domain(), Program(BRINGUP, 'display') as stack:
+        page = browser.open(url_of(stack))
+        is_shown(page)
+        rclpy.init(args=[])
+        ears = Ears()
+        page.click('[role=tab]:nth-child(2)')
+        page.evaluate(
+            """(() => {
+              const slider = document.querySelector(
+                'input[type=range][aria-label^=joint_wheel_front_left]');
+              slider.value = '1.25';
+              slider.dispatchEvent(new Event('input', {bubbles: true}));
+            })()"""
+        )
+        ears.wait(lambda: abs(ears.joints.get('joint_wheel_front_left', 0.0) - 1.25) < 1e-6)
+        ears.destroy_node()
+        rclpy.try_shutdown()
+        page.close()
+        assert stack.end(signal.SIGINT) == 0

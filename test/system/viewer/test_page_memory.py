@@ -1,0 +1,117 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A page that is left open over a long drive: its memory ends somewhere."""
+
+from math import cos, sin
+
+from fixtures.sim.driving import AMR
+import pytest
+from support import chromium
+from support.needs import need
+from test_viewer_pages import Backend, serving
+
+from amr_description.viewer.protocol import (
+    Command,
+    FrameInfo,
+    Graph,
+    Layout,
+    RobotInfo,
+    RobotLayout,
+)
+from amr_description.viewer.ros.description import describe_robot
+from amr_description.viewer.states import StateFrame
+
+HOUR = 3600.0  # s
+PERIOD = 1.0  # s of simulated time between two states
+STAGE = 600.0  # s of simulated time that any machine sends within a test's patience
+RADIUS = 5.0  # m
+SPEED = 0.5  # m/s
+MOST_POINTS = 2 * 1024  # of a trail where the processor draws
+MOST_SAMPLES = 300 * 60  # of the plots
+MOST_GROWTH = 1_000_000
+"""Bytes. Held on to, the states of half the drive are 10 MB."""
+
+
+class LongDrive(Backend):
+    """A robot that goes in circles which wander off: no two are the same."""
+
+    def __init__(self):
+        super().__init__()
+        self.time = 0.0
+        self.end = 0.0
+        described = describe_robot('/', AMR)
+        joints = tuple(joint.name for joint in described.message.joints)
+        layout = Layout(
+            1,
+            (FrameInfo('base_footprint', 'odom'),),
+            (RobotLayout('/', joints, joints),),
+        )
+        self.frame = StateFrame(layout)
+        command = Command('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
+        topics = ('/odom', '/ground_truth/odom', '/ground_truth/wheels', '/joint_states')
+        robot = RobotInfo('/', described.name, command, *topics, None, None)
+        self.known = (Graph((robot,), (), None), described.message, layout)
+        self.count = 0
+
+    def opened(self):
+        self.new = self.known
+
+    def state(self):
+        new, self.new = self.new, ()
+        if self.time < self.end:
+            self.time += PERIOD
+            self.drive_on()
+        self.count += 1
+        return new, self.frame.encode(self.count, self.time)
+
+    def drive_on(self):
+        angle = SPEED / RADIUS * self.time
+        x = RADIUS * sin(angle) + 0.01 * self.time
+        y = RADIUS * (1 - cos(angle))
+        (robot,) = self.frame.robots
+        turn = (0.0, 0.0, sin(angle / 2), cos(angle / 2))
+        self.frame.poses[0] = (x, y, 0.0, *turn)
+        robot.odometry[:] = (x, y, 0.0, *turn, SPEED, SPEED / RADIUS)
+        robot.truth[:] = (0.99 * x, y, 0.0, *turn, SPEED, SPEED / RADIUS)
+        for each in (robot.positions, robot.velocities, robot.commanded):
+            each[:] = angle
+        robot.command[:] = (SPEED, SPEED / RADIUS)
+        robot.wheels[:] = (1.0, 17.0, 0.0, 0.01 * sin(self.time))
+
+    def until(self, page, end):
+        """Go on until a simulated time, and leave the page at rest there."""
+        while self.end < end:
+            self.end = min(self.end + STAGE, end)
+            page.wait_until(f'amr.now.time > {self.end} - {PERIOD} / 2')
+
+
+@pytest.fixture
+def drive():
+    return LongDrive()
+
+
+def bytes_of(page):
+    """What the page's script holds on to, its buffers too."""
+    for _ in range(2):  # what the first one lets go may have held others
+        page.call('HeapProfiler.collectGarbage')
+    usage = page.call('Runtime.getHeapUsage')
+    return usage['usedSize'] + usage['backingStorageSize']
+
+
+def test_the_memory_of_a_page_ends_somewhere(drive):
+    need(chromium.executable(), 'no chromium; apt install chromium')
+    with serving(drive, rate=2000.0) as server, chromium.Chromium() as browser:
+        page = browser.open(server.url, width=800, height=320)
+        page.wait_until("amr.now.link === 'open' && amr.now.scene.frames > 0")
+        drive.until(page, 4 * HOUR)
+        half, kept = bytes_of(page), page.evaluate('amr.now')
+        drive.until(page, 8 * HOUR)
+        whole, now = bytes_of(page), page.evaluate('amr.now')
+        page.close()
+    assert now['states'] > kept['states'] + 5000  # however many were left out for a slow page
+    assert kept['samples'] <= now['samples'] <= MOST_SAMPLES
+    for points in (*kept['scene']['trails']['/'], *now['scene']['trails']['/']):
+        assert MOST_POINTS / 2 < points <= MOST_POINTS
+    assert whole - half < MOST_GROWTH
+    assert now['notices'] == 0
+    assert page.errors == []

@@ -1,0 +1,241 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page in a real browser: the model, its frames and joints, and who cannot use a mouse."""
+
+import csv
+import io
+import json
+from pathlib import Path
+import signal
+
+from ament_index_python.packages import get_package_prefix
+import pytest
+import rclpy
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from support import chromium
+from support.needs import need
+from support.paths import TESTS
+from support.running_programs import PATIENCE, Program
+from test_page_memory import LongDrive
+from test_viewer_pages import serving
+
+from amr_description.ros.service_calls import wait_until
+from amr_description.testing.program import own_domain
+
+BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
+MESHED = TESTS / 'fixtures' / 'urdf_good' / 'meshed.urdf'
+JOINT, LOWER, UPPER = 'antenna_joint', -1.0, 1.0
+CONTROLS = {
+    'button', 'checkbox', 'combobox', 'link', 'menuitem', 'radio', 'slider', 'spinbutton',
+    'switch', 'tab', 'textbox',
+}  # fmt: skip
+MOST_TABS = 40
+"""Presses of the key until the stop button is reached."""
+
+
+@pytest.fixture(scope='module')
+def browser():
+    need(chromium.executable(), 'no chromium; apt install chromium')
+    with chromium.Chromium() as browser:
+        yield browser
+
+
+@pytest.fixture(scope='module')
+def display(browser, tmp_path_factory):
+    """The page of the stack ``display`` over a robot of meshes, and a node in its domain."""
+    urdf = tmp_path_factory.mktemp('meshed') / 'meshed.urdf'
+    # Who reads /robot_description does not know beside which file a mesh would be.
+    urdf.write_text(MESHED.read_text().replace('"meshes/', f'"file://{MESHED.parent}/meshes/'))
+    with own_domain(), Program(BRINGUP, 'display', f'urdf:={urdf}') as stack:
+        page = browser.open(stack.expect(r'The page is at (http://\S+)')[1])
+        page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
+        rclpy.init(args=[])
+        yield page
+        rclpy.try_shutdown()
+        assert page.errors == []
+        page.close()
+        assert stack.end(signal.SIGINT) == 0
+
+
+@pytest.fixture(scope='module')
+def driven(browser):
+    """The page of a robot that drives in circles, for a minute."""
+    drive = LongDrive()
+    drive.end = 60.0
+    with serving(drive) as server:
+        page = browser.open(server.url)
+        page.wait_until('amr.now.scene.frames > 0 && amr.now.time >= 60')
+        yield page
+        assert page.errors == []
+        page.close()
+
+
+class Ears(Node):
+    """Hears joint_states."""
+
+    def __init__(self):
+        super().__init__('ears')
+        self.joints = {}
+        self.create_subscription(
+            JointState,
+            '/joint_states',
+            lambda message: self.joints.update(zip(message.name, message.position, strict=True)),
+            10,
+        )
+
+    def wait(self, condition):
+        assert wait_until(
+            self,
+            lambda: (JOINT in self.joints and condition(self.joints[JOINT])) or None,
+            every=60.0,
+            timeout=PATIENCE,
+        )
+
+
+def press(page, name):
+    """Click on the button that is called so."""
+    mark = f"""(() => {{
+        const found = [...document.querySelectorAll('button:not([role=tab])')]
+          .find((each) => [each.innerText.trim(), each.title].includes({json.dumps(name)}));
+        document.querySelector('[data-pressed]')?.removeAttribute('data-pressed');
+        found.dataset.pressed = '';
+        return true;
+      }})()"""
+    page.wait_until(mark)
+    page.click('[data-pressed]')
+
+
+def test_meshes_are_drawn(display):
+    display.wait_until(
+        """performance.getEntriesByType('resource').some(
+          ({name, responseStatus}) => /mesh.+stl$/.test(name) && responseStatus === 200)"""
+    )
+    display.wait_until('amr.now.scene.triangles > 0')
+    assert display.errors == []
+
+
+def test_a_click_chooses_a_link_and_shows_where_it_is(display):
+    display.click('#tab-frames')
+    display.click('canvas.scene')
+    name = display.wait_until("document.querySelector('.chosen')?.textContent")
+    assert name in ('base_link', 'antenna')
+    pressed = display.evaluate("document.querySelector('.frame[aria-pressed=true]').innerText")
+    assert pressed == name
+    display.wait_until("/\\d\\.\\d{3}/.test(document.querySelector('.facts.numbers').innerText)")
+
+
+def test_another_frame_is_held_still(display):
+    display.click('#tab-frames')
+    press(display, 'base_link')
+    before = display.evaluate('amr.now.scene.frames')
+    display.wait_until("document.querySelector('#fixed-frame option[value=antenna]')")
+    for name in ('antenna', ''):
+        display.evaluate(
+            f"""(() => {{
+              const choice = document.querySelector('#fixed-frame');
+              choice.value = '{name}';
+              choice.dispatchEvent(new Event('change'));
+            }})()"""
+        )
+        display.wait_until(f'amr.now.scene.frames > {before}')
+        before = display.evaluate('amr.now.scene.frames')
+        found = "[...document.querySelectorAll('.facts.numbers dd')].map((each) => each.innerText)"
+        display.wait_until(f"{found}.includes('{name or 'base_footprint'}')")
+
+
+def test_frames_and_their_names_are_shown_and_hidden(display):
+    written = """(() => {
+        const names = document.querySelector('canvas.scene + canvas');
+        const {data} = names.getContext('2d').getImageData(0, 0, names.width, names.height);
+        return data.some((value) => value > 0);
+      })()"""
+    before = display.evaluate('amr.now.scene.triangles')
+    press(display, 'Frames')
+    display.wait_until(f'amr.now.scene.triangles > {before}')
+    assert not display.evaluate(written)
+    press(display, 'Names')
+    display.wait_until(written)
+    press(display, 'Names')
+    display.wait_until(f'!{written}')
+    press(display, 'Frames')
+    display.wait_until(f'amr.now.scene.triangles === {before}')
+
+
+def test_randomize_and_center_move_the_joints(display):
+    ears = Ears()
+    display.click('#tab-joints')
+    press(display, 'Randomize')
+    ears.wait(lambda position: position != 0.0)
+    assert LOWER <= ears.joints[JOINT] <= UPPER
+    press(display, 'Center')
+    ears.wait(lambda position: position == 0.0)
+    ears.destroy_node()
+
+
+def test_samples_are_saved_as_a_table(driven):
+    driven.evaluate(
+        """(() => {
+          const make = URL.createObjectURL.bind(URL);
+          URL.createObjectURL = (content) => make(window.saved = content);
+        })()"""
+    )
+    press(driven, 'CSV')
+    driven.wait_until('window.saved instanceof Blob')
+    head, *rows = csv.reader(io.StringIO(driven.evaluate('saved.text()')))
+    wheel = 'joint_wheel_front_left'
+    assert head[:3] == ['time_s', 'command_linear_m_s', 'command_angular_rad_s']
+    assert {f'{wheel}_rad_s', f'{wheel}_commanded_rad_s', 'real_time_factor'} <= {*head}
+    assert len(rows) > 10
+    times = [float(row[0]) for row in rows]
+    assert times == sorted(set(times))
+    assert times[-1] == 60.0
+    last = dict(zip(head, rows[-1], strict=True))
+    assert (last['command_linear_m_s'], last['odometry_linear_m_s']) == ('0.5', '0.5')
+    assert float(last[f'{wheel}_rad_s']) == pytest.approx(6.0)
+    assert last['real_time_factor'] == ''  # there is no simulator
+
+
+def nameless(page):
+    """Controls that a screen reader cannot name."""
+    page.call('Accessibility.enable')
+    nodes = page.call('Accessibility.getFullAXTree')['nodes']
+    controls = [
+        node for node in nodes if not node['ignored'] and node['role']['value'] in CONTROLS
+    ]
+    assert len(controls) > 10
+    return [node for node in controls if not node.get('name', {}).get('value', '').strip()]
+
+
+@pytest.mark.parametrize('size', [(1440, 900, False), (390, 844, True)], ids=['desk', 'phone'])
+def test_every_control_has_a_name_and_nothing_is_cut_off(driven, size):
+    width, height, phone = size
+    driven.look_like(width, height, phone=phone)
+    driven.wait_until(f'innerWidth === {width}')
+    assert nameless(driven) == []
+    wide = '[document.documentElement, document.body].some((e) => e.scrollWidth > innerWidth)'
+    assert not driven.evaluate(wide)
+    if phone:
+        press(driven, 'Panels')
+        driven.wait_until("document.querySelector('.sheet').dataset.sheet === 'open'")
+        assert nameless(driven) == []
+        assert not driven.evaluate(wide)
+        press(driven, 'Close the panels')
+        driven.look_like(1440, 900)
+        driven.wait_until('innerWidth === 1440')
+
+
+def test_the_tab_key_reaches_the_stop_button(driven):
+    driven.evaluate('document.activeElement.blur(); getSelection().removeAllRanges()')
+    key = {'key': 'Tab', 'code': 'Tab', 'windowsVirtualKeyCode': 9}
+    reached = []
+    while '.stop' not in reached:
+        assert len(reached) < MOST_TABS, reached
+        for kind in ('rawKeyDown', 'keyUp'):
+            driven.call('Input.dispatchKeyEvent', {'type': kind, **key})
+        reached.append(
+            driven.evaluate(
+                "document.activeElement.matches('.stop:focus-visible') ? '.stop' "
+                ': document.activeElement.outerHTML.slice(0, 60)'
+            )
+        )

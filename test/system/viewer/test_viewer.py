@@ -1,0 +1,428 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node viewer in a ROS graph: what a page sees of robots, and how it moves them."""
+
+from contextlib import contextmanager
+import signal
+import struct
+
+from fixtures.sim.driving import AMR
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
+from nav_msgs.msg import Odometry
+import numpy as np
+import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from support.page import Page
+from support.running_programs import PATIENCE, Program
+from test_viewer_server import ask, url_of, viewer
+from tf2_msgs.msg import TFMessage
+
+from amr_description.ros.service_calls import wait_until
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+WHEELS = [
+    f'joint_wheel_{place}' for place in ('back_left', 'back_right', 'front_left', 'front_right')
+]
+
+
+class Robot:
+    """A robot that is nothing but topics, below a namespace."""
+
+    def __init__(self, node, place='', command=TwistStamped):
+        self.node = node
+        self.place = place
+        self.commands = []
+        self._ends = [
+            node.create_publisher(String, f'{place}/robot_description', LATCHED),
+            node.create_publisher(JointState, f'{place}/joint_states', 10),
+            node.create_publisher(Odometry, f'{place}/odom', 10),
+        ]
+        self.description, self.joint_states, self.odometry = self._ends
+        self._heard = None
+        self.hear_commands(command)
+        self.description.publish(String(data=AMR))
+
+    def hear_commands(self, kind):
+        """Hear commands of this type, and no others."""
+        if self._heard is not None:
+            self.node.destroy_subscription(self._heard)
+        self.commands.clear()
+        self._heard = self.node.create_subscription(
+            kind, f'{self.place}/cmd_vel', self.commands.append, 100
+        )
+
+    @property
+    def velocities(self):
+        """The commands so far: linear, angular."""
+        twists = [getattr(each, 'twist', each) for each in self.commands]
+        return [(twist.linear.x, twist.angular.z) for twist in twists]
+
+    def vanish(self):
+        for end in self._ends:
+            self.node.destroy_publisher(end)
+        self.node.destroy_subscription(self._heard)
+
+
+class Host:
+    """The rest of the graph: one node that has robots."""
+
+    def __init__(self):
+        self.node = Node('host')
+
+    def until(self, condition):
+        """Serve the node until a condition holds; return what it returned."""
+        found = wait_until(self.node, lambda: condition() or None, every=60.0, timeout=PATIENCE)
+        assert found, 'waited in vain'
+        return found
+
+    def connected(self, page, robot):
+        """Wait until the page knows the robot, and its commands arrive."""
+        self.until(lambda: page.last('model'))
+        topic = f'{robot.place}/cmd_vel'
+        self.until(lambda: self.node.count_publishers(topic))
+        name = robot.place or '/'
+        self.until(
+            lambda: page.say('drive', robot=name, linear=0.001, angular=0.0) or robot.commands
+        )
+        page.say('stop', robot=name)
+        self.until(lambda: robot.velocities[-1] == (0.0, 0.0))  # nothing is on its way any more
+        self.until(lambda: page.is_told_that_nobody_drives)
+        robot.commands.clear()
+
+
+@pytest.fixture(scope='module')
+def url():
+    with viewer() as program:
+        yield url_of(program)
+        assert program.end(signal.SIGINT) == 0, program.output
+        assert len(program.lines) == 1, program.output
+
+
+@pytest.fixture
+def host():
+    rclpy.init(args=[])
+    host = Host()
+    yield host
+    host.node.destroy_node()
+    rclpy.try_shutdown()
+
+
+@contextmanager
+def at_rest(host, robot):
+    """What happens inside must end with the robot stopped, once, and silence after it."""
+    yield
+    host.until(lambda: robot.velocities and robot.velocities[-1] == (0.0, 0.0))
+    assert robot.velocities.count((0.0, 0.0)) == 1
+
+
+def endpoints(host, robot):
+    """Who publishes commands of a robot, each by its number in DDS."""
+    topic = f'{robot.place}/cmd_vel'
+    return [bytes(each.endpoint_gid) for each in host.node.get_publishers_info_by_topic(topic)]
+
+
+def floats(state):
+    return np.frombuffer(state, '<f4', offset=16)
+
+
+def test_a_page_sees_what_a_robot_is(host, url):
+    Robot(host.node)
+    with Page(url) as page:
+        model = host.until(lambda: page.last('model'))
+        assert (model['robot'], model['urdf'], model['root']) == ('/', AMR, 'base_footprint')
+        graph = host.until(lambda: (g := page.last('graph'))['robots'] and g)
+        (info,) = graph['robots']
+        assert (info['id'], info['name'], info['odometry']) == ('/', 'amr', '/odom')
+        assert info['command'] == {
+            'topic': '/cmd_vel', 'message': 'geometry_msgs/msg/TwistStamped'
+        }  # fmt: skip
+        assert (graph['hint'], info['truth'], info['manager']) == (None, None, None)
+
+
+def test_a_page_sees_what_moves(host, url):
+    robot = Robot(host.node)
+    frames = host.node.create_publisher(TFMessage, '/tf', 10)
+    clock = host.node.create_publisher(Clock, '/clock', 10)
+    transform = TransformStamped(child_frame_id='base_footprint')
+    transform.header.frame_id = 'odom'
+    transform.transform.translation.x = 3.5
+    transform.transform.translation.z = 1e300  # not logged either
+    odometry = Odometry()
+    odometry.pose.pose.position.y = -2.0
+    odometry.twist.twist.linear.x = 0.25
+    time = Clock()
+
+    def publish():
+        time.clock.sec += 1
+        clock.publish(time)
+        frames.publish(TFMessage(transforms=[transform]))
+        robot.odometry.publish(odometry)
+        robot.joint_states.publish(JointState(name=['x', WHEELS[1]], position=[9.0, 0.5]))
+
+    def complete():
+        publish()
+        layout = page.last('layout')
+        if not page.states or not layout or not layout['frames'] or not layout['robots']:
+            return None
+        if not layout['robots'][0]['joints']:  # its description has not come yet
+            return None
+        if struct.unpack_from('<H', page.states[-1], 2)[0] != layout['id']:
+            return None
+        values = floats(page.states[-1])
+        return None if np.isnan(values[:8]).all() or np.isnan(values[19]) else (layout, values)
+
+    with Page(url) as page:
+        layout, values = host.until(complete)
+        assert layout['frames'] == [{'name': 'base_footprint', 'parent': 'odom'}]
+        joints = layout['robots'][0]['joints']
+        assert sorted(joints) == WHEELS
+        assert values[:7].tolist() == [3.5, 0, np.inf, 0, 0, 0, 1]
+        positions, speeds = values[7:11], values[11:19]
+        assert positions[joints.index(WHEELS[1])] == 0.5
+        assert np.isnan(positions).sum() == 3
+        assert np.isnan(speeds).all()  # neither measured nor commanded
+        assert values[19:28].tolist() == [0, -2, 0, 0, 0, 0, 1, 0.25, 0]
+        assert np.isnan(values[28:37]).all()  # no simulator, no truth
+        numbers = [struct.unpack_from('<I', state, 4)[0] for state in page.states]
+        assert numbers == sorted(set(numbers))
+        now = struct.unpack_from('<d', page.states[-1], 8)[0]
+        assert 0 < now <= time.clock.sec
+        time.clock.sec = 0
+        host.until(lambda: publish() or page.last('reset'))
+        count = len(page.states)
+        host.until(lambda: publish() or len(page.states) > count)
+
+
+def test_frames_of_a_robot_with_a_tf_of_its_own_are_called_after_it(host, url):
+    """As Nav2 has them, of several robots: /tf is remapped to tf, and all say 'odom'."""
+    transform = TransformStamped(child_frame_id='base_footprint')
+    transform.header.frame_id = 'odom'
+    for place in ('/r1', '/r2'):
+        Robot(host.node, place)
+        publisher = host.node.create_publisher(TFMessage, f'{place}/tf_static', LATCHED)
+        publisher.publish(TFMessage(transforms=[transform]))
+    with Page(url) as page:
+        frames = [
+            {'name': f'{name}/base_footprint', 'parent': f'{name}/odom'} for name in ('r1', 'r2')
+        ]
+        host.until(lambda: (layout := page.last('layout')) and layout['frames'] == frames)
+
+
+def test_a_page_drives_and_stops(host, url):
+    robot = Robot(host.node)
+    with Page(url) as page:
+        host.connected(page, robot)
+        with at_rest(host, robot):
+            page.say('drive', robot='/', linear=0.5, angular=-0.25)
+            host.until(lambda: robot.commands)
+            page.say('stop', robot='/')
+        assert robot.velocities[0] == (0.5, -0.25)
+        header = robot.commands[0].header
+        assert header.frame_id == 'base_link'
+        age = host.node.get_clock().now().nanoseconds * 1e-9 - header.stamp.sec
+        assert 0 <= age < PATIENCE
+
+
+def test_commands_are_stamped_with_the_time_of_the_simulation(host, url):
+    robot = Robot(host.node)
+    clock = host.node.create_publisher(Clock, '/clock', 10)
+    time = Clock()
+    time.clock.sec, time.clock.nanosec = 12, 500
+    with Page(url) as page:
+        host.connected(page, robot)
+
+        def stamp():
+            clock.publish(time)
+            page.say('drive', robot='/', linear=0.1, angular=0.0)
+            return robot.commands and robot.commands[-1].header.stamp == time.clock
+
+        host.until(stamp)
+        host.node.destroy_publisher(clock)  # the simulation ends, the robot is a real one now
+        since = host.node.get_clock().now().nanoseconds
+
+        def stamp_of_now():
+            page.say('drive', robot='/', linear=0.1, angular=0.0)
+            return Time.from_msg(robot.commands[-1].header.stamp).nanoseconds >= since
+
+        host.until(stamp_of_now)
+        assert page.last('reset') is None
+        clock = host.node.create_publisher(Clock, '/clock', 10)
+        time.clock.sec = 3  # another simulation
+        host.until(lambda: clock.publish(time) or page.last('reset'))
+        host.until(stamp)
+
+
+def test_a_stop_arrives_while_the_topics_of_the_robot_change(host, url):
+    """The publisher of commands stays: a new one would lose what it says before it is known."""
+    robot = Robot(host.node)
+    with Page(url) as page:
+        host.connected(page, robot)
+        (ours,) = endpoints(host, robot)
+        page.say('drive', robot='/', linear=0.5, angular=0.0)
+        truth = host.node.create_publisher(Odometry, '/ground_truth/odom', 10)
+        host.until(lambda: (g := page.last('graph')['robots']) and g[0]['truth'])
+        page.say('stop', robot='/')
+        host.until(lambda: robot.velocities[-1] == (0.0, 0.0))
+        assert endpoints(host, robot) == [ours]
+        host.node.destroy_publisher(truth)
+
+
+def test_who_wants_a_plain_twist_gets_one(host, url):
+    robot = Robot(host.node, command=Twist)
+    with Page(url) as page:
+        host.connected(page, robot)
+        page.say('drive', robot='/', linear=0.5, angular=0.0)
+        host.until(lambda: (0.5, 0.0) in robot.velocities)
+
+
+def test_a_robot_that_wants_another_type_from_now_on_gets_it(host, url):
+    robot = Robot(host.node)
+    with Page(url) as page:
+        host.connected(page, robot)
+        robot.hear_commands(Twist)
+        host.until(
+            lambda: (
+                page.say('drive', robot='/', linear=0.5, angular=0.0)
+                or (0.5, 0.0) in robot.velocities
+            )
+        )
+
+
+@pytest.mark.parametrize('ending', ['silence', 'close', 'vanish', 'rubbish', 'stop all'])
+def test_whatever_ends_a_drive_stops_the_robot(host, url, ending):
+    robot = Robot(host.node)
+    with Page(url) as watcher, Page(url) as driver:
+        host.connected(driver, robot)
+        with at_rest(host, robot):
+            driver.say('drive', robot='/', linear=0.5, angular=0.0)
+            host.until(lambda: robot.commands)
+            match ending:
+                case 'close':
+                    driver.close()
+                case 'vanish':
+                    driver.vanish()
+                case 'rubbish':
+                    driver.socket.send('{')
+                case 'stop all':
+                    watcher.say('stop', robot=None)
+        host.until(lambda: watcher.is_told_that_nobody_drives)
+
+
+def test_the_end_of_the_viewer_stops_the_robot(host):
+    robot = Robot(host.node)
+    with viewer() as program, Page(url_of(program)) as page:
+        host.connected(page, robot)
+        with at_rest(host, robot):
+            page.say('drive', robot='/', linear=0.5, angular=0.0)
+            host.until(lambda: robot.commands)
+            program.signal(signal.SIGTERM)
+        assert program.end() == 0
+
+
+def test_one_page_drives_at_a_time_and_all_know_which(host, url):
+    robot = Robot(host.node)
+    with Page(url) as first, Page(url) as second:
+        host.connected(first, robot)
+        host.until(lambda: second.last('model'))
+
+        def drive():
+            first.say('drive', robot='/', linear=0.5, angular=0.0)
+            second.say('drive', robot='/', linear=-1.0, angular=0.0)
+            return second.last('notice')
+
+        notice = host.until(drive)
+        name = first.last('hello')['client']
+        assert notice['text'].startswith(f'{name} drives /')
+        assert name in [each['client'] for each in second.of('driver')]
+        assert (-1.0, 0.0) not in robot.velocities
+        second.say('stop', robot='/')
+        host.until(lambda: (0.0, 0.0) in robot.velocities)
+        assert host.until(lambda: first.last('driver')['stopped']) == name
+        host.until(
+            lambda: (
+                second.say('drive', robot='/', linear=-1.0, angular=0.0)
+                or (-1.0, 0.0) in robot.velocities
+            )
+        )
+
+
+def test_sliders_move_the_joints_of_a_joint_state_publisher(host, url, tmp_path):
+    robot = Robot(host.node)
+    heard = []
+    host.node.destroy_publisher(robot.joint_states)
+    host.node.create_subscription(JointState, '/joint_states', heard.append, 10)
+    with Program.module('joint_state_publisher') as program, Page(url) as page:
+
+        def moved():
+            graph = page.last('graph')
+            if graph and graph['robots'] and graph['robots'][0]['joint_publisher']:
+                page.say('set_joints', robot='/', positions={WHEELS[0]: 1.25})
+            return any(1.25 in message.position for message in heard)
+
+        host.until(moved)
+        assert page.last('graph')['robots'][0]['joint_publisher'] == '/joint_state_publisher'
+        assert program.end(signal.SIGINT) == 0
+
+
+def test_several_robots_come_and_go(host, url):
+    first, second = Robot(host.node, '/r1'), Robot(host.node, '/r2')
+    with Page(url) as page:
+
+        def ids():
+            graph = page.last('graph')
+            return graph and [robot['id'] for robot in graph['robots']]
+
+        host.until(lambda: ids() == ['/r1', '/r2'])
+        host.connected(page, second)
+        page.say('drive', robot='/r2', linear=0.5, angular=0.0)
+        host.until(lambda: (0.5, 0.0) in second.velocities)
+        assert first.velocities == []
+        first.vanish()
+        host.until(lambda: ids() == ['/r2'])
+        host.until(lambda: [r['id'] for r in page.last('layout')['robots']] == ['/r2'])
+        with Page(url) as late:
+            host.until(lambda: late.last('layout'))
+            assert [model['robot'] for model in late.of('model')] == ['/r2']
+
+
+def test_nothing_is_subscribed_while_nobody_looks(host, url):
+    Robot(host.node)
+
+    def heard():
+        return host.node.count_subscribers('/joint_states')
+
+    with Page(url) as page:
+        host.until(lambda: page.last('model'))
+        host.until(heard)
+    host.until(lambda: not heard())
+    assert not host.node.count_subscribers('/robot_description')
+    assert not host.node.count_subscribers('/tf')
+
+
+def test_meshes_are_served_while_a_description_names_them(host, url, tmp_path):
+    mesh = tmp_path / 'part.stl'
+    mesh.write_bytes(b'solid part')
+    urdf = AMR.replace('</robot>', '')
+    urdf += (
+        f'<link name="part"><visual><geometry><mesh filename="file://{mesh}"/></geometry>'
+        '</visual></link><joint name="to_part" type="fixed"><parent link="base_link"/>'
+        '<child link="part"/></joint></robot>'
+    )
+    robot = Robot(host.node)
+    robot.description.publish(String(data=urdf))
+    with Page(url) as page:
+        (path,) = host.until(lambda: (m := page.last('model')) and [*m['meshes'].values()])
+        status, headers, body = ask(url, path=path)
+        assert (status, body) == (200, 'solid part')
+        assert headers['Content-Type'] == 'model/stl'
+        assert 'immutable' in headers['Cache-Control']
+        assert ask(url, path=f'/mesh/{mesh.name}')[0] == 404
+        robot.description.publish(String(data=AMR))
+        host.until(lambda: page.last('model')['urdf'] == AMR)
+        assert ask(url, path=path)[0] == 404

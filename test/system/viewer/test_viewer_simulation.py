@@ -1,0 +1,258 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node viewer with a real simulator: time, worlds, robots and controllers, asked by a page."""
+
+from contextlib import contextmanager
+import math
+import signal
+import struct
+
+from fixtures.sim.driving import AMR
+import numpy as np
+import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+from support.page import Page
+from support.ros_processes import run, running
+from test_viewer_server import url_of, viewer
+
+SIMULATOR = '/mujoco_sim'
+CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
+
+
+class Asker:
+    """Numbers the requests of a page to the simulator."""
+
+    def __init__(self, page):
+        self.page = page
+        self._count = 0
+
+    def __call__(self, kind, **fields):
+        """Whether it was done, and the message."""
+        self._count += 1
+        reply = self.page.ask(kind, self._count, **fields)
+        return reply['ok'], reply['message']
+
+    def simulator(self, kind, **fields):
+        return self(kind, simulator=SIMULATOR, **fields)
+
+    def spawn(self, name, namespace, x):
+        place = {'position': [x, 0.5, 0.0], 'yaw': 0.5}
+        return self.simulator('spawn', name=name, namespace=namespace, like='/', **place)
+
+
+@contextmanager
+def described():
+    """A node that publishes the description of the shipped robot."""
+    rclpy.init(args=[])
+    node = Node('described')
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    publisher = node.create_publisher(String, '/robot_description', latched)
+    publisher.publish(String(data=AMR))
+    try:
+        yield
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+@pytest.fixture(scope='module')
+def page():
+    with (
+        described(),
+        running('mujoco_sim', '--ros-args', '-p', 'world:=walls', until='waiting for robots'),
+        viewer() as program,
+        Page(url_of(program)) as page,
+    ):
+        page.wait(lambda: page.last('model'))
+        page.wait(lambda: simulators(page))
+        yield page
+        assert len(program.lines) == 1, program.output
+
+
+@pytest.fixture(scope='module')
+def ask(page):
+    return Asker(page)
+
+
+@pytest.fixture(scope='module')
+def driven(page, ask):
+    """The robot of the root namespace, in the world, its controllers active."""
+    ok, message = ask.spawn('amr', '/', 0.0)
+    assert ok, message
+    ended = run('spawner', *CONTROLLERS)
+    assert ended.returncode == 0, ended.stderr
+    page.wait(lambda: states_of(page, '/') == dict.fromkeys(CONTROLLERS, 'active'))
+    page.wait(lambda: robot(page, '/')['command'] and robot(page, '/')['truth'])
+
+
+def simulators(page):
+    return (page.last('graph') or {'simulators': []})['simulators']
+
+
+def status(page, key):
+    """Of the simulation, as last told; None: nothing was told yet."""
+    return (page.last('simulation') or {}).get(key)
+
+
+def robot(page, name):
+    return next((each for each in page.last('graph')['robots'] if each['id'] == name), None)
+
+
+def states_of(page, name):
+    """Controller → state, as last told."""
+    told = [each for each in page.of('controllers') if each['robot'] == name]
+    return {each['name']: each['state'] for each in told[-1]['controllers']} if told else {}
+
+
+def last_state(page, name):
+    """A robot's layout, and its numbers in the last state; None: not known."""
+    if not page.states:
+        return None
+    state = page.states[-1]
+    number = struct.unpack_from('<H', state, 2)[0]
+    layout = next((each for each in page.of('layout')[::-1] if each['id'] == number), None)
+    if layout is None:
+        return None
+    numbers = np.frombuffer(state, '<f4', offset=16)[7 * len(layout['frames']) :]
+    for each in layout['robots']:
+        size = 3 * len(each['joints']) + 20 + 4 * len(each['wheels'])
+        if each['id'] == name:
+            return each, numbers[:size]
+        numbers = numbers[size:]
+    return None
+
+
+def place(page, name):
+    """Where the robot truly is, x and y, by the last state; None: not known."""
+    found = last_state(page, name)
+    if found is None:
+        return None
+    layout, numbers = found
+    x, y = numbers[3 * len(layout['joints']) + 9 :][:2].tolist()
+    return None if math.isnan(x) else (x, y)
+
+
+def speed(page, name):
+    """How fast the robot truly goes ahead, m/s, by the last state; not a number: not known."""
+    found = last_state(page, name)
+    return float(found[1][3 * len(found[0]['joints']) + 16]) if found else math.nan
+
+
+def commanded(page, name):
+    """What the joints are commanded by the last state, rad/s; empty: not known."""
+    found = last_state(page, name)
+    if found is None:
+        return []
+    layout, numbers = found
+    count = len(layout['joints'])
+    return numbers[2 * count : 3 * count].tolist()
+
+
+def distance(page, name, start):
+    """How far it is from there, m; 0 while that is not known."""
+    return math.dist(place(page, name) or start, start)
+
+
+def drive_on_until(page, name, condition):
+    """Drive until something is so, at the pace of the states that come, and do not stop."""
+
+    def drive_on():
+        page.say('drive', robot=name, linear=0.3, angular=0.0)
+        return condition()
+
+    page.wait(drive_on)
+
+
+def drive_until(page, name, condition):
+    """Drive until something is so, and stop."""
+    drive_on_until(page, name, condition)
+    page.say('stop', robot=name)
+
+
+def test_a_page_sees_the_world(page):
+    world = page.wait(lambda: page.last('world'))
+    assert [shape['name'] for shape in world['shapes']][:2] == ['ground', 'east']
+
+
+def test_a_page_lets_time_stand_still_step_and_go_on(page, ask):
+    assert ask.simulator('pause') == (True, 'time stands still')
+    assert ask.simulator('pause')[0]
+    page.wait(lambda: status(page, 'state') == 'paused')
+    assert ask.simulator('step', steps=5) == (True, '5 steps were made')
+    assert ask.simulator('play')[0]
+    page.wait(lambda: status(page, 'state') == 'playing')
+    ok, message = ask.simulator('step', steps=1)
+    assert (ok, 'steps are made while it is PAUSED' in message) == (False, True)
+
+
+def test_a_page_sets_the_real_time_factor(page, ask):
+    assert ask.simulator('set_factor', factor=0.5) == (True, 'the real-time factor is 0.5')
+    page.wait(lambda: status(page, 'factor') == 0.5)
+    ok, message = ask.simulator('set_factor', factor=-1.0)
+    assert (ok, 'at least 0' in message) == (False, True)
+    assert ask.simulator('set_factor', factor=1.0)[0]
+    page.wait(lambda: status(page, 'factor') == 1.0)
+
+
+def test_a_page_sees_what_wheels_are_commanded(page, driven):
+    def all_turn():
+        speeds = commanded(page, '/')
+        return speeds and all(speed > 1.0 for speed in speeds)
+
+    drive_until(page, '/', all_turn)
+    page.wait(lambda: set(commanded(page, '/')) == {0.0})
+
+
+def test_a_page_drives_the_robot_in_truth(page, driven):
+    start = page.wait(lambda: place(page, '/'))
+    drive_until(page, '/', lambda: distance(page, '/', start) > 0.05)
+
+
+def test_a_robot_stops_by_itself_when_the_viewer_is_killed(page, driven):
+    """Nobody says stop: the time-out of the robot's controller is the last that is left."""
+    with viewer() as killed, Page(url_of(killed)) as driver:
+        driver.wait(lambda: driver.last('model') and robot(driver, '/')['command'])
+        drive_on_until(driver, '/', lambda: speed(page, '/') > 0.1)
+        killed.signal(signal.SIGKILL)
+        driver.wait_closed()
+    page.wait(lambda: abs(speed(page, '/')) < 0.01)
+
+
+def test_a_page_switches_controllers(page, ask, driven):
+    name = 'diff_drive_controller'
+    off = {'robot': '/', 'activate': [], 'deactivate': [name]}
+    assert ask('switch', **off) == (True, f'{name} is inactive')
+    page.wait(lambda: states_of(page, '/')[name] == 'inactive')
+    on = {'robot': '/', 'activate': [name], 'deactivate': []}
+    assert ask('switch', **on) == (True, f'{name} is active')
+    page.wait(lambda: states_of(page, '/')[name] == 'active')
+    ok, message = ask('switch', robot='/', activate=['no_such'], deactivate=[])
+    assert (ok, 'no_such' in message) == (False, True)
+
+
+def test_a_page_spawns_another_that_can_be_driven_and_deletes_it(page, ask, driven):
+    ok, message = ask.spawn('robot1', '/robot1', 1.0)
+    assert (ok, message) == (
+        True, f"'robot1' is in the world; active: {', '.join(CONTROLLERS)}"
+    )  # fmt: skip
+    page.wait(lambda: any(each['robot'] == '/robot1' for each in page.of('model')))
+    page.wait(lambda: robot(page, '/robot1') and robot(page, '/robot1')['command'])
+    start = page.wait(lambda: place(page, '/robot1'))
+    drive_until(page, '/robot1', lambda: distance(page, '/robot1', start) > 0.05)
+    page.wait(lambda: 'robot1' in simulators(page)[0]['entities'])
+    ok, message = ask.spawn('robot1', '/robot1', 2.0)
+    assert (ok, 'robot1' in message) == (False, True)
+    assert ask.simulator('delete', name='robot1') == (True, "'robot1' has left the world")
+    page.wait(lambda: robot(page, '/robot1') is None)
+    page.wait(lambda: 'robot1' not in simulators(page)[0]['entities'])
+    ok, message = ask.simulator('delete', name='robot1')
+    assert (ok, "no entity 'robot1'" in message) == (False, True)
+
+
+def test_a_page_resets_and_is_told_that_time_went_back(page, ask, driven):
+    assert ask.simulator('reset_simulation')[0]
+    assert page.wait(lambda: page.last('reset'))['time'] >= 0.0
+    page.wait(lambda: place(page, '/') and distance(page, '/', (0.0, 0.5)) < 0.02)

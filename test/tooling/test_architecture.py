@@ -1,0 +1,345 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The rooms of the house: which may import which, who owns what library, and what stands where.
+
+Every import statement counts, wherever it stands, those under TYPE_CHECKING too: deferring one
+changes when it costs, not what depends on what. So do dotted names of our modules in strings, as
+in the tables of plugins.
+"""
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+import re
+import sys
+
+import pytest
+from support.paths import ROOT
+
+PACKAGE = ROOT / 'amr_description'
+HEADER = ['# Copyright 2026 The amr_description authors', '# SPDX-License-Identifier: Apache-2.0']
+MOST_LINES_OF_A_FILE = 600
+MOST_LINES_OF_A_FUNCTION = 60
+
+BASE = {
+    'ament_index', 'clock', 'colors', 'entry', 'errors', 'parameter_files', 'parameters',
+    'registry', 'streams', 'text',
+}  # fmt: skip
+# room -> rooms it may import; every room may import the base.
+ARROWS = {
+    'amr_description': set(),
+    'base': set(),
+    'model': set(),
+    'control': {'model'},
+    'controllers': {'control', 'model'},
+    'hardware': {'control', 'model'},
+    'sim': {'control', 'model'},
+    'viewer': {'model'},
+    'ros': {'control', 'model'},
+    'tf2_ros': {'ros', 'model'},
+    'control/ros': {'ros', 'control', 'controllers', 'hardware', 'model'},
+    'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
+    'viewer/ros': {'viewer', 'ros', 'model'},
+    'bringup': {'model'},
+    'cli': {'bringup', 'control/ros', 'controllers', 'ros', 'sim', 'model'},
+    'testing': {'bringup', 'control/ros', 'ros', 'control', 'model'},
+}
+ARROWS['nodes'] = ARROWS.keys() - {'bringup', 'cli', 'testing', 'amr_description'}
+ROS = {'control/ros', 'sim/ros', 'viewer/ros', 'ros', 'tf2_ros', 'nodes', 'cli', 'testing'}
+PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
+PURE = {'base', 'model', 'control', 'controllers'}
+# Heavy libraries have one home each.
+HOMES = {
+    'rclpy': ROS,
+    'mujoco': {'sim'},
+    'websockets': {'viewer'},
+    'serial': {'hardware'},
+    'xacro': {'model'},
+}
+IMPURE = {
+    'asyncio', 'multiprocessing', 'random', 'selectors', 'socket', 'subprocess', 'threading',
+    'time',
+}  # fmt: skip
+# Base modules that are about the process that they run in.
+OF_THE_PROCESS = {'entry', 'streams'}
+# What the supervisor of a stack must never load, directly or by way of others.
+NOT_FOR_THE_SUPERVISOR = {'rclpy', 'mujoco', 'numpy', 'websockets'}
+OWN_NAME = re.compile(r'\bamr_description(?:\.[a-z_][a-z_0-9]*)+')
+
+
+def module_of(path: Path) -> str:
+    """Return the dotted name of a file of the package."""
+    parts = path.relative_to(PACKAGE.parent).with_suffix('').parts
+    return '.'.join(parts[:-1] if parts[-1] == '__init__' else parts)
+
+
+SOURCES = {module_of(path): path for path in sorted(PACKAGE.rglob('*.py'))}
+
+
+@cache
+def room_of(module: str) -> str:
+    """Return the room of a dotted name: the longest one that holds it."""
+    parts = module.split('.')[1:]
+    if not parts:
+        return 'amr_description'
+    if parts[0] in BASE:
+        return 'base'
+    return '/'.join(parts[:2]) if parts[1:2] == ['ros'] else parts[0]
+
+
+def imported(source: str, module: str, *, is_package: bool = False) -> Iterator[tuple[int, str]]:
+    """Yield (line, dotted name) of every import of a module, and of our names in its strings."""
+    tree = ast.parse(source)
+    docstrings = {
+        id(node.body[0].value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
+        and ast.get_docstring(node) is not None
+    }
+    prose = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)} | docstrings
+    package = module.split('.') if is_package else module.split('.')[:-1]
+    for node in ast.walk(tree):
+        match node:
+            case ast.Import():
+                yield from ((node.lineno, alias.name) for alias in node.names)
+            case ast.ImportFrom():
+                base = package[: len(package) - node.level + 1] if node.level else []
+                name = '.'.join([*base, *([node.module] if node.module else [])])
+                yield from ((node.lineno, f'{name}.{alias.name}') for alias in node.names)
+            case ast.Constant(value=str(text)) if id(node) not in prose:
+                yield from ((node.lineno, found[0]) for found in OWN_NAME.finditer(text))
+
+
+def target_of(name: str, sources: object = SOURCES) -> str:
+    """Return the module that a dotted name of ours means: it may end in what the module holds."""
+    while name not in sources:
+        name = name.rpartition('.')[0]
+    return name
+
+
+IMPORTS = [
+    (module, path, line, name)
+    for module, path in SOURCES.items()
+    for line, name in imported(path.read_text(), module, is_package=path.stem == '__init__')
+]
+OWN_IMPORTS = [
+    (module, path, line, target_of(name))
+    for module, path, line, name in IMPORTS
+    if name.split('.')[0] == 'amr_description'
+]
+
+
+def where(path, line=1):
+    return f'{path.relative_to(ROOT)}:{line}'
+
+
+def cycle_of(arrows: dict[str, set[str]]) -> list[str]:
+    """Return the modules of a circle of imports; empty: there is none."""
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as error:
+        return error.args[1]
+    return []
+
+
+def test_every_room_has_its_arrows():
+    assert {room_of(module) for module in SOURCES} <= ARROWS.keys()
+
+
+def test_arrows_point_one_way():
+    wrong = [
+        f'{where(path, line)}: {room} -> {target} ({name})'
+        for module, path, line, name in OWN_IMPORTS
+        if (target := room_of(name)) not in {(room := room_of(module)), 'base', 'amr_description'}
+        and target not in ARROWS[room]
+    ]
+    assert wrong == []
+    assert cycle_of(ARROWS) == []
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    arrows = {module: set() for module in SOURCES}
+    for module, path, line, name in OWN_IMPORTS:
+        # A package's table of its own modules is read on demand: it is no import.
+        is_table = path.stem == '__init__' and name.startswith(f'{module}.')
+        if name != module and not (is_table and not is_statement(path, line)):
+            arrows[module].add(name)
+    assert cycle_of(arrows) == []
+
+
+@cache
+def statement_lines(path: Path) -> frozenset[int]:
+    tree = ast.parse(path.read_text())
+    found = (n for n in ast.walk(tree) if isinstance(n, ast.Import | ast.ImportFrom))
+    return frozenset(node.lineno for node in found)
+
+
+def is_statement(path: Path, line: int) -> bool:
+    return line in statement_lines(path)
+
+
+@pytest.mark.parametrize('library', HOMES)
+def test_heavy_library_has_one_home(library):
+    wrong = [
+        where(path, line)
+        for module, path, line, name in IMPORTS
+        if name.split('.')[0] == library and room_of(module) not in HOMES[library]
+    ]
+    assert wrong == []
+
+
+def test_messages_stay_at_home():
+    wrong = [
+        f'{where(path, line)}: {name}'
+        for module, path, line, name in IMPORTS
+        if name.split('.')[0].endswith(('_msgs', '_interfaces')) and room_of(module) not in ROS
+    ]
+    assert wrong == []
+
+
+def test_pure_rooms_take_time_and_chance_as_arguments():
+    wrong = [
+        f'{where(path, line)}: {name}'
+        for module, path, line, name in IMPORTS
+        if room_of(module) in PURE
+        and path.stem not in OF_THE_PROCESS
+        and name.split('.')[0] in IMPURE
+    ]
+    assert wrong == []
+
+
+def test_the_core_of_tf2_knows_no_ros():
+    wrong = [
+        f'{where(path, line)}: {name}'
+        for module, path, line, name in IMPORTS
+        if module.removeprefix('amr_description.').replace('.', '/') in PURE_TF2
+        and (
+            name.split('.')[0] in {'rclpy', *IMPURE}
+            or name.split('.')[0].endswith('_msgs')
+            or (name.startswith('amr_description.tf2_ros.') and not is_pure_tf2(name))
+        )
+    ]
+    assert wrong == []
+
+
+def is_pure_tf2(name: str) -> bool:
+    return target_of(name).removeprefix('amr_description.').replace('.', '/') in PURE_TF2
+
+
+def test_the_supervisor_of_a_stack_loads_nothing_heavy():
+    """It must start at once, and outlive what it supervises."""
+    arrows: dict[str, set[str]] = {}
+    for module, path, line, name in IMPORTS:
+        if is_statement(path, line):
+            arrows.setdefault(module, set()).add(name)
+    waiting, seen = ['amr_description.bringup.main'], set()
+    heavy = []
+    while waiting:
+        module = waiting.pop()
+        for name in arrows.get(module, ()):
+            if name.split('.')[0] in NOT_FOR_THE_SUPERVISOR:
+                heavy.append(f'{module} -> {name}')
+            if name.startswith('amr_description') and target_of(name) not in seen:
+                seen.add(target_of(name))
+                waiting.append(target_of(name))
+    assert heavy == []
+
+
+def test_reader_sees_deferred_relative_and_named_imports():
+    source = (
+        '"""Prose may name amr_description.sim.world."""\n'
+        'import a.b\n'
+        'def f():\n'
+        '    from .x import y\n'
+        '    from .. import z\n'
+        'if TYPE_CHECKING:\n'
+        '    from amr_description.nodes import t\n'
+        'TABLE = {"a": "amr_description.sim.world:World"}\n'
+    )
+    assert sorted(imported(source, 'amr_description.control.loop')) == [
+        (2, 'a.b'),
+        (4, 'amr_description.control.x.y'),
+        (5, 'amr_description.z'),
+        (7, 'amr_description.nodes.t'),
+        (8, 'amr_description.sim.world'),
+    ]
+    assert list(imported('from .x import y', 'a.b', is_package=True)) == [(1, 'a.b.x.y')]
+
+
+def test_reader_sees_rooms_and_circles():
+    assert room_of('amr_description') == 'amr_description'
+    assert room_of('amr_description.errors') == 'base'
+    assert room_of('amr_description.control.loop') == 'control'
+    assert room_of('amr_description.control.ros') == 'control/ros'
+    assert room_of('amr_description.control.ros.client') == 'control/ros'
+    assert set(cycle_of({'a': {'b'}, 'b': {'c'}, 'c': {'a'}, 'd': {'a'}})) == {'a', 'b', 'c'}
+    assert cycle_of({'a': {'b'}, 'b': {'c'}}) == []
+
+
+def own_python_files():
+    folders = ('amr_description', 'benchmarks', 'interfaces', 'scripts', 'test')
+    found = [path for folder in folders for path in (ROOT / folder).rglob('*.py')]
+    return sorted(path for path in found if not {'build', '__pycache__'} & set(path.parts))
+
+
+def test_files_begin_with_copyright_and_docstring():
+    wrong = [
+        where(path)
+        for path in own_python_files()
+        if path.read_text().splitlines()[:2] != HEADER
+        or not ast.get_docstring(ast.parse(path.read_text()))
+    ]
+    assert wrong == []
+
+
+def test_files_and_functions_stay_readable():
+    too_long = []
+    for path in own_python_files():
+        if path.is_relative_to(ROOT / 'test'):
+            continue
+        text = path.read_text()
+        if text.count('\n') > MOST_LINES_OF_A_FILE:
+            too_long.append(where(path))
+        too_long += [
+            f'{where(path, node.lineno)}: {node.name}'
+            for node in ast.walk(ast.parse(text))
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+            and node.end_lineno - node.lineno >= MOST_LINES_OF_A_FUNCTION
+        ]
+    assert too_long == []
+
+
+PACKAGES = [path.parent for path in SOURCES.values() if path.stem == '__init__']
+# Folders whose modules are verbs or executables: their table is the one that the program reads.
+WITH_A_TABLE_OF_THEIR_OWN = {'cli', 'nodes', 'stacks'}
+
+
+def has_module_table(folder: Path) -> bool:
+    relative = folder.relative_to(PACKAGE).parts
+    modules = [path for path in folder.glob('*.py') if not path.stem.startswith('__')]
+    return len(modules) > 2 and not set(relative) & WITH_A_TABLE_OF_THEIR_OWN and bool(relative)
+
+
+@pytest.mark.parametrize(
+    'folder', filter(has_module_table, PACKAGES), ids=lambda folder: folder.name
+)
+def test_each_module_is_named_once_in_the_table_of_its_package(folder):
+    table = ast.get_docstring(ast.parse((folder / '__init__.py').read_text())) or ''
+    named = re.findall(r'^``([a-z0-9_]+)(?:\.py|/)``', table, re.MULTILINE)
+    modules = {path.stem for path in folder.glob('*.py')} - {'__init__', '__main__'}
+    packages = {path.parent.name for path in folder.glob('*/__init__.py')}
+    assert sorted(named) == sorted(modules | packages)
+
+
+def test_standard_library_only_at_the_entry():
+    """The way into every executable must cost nothing before Ctrl-C is quiet."""
+    wrong = [
+        f'{where(path, line)}: {name}'
+        for module, path, line, name in IMPORTS
+        if module == 'amr_description.entry'
+        and name.split('.')[0] not in {*sys.stdlib_module_names, 'amr_description'}
+    ]
+    assert wrong == []

@@ -1,0 +1,81 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The lock file: complete, installed, and with the pins that must not move."""
+
+from importlib.metadata import distributions
+from pathlib import Path
+import re
+import sys
+
+from environment import SetupError
+from environment.virtual_environment import pinned_versions
+import pytest
+from support.paths import ROOT
+
+LOCK = (ROOT / 'scripts' / 'requirements.lock').read_text()
+IN_PIP_UNDERLAY = Path(sys.prefix) == ROOT / '.venv'
+pytestmark = pytest.mark.skipif(not IN_PIP_UNDERLAY, reason='needs .venv')
+
+
+def canonical(name):
+    return re.sub(r'[-_.]+', '-', name).lower()
+
+
+PINNED = {canonical(name): version for name, version in pinned_versions(LOCK).items()}
+LEFT_OUT = {canonical(name) for name in re.findall(r'^# without (\S+)$', LOCK, re.MULTILINE)}
+
+
+def installed():
+    """Distributions by name; the ROS wheels carry a second, older record beside their own."""
+    return {
+        canonical(found.metadata['Name']): found
+        for found in distributions(path=[str(ROOT / '.venv/lib/python3.12/site-packages')])
+        if found._path.name.endswith('.dist-info')
+    }
+
+
+def required(name, found, extras=frozenset()):
+    """Yield (name, extras) of all that a distribution requires here, given its own extras."""
+    from packaging.requirements import Requirement
+
+    for text in found[name].requires or ():
+        requirement = Requirement(text)
+        marker = requirement.marker
+        if not marker or any(marker.evaluate({'extra': extra}) for extra in extras | {''}):
+            yield canonical(requirement.name), frozenset(requirement.extras)
+
+
+def test_what_is_locked_is_installed():
+    versions = {name: found.version for name, found in installed().items()}
+    assert {name: versions.get(name) for name in PINNED} == PINNED
+    assert 'amr-description-interfaces' in versions
+
+
+def test_lock_is_closed_but_for_what_it_leaves_out():
+    found = installed()
+    missing, seen, pending = set(), set(), [(name, frozenset()) for name in PINNED]
+    while pending:
+        name, extras = pending.pop()
+        if name not in found:
+            missing.add(name)
+        elif (name, extras) not in seen:
+            seen.add((name, extras))
+            pending += required(name, found, extras)
+    assert missing == LEFT_OUT
+
+
+def test_pins_that_keep_things_working():
+    # From 80 on `colcon build --symlink-install` copies.
+    assert int(PINNED['setuptools'].split('.')[0]) < 80
+    # Later ones belong to later distributions, and mix without a word.
+    assert PINNED['ros-jazzy-rclpy'].startswith('7.1.')
+    assert PINNED['ros-jazzy-common-interfaces'].startswith('5.3.')
+    assert PINNED['ros-rmw-fastrtps-cpp'].startswith('8.4.')
+    assert PINNED['ros-fastrtps'].startswith('2.14.')
+
+
+def test_a_line_that_pins_nothing_is_refused():
+    with pytest.raises(SetupError, match=r"requirements.lock:2: want one NAME==VERSION, .*'b>=2'"):
+        pinned_versions('a==1\nb>=2  # no\n')
+    with pytest.raises(SetupError, match=r'requirements.lock:2'):
+        pinned_versions('a==1\na==2\n')

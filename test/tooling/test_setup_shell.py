@@ -1,0 +1,234 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The shell side: how scripts/setup finds a Python, and what scripts/activate does to a shell."""
+
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+
+import pytest
+from support.paths import ROOT
+
+ACTIVATE = ROOT / 'scripts' / 'activate'
+SHELLS = [shell for shell in ('bash', 'zsh') if shutil.which(shell)]
+PLAIN = {'HOME': '/nowhere', 'PATH': '/usr/bin:/bin', 'TERM': 'dumb'}
+needs_set_up = pytest.mark.skipif(
+    Path(sys.prefix) != ROOT / '.venv', reason='needs what scripts/setup makes'
+)
+
+
+def shell_run(text, shell='bash', **environment):
+    options = ['--norc', '--noprofile'] if shell == 'bash' else ['--no-rcs']
+    return subprocess.run(
+        [shell, *options, '-c', text],
+        env=PLAIN | environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+
+@pytest.fixture
+def bare(tmp_path):
+    """A checkout whose scripts/setup says which Python it found, and a PATH of its own."""
+    checkout = tmp_path / 'check out'
+    (checkout / 'scripts/environment').mkdir(parents=True)
+    shutil.copy(ROOT / 'scripts/setup', checkout / 'scripts')
+    main = checkout / 'scripts/environment/__main__.py'
+    main.write_text('import sys; print("started by", sys.executable, sys.argv[1:])\n')
+    programs = tmp_path / 'programs'
+    programs.mkdir()
+    for name in ('dirname', 'sed'):
+        (programs / name).symlink_to(shutil.which(name))
+    return checkout, programs
+
+
+def program(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f'#!/bin/sh\n{text}\n')
+    path.chmod(0o755)
+
+
+def set_up(bare, **environment):
+    checkout, programs = bare
+    return subprocess.run(
+        ['/bin/sh', checkout / 'scripts/setup'],
+        env={'PATH': str(programs), 'HOME': str(checkout), **environment},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+
+def test_python_on_the_path_is_taken(bare):
+    (bare[1] / 'python3.12').symlink_to(sys._base_executable)
+    assert set_up(bare).stdout == f'started by {bare[1]}/python3.12 []\n'
+
+
+def test_python_that_does_not_start_is_passed_over(bare):
+    # As pyenv's python3.12 does when another version is chosen.
+    program(bare[1] / 'python3.12', 'echo "pyenv: python3.12: command not found" >&2; exit 127')
+    (bare[1] / 'python3').symlink_to(sys._base_executable)
+    assert set_up(bare).stdout == f'started by {bare[1]}/python3 []\n'
+
+
+def test_python_of_pyenv_is_found(bare, tmp_path):
+    python = tmp_path / 'py env/versions/3.12.1/bin/python3.12'
+    program(python, f'exec {sys._base_executable} "$@"')
+    done = set_up(bare, PYENV_ROOT=str(tmp_path / 'py env'))
+    assert done.stdout.startswith('started by ')
+
+
+def test_python_of_uv_is_found(bare):
+    program(
+        bare[0] / '.local/bin/uv',
+        'case "$*" in --version) ;; "python find 3.12")'
+        f' echo {sys._base_executable} ;; *) exit 1 ;; esac',
+    )
+    assert set_up(bare).stdout.startswith(f'started by {sys._base_executable}')
+
+
+def test_no_python_gives_the_reasons_and_the_ways(bare):
+    program(bare[1] / 'python3.12', 'echo "is broken" >&2; exit 1')
+    done = set_up(bare)
+    assert done.returncode == 1
+    assert f'{bare[1]}/python3.12: is broken' in done.stderr
+    for way in ('uv python install 3.12', 'pyenv install 3.12', 'apt install', 'AMR_PYTHON='):
+        assert way in done.stderr
+
+
+def test_named_python_is_taken_or_refused(bare):
+    chosen = set_up(bare, AMR_PYTHON=sys._base_executable)
+    assert chosen.stdout.startswith(f'started by {sys._base_executable}')
+    refused = set_up(bare, AMR_PYTHON='/nowhere/python')
+    assert refused.returncode == 1
+    assert 'AMR_PYTHON=/nowhere/python will not do' in refused.stderr
+
+
+@needs_set_up
+@pytest.mark.parametrize('shell', SHELLS)
+class TestActivate:
+    def test_commands_and_packages_are_found(self, shell):
+        done = shell_run(
+            f'. {ACTIVATE}; command -v ros2 check_urdf python colcon; echo $AMENT_PREFIX_PATH;'
+            'echo $ROS_DISTRO $ROS_AUTOMATIC_DISCOVERY_RANGE; ros2 pkg prefix amr_description',
+            shell,
+        )
+        programs = [
+            str(ROOT / '.venv/bin' / name) for name in ('ros2', 'check_urdf', 'python', 'colcon')
+        ]
+        install = f'{ROOT}/install/amr_description'
+        assert done.stderr == ''
+        assert done.stdout.splitlines() == [
+            *programs, f'{install}:{ROOT}/.venv', 'jazzy LOCALHOST', install,
+        ]  # fmt: skip
+
+    def test_nothing_that_foreign_programs_would_feel(self, shell):
+        done = shell_run(f'. {ACTIVATE}; env', shell)
+        names = {line.partition('=')[0] for line in done.stdout.splitlines()}
+        assert not names & {'LD_LIBRARY_PATH', 'PYTHONPATH', '_ROS_WHEELS_BOOTSTRAP_COMPLETE'}
+
+    def test_users_discovery_range_is_kept(self, shell):
+        done = shell_run(
+            f'. {ACTIVATE}; echo $ROS_AUTOMATIC_DISCOVERY_RANGE',
+            shell,
+            ROS_AUTOMATIC_DISCOVERY_RANGE='SUBNET',
+        )
+        assert done.stdout == 'SUBNET\n'
+
+    def test_deactivate_takes_everything_back(self, shell):
+        done = shell_run(
+            f'before=$(env | sort; set | grep -i _amr | grep -v BASH_EXECUTION); . {ACTIVATE};'
+            f' . {ACTIVATE}; deactivate;'
+            ' after=$(env | sort; set | grep -i _amr | grep -v BASH_EXECUTION);'
+            ' [ "$before" = "$after" ] || printf "%s\n---\n%s\n" "$before" "$after";'
+            ' command -v deactivate ros2; echo end',
+            shell,
+        )
+        assert done.stdout == 'end\n'
+
+    def test_sourced_twice_is_sourced_once(self, shell):
+        done = shell_run(f'. {ACTIVATE}; once=$(env); . {ACTIVATE}; [ "$once" = "$(env)" ]', shell)
+        assert done.returncode == 0, done.stdout
+
+    def test_script_started_from_an_activated_shell(self, shell, tmp_path):
+        program(tmp_path / 'deactivate', 'echo a program of that name was run')
+        inner = f'{shell} -c "set -e; . {ACTIVATE}; env" | grep -E "^(AMENT|COLCON|PATH)"'
+        outer = 'env | grep -E "^(AMENT|COLCON|PATH)"'
+        done = shell_run(
+            f'. {ACTIVATE}; {outer}; {inner}', shell, PATH=f'{tmp_path}:/usr/bin:/bin'
+        )
+        lines = done.stdout.splitlines()
+        assert lines[: len(lines) // 2] == lines[len(lines) // 2 :]
+
+    def test_strict_shells_survive(self, shell):
+        done = shell_run(f'set -eu; . {ACTIVATE}; echo $ROS_DISTRO', shell)
+        assert (done.stdout, done.stderr) == ('jazzy\n', '')
+
+    def test_other_ros2_wins(self, shell, tmp_path):
+        program(tmp_path / 'real one/ros2', 'echo the real one: "$@"')
+        path = f'{tmp_path}/real one:/usr/bin:/bin'
+        done = shell_run(f'. {ACTIVATE}; ros2 topic list', shell, PATH=path)
+        assert done.stdout == 'the real one: topic list\n'
+
+    def test_sourced_ros_stays_in_charge(self, shell, tmp_path):
+        index = tmp_path / 'share/ament_index/resource_index/packages/rclpy'
+        index.parent.mkdir(parents=True)
+        index.touch()
+        done = shell_run(
+            f'. {ACTIVATE}; echo $PATH $ROS_AUTOMATIC_DISCOVERY_RANGE',
+            shell,
+            AMENT_PREFIX_PATH=str(tmp_path),
+        )
+        assert done.stdout == '/usr/bin:/bin LOCALHOST\n'
+        assert f'{tmp_path} is sourced here and stays in charge' in done.stderr
+
+    def test_our_scripts_leave_a_sourced_ros_out(self, shell, tmp_path):
+        for file in ('share/ament_index/resource_index/packages/rclpy', 'rclpy', 'librcl.so'):
+            (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / file).touch()
+        done = shell_run(
+            f'AMR_ALONE=1; . {ACTIVATE}; echo $AMENT_PREFIX_PATH; echo $PYTHONPATH;'
+            ' echo $LD_LIBRARY_PATH; command -v ros2',
+            shell,
+            AMENT_PREFIX_PATH=f'{tmp_path}:/my/overlay',
+            PYTHONPATH=f'{tmp_path}:/my/controllers',
+            LD_LIBRARY_PATH=str(tmp_path),
+        )
+        assert done.stdout.splitlines() == [
+            f'{ROOT}/install/amr_description:{ROOT}/.venv:/my/overlay',
+            '/my/controllers',
+            '',
+            f'{ROOT}/.venv/bin/ros2',
+        ]
+
+    def test_another_rclpy_on_the_python_path_is_named(self, shell, tmp_path):
+        (tmp_path / 'rclpy').mkdir()
+        done = shell_run(f'. {ACTIVATE}', shell, PYTHONPATH=str(tmp_path))
+        assert f'names another rclpy ({tmp_path}); unset PYTHONPATH' in done.stderr
+
+    def test_without_set_up_it_says_what_to_run(self, shell, tmp_path):
+        (tmp_path / 'scripts').mkdir()
+        copy = shutil.copy(ACTIVATE, tmp_path / 'scripts')
+        done = shell_run(f'. {copy}; echo $?; env', shell)
+        assert done.stdout.startswith('1\n')
+        assert 'AMENT_PREFIX_PATH' not in done.stdout
+        assert done.stderr == (f'scripts/activate: not set up yet; run {tmp_path}/scripts/setup\n')
+
+
+def test_activate_says_that_it_is_to_be_sourced():
+    done = subprocess.run(['bash', ACTIVATE], env=PLAIN, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert 'to be sourced, not run' in done.stderr
+
+
+@needs_set_up
+def test_workspace_on_top_finds_the_underlay():
+    # colcon chains .venv into install/setup.bash, as it does with /opt/ros/jazzy.
+    done = shell_run(f'. {ROOT}/install/setup.bash; echo $AMENT_PREFIX_PATH; command -v ros2')
+    assert done.stdout.splitlines() == [
+        f'{ROOT}/install/amr_description{os.pathsep}{ROOT}/.venv',
+        f'{ROOT}/.venv/bin/ros2',
+    ]

@@ -1,0 +1,155 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tables of parameters: names, types, bounds, and what a wrong value is told."""
+
+from array import array
+from dataclasses import dataclass
+import json
+import math
+
+import pytest
+from support.control_fakes import FIXTURES
+from support.deferred_annotations import DeferredTable
+
+from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
+from amr_description.errors import ParameterError
+from amr_description.parameters import build, group, parameter, specs
+
+
+@dataclass(frozen=True)
+class Inner:
+    rate: float = parameter(50.0, 'A rate', unit='Hz', above=0.0)
+    mode: str = parameter('slow', 'A mode', choices=('slow', 'fast'))
+
+
+@dataclass(frozen=True)
+class Table:
+    name: str = parameter('', 'A name', read_only=True)
+    wheels: tuple[str, ...] = parameter(('a',), 'Wheels', not_empty=True)
+    limit: float = parameter(math.nan, 'A limit', minimum=0.0, maximum=10.0, nan=True)
+    factor: float = parameter(1.0, 'A factor', not_zero=True)
+    count: int = parameter(3, 'A count', minimum=1)
+    flag: bool = parameter(False, 'A flag')
+    variances: tuple[float, ...] = parameter((0.0, 0.0), 'Variances', length=2, minimum=0.0)
+    inner: Inner = group('in.ner', Inner)
+
+
+def test_what_is_not_given_keeps_its_default():
+    table = build(Table, {})
+    assert (table.name, table.wheels, table.factor, table.count) == ('', ('a',), 1.0, 3)
+    assert math.isnan(table.limit)
+    assert table.inner == Inner(50.0, 'slow')
+
+
+def test_dotted_names_reach_the_groups_and_strangers_are_left_alone():
+    table = build(Table, {'in.ner.rate': 5.0, 'use_sim_time': True, 'rate': 'not mine'})
+    assert table.inner.rate == 5.0
+
+
+def test_rows_are_flat_in_the_order_of_the_fields():
+    rows = list(specs(Table))
+    assert [row.name for row in rows] == [
+        'name', 'wheels', 'limit', 'factor', 'count', 'flag', 'variances',
+        'in.ner.rate', 'in.ner.mode',
+    ]  # fmt: skip
+    assert [row.type for row in rows] == [
+        'string', 'string_array', 'double', 'double', 'integer', 'bool', 'double_array',
+        'double', 'string',
+    ]  # fmt: skip
+    assert rows[0].read_only
+    assert (rows[7].unit, rows[7].doc, rows[7].default) == ('Hz', 'A rate', 50.0)
+
+
+def test_every_default_is_good_but_those_that_must_be_given():
+    """A table's own mistake would otherwise show only when the parameter is set."""
+    mandatory = {'left_wheel_names', 'right_wheel_names', 'wheel_separation', 'wheel_radius'}
+    for row in specs(DiffDriveParameters):
+        if row.name in mandatory:
+            with pytest.raises(ParameterError, match=row.name):
+                row.check(row.default)
+        else:
+            assert row.check(row.default) == pytest.approx(row.default, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ('values', 'message'),
+    [
+        ({'count': 2.0}, r"'count' must be of type integer, found 2\.0"),
+        ({'count': True}, r"'count' must be of type integer, found True"),
+        ({'factor': 2}, r"'factor' must be of type double, found 2; write 2\.0"),
+        ({'factor': 'x'}, r"'factor' must be of type double, found 'x'"),
+        ({'flag': 1}, r"'flag' must be of type bool, found 1"),
+        ({'name': 7}, r"'name' must be of type string, found 7"),
+        ({'wheels': 'left'}, r"'wheels' must be of type string_array, found 'left'"),
+        ({'wheels': ['a', 1]}, r"'wheels' must be of type string_array, found \['a', 1\]"),
+        ({'variances': [0, 0]}, r"'variances' must be of type double_array, found \[0, 0\]"),
+        ({'wheels': []}, r"'wheels' must not be empty, found \[\]"),
+        ({'variances': [1.0]}, r"'variances' must have 2 elements, found \[1\.0\]"),
+        ({'variances': [1.0, math.nan]}, r"'variances' must be a finite number"),
+        ({'variances': [1.0, -1.0]}, r"'variances' must be at least 0, found \[1\.0, -1\.0\]"),
+        ({'count': 0}, r"'count' must be at least 1, found 0"),
+        ({'limit': -0.5}, r"'limit' must be at least 0, found -0\.5"),
+        ({'limit': 11.0}, r"'limit' must be at most 10, found 11\.0"),
+        ({'limit': math.inf}, r"'limit' must be at most 10, found inf"),
+        ({'factor': 0.0}, r"'factor' must not be zero, found 0\.0"),
+        ({'factor': math.nan}, r"'factor' must be a finite number, found nan"),
+        ({'factor': -math.inf}, r"'factor' must be a finite number, found -inf"),
+        ({'in.ner.rate': 0.0}, r"'in\.ner\.rate' must be greater than 0, found 0\.0 Hz"),
+        ({'in.ner.mode': 'medium'}, r"'in\.ner\.mode' must be one of slow, fast, found medium"),
+    ],
+)
+def test_a_wrong_value_is_told_with_its_name_and_what_would_do(values, message):
+    with pytest.raises(ParameterError, match=message):
+        build(Table, values)
+
+
+@pytest.mark.parametrize(
+    ('controller', 'table', 'beyond'),
+    [
+        (
+            'diff_drive_controller',
+            DiffDriveParameters,
+            {'enable_cmd_vel_unstamped', 'preserve_curvature'},
+        ),
+        ('joint_state_broadcaster', BroadcasterParameters, set()),
+    ],
+)
+def test_the_shipped_tables_are_those_of_ros2_controllers(controller, table, beyond):
+    """What is ``beyond`` them is off by default."""
+    recorded = json.loads((FIXTURES / 'parameters.json').read_text())[controller]
+    ours = {row.name: row for row in specs(table)}
+    assert set(ours) == set(recorded) | beyond
+    assert not any(ours[name].default for name in beyond)
+    for name, (kind, default, read_only) in recorded.items():
+        default = tuple(default) if isinstance(default, list) else default
+        default = math.nan if default == 'nan' else default
+        assert (ours[name].type, ours[name].read_only) == (kind, read_only), name
+        assert ours[name].default == pytest.approx(default, nan_ok=True), name
+
+
+def test_lists_of_any_kind_become_tuples():
+    """rclpy hands double arrays over as array.array."""
+    table = build(Table, {'variances': array('d', [1.0, 2.0]), 'wheels': ['a', 'b']})
+    assert table.variances == (1.0, 2.0)
+    assert table.wheels == ('a', 'b')
+
+
+def test_nan_and_zero_do_where_they_mean_something():
+    table = build(Table, {'limit': math.nan, 'factor': -1.0})
+    assert math.isnan(table.limit)
+    assert table.factor == -1.0
+
+
+def test_a_table_in_a_module_that_defers_its_annotations():
+    assert build(DeferredTable, {'speed': 2.0}).speed == 2.0
+    assert [row.type for row in specs(DeferredTable)] == ['double']
+
+
+def test_a_field_of_a_type_that_ros_lacks_is_named():
+    @dataclass(frozen=True)
+    class Wrong:
+        shape: complex = parameter(1j, 'Not a parameter')
+
+    with pytest.raises(ParameterError, match=r"'shape' of Wrong is annotated as .*complex"):
+        build(Wrong, {})

@@ -1,0 +1,108 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stack ``fleet``: several robots, who starts when, with what."""
+
+from itertools import combinations
+import math
+
+import pytest
+from support.paths import ROOT
+
+from amr_description.bringup.arguments import declared, resolve
+from amr_description.bringup.scheduler import Scheduler
+from amr_description.bringup.stacks.fleet import fleet
+from amr_description.errors import AmrError
+from amr_description.model.shapes import horizontal_reach
+from amr_description.model.urdf import load, parse
+
+FILES = {
+    'urdf': str(ROOT / 'urdf/amr.urdf'),
+    'controllers': str(ROOT / 'config/controllers.yaml'),
+}
+
+
+def stack(**given):
+    return fleet(**resolve(declared(fleet), FILES | given))
+
+
+def of(nodes, executable):
+    return [node for node in nodes if node.executable == executable]
+
+
+def poses(nodes):
+    """Name → (x, y), as the create of each says it."""
+    words = [list(node.arguments) for node in of(nodes, 'create')]
+    return {
+        each[each.index('-name') + 1]: tuple(each[each.index(axis) + 1] for axis in ('-x', '-y'))
+        for each in words
+    }
+
+
+def test_every_robot_has_its_own_of_everything_in_its_namespace():
+    nodes = stack(robots='3').nodes
+    names = ['robot1', 'robot2', 'robot3']
+    publishers = of(nodes, 'robot_state_publisher')[1:]
+    assert [node.namespace for node in publishers] == names
+    assert [node.parameters[0]['frame_prefix'] for node in publishers] == [f'{n}/' for n in names]
+    for executable in ('create', 'spawner'):
+        assert [node.namespace for node in of(nodes, executable)] == names
+    assert list(poses(nodes)) == names
+    assert len(of(nodes, 'mujoco_sim')) == 1
+
+
+def test_each_waits_for_its_own_robot_only():
+    made = stack(robots='2')
+    progress = Scheduler(made)
+    for node in progress.startable():
+        progress.start(node)
+    first, second = of(made.nodes, 'create')
+    for create, namespace in ((second, 'robot2'), (first, 'robot1')):
+        progress.end(create, 0)
+        (spawner,) = progress.startable()
+        assert spawner.namespace == namespace
+        progress.start(spawner)
+    one, other = of(made.nodes, 'spawner')
+    progress.end(other, 0)
+    assert not progress.ready
+    progress.end(one, 0)
+    assert progress.ready
+
+
+@pytest.mark.parametrize('count', [1, 2, 3, 10, 20])
+def test_no_two_robots_touch_however_they_turn(count):
+    places = poses(stack(robots=str(count)).nodes)
+    reach = horizontal_reach(load(ROOT / 'urdf/amr.urdf'))
+    assert len(places) == count
+    for one, other in combinations(places.values(), 2):
+        assert math.dist(one, other) > 2.0 * reach
+
+
+def test_the_odometry_of_each_begins_where_it_is_put():
+    nodes = stack(robots='4', spacing='3').nodes
+    (of_all, *_) = of(nodes, 'robot_state_publisher')
+    fixed = parse(of_all.parameters[0]['robot_description'], 'fleet')
+    assert fixed.root.name == 'world'
+    assert {joint.child: joint.origin.translation for joint in fixed.joints} == {
+        f'{name}/odom': (x, y, 0.0) for name, (x, y) in poses(nodes).items()
+    }
+
+
+def test_the_next_steps_are_for_two_of_them():
+    text = stack(robots='3').next_steps
+    assert '-r /cmd_vel:=/robot1/diff_drive_controller/cmd_vel' in text
+    assert '/robot3/diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped' in text
+
+
+@pytest.mark.parametrize(
+    ('given', 'text'),
+    [
+        ({'robots': '0'}, 'robots:=0: a fleet has 1 robot or more'),
+        ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
+        ({'spacing': '-1'}, 'spacing:=-1.0: a distance is 0'),
+        ({'spacing': '0.5'}, r'spacing:=0.5: the robots would touch; they need more than \d'),
+        ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),
+    ],
+)
+def test_bad_arguments_are_told_before_anything_starts(given, text):
+    with pytest.raises(AmrError, match=text):
+        stack(**given)

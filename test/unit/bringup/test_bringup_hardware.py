@@ -1,0 +1,96 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stacks without the simulator: who starts when, and what is swapped."""
+
+import pytest
+from support.paths import ROOT
+
+from amr_description.bringup.arguments import declared, resolve
+from amr_description.bringup.conditions import PathLook
+from amr_description.bringup.scheduler import Scheduler
+from amr_description.bringup.stacks.hardware import mock, serial
+from amr_description.errors import AmrError
+from amr_description.hardware import HARDWARE
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.urdf import parse
+
+FILES = {
+    'urdf': str(ROOT / 'urdf/amr.urdf'),
+    'controllers': str(ROOT / 'config/controllers.yaml'),
+    'viewer': 'false',
+}
+CONTROLLED = [
+    ['ros2_control_node', 'robot_state_publisher', 'spawner'],
+    ['spawner'],
+]
+
+
+def stack(function, **given):
+    return function(**resolve(declared(function), FILES | given))
+
+
+def waves(stack):
+    progress = Scheduler(stack)
+    port = hardware(stack).parameters.get('port')
+    if port:
+        yield [node.executable for node in progress.startable()]
+        progress.see(paths={port: PathLook(True)})
+    while wave := progress.startable():
+        for node in wave:
+            progress.start(node)
+        yield [node.executable for node in wave]
+        assert not progress.ready
+        progress.end(wave[-1], 0)
+    assert progress.ready
+
+
+def hardware(stack):
+    (publisher,) = [n for n in stack.nodes if n.executable == 'robot_state_publisher']
+    (info,) = hardware_of(parse(publisher.parameters[0]['robot_description'], 'swapped'))
+    return info
+
+
+def test_mock_hardware():
+    made = stack(mock)
+    assert list(waves(made)) == CONTROLLED
+    assert hardware(made).plugin == 'mock_components/GenericSystem'
+
+
+def test_a_simulated_board_where_there_is_no_real_one():
+    made = stack(serial)
+    before_the_port = ['motor_board', 'robot_state_publisher']
+    assert list(waves(made)) == [before_the_port, ['motor_board', *CONTROLLED[0]], CONTROLLED[1]]
+    info = hardware(made)
+    assert info.plugin == 'amr_description/SerialBaseSystem'
+    assert made.nodes[0].arguments == ['--link', info.parameters['port']]
+    sides = info.parameters['left_joints'], info.parameters['right_joints']
+    driven = {joint for side in sides for joint in side.split()}
+    assert driven == {joint.name for joint in info.joints}
+
+
+def test_a_real_board():
+    made = stack(serial, port='/dev/ttyUSB0')
+    assert list(waves(made)) == [['robot_state_publisher'], *CONTROLLED]
+    assert hardware(made).parameters['port'] == '/dev/ttyUSB0'
+
+
+def test_a_port_that_is_not_there_is_told_soon():
+    progress = Scheduler(stack(serial, port='/dev/nonsense'))
+    progress.at(0.0)
+    assert progress.next_time() == 10.0
+    progress.see(paths={'/dev/nonsense': PathLook(False, frozenset({'ttyACM0', 'null'}))})
+    progress.at(10.0)
+    assert progress.failure.text(lambda node: node.executable) == (
+        'ros2_control_node waited 10 s in vain: there is no /dev/nonsense; /dev has ttyACM0'
+    )
+
+
+@pytest.mark.parametrize('function', [mock, serial])
+def test_their_hardware_is_known(function):
+    assert HARDWARE.find(hardware(stack(function)).plugin)
+
+
+def test_a_robot_without_hardware_is_refused(tmp_path):
+    (tmp_path / 'bare.urdf').write_text('<robot name="bare"><link name="base"/></robot>')
+    with pytest.raises(AmrError, match='0 <ros2_control> blocks with a <hardware>'):
+        stack(mock, urdf=str(tmp_path / 'bare.urdf'))

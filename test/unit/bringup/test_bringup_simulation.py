@@ -1,0 +1,137 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stack ``simulation``: who starts when, with what."""
+
+import pytest
+from support.paths import ROOT
+
+from amr_description.bringup.arguments import declared, resolve
+from amr_description.bringup.scheduler import Scheduler
+from amr_description.bringup.stacks.simulation import simulation
+from amr_description.errors import AmrError
+from amr_description.model.description_file import description_text
+
+GRIPPER = str(ROOT / 'test/fixtures/urdf/gripper.urdf.xacro')
+
+
+@pytest.fixture(autouse=True)
+def installed(tmp_path, monkeypatch):
+    """Install the files of the source tree, as ``colcon build --symlink-install`` does."""
+    share = tmp_path / 'install/share/amr_description'
+    marker = tmp_path / 'install/share/ament_index/resource_index/packages/amr_description'
+    marker.parent.mkdir(parents=True)
+    marker.touch()
+    share.mkdir(parents=True)
+    for folder in ('urdf', 'config'):
+        (share / folder).symlink_to(ROOT / folder)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path / 'install'))
+    return share
+
+
+def stack(**given):
+    return simulation(**resolve(declared(simulation), given))
+
+
+def test_the_order_of_the_tutorial():
+    progress = Scheduler(stack())
+    waves = []
+    while wave := progress.startable():
+        for node in wave:
+            progress.start(node)
+        waves.append([[node.executable, *node.arguments[:1]] for node in wave])
+        progress.end(wave[-1], 0)
+    assert waves == [
+        [['mujoco_sim'], ['robot_state_publisher'], ['create', '-topic']],
+        [['spawner', 'joint_state_broadcaster']],
+        [['spawner', 'diff_drive_controller']],
+        [['viewer']],
+    ]
+    assert progress.ready
+
+
+def test_it_is_ready_only_with_the_last_controller():
+    progress = Scheduler(stack())
+    for _ in range(3):
+        assert not progress.ready
+        *_, last = progress.startable()
+        for node in progress.startable():
+            progress.start(node)
+        progress.end(last, 0)
+    assert progress.ready
+
+
+def test_parameters(installed):
+    sim, publisher, create, *_ = stack(rtf='0').nodes
+    assert sim.parameters == [
+        {
+            'world': 'empty',
+            'real_time_factor': 0.0,
+            'controllers': str(installed / 'config/controllers.yaml'),
+            'paused': False,
+        }
+    ]
+    assert publisher.parameters == [
+        {
+            'robot_description': (ROOT / 'urdf/amr.urdf').read_text(),
+            'use_sim_time': True,
+        }
+    ]
+    assert create.arguments == ['-topic', 'robot_description', '-name', 'amr', '-z', '0.2']
+
+
+def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
+    given = {'urdf': str(GRIPPER), 'xacro_args': "palm:=false 'finger_lenght:=0.1'"}
+    made = stack(**given)
+    arguments = {'palm': 'false', 'finger_length': '0.08'}
+    (parameters,) = made.nodes[1].parameters
+    assert parameters['robot_description'] == description_text(GRIPPER, arguments)
+    assert 'nothing asks for "finger_lenght"' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('expression', 'words'),
+    [
+        ('[0 for a in range(10**9) for b in range(10**9)]', 'bomb.xacro: no end after 1 s'),
+        ("'x' * 10**10", 'bomb.xacro: MemoryError'),
+    ],
+)
+def test_a_bomb_ends(tmp_path, monkeypatch, expression, words):
+    monkeypatch.setattr('amr_description.bringup.urdf_text._PROCESSOR_TIME', 1)
+    bomb = tmp_path / 'bomb.xacro'
+    bomb.write_text(f'<robot name="${{{expression}}}" xmlns:xacro="http://ros.org/wiki/xacro"/>')
+    with pytest.raises(AmrError, match=words):
+        stack(urdf=str(bomb))
+
+
+def test_the_files_are_told_with_their_hashes(installed):
+    urdf, controllers = stack().notes
+    assert urdf[1].startswith(f'using {installed}/urdf/amr.urdf -> {ROOT}/urdf/amr.urdf (sha256 ')
+    assert controllers[1].startswith(f'using {installed}/config/controllers.yaml -> ')
+
+
+@pytest.mark.parametrize(
+    ('given', 'text'),
+    [
+        ({'xacro_args': 'a:=1'}, 'amr.urdf is no xacro file'),
+        (
+            {'urdf': GRIPPER, 'xacro_args': 'palm:=perhaps'},
+            'xacro: .*gripper.*not a boolean',
+        ),
+        ({'urdf': GRIPPER, 'xacro_args': "palm:='"}, 'No closing quotation'),
+        ({'urdf': GRIPPER, 'xacro_args': 'palm'}, "'palm' is no argument of a xacro file"),
+        ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
+        ({'rtf': 'nan'}, 'rtf:=nan: a real-time factor is 0'),
+        ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),
+        ({'controllers': '/'}, "'/' asked for, that is a folder"),
+    ],
+)
+def test_bad_arguments_are_told_before_anything_starts(given, text):
+    with pytest.raises(AmrError, match=text):
+        stack(**given)
+
+
+def test_the_next_steps_can_be_typed():
+    text = stack().next_steps
+    assert 'ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true' in text
+    command = '{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}'
+    assert f'"{command}"' in text

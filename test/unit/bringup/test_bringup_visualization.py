@@ -1,0 +1,95 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a person looks at beside a stack: when the page comes, and RViz where there is one."""
+
+from pathlib import Path
+
+import pytest
+from support.paths import ROOT
+import yaml
+
+from amr_description.bringup.arguments import declared, resolve
+from amr_description.bringup.description import nodes_of
+from amr_description.bringup.scheduler import Scheduler
+from amr_description.bringup.stacks.display import display
+from amr_description.bringup.stacks.hardware import mock
+from amr_description.bringup.stacks.simulation import simulation
+
+PACKAGES = 'share/ament_index/resource_index/packages'
+
+
+@pytest.fixture(autouse=True)
+def prefix(tmp_path, monkeypatch):
+    """An install folder with the files of the source tree, and no RViz."""
+    (tmp_path / PACKAGES).mkdir(parents=True)
+    (tmp_path / PACKAGES / 'amr_description').touch()
+    share = tmp_path / 'share/amr_description'
+    share.mkdir(parents=True)
+    for folder in ('urdf', 'config'):
+        (share / folder).symlink_to(ROOT / folder)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+    return tmp_path
+
+
+def made(function, **given):
+    return function(**resolve(declared(function), given))
+
+
+def executables(stack):
+    return [node.executable for node in nodes_of(stack.nodes)]
+
+
+def test_the_page_comes_when_the_robot_can_be_driven():
+    for function in (simulation, mock):
+        stack = made(function)
+        (page,) = [node for node in stack.nodes if node.executable == 'viewer']
+        assert page.start_when == stack.ready_when
+        assert not page.required
+
+
+@pytest.mark.parametrize('function', [simulation, mock, display])
+def test_no_page_where_it_is_not_wanted(function):
+    assert 'viewer' in executables(made(function))
+    assert 'viewer' not in executables(made(function, viewer='false'))
+
+
+def test_display_shows_the_robot_and_moves_its_joints():
+    stack = made(display)
+    progress = Scheduler(stack)
+    for wave in (['robot_state_publisher', 'joint_state_publisher'], ['viewer']):
+        startable = progress.startable()
+        assert [node.executable for node in startable] == wave
+        for node in startable:
+            progress.start(node)
+    assert progress.ready
+    assert stack.nodes[0].parameters == [
+        {'robot_description': (ROOT / 'urdf/amr.urdf').read_text()}
+    ]
+
+
+def test_rviz_is_started_with_our_configuration_where_it_is_installed(prefix):
+    assert 'rviz2' not in executables(made(display))
+    (prefix / PACKAGES / 'rviz2').touch()
+    (rviz,) = [node for node in made(display).nodes if node.executable == 'rviz2']
+    assert rviz.package == 'rviz2'
+    option, file = rviz.arguments
+    assert option == '-d'
+    assert Path(file).is_file()
+    assert not rviz.required
+
+
+@pytest.mark.parametrize('file', sorted((ROOT / 'config/rviz').iterdir()), ids=lambda p: p.name)
+def test_what_rviz_shows_is_there(file):
+    shown = yaml.safe_load(file.read_text())['Visualization Manager']
+    displays = {display['Class']: display for display in shown['Displays']}
+    model = displays['rviz_default_plugins/RobotModel']
+    assert model['Description Topic']['Value'] == '/robot_description'
+    assert model['Description Topic']['Durability Policy'] == 'Transient Local'
+    frames = {'odom', *(line.split('"')[1] for line in link_lines())}
+    assert shown['Global Options']['Fixed Frame'] in frames
+    assert shown['Views']['Current']['Target Frame'] in {*frames, '<Fixed Frame>'}
+
+
+def link_lines():
+    text = (ROOT / 'urdf/amr.urdf').read_text()
+    return [line for line in text.splitlines() if line.strip().startswith('<link ')]

@@ -1,0 +1,388 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The checker: each rule with a good and a bad robot, and what holds for all findings."""
+
+import random
+import re
+
+import mujoco
+import pytest
+from support.paths import ROOT
+
+from amr_description.errors import DescriptionError
+from amr_description.model import checks
+from amr_description.model.checks.context import CheckInputs
+from amr_description.model.checks.inertia import principal_moments
+from amr_description.model.robot import Inertia
+
+AMR = (ROOT / 'urdf/amr.urdf').read_text()
+TUTORIAL = (ROOT / 'test/fixtures/tutorial/amr.urdf').read_text()
+ARM = (ROOT / 'test/fixtures/urdf/arm.urdf').read_text()
+
+BALL = '<geometry><sphere radius="0.1"/></geometry>'
+SOLID = (
+    '<inertial><mass value="1"/>'
+    '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>'
+)
+
+
+def robot_text(body):
+    return f'<robot name="r">\n{body}\n</robot>'
+
+
+def joint_text(parent, child, kind='continuous', inside=''):
+    ends = f'<parent link="{parent}"/><child link="{child}"/>'
+    return f'<joint name="{parent}_{child}" type="{kind}">{ends}{inside}</joint>'
+
+
+def findings(text):
+    return [str(finding) for finding in checks.check(text, 'f')]
+
+
+def errors(text):
+    return [str(finding) for finding in checks.examine(text, 'f').errors]
+
+
+def test_shipped_robot_is_faultless():
+    assert findings(AMR) == []
+
+
+def test_arm_is_faultless():
+    assert findings(ARM) == []
+
+
+def test_tutorial_robot_is_told_its_two_faults_once():
+    beside = CheckInputs(is_there=lambda uri: False)
+    path, warning = map(str, checks.examine(TUTORIAL, 'f', beside).findings)
+    line = TUTORIAL.splitlines().index(
+        '      <parameters>/absolute/path/to/config/controllers.yaml</parameters>'
+    )
+    assert path == (
+        f'warning: f:{line + 1}: gazebo plugin "gz_ros2_control::GazeboSimROS2ControlPlugin": '
+        '<parameters> has a path of this machine only: found '
+        '"/absolute/path/to/config/controllers.yaml"; let xacro find the file: '
+        '$(find <package>)/config/<file>.yaml'
+    )
+    names = ', '.join(
+        f'"joint_wheel_{place}"'
+        for place in ('front_left', 'front_right', 'back_left', 'back_right')
+    )
+    line = TUTORIAL.splitlines().index('  <joint name="joint_wheel_front_left" type="continuous">')
+    assert warning == (
+        f'warning: f:{line + 1}: wheel joints {names}: a positive speed drives the robot '
+        'backwards: found the axle along -y of the root frame, expected +y; '
+        'write <axis xyz="0 0 -1"/>'
+    )
+
+
+def test_a_path_that_xacro_found_is_no_path_of_one_machine():
+    """$(find package) becomes the absolute path of a share folder."""
+    text = AMR.replace('<box size="0.5 0.3 0.1"/>', '<mesh filename="{}"/>', 1)
+    there = CheckInputs(is_there=lambda uri: uri.startswith('/opt/ws'))
+    for path, count in (
+        ('/opt/ws/share/amr/base.stl', 0),
+        ('/opt/ws/src/amr/base.stl', 1),
+        ('/home/me/share/amr/base.stl', 1),
+        ('file:///opt/base.stl', 1),
+        ('C:\\base.stl', 1),
+        ('package://amr/base.stl', 1),
+    ):
+        found = checks.examine(text.format(path), 'f', there).findings
+        assert len(found) == count, path
+    assert findings(text.format('/home/me/base.stl')) == [], 'nobody can look'
+
+
+def test_the_fix_of_the_axles_is_the_right_one():
+    fixed = TUTORIAL.replace('<axis   xyz="0 0 1"/>', '<axis xyz="0 0 -1"/>')
+    assert findings(fixed) == []
+
+
+def test_only_wheels_that_turn_backwards_are_named():
+    """A left side mounted by mirroring, a frequent slip: the robot would spin on the spot."""
+    place = AMR.index('<axis xyz="0 0 -1"/>', AMR.index('"joint_wheel_back_left" type'))
+    text = AMR[:place] + AMR[place:].replace('0 0 -1', '0 0 1', 1)
+    (warning,) = findings(text)
+    assert 'wheel joint "joint_wheel_back_left": a positive speed' in warning
+
+
+def test_differently_written_axles_get_a_fix_that_suits_all():
+    first = '<origin xyz="0.2 0.15 0" rpy="1.5708 0 0"/>\n    <axis xyz="0 0 -1"/>'
+    assert first in AMR
+    turned = AMR.replace(first, '<origin xyz="0.2 0.15 0"/>\n    <axis xyz="0 -1 0"/>')
+    place = turned.index('<axis xyz="0 0 -1"/>')
+    found = findings(turned[:place] + turned[place:].replace('0 0 -1', '0 0 1', 1))
+    (warning,) = [each for each in found if 'drives the robot backwards' in each]
+    assert warning.endswith('; turn each <axis> round')
+
+
+@pytest.mark.parametrize('axis', ['1 0 0', '0 0 1', '0 -0.8 0.6'])
+def test_what_does_not_roll_along_x_is_no_wheel(axis):
+    """A lidar that turns about z takes a velocity command, too."""
+    hardware = (
+        '<ros2_control name="s" type="system"><hardware><plugin>p</plugin></hardware>'
+        '<joint name="a_b"><command_interface name="velocity"/>'
+        '<state_interface name="position"/></joint></ros2_control>'
+    )
+    spinning = joint_text('a', 'b', inside=f'<axis xyz="{axis}"/>')
+    links = f'<link name="f"/><link name="a">{SOLID}</link><link name="b">{SOLID}</link>'
+    links += joint_text('f', 'a', 'fixed')
+    assert findings(robot_text(links + spinning + hardware)) == []
+    assert findings(robot_text(links + spinning.replace(axis, '0 -1 0') + hardware))
+
+
+def test_broken_block_is_found_together_with_the_rest():
+    text = TUTORIAL.replace('<joint name="joint_wheel_back_left">', '<joint name="wheel">')
+    error, warning = findings(text)
+    assert "Joint 'wheel' not found in URDF" in error
+    assert 'joint_wheel_back_left' not in warning, 'it takes no command now'
+
+
+MASS = {
+    'collision': (
+        f'<link name="a"><collision>{BALL}</collision></link>',
+        'f:2: link "a" has a collision shape and no <inertial>; add <inertial> with <mass',
+    ),
+    'moving': (
+        f'<link name="a">{SOLID}</link>\n<link name="b"/>' + joint_text('a', 'b'),
+        'f:3: link "b" moves with "a_b" and has no <inertial>; add <inertial>',
+    ),
+    'moving chain': (
+        f'<link name="a">{SOLID}</link>\n<link name="b"/>\n<link name="c">{SOLID}</link>'
+        + joint_text('a', 'b')
+        + joint_text('b', 'c'),
+        'f:3: link "b" moves with "a_b" and has no <inertial>',
+    ),
+    'base': (
+        f'<link name="a"/>\n<link name="b">{SOLID}</link>' + joint_text('a', 'b'),
+        'f:2: nothing that is rigidly joined to the root "a" has mass; .* a root link "world"',
+    ),
+    'zero': (
+        f'<link name="a">\n{SOLID.replace('value="1"', 'value="0"')}</link>',
+        'f:3: link "a": mass: found 0 kg, expected more than 0 and',
+    ),
+    'negative': (
+        f'<link name="a">\n{SOLID.replace('value="1"', 'value="-2.5"')}</link>',
+        'f:3: link "a": mass: found -2.5 kg, expected more than 0',
+    ),
+    'indefinite': (
+        f'<link name="a">\n{SOLID.replace('ixy="0"', 'ixy="0.2"')}</link>',
+        'f:3: link "a": the inertia is not positive definite: found principal moments -0.1, 0.1,',
+    ),
+    'zero inertia': (
+        f'<link name="a">\n{SOLID.replace("0.1", "0")}</link>',
+        'f:3: link "a": the inertia is not positive definite: found principal moments 0, 0, 0 kg',
+    ),
+    'tiny': (
+        f'<link name="a">\n{SOLID.replace('value="1"', 'value="1e-15"')}</link>',
+        'f:3: link "a": mass: found 1e-15 kg, expected more than 1e-14 and',
+    ),
+    'tiny inertia': (
+        f'<link name="a">\n{SOLID.replace("0.1", "1e-15")}</link>',
+        'f:3: link "a": the inertia is too small for any solver: found principal moments 1e-15,',
+    ),
+    'triangle': (
+        f'<link name="a">\n{SOLID.replace('izz="0.1"', 'izz="0.3"')}</link>',
+        'f:3: link "a": no body has this inertia: found principal moments 0.1, 0.1, 0.3 kg',
+    ),
+}
+
+
+@pytest.mark.parametrize(('body', 'message'), MASS.values(), ids=MASS)
+def test_mass_and_inertia(body, message):
+    (error,) = errors(robot_text(body))
+    assert re.match(f'error: {message}', error)
+
+
+WITHOUT_MASS_AND_RIGHT = {
+    'frames only': '<link name="a"/><link name="b"/>' + joint_text('a', 'b', 'fixed'),
+    'footprint': f'<link name="a"/><link name="b">{SOLID}</link>' + joint_text('a', 'b', 'fixed'),
+    'dummy': (
+        f'<link name="f"/><link name="a">{SOLID}</link><link name="b"/>'
+        f'<link name="c">{SOLID}</link>'
+        + joint_text('f', 'a', 'fixed')
+        + joint_text('a', 'b')
+        + joint_text('b', 'c', 'fixed')
+    ),
+    'wall': (
+        f'<link name="world"/><link name="b"><collision>{BALL}</collision></link>'
+        + joint_text('world', 'b', 'fixed')
+    ),
+    'bolted down': (
+        f'<link name="world"/><link name="a"/><link name="b">{SOLID}</link>'
+        + joint_text('world', 'a', 'fixed')
+        + joint_text('a', 'b')
+    ),
+}
+
+
+def test_a_grain_of_dust_is_a_robot():
+    dust = SOLID.replace('value="1"', 'value="1e-11"').replace('0.1', '1e-13')
+    assert errors(robot_text(f'<link name="a">{dust}</link>')) == []
+
+
+@pytest.mark.parametrize('body', WITHOUT_MASS_AND_RIGHT.values(), ids=WITHOUT_MASS_AND_RIGHT)
+def test_links_that_need_no_mass(body):
+    assert findings(robot_text(body)) == []
+
+
+def test_a_bolted_part_without_mass_is_a_warning():
+    """Published robots have such cameras."""
+    camera = f'<link name="b"><collision>{BALL}</collision></link>'
+    text = robot_text(f'<link name="a">{SOLID}</link>{camera}' + joint_text('a', 'b', 'fixed'))
+    assert errors(text) == []
+    assert any('"b" has a collision shape and no <inertial>' in line for line in findings(text))
+    assert errors(text.replace('"fixed"', '"continuous"'))
+
+
+XACRO = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{}<link name="{}"/></robot>'
+
+
+@pytest.mark.parametrize(
+    ('inside', 'name', 'count'),
+    [
+        ('', 'a', 0),
+        ('<xacro:arg name="prefix" default=""/>', 'a', 0),
+        ('<xacro:property name="p" value=""/>', 'a', 0),
+        ('<xacro:property name="p" value=""/>', '${p}a', 1),
+        ('<xacro:arg name="p" default=""/>', '$(arg p)a', 1),
+        ('<xacro:include filename="x"/>', 'a', 1),
+        ('<xacro:wheel/>', 'a', 1),
+    ],
+)
+def test_xacro_that_would_make_something_is_an_error(inside, name, count):
+    found = errors(XACRO.format(inside, name))
+    assert len(found) == count
+    assert all('this is a xacro file, not yet a URDF' in line for line in found)
+
+
+def test_materials_without_names_are_those_of_an_exporter():
+    visual = f'<visual>{BALL}<material name=""><color rgba="1 0 0 1"/></material></visual>'
+    assert findings(robot_text(f'<link name="a">{visual}{visual}</link>')) == []
+    assert (
+        'has no attribute "name"'
+        in errors(robot_text(f'<link name="a">{visual.replace(' name=""', "")}</link>'))[0]
+    )
+
+
+def test_a_number_that_is_none_is_reported_once():
+    text = robot_text(f'<link name="a">{SOLID.replace('value="1"', 'value="heavy"')}</link>')
+    (error,) = findings(text)
+    assert 'found "heavy", expected a number' in error
+    assert len(findings(robot_text('<link name="a"><inertial/></link>'))) == 2, 'mass and inertia'
+
+
+def random_inertia(chance):
+    """Return the inertia of some point masses: by construction that of a body."""
+    points = [[chance.gauss() for _ in range(3)] for _ in range(4)]
+    xx, yy, zz = (sum(p[i] ** 2 for p in points) for i in range(3))
+    xy, xz, yz = (-sum(p[i] * p[j] for p in points) for i, j in ((0, 1), (0, 2), (1, 2)))
+    return Inertia(yy + zz, xy, xz, xx + zz, yz, xx + yy)
+
+
+@pytest.mark.parametrize('seed', range(10))
+def test_every_real_body_passes_and_mujoco_agrees(seed):
+    inertia = random_inertia(random.Random(seed))
+    low, middle, high = principal_moments(inertia)
+    assert low + middle + high == pytest.approx(inertia.ixx + inertia.iyy + inertia.izz)
+    assert 0.0 < low <= middle <= high <= low + middle + 1e-9
+    names = ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
+    values = ' '.join(f'{name}="{getattr(inertia, name)!r}"' for name in names)
+    body = f'<link name="a"><inertial><mass value="1"/><inertia {values}/></inertial></link>'
+    turning = robot_text(f'<link name="world"/>{body}' + joint_text('world', 'a'))
+    assert findings(turning) == []
+    theirs = mujoco.MjModel.from_xml_string(turning).body('a').inertia
+    assert sorted(theirs) == pytest.approx([low, middle, high])
+
+
+def test_moments_rounded_to_few_digits_pass():
+    """A thin plate has Ixx + Iyy = Izz; each rounded to two digits may break it by a little."""
+    plate = SOLID
+    for name, moment in (('ixx', 0.0417), ('iyy', 0.1083), ('izz', 0.1502)):
+        plate = plate.replace(f'{name}="0.1"', f'{name}="{moment}"')
+    assert findings(robot_text(f'<link name="a">{plate}</link>')) == []
+
+
+def limited(lower, upper):
+    return f'<limit lower="{lower}" upper="{upper}" effort="1" velocity="1"/>'
+
+
+@pytest.mark.parametrize(
+    ('axis', 'severity'),
+    [
+        ('0 0 1', None),
+        ('0.577 0.577 0.577', None),
+        ('0 0 2', 'warning'),
+        ('0 0 0.01', 'warning'),
+        ('0 0 1e7', 'error'),
+        ('1e300 1e300 0', 'error'),
+        ('0 1e-7 0', 'error'),
+    ],
+)
+def test_axis_is_a_unit_vector(axis, severity):
+    found = findings(two_links(joint_text('a', 'b', inside=f'<axis xyz="{axis}"/>')))
+    told = [line.partition(':')[0] for line in found if 'the axis is no unit vector' in line]
+    assert told == ([severity] if severity else [])
+
+
+def two_links(joint):
+    return robot_text(f'<link name="a">{SOLID}</link><link name="b">{SOLID}</link>\n{joint}')
+
+
+def test_limits_are_ordered():
+    assert errors(two_links(joint_text('a', 'b', 'revolute', limited(-1, 1)))) == []
+    (error,) = errors(two_links(joint_text('a', 'b', 'revolute', limited(1, -1))))
+    assert error == (
+        'error: f:3: joint "a_b": the lower limit is above the upper one: '
+        'found lower 1, upper -1; swap them'
+    )
+    assert errors(two_links(joint_text('a', 'b', 'continuous', limited(1, -1)))) == []
+
+
+@pytest.mark.parametrize(('source', 'found'), [('nobody', '"nobody"'), ('a_b', 'itself')])
+def test_mimicked_joint_exists(source, found):
+    (error,) = errors(two_links(joint_text('a', 'b', inside=f'<mimic joint="{source}"/>')))
+    assert error == (
+        f'error: f:3: joint "a_b" mimics a joint that is not there: found {found}, '
+        'expected another one of "a_b"'
+    )
+
+
+def test_all_faults_are_found_in_one_go():
+    text = robot_text(
+        '<link name="a"/><link name="b"/><link name="c"/>\n'
+        '<joint name="j" type="hinge"><parent link="a"/><child link="b"/></joint>\n'
+        '<joint name="k" type="fixed"><parent link="zz"/><child link="c"/></joint>\n'
+        '<ros2_control name="s" type="system"/>\n'
+        '<gazebo><plugin filename="" name="x"/></gazebo>'
+    )
+    lines = [finding.line for finding in checks.check(text, 'f')]
+    assert sorted(lines) == [3, 4, 5, 6]
+
+
+def test_require_sound_gives_the_robot_and_the_warnings():
+    robot, warnings = checks.require_sound(TUTORIAL, 'f')
+    assert robot.name == 'amr'
+    assert [warning.severity for warning in warnings] == ['warning']
+    assert checks.require_sound(AMR)[1] == ()
+
+
+def test_require_sound_raises_the_first_error_and_counts_the_rest():
+    with pytest.raises(DescriptionError, match=r'^f:1: the description is empty: .*</robot>$'):
+        checks.require_sound('', 'f')
+    text = AMR.replace('<mass value="0.5"/>', '<mass value="-1"/>')
+    message = r'^f:\d+: link "wheel_front_left": mass: .*\(and 3 more; check_urdf lists them\)$'
+    with pytest.raises(DescriptionError, match=message):
+        checks.require_sound(text, 'f')
+
+
+def test_rules_are_documented_functions():
+    rules = (*checks.RULES, *checks.RULES_OF_THE_WHOLE)
+    assert len(set(rules)) == len(rules)
+    assert all(rule.__doc__ for rule in rules)
+
+
+def test_every_rule_stands_on_its_page_in_the_order_of_the_tables():
+    page = (ROOT / 'docs/check_urdf.md').read_text()
+    named = re.findall(r'^\| `(\w+)` \| \S', page, re.MULTILINE)
+    rules = (*checks.RULES, *checks.RULES_OF_THE_WHOLE)
+    assert named == [rule.__name__ for rule in rules]

@@ -1,0 +1,182 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A URDF is read as it stands, a xacro file expanded; whatever is wrong with it is one line."""
+
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+from ament_index_python.packages import get_package_share_directory
+import pytest
+from support.paths import ROOT
+
+from amr_description.errors import DescriptionError, UsageError
+from amr_description.model.description_file import description_text, mappings_of, source_name
+from amr_description.model.urdf import load, parse
+
+GRIPPER = ROOT / 'test/fixtures/urdf/gripper.urdf.xacro'
+
+
+def robot(*words):
+    return parse(description_text(GRIPPER, mappings_of(words)))
+
+
+def text_of(folder, body, name='robot.urdf.xacro', **mappings):
+    """Expand a robot with this in it."""
+    path = folder / name
+    namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    path.write_text(f'<robot name="test" {namespace}>{body}</robot>')
+    return description_text(path, mappings)
+
+
+def test_a_urdf_is_read_as_it_stands():
+    path = ROOT / 'urdf/amr.urdf'
+    assert description_text(path) == path.read_text() == load(path).text
+
+
+def test_includes_macros_properties_and_defaults_are_expanded():
+    found = robot()
+    assert [link.name for link in found.links] == [
+        'base', 'hand', 'palm', 'left_finger', 'left_tip', 'right_finger', 'right_tip',
+    ]  # fmt: skip
+    joints = {joint.name: joint for joint in found.joints}
+    assert joints['left_tip'].origin.translation == (0.0, 0.0, 0.08)
+    assert joints['right_knuckle'].mimic.joint == 'left_knuckle'
+    assert joints['left_knuckle'].mimic is None
+    assert joints['left_knuckle'].limit.lower == pytest.approx(-0.1)
+
+
+def test_arguments_decide_values_and_conditions():
+    found = robot('finger_length:=0.2', 'palm:=true', 'palm:=false')
+    assert 'palm' not in [link.name for link in found.links]
+    (tip,) = [joint for joint in found.joints if joint.name == 'right_tip']
+    assert tip.origin.translation == (0.0, 0.0, 0.2)
+
+
+def test_one_expansion_leaves_nothing_to_the_next(tmp_path):
+    body = '<xacro:arg name="a" default="1"/><link name="link$(arg a)"/>'
+    assert 'link2' in text_of(tmp_path, body, a='2')
+    with pytest.raises(DescriptionError, match='Undefined substitution argument b'):
+        text_of(tmp_path, body + '<link name="$(arg b)"/>', a='3')
+    assert 'link1' in text_of(tmp_path, body)
+
+
+def test_find_looks_into_the_ament_index(tmp_path):
+    share = get_package_share_directory('amr_description')
+    text = text_of(tmp_path, '<xacro:include filename="$(find amr_description)/urdf/amr.urdf"/>')
+    assert parse(text).root.name == 'base_footprint'
+    assert share in text_of(tmp_path, '<link name="$(find amr_description)"/>')
+
+
+@pytest.mark.parametrize(
+    ('body', 'words'),
+    [
+        ('<link name="${nope}"/>', "robot.urdf.xacro: NameError: name 'nope' is not defined when"),
+        ('<link name="${1/0}"/>', "division by zero when evaluating expression '1/0'"),
+        ('<link name="$(find no_such_package)"/>', "package 'no_such_package' not found"),
+        ('<xacro:nope/>', 'robot.urdf.xacro: unknown macro name: xacro:nope'),
+        ('<xacro:if value="maybe"/>', 'is not a boolean expression'),
+        ('<xacro:include filename="nowhere.xacro"/>', r'No such file or directory: \S+nowhere'),
+        ('<xacro:include filename="robot.urdf.xacro"/>', 'does a macro or an include contain'),
+        ('\n<link>', 'robot.urdf.xacro:2: not well-formed XML: mismatched tag'),
+        ("${xacro.load_yaml('no.yaml')}", r'robot.urdf.xacro: FileNotFoundError: .*no.yaml'),
+        ('${__import__}', r'Use of invalid name\(s\): __import__'),
+    ],
+)
+def test_what_cannot_be_expanded_is_one_line_with_the_file(tmp_path, body, words):
+    with pytest.raises(DescriptionError, match=words) as caught:
+        text_of(tmp_path, body)
+    assert str(caught.value).isprintable()
+    assert len(str(caught.value)) < 400 + 8 * len(str(tmp_path))
+
+
+def test_the_way_to_the_fault_is_told(tmp_path):
+    inner = (
+        '<xacro:macro name="outer" params=""><xacro:inner/></xacro:macro>'
+        '<xacro:macro name="inner" params=""><link name="${gone}"/></xacro:macro>'
+        '<xacro:outer/>'
+    )
+    with pytest.raises(DescriptionError):
+        text_of(tmp_path, inner, 'parts.xacro')
+    with pytest.raises(DescriptionError, match=r'parts.xacro: NameError: .*gone') as caught:
+        text_of(tmp_path, '<xacro:include filename="parts.xacro"/>')
+    way = f'(in macro "inner", called by "outer", included from {tmp_path}/robot.urdf.xacro)'
+    assert str(caught.value).endswith(way)
+
+
+def test_entity_bombs_and_missing_and_binary_files_end(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # a long path would be shortened in the message
+    bomb = '<!DOCTYPE robot [<!ENTITY a "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa">'
+    for one, next_one in zip('abcdefgh', 'bcdefghi', strict=True):
+        bomb += f'<!ENTITY {next_one} "{f"&{one};" * 20}">'
+    path = tmp_path / 'bomb.xacro'
+    path.write_text(f'{bomb}]><robot name="&i;"/>')
+    with pytest.raises(DescriptionError, match=r'bomb.xacro:1: .*amplification'):
+        description_text(path)
+    with pytest.raises(DescriptionError, match='cannot read the description .*gone.xacro'):
+        description_text('gone.xacro')
+    path.write_bytes(b'\xff\xfe')
+    with pytest.raises(DescriptionError, match=r'bomb.xacro:1: byte 0 is not UTF-8'):
+        description_text(path)
+
+
+def test_arguments_that_nothing_asks_for_are_told():
+    said = []
+    description_text(GRIPPER, {'finger_lenght': '1', 'palm': 'true'}, warn=said.append)
+    assert said == [
+        f'{GRIPPER}: nothing asks for "finger_lenght"; its arguments: "finger_length", "palm"'
+    ]
+
+
+def test_arguments_that_are_declared_but_not_used_are_none_of_these(tmp_path):
+    said = []
+    path = tmp_path / 'cart.xacro'
+    arg = '<xacro:arg name="later" default="1"/>'
+    path.write_text(f'<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro">{arg}</robot>')
+    description_text(path, {'later': '2'}, warn=said.append)
+    assert said == []
+
+
+def test_arguments_of_what_is_no_xacro_file_are_refused():
+    with pytest.raises(DescriptionError, match=r'amr.urdf: takes no arguments \(a:=…\)'):
+        description_text(ROOT / 'urdf/amr.urdf', {'a': '1'})
+
+
+@pytest.mark.parametrize('word', ['a', ':=1', 'a=1', ' :=1'])
+def test_words_that_are_no_arguments_are_refused(word):
+    with pytest.raises(UsageError, match='write name:=value'):
+        mappings_of([word])
+
+
+def test_values_may_be_empty_and_hold_anything():
+    assert mappings_of(['a:=', 'b:=x:=y', 'c:= z ']) == {'a': '', 'b': 'x:=y', 'c': 'z'}
+
+
+def test_messages_say_that_lines_are_those_of_the_expanded_text():
+    assert source_name('a.urdf') == 'a.urdf'
+    assert source_name('a.urdf.xacro') == 'a.urdf.xacro (expanded)'
+
+
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+def test_as_a_program_it_prints_text_or_one_line():
+    program = (sys.executable, '-m', 'amr_description.model.description_file')
+    done = run(*program, GRIPPER, 'palm:=false')
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout == description_text(GRIPPER, {'palm': 'false'})
+    done = run(*program, GRIPPER, 'palm:=perhaps')
+    assert done.returncode == 1
+    assert len(done.stderr.splitlines()) == 1
+    assert 'perhaps' in done.stderr
+
+
+def test_the_command_xacro_is_there_and_says_the_same():
+    xacro = Path(sys.prefix, 'bin/xacro')
+    if not xacro.exists():  # the distribution's ROS
+        xacro = Path(os.environ['AMENT_PREFIX_PATH'].split(os.pathsep)[-1], 'bin/xacro')
+    done = run(xacro, GRIPPER, 'finger_length:=0.3')
+    assert done.returncode == 0
+    assert done.stdout == description_text(GRIPPER, {'finger_length': '0.3'})
