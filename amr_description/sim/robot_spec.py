@@ -7,23 +7,19 @@ MuJoCo's own URDF reader does the most. Left alone it welds the robot to the wor
 without a joint into it (most of the mass is gone then) and looks for meshes by their bare names;
 what it must be told is written into the XML before it reads, the rest is edited in the spec.
 
-The mesh files of a URDF: found and judged before MuJoCo reads them.
-
 Where joints stand when a robot is spawned, and again after a reset.
 """
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from pathlib import Path
 
 from lxml import etree
 import mujoco
 
-from amr_description.ament_index import resolve_uri
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Log
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
-from amr_description.errors import ResourceError, SpawnError
+from amr_description.errors import SpawnError
 from amr_description.model.findings import raise_error
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
@@ -38,52 +34,8 @@ from amr_description.sim.friction import (
     SIDE_FRICTION,
     SIDE_PRIORITY,
 )
+from amr_description.sim.meshes import resolve_meshes
 from amr_description.sim.spawning import SpawnCode
-
-FORMATS = ('.stl', '.obj', '.msh')
-"""What MuJoCo reads."""
-
-
-def resolve_meshes(urdf: etree._Element, source: str, log: Log) -> None:
-    """
-    Write the true path of every mesh into ``urdf``.
-
-    Physics needs the shapes of collisions: SpawnError if one cannot be had. A ``<visual>`` whose
-    mesh cannot be had is left out, which the log is told.
-    """
-    for part in (*urdf.iterfind('link/collision'), *urdf.iterfind('link/visual')):
-        mesh = part.find('geometry/mesh')
-        if mesh is None:
-            continue
-        place = f'{source}:{mesh.sourceline}: mesh of a {part.tag} of link "{_link(part)}"'
-        try:
-            mesh.set('filename', str(_mesh_file(mesh.get('filename', ''), source, place)))
-        except SpawnError as error:
-            if part.tag == 'collision':
-                raise
-            log(Severity.WARN, f'{error}; it is not drawn')
-            part.getparent().remove(part)
-
-
-def _link(part: etree._Element) -> str:
-    return part.getparent().get('name', '')
-
-
-def _mesh_file(uri: str, source: str, place: str) -> Path:
-    description = Path(source)
-    try:
-        path = resolve_uri(uri, description.parent if description.is_file() else None)
-    except ResourceError as cause:
-        raise SpawnError(f'{place}: {uri}: {cause}', SpawnCode.MISSING_ASSETS) from cause
-    if not path.is_file():
-        found = '' if str(path) == uri else f', which is {path}'
-        raise SpawnError(f'{place}: there is no file {uri}{found}', SpawnCode.MISSING_ASSETS)
-    if path.suffix.lower() not in FORMATS:
-        raise SpawnError(
-            f'{place}: {uri}: the simulator reads {", ".join(FORMATS)}, not {path.suffix}',
-            SpawnCode.UNSUPPORTED_ASSETS,
-        )
-    return path.resolve()
 
 
 @dataclass(frozen=True, slots=True)
