@@ -86,16 +86,21 @@ class Port:
     One topic of a controller, declared instead of created.
 
     ``name`` is resolved by the controller's node (``~/cmd_vel``, ``joint_states``, ``/tf``).
-    ``message`` is the ROS type. ``convert`` names a function, ``module:function``: for an input
-    ``(message) -> sample``, for an output ``(sample, message) -> None``, which fills a message
-    that is made once and used again. Samples are frozen dataclasses. A converter in another
-    package is named in the same way.
+    ``message`` is the ROS type. What goes through the port, a *sample*, may be of any type; a
+    frozen dataclass is best. One of two fields says how it becomes a message:
+
+    - ``convert`` names a function, ``module:function``: for an input ``(message) -> sample``, for
+      an output ``(sample, message) -> None``, which fills a message that is created once and
+      reused.
+    - ``sample`` is a type of :mod:`amr_description.control.samples`, for which there is a
+      converter already.
     """
 
     name: str
     message: str
-    convert: str
+    convert: str = ''
     qos: Qos = SYSTEM_DEFAULT
+    sample: type | None = None
 
 
 class Input[Sample]:

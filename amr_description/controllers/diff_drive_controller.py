@@ -88,7 +88,6 @@ class PublishGate:
 
 _STAMPED = 'geometry_msgs/msg/TwistStamped'
 _UNSTAMPED = 'geometry_msgs/msg/Twist'
-_CONVERT = 'amr_description.control.ros.converters'
 
 
 class DiffDriveController(Controller):
@@ -294,20 +293,18 @@ class DiffDriveController(Controller):
             parameters.pose_covariance_diagonal,
             parameters.twist_covariance_diagonal,
         )
-        self._command: Input[TwistSample] = Input(
-            Port('~/cmd_vel', _STAMPED, f'{_CONVERT}:twist_sample')
-        )
+        self._command: Input[TwistSample] = Input(Port('~/cmd_vel', _STAMPED, sample=TwistSample))
         self._unstamped: Input[TwistSample] = Input(
-            Port('~/cmd_vel_unstamped', _UNSTAMPED, f'{_CONVERT}:unstamped_twist_sample')
+            Port('~/cmd_vel_unstamped', _UNSTAMPED, sample=TwistSample)
         )
         self._odom: Output[OdometrySample] = Output(
-            Port('~/odom', 'nav_msgs/msg/Odometry', f'{_CONVERT}:fill_odometry')
+            Port('~/odom', 'nav_msgs/msg/Odometry', sample=OdometrySample)
         )
         self._transform: Output[OdometrySample] = Output(
-            Port('/tf', 'tf2_msgs/msg/TFMessage', f'{_CONVERT}:fill_odometry_transform')
+            Port('/tf', 'tf2_msgs/msg/TFMessage', sample=OdometrySample)
         )
         self._command_out: Output[TwistSample] = Output(
-            Port('~/cmd_vel_out', _STAMPED, f'{_CONVERT}:fill_twist')
+            Port('~/cmd_vel_out', _STAMPED, sample=TwistSample)
         )
 
 

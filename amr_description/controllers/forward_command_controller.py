@@ -79,11 +79,7 @@ class ForwardControllersBase(Controller):
             raise ControllerError(f'interface named more than once: {", ".join(twice)}')
         self._request = InterfaceRequest.individual(names)
         self._commands: Input[CommandsSample] = Input(
-            Port(
-                '~/commands',
-                'std_msgs/msg/Float64MultiArray',
-                'amr_description.control.ros.converters:commands_sample',
-            )
+            Port('~/commands', 'std_msgs/msg/Float64MultiArray', sample=CommandsSample)
         )
         self.log(Severity.INFO, 'configure successful')
 

@@ -59,7 +59,7 @@ class IMUSensorBroadcaster(Controller):
             parameters.static_covariance_linear_acceleration,
         )
         self._imu: Output[ImuSample] = Output(
-            Port('~/imu', 'sensor_msgs/msg/Imu', 'amr_description.control.ros.converters:fill_imu')
+            Port('~/imu', 'sensor_msgs/msg/Imu', sample=ImuSample)
         )
 
     def state_interfaces(self) -> InterfaceRequest:

@@ -99,17 +99,13 @@ class JointStateBroadcaster(Controller):
         self._published_as = self._mapping(parameters)
         prefix = '~/' if parameters.use_local_topics else ''
         self._joint_states: Output[JointStateSample] = Output(
-            Port(
-                f'{prefix}joint_states',
-                'sensor_msgs/msg/JointState',
-                'amr_description.control.ros.converters:fill_joint_state',
-            )
+            Port(f'{prefix}joint_states', 'sensor_msgs/msg/JointState', sample=JointStateSample)
         )
         self._dynamic_joint_states: Output[DynamicJointStateSample] = Output(
             Port(
                 f'{prefix}dynamic_joint_states',
                 'control_msgs/msg/DynamicJointState',
-                'amr_description.control.ros.converters:fill_dynamic_joint_state',
+                sample=DynamicJointStateSample,
             )
         )
 

@@ -1,13 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Samples of the controllers ↔ ROS messages; the functions that a ``Port`` names.
+Samples of the shipped controllers ↔ ROS messages, and the table of these converters.
 
-``fill_…`` writes into a message that is made once and sent many times.
+``fill_…`` writes into a message that is created once and published many times.
 """
 
 from array import array
+from collections.abc import Callable, Mapping
 import math
+from typing import Any
 
 from control_msgs.msg import DynamicJointState, InterfaceValue
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
@@ -16,6 +18,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
+from amr_description.control.contracts import Port
 from amr_description.control.samples import (
     CommandsSample,
     DynamicJointStateSample,
@@ -27,6 +30,7 @@ from amr_description.control.samples import (
     OdometrySample,
     TwistSample,
 )
+from amr_description.errors import ControllerError
 from amr_description.ros.messages import fill_stamp, nanoseconds
 
 
@@ -144,3 +148,42 @@ def _fill_imu_constants(constants: ImuConstants, message: Imu) -> None:
     message.orientation_covariance = constants.orientation_covariance
     message.angular_velocity_covariance = constants.angular_velocity_covariance
     message.linear_acceleration_covariance = constants.linear_acceleration_covariance
+
+
+type _Key = tuple[type | None, str]
+"""Type of a port's samples, and of its messages."""
+
+_READERS: dict[_Key, Callable[[Any], Any]] = {
+    (CommandsSample, 'std_msgs/msg/Float64MultiArray'): commands_sample,
+    (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
+    (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
+}
+_WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
+    (DynamicJointStateSample, 'control_msgs/msg/DynamicJointState'): fill_dynamic_joint_state,
+    (ImuSample, 'sensor_msgs/msg/Imu'): fill_imu,
+    (JointStateSample, 'sensor_msgs/msg/JointState'): fill_joint_state,
+    (OdometrySample, 'nav_msgs/msg/Odometry'): fill_odometry,
+    (OdometrySample, 'tf2_msgs/msg/TFMessage'): fill_odometry_transform,
+    (TwistSample, 'geometry_msgs/msg/TwistStamped'): fill_twist,
+}
+
+
+def reader_of(port: Port) -> Callable[[Any], Any]:
+    """Return ``(message) -> sample`` of an input. Raises ControllerError: there is none."""
+    return _find(_READERS, port)
+
+
+def writer_of(port: Port) -> Callable[[Any, Any], None]:
+    """Return ``(sample, message) -> None`` of an output. Raises ControllerError: likewise."""
+    return _find(_WRITERS, port)
+
+
+def _find[Function](table: Mapping[_Key, Function], port: Port) -> Function:
+    try:
+        return table[port.sample, port.message]
+    except KeyError:
+        sample = 'no type of sample' if port.sample is None else port.sample.__name__
+        raise ControllerError(
+            f"There is no converter for '{port.name}' ({port.message}, {sample}); name one as "
+            "convert='module:function' of its Port"
+        ) from None

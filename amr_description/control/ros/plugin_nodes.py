@@ -18,7 +18,7 @@ as ros2_control has them.
 The ROS thread makes node, parameters and endpoints; the owner only sees finished objects.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import re
 from typing import Any
 
@@ -33,6 +33,7 @@ from amr_description.control.contracts import (
     ControllerContext,
     Input,
     Output,
+    Port,
     Qos,
     Severity,
 )
@@ -236,7 +237,7 @@ class ControllerNode:
     # --- ports --------------------------------------------------------------------------------
 
     def _subscribe(self, port: Input[Any]) -> Subscription:
-        convert = resolve(port.port.convert)
+        convert = _reader_of(port.port)
 
         def receive(message: Any, about: Any) -> None:
             try:
@@ -262,13 +263,31 @@ class ControllerNode:
         return subscription
 
     def _advertise(self, port: Output[Any]) -> Publisher:
-        fill = resolve(port.port.convert)
+        fill = _writer_of(port.port)
         message_class = message_type(port.port.message)
         message = message_class()
         publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
         send = self._outgoing.send
         port.sink = lambda sample: send(fill, sample, message, publisher)
         return publisher
+
+
+def _reader_of(port: Port) -> Callable[[Any], Any]:
+    """Return ``(message) -> sample``. Raises whatever finding it raises."""
+    if port.convert:
+        return resolve(port.convert)
+    from amr_description.control.ros import converters  # its message types are slow to import
+
+    return converters.reader_of(port)
+
+
+def _writer_of(port: Port) -> Callable[[Any, Any], None]:
+    """Return ``(sample, message) -> None``. Raises whatever finding it raises."""
+    if port.convert:
+        return resolve(port.convert)
+    from amr_description.control.ros import converters
+
+    return converters.writer_of(port)
 
 
 def qos(wanted: Qos) -> QoSProfile:

@@ -12,7 +12,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64MultiArray
 from support.control_fakes import FakeLog
 
-from amr_description.control.contracts import ControllerContext
+from amr_description.control.contracts import ControllerContext, Port
 from amr_description.control.ros import converters
 from amr_description.control.samples import (
     CommandsSample,
@@ -24,8 +24,8 @@ from amr_description.control.samples import (
     TwistSample,
 )
 from amr_description.controllers import CONTROLLERS
+from amr_description.errors import ControllerError
 from amr_description.parameters import build
-from amr_description.registry import resolve
 from amr_description.ros.message_types import message_type
 
 STAMP = 3_000_000_007
@@ -148,11 +148,30 @@ def test_the_converters_of_every_port_exist(controller, values):
     found = CONTROLLERS.find(controller)
     made = found(ControllerContext('made', FakeLog()))
     made.configure(build(found.parameters_type, values))
-    ports = [each.port for each in (*made.inputs(), *made.outputs())]
-    assert ports
-    for port in ports:
-        assert callable(resolve(port.convert))
+    functions = [
+        *((converters.reader_of(each.port), each.port) for each in made.inputs()),
+        *((converters.writer_of(each.port), each.port) for each in made.outputs()),
+    ]
+    assert functions
+    for function, port in functions:
+        assert callable(function)
         assert message_type(port.message)()
+
+
+@pytest.mark.parametrize(
+    ('find', 'port', 'sample'),
+    [
+        (converters.reader_of, Port('~/in', 'sensor_msgs/msg/Imu', sample=ImuSample), 'ImuSample'),
+        (converters.writer_of, Port('~/out', 'sensor_msgs/msg/Imu'), 'no type of sample'),
+    ],
+)
+def test_a_port_without_a_converter_is_explained(find, port, sample):
+    with pytest.raises(ControllerError) as caught:
+        find(port)
+    assert str(caught.value) == (
+        f"There is no converter for '{port.name}' (sensor_msgs/msg/Imu, {sample}); name one as "
+        "convert='module:function' of its Port"
+    )
 
 
 @pytest.mark.parametrize('count', [0, 1, 40])
