@@ -91,7 +91,7 @@ class Host:
         except Exception:
             self.logs.stop()
             raise
-        info = HardwareInfo('hardware', HardwareType.SYSTEM, 'manager_host/HostHardware')
+        info = HardwareInfo('hardware', HardwareType.SYSTEM, 'support.manager_host/HostHardware')
         self.manager_node.prepare(None, [info])
         loop.managers.append(self.manager_node.bring_up(None, PERIOD))
         self.hardware = HostHardware.newest
