@@ -7,6 +7,7 @@ Every error that this package raises on purpose.
 
     AmrError
     ├── DescriptionError     a URDF, or one of its <ros2_control> blocks, cannot be used
+    │   └── MeshError        a mesh file that it names cannot be used
     ├── ParameterError       a parameter, or a parameter file, cannot be used
     ├── ResourceError        a package, its executable, or the file of a URI is not found
     ├── ControlError         ros2_control refuses or fails
@@ -43,6 +44,10 @@ class AmrError(Exception):
 
 class DescriptionError(AmrError):
     """The robot description (URDF) cannot be used."""
+
+
+class MeshError(DescriptionError):
+    """A mesh file cannot be used."""
 
 
 class ParameterError(AmrError):

@@ -11,6 +11,7 @@ import sys
 
 from amr_description.ament_index import path_of
 from amr_description.errors import BringupError, UsageError
+from amr_description.model.mesh_paths import with_absolute_paths
 
 _PROCESSOR_TIME = 60  # s; large robots take one or two
 _MEMORY = 4 * 2**30  # bytes of address space
@@ -19,7 +20,8 @@ _EXPAND = (sys.executable, '-P', '-m', 'amr_description.model.description_file')
 
 def robot_description(urdf: str, xacro_args: str = '') -> str:
     """
-    Return the URDF in a file or, of a xacro file, what it expands to.
+    Return the URDF in a file or, of a xacro file, what it expands to; relative paths of meshes
+    in it are made absolute.
 
     xacro runs in a process of its own, as launch's ``Command(['xacro ', …])`` has it: what a
     stranger's expressions do cannot harm the supervisor, and has bounded time and memory.
@@ -30,11 +32,12 @@ def robot_description(urdf: str, xacro_args: str = '') -> str:
     """
     path = path_of(urdf)
     if path.suffix == '.xacro':
-        return _expanded([str(path), *_words(xacro_args)])
+        text = _expanded([str(path), *_words(xacro_args)])
+        return with_absolute_paths(text, path.parent)
     if xacro_args.strip():
         raise UsageError(f"xacro_args:='{xacro_args}': {path} is no xacro file (*.xacro)")
     try:
-        return path.read_text('utf-8')
+        return with_absolute_paths(path.read_text('utf-8'), path.parent)
     except (OSError, UnicodeDecodeError) as error:
         raise BringupError(f'cannot read the description {path}: {error}') from None
 

@@ -19,6 +19,7 @@ Exit code:
 """
 
 import argparse
+import math
 import sys
 from typing import TYPE_CHECKING
 
@@ -36,15 +37,20 @@ from amr_description.errors import (
     ParameterError,
     ResourceError,
     SimulationError,
+    UsageError,
 )
 from amr_description.model.checks import Examination, examine
-from amr_description.model.checks.context import CheckInputs, DriveSettings, IsThere
+from amr_description.model.checks.context import CheckInputs, DriveSettings
 from amr_description.model.description_file import description_text, mappings_of, source_name
 from amr_description.model.findings import Finding
+from amr_description.model.mesh_uses import FindFile
+from amr_description.model.urdf import parse
 from amr_description.model.xml_reader import read_stream
 from amr_description.text import one_line
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from amr_description.sim.drop_test import DropReport
 
 OK = 0
@@ -71,7 +77,14 @@ def main(argv: list[str]) -> int:
         drives = _drives(arguments.controllers)
     except ParameterError as error:
         return _fail(error, UNUSABLE, arguments)
-    surroundings = CheckInputs(is_there=_file_finder(source), drives=drives)
+    find_file = _file_finder(source)
+    if arguments.inertia is not None:
+        return _print_inertial(text, source, find_file, arguments)
+    if arguments.mass or arguments.density:
+        raise UsageError('--mass and --density are of the link that --inertia LINK names')
+    surroundings = CheckInputs(
+        is_there=lambda uri: _is_there(find_file, uri), find_file=find_file, drives=drives
+    )
     examination = examine(text, source, surroundings)
     drop = _drop(examination) if arguments.drop else None
     code = exit_code(examination, drop, strict=arguments.strict)
@@ -119,7 +132,46 @@ def _parser() -> argparse.ArgumentParser:
         action='store_true',
         help='also drop, push, roll and turn the robot in the simulator, and report in numbers',
     )
+    add(
+        '--inertia',
+        metavar='LINK',
+        help='print the <inertial> of this link instead, from its collision shapes and meshes',
+    )
+    weight = parser.add_mutually_exclusive_group()
+    about = 'of the link of --inertia; without it, the mass that the description gives it'
+    weight.add_argument('--mass', metavar='KG', type=_positive, help=f'mass {about}')
+    weight.add_argument('--density', metavar='KG/M3', type=_positive, help=f'density {about}')
     return parser
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number above 0")
+    return value
+
+
+def _print_inertial(
+    text: str, source: str, find_file: FindFile, arguments: argparse.Namespace
+) -> int:
+    """Print the ``<inertial>`` of a link; return the exit code."""
+    from amr_description.cli.inertia import inertial_element
+
+    try:
+        robot = parse(text, source)
+        print(
+            inertial_element(
+                robot, arguments.inertia, arguments.mass, arguments.density, find_file
+            )
+        )
+    except UsageError:
+        raise
+    except AmrError as error:
+        return _fail(error, UNUSABLE, arguments)
+    return OK
 
 
 def _read(path: str, words: list[str]) -> tuple[str, str]:
@@ -138,22 +190,25 @@ def _warn(line: str) -> None:
     print(f'warning: {line}', file=sys.stderr)
 
 
-def _file_finder(source: str) -> IsThere:
-    """Return what looks for the files that the description names; relative ones lie beside it."""
+def _file_finder(source: str) -> FindFile:
+    """Return what finds the files that the description names; relative ones lie beside it."""
 
-    def is_there(uri: str) -> bool:
+    def find_file(uri: str) -> 'Path':
         # Not at the top: a description that names no file need not wait for ament.
         from pathlib import Path
 
         from amr_description.ament_index import resolve_uri
 
-        folder = Path() if source == _STDIN else Path(source).parent
-        try:
-            return resolve_uri(uri, folder).is_file()
-        except OSError as error:  # such as a name that no file can have
-            raise ResourceError(error.strerror or str(error)) from error
+        return resolve_uri(uri, Path() if source == _STDIN else Path(source).parent)
 
-    return is_there
+    return find_file
+
+
+def _is_there(find_file: FindFile, uri: str) -> bool:
+    try:
+        return find_file(uri).is_file()
+    except OSError as error:  # such as a name that no file can have
+        raise ResourceError(error.strerror or str(error)) from error
 
 
 def _drives(paths: list[str]) -> tuple[DriveSettings, ...]:

@@ -30,6 +30,11 @@ What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
 ``urdf_grammar.py``                 … the elements and attributes that there are
 ``wheels.py``                       … which links are wheels
 ``shapes.py``, ``convex.py``        … shapes as solids: inertia, extent, overlap
+``meshes.py``, ``collada.py``       mesh files as triangles: ``load_mesh(path, scale)``
+``mesh_solids.py``                  … as solids: closed or not, mass, inertia, hull
+``convex_hull.py``                  … the volume of a convex hull
+``mesh_paths.py``                   … relative paths made absolute, where the file is known
+``mesh_uses.py``                    … those of a robot, each file read once
 ``nearest.py``                      … the word that was meant
 
 ``findings.py``                     Finding: severity, place, what, found, expected, fix

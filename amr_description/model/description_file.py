@@ -22,6 +22,7 @@ from xml.parsers.expat import ErrorString, ExpatError
 
 from amr_description.ament_index import resolve_uri
 from amr_description.errors import AmrError, DescriptionError, UsageError
+from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.xml_reader import read_file
 from amr_description.text import one_line, quote, quote_all
 
@@ -183,13 +184,15 @@ def description_at(
     The URDF at a URI; of a xacro file, expanded with ``mappings`` and those of the URI itself.
 
     ``package://cart/urdf/cart.urdf.xacro?wheel_radius=0.2&camera=true``. ``warn`` is told, in a
-    line each, what is probably not meant. Raises ResourceError, DescriptionError.
+    line each, what is probably not meant. Relative paths of meshes in it are made absolute.
+    Raises ResourceError, DescriptionError.
     """
     file, _, query = uri.partition('?')
     if not is_xacro(file):
         file, query = uri, ''
     given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
-    return description_text(resolve_uri(file), given, warn=warn)
+    path = resolve_uri(file)
+    return with_absolute_paths(description_text(path, given, warn=warn), path.parent)
 
 
 if __name__ == '__main__':

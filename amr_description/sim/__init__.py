@@ -16,7 +16,7 @@ The simulated world, and the only package that imports MuJoCo.
 ``silent_friction``  the friction of what a world leaves without
 ``world_settings``   gravity, friction, step, solver: parameters, and the measured defaults
 ``robot_spec``       a URDF → MuJoCo spec of one robot
-``meshes``           the mesh files of a URDF, found and judged
+``meshes``           the mesh files of a URDF, found and judged, or read for MuJoCo
 ``actuators``        command interface → MuJoCo actuators
 ``drives``           which of a joint's actuators act
 ``initial_state``    where joints begin

@@ -34,7 +34,7 @@ from amr_description.sim.friction import (
     SIDE_FRICTION,
     SIDE_PRIORITY,
 )
-from amr_description.sim.meshes import resolve_meshes
+from amr_description.sim.meshes import insert_meshes, Meshes, resolve_meshes
 from amr_description.sim.spawning import SpawnCode
 
 
@@ -150,7 +150,9 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         names = tuple(interface.name for interface in joint.command_interfaces)
         commands[joint.name] = commands.get(joint.name, ()) + names
     try:
-        spec = mujoco.MjSpec.from_string(_prepared_xml(robot, log))
+        xml, meshes = _prepared_xml(robot, log)
+        spec = mujoco.MjSpec.from_string(xml)
+        insert_meshes(spec, meshes)
         _loosen_floating_links(spec, robot)
         if robot.root.name != WORLD_LINK:
             spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
@@ -180,8 +182,11 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
     return RobotSpec(spec, wheels, balls, commands, initial, free)
 
 
-def _prepared_xml(robot: Robot, log: Log) -> str:
-    """The URDF with MuJoCo's compiler settings and the true paths of its meshes."""
+def _prepared_xml(robot: Robot, log: Log) -> tuple[str, Meshes]:
+    """
+    The URDF with MuJoCo's compiler settings and the true paths of its meshes, and those meshes
+    that MuJoCo does not read itself.
+    """
     root = parse_xml(robot.text, robot.source, raise_error)
     assert root is not None, 'raise_error does not return from an error'
     extension = root.find('mujoco')
@@ -198,8 +203,8 @@ def _prepared_xml(robot: Robot, log: Log) -> str:
     for joint in robot.joints:
         if joint.limit is not None and joint.limit.lower == joint.limit.upper:
             _keep_limit(root, joint)
-    resolve_meshes(root, robot.source, log)
-    return etree.tostring(root, encoding='unicode')
+    meshes = resolve_meshes(root, robot.source, log)
+    return etree.tostring(root, encoding='unicode'), meshes
 
 
 def _keep_limit(root: etree._Element, joint: Joint) -> None:

@@ -43,5 +43,5 @@ class Backend(Protocol):
     async def answer(self, request: Request) -> str:
         """Do what is asked; say in one line what was done. Raises ViewerError."""
 
-    def mesh(self, name: str) -> Path | None:
-        """Return the file that a model calls ``/mesh/<name>``; None: no model names it."""
+    def mesh(self, name: str) -> Path | bytes | None:
+        """Return what a model calls ``/mesh/<name>``, or its file; None: no model names it."""

@@ -134,7 +134,7 @@ class Web:
     """Answers requests for files; what is for the WebSocket passes."""
 
     def __init__(
-        self, static: StaticFiles, mesh: Callable[[str], Path | None], access: Access
+        self, static: StaticFiles, mesh: Callable[[str], Path | bytes | None], access: Access
     ) -> None:
         self._static = static
         self._mesh = mesh
@@ -167,16 +167,17 @@ class Web:
     async def _content(self, path: str) -> Content | None:
         if not path.startswith(MESH_PATH):
             return self._static.get(_INDEX if path == '/' else path)
-        file = self._mesh(path.removeprefix(MESH_PATH))
-        return await asyncio.to_thread(_read_mesh, file) if file else None
+        name = path.removeprefix(MESH_PATH)
+        found = self._mesh(name)
+        return await asyncio.to_thread(_read_mesh, name, found) if found else None
 
 
-def _read_mesh(file: Path) -> Content | None:
+def _read_mesh(name: str, found: Path | bytes) -> Content | None:
     try:
-        data = file.read_bytes()
+        data = found if isinstance(found, bytes) else found.read_bytes()
     except OSError:
         return None
-    return Content(data, TYPES[file.suffix.lower()], digest(data))
+    return Content(data, TYPES[Path(name).suffix], digest(data))
 
 
 def _file(content: Content, request: Request, *, is_immutable: bool) -> Response:

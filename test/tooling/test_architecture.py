@@ -58,6 +58,9 @@ HOMES = {
     'websockets': {'viewer'},
     'serial': {'hardware'},
     'xacro': {'model'},
+    'trimesh': {'model'},
+    'collada': {'model'},
+    'yourdfpy': {'model'},
 }
 IMPURE = {
     'asyncio', 'multiprocessing', 'random', 'selectors', 'socket', 'subprocess', 'threading',

@@ -17,6 +17,7 @@ interface Parts {
 export interface SceneNumbers {
   frames: number; // drawn
   triangles: number; // of the last one
+  extent: number[]; // of the robots near the first one, m: least x, y, z, then greatest
   trails: Record<string, [truth: number, odometry: number]>; // points, by robot
 }
 
@@ -65,5 +66,5 @@ export function inspect({ app, stream, recorder, view }: Parts): void {
 }
 
 function numbersOf(scene: Scene | null): SceneNumbers | null {
-  return scene === null ? null : { ...scene.stats(), trails: scene.trailSizes() };
+  return scene === null ? null : { ...scene.stats(), extent: scene.extent(), trails: scene.trailSizes() };
 }

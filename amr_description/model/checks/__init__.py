@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from amr_description.errors import DescriptionError
-from amr_description.model.checks import inertia, joints, markup, ros2_control, shapes
+from amr_description.model.checks import inertia, joints, markup, meshes, ros2_control, shapes
 from amr_description.model.checks.context import CheckContext, CheckInputs, Rule
 from amr_description.model.findings import Finding, Report, Severity
 from amr_description.model.gazebo import read_gazebo_plugins
@@ -35,6 +35,11 @@ RULES: tuple[Rule, ...] = (
     markup.gazebo_refers_to_something,
     markup.files_are_there,
     markup.paths_hold_everywhere,
+    meshes.meshes_can_be_read,
+    meshes.meshes_are_in_metres,
+    meshes.meshes_have_z_up,
+    meshes.collision_meshes_are_closed,
+    meshes.collision_meshes_fill_their_hull,
     inertia.inertial_is_present,
     inertia.base_has_mass,
     inertia.mass_is_positive,

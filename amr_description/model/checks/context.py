@@ -18,6 +18,7 @@ from amr_description.model.frames import Transform
 from amr_description.model.gazebo import GazeboPlugin
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.kinematics import link_poses
+from amr_description.model.mesh_uses import find_meshes, FindFile, MeshUse
 from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.wheels import find_wheels, Wheel
 
@@ -74,11 +75,13 @@ class CheckInputs:
     """
     What a description is checked against, beyond itself.
 
-    ``is_there`` looks for the files that it names; without it nobody looks. ``drives`` are the
-    controllers that shall drive the robot.
+    ``is_there`` looks for the files that it names; without it nobody looks. ``find_file`` gives
+    the file of a mesh; without it no mesh is read. ``drives`` are the controllers that shall
+    drive the robot.
     """
 
     is_there: IsThere | None = None
+    find_file: FindFile | None = None
     drives: tuple[DriveSettings, ...] = ()
 
 
@@ -126,6 +129,12 @@ class CheckContext:
             and joint.type is JointType.CONTINUOUS
             and joint.child in self.poses
         )
+
+    @cached_property
+    def meshes(self) -> tuple[MeshUse, ...]:
+        """The meshes whose files are at hand; none when nobody finds them."""
+        find_file = self.surroundings.find_file
+        return () if find_file is None else find_meshes(self.robot, find_file)
 
     @cached_property
     def wheels(self) -> tuple[Wheel, ...]:

@@ -138,8 +138,8 @@ class GraphBackend(GraphObserver):
             return f', but its controllers are not active: {error}'
         return f'; active: {", ".join(names) or "no controllers"}'
 
-    def mesh(self, name: str) -> Path | None:
-        """Return the file that a description names."""
+    def mesh(self, name: str) -> Path | bytes | None:
+        """Return what a description names, or its file."""
         for link in self._stage.links.values():
             if link.described is not None and name in link.described.files:
                 return link.described.files[name]

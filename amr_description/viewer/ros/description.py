@@ -11,9 +11,10 @@ import re
 from stat import S_ISREG
 
 from amr_description.ament_index import resolve_uri
-from amr_description.errors import ResourceError
+from amr_description.errors import MeshError, ResourceError
 from amr_description.model import findings
 from amr_description.model.checks import examine
+from amr_description.model.meshes import load_mesh, stl_bytes
 from amr_description.model.robot import Joint, JointType, Mesh, Robot
 from amr_description.viewer.http import digest
 from amr_description.viewer.protocol import Finding, JointInfo, Model
@@ -21,6 +22,8 @@ from amr_description.viewer.protocol import Finding, JointInfo, Model
 SOURCE = 'robot_description'
 _LARGEST_MESH = 256 * 1024 * 1024
 _MESHES = {'.stl', '.obj', '.dae'}
+_CONVERTED = {'.gltf', '.glb'}
+"""The page gets them as STL."""
 _IMAGES = {'.png', '.jpg', '.jpeg'}
 """Nothing else is served, whatever a description names."""
 _IMAGE_OF_COLLADA = re.compile(r'<init_from>\s*(?:<ref>\s*)?([^<]+?)\s*</')
@@ -32,7 +35,8 @@ class DescribedRobot:
 
     name: str
     message: Model
-    files: Mapping[str, Path]
+    files: Mapping[str, Path | bytes]
+    """What is in a file, or instead of one that the page does not read."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -45,7 +49,7 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
     examination = examine(text, SOURCE)
     model, told = examination.robot, [_finding(each) for each in examination.findings]
     meshes: dict[str, str] = {}
-    files: dict[str, Path] = {}
+    files: dict[str, Path | bytes] = {}
     tried: set[str] = set()
     wanted = [*_files_of(model)] if model else []
     while wanted:
@@ -56,12 +60,16 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
         try:
             file = resolve_uri(uri)
             data = _read(file)
-        except ResourceError as error:
+            content: Path | bytes = file
+            suffix = file.suffix.lower()
+            if suffix in _CONVERTED:
+                content, suffix = stl_bytes(load_mesh(file)), '.stl'
+        except (ResourceError, MeshError) as error:
             told.append(Finding('warning', None, f'{uri} cannot be drawn: {error}', ''))
             continue
-        name = f'{digest(data)}{file.suffix.lower()}'
-        meshes[uri], files[name] = f'/mesh/{name}', file
-        if file.suffix.lower() == '.dae':
+        name = f'{digest(data)}{suffix}'
+        meshes[uri], files[name] = f'/mesh/{name}', content
+        if suffix == '.dae':
             wanted += _images_of_collada(uri, data)
     message = Model(
         robot=robot,
@@ -99,8 +107,8 @@ def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
 def _read(file: Path) -> bytes:
     """Read a file that a page draws. Raises ResourceError."""
     suffix = file.suffix.lower()
-    if suffix not in _MESHES | _IMAGES:
-        kinds = ', '.join(sorted(_MESHES | _IMAGES))
+    if suffix not in _MESHES | _CONVERTED | _IMAGES:
+        kinds = ', '.join(sorted(_MESHES | _CONVERTED | _IMAGES))
         raise ResourceError(f'the page draws {kinds}, not {suffix!a}')
     try:
         status = file.stat()

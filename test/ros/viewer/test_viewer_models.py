@@ -8,13 +8,16 @@ from xml.sax.saxutils import escape
 
 from fixtures.sim.driving import AMR
 from hypothesis import example, given, settings, strategies as st
+from mesh_files import box, glb, gltf, write
 import pytest
 
+from amr_description.model.meshes import load_mesh
 from amr_description.viewer.http import digest, StaticFiles
 from amr_description.viewer.ros.description import describe_robot
 
 JOINT = '<joint name="{0}" type="{1}"><parent link="a"/><child link="{0}_link"/>{2}</joint>'
 LINK = '<link name="{0}_link"/>'
+BOX = box((0.2, 0.4, 0.6))
 
 
 def urdf(*parts):
@@ -152,11 +155,29 @@ def test_textures_that_a_collada_file_names_are_served_by_their_place_beside_it(
     ]
 
 
-def test_a_mesh_that_the_page_cannot_read_is_told(tmp_path):
-    (tmp_path / 'part.glb').write_bytes(b'glTF')
-    message = describe_robot('/', urdf(drawn(f'file://{tmp_path}/part.glb'))).message
+@pytest.mark.parametrize('suffix', ['.fbx', '.msh'])
+def test_a_mesh_that_the_page_cannot_read_is_told(tmp_path, suffix):
+    (tmp_path / f'part{suffix}').write_bytes(b'x')
+    message = describe_robot('/', urdf(drawn(f'file://{tmp_path}/part{suffix}'))).message
     assert message.meshes == {}
-    assert any("not '.glb'" in each.text for each in message.findings)
+    assert any(f"not '{suffix}'" in each.text for each in message.findings)
+
+
+@pytest.mark.parametrize('suffix, content', [('.glb', glb(BOX)), ('.GLTF', gltf(BOX).encode())])
+def test_gltf_is_served_as_stl_with_z_up(tmp_path, suffix, content):
+    uri = f'file://{write(tmp_path / f"part{suffix}", content)}'
+    described = describe_robot('/', urdf(drawn(uri)))
+    name = f'{digest(content)}.stl'
+    assert described.message.meshes == {uri: f'/mesh/{name}'}
+    served = load_mesh(write(tmp_path / name, described.files[name]))
+    assert served.size == pytest.approx((0.2, 0.6, 0.4))
+    assert described.message.findings == ()
+
+
+def test_a_broken_gltf_file_is_told(tmp_path):
+    message = describe_robot('/', urdf(drawn(f'file://{write(tmp_path / "a.glb", "x")}'))).message
+    assert message.meshes == {}
+    assert any('it cannot be read as .glb' in each.text for each in message.findings)
 
 
 @pytest.fixture

@@ -42,12 +42,9 @@ def browser():
 
 
 @pytest.fixture(scope='module')
-def display(browser, tmp_path_factory):
+def display(browser):
     """The page of the stack ``display`` over a robot of meshes, and a node in its domain."""
-    urdf = tmp_path_factory.mktemp('meshed') / 'meshed.urdf'
-    # Who reads /robot_description does not know beside which file a mesh would be.
-    urdf.write_text(MESHED.read_text().replace('"meshes/', f'"file://{MESHED.parent}/meshes/'))
-    with own_domain(), Program(BRINGUP, 'display', f'urdf:={urdf}') as stack:
+    with own_domain(), Program(BRINGUP, 'display', f'urdf:={MESHED}') as stack:
         page = browser.open(stack.expect(r'The page is at (http://\S+)')[1])
         page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
         rclpy.init(args=[])

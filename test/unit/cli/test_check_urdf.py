@@ -344,14 +344,14 @@ def test_a_broken_robot_is_not_dropped(run):
 
 def test_a_robot_that_the_simulator_refuses_fails_the_drop(run, tmp_path):
     path = tmp_path / 'r.urdf'
-    link = AMR.read_text().replace('<box size="0.5 0.3 0.1"/>', '<mesh filename="a.dae"/>')
+    link = AMR.read_text().replace('<box size="0.5 0.3 0.1"/>', '<mesh filename="a.msh"/>')
     path.write_text(link)
-    (tmp_path / 'a.dae').write_text('')
+    (tmp_path / 'a.msh').write_text('')
     code, out, err = run(path, '--drop')
     assert code == 1
     assert out.endswith('    failed\n')
     assert err.splitlines()[-1].startswith('error: dropped: ')
-    assert 'the simulator reads .stl, .obj, .msh, not .dae' in err
+    assert 'MuJoCo refuses the model' in err
 
 
 def test_json_holds_the_drop(run):

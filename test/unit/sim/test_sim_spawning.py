@@ -130,6 +130,7 @@ def package(tmp_path, monkeypatch):
     meshes.mkdir(parents=True)
     (meshes / 'chassis.stl').write_bytes(binary_stl())
     (meshes / 'chassis.dae').write_text('<COLLADA/>')
+    (meshes / 'chassis.fbx').write_text('')
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
     return meshes.parent
 
@@ -167,7 +168,8 @@ def test_mesh_beside_the_description(package):
         ('package://my_robot/x.stl', 107, 'no file package://my_robot/x.stl, which is /.*/x.stl'),
         ('file:///nowhere/x.stl', 107, 'there is no file file:///nowhere/x.stl'),
         ('http://example.org/x.stl', 107, "scheme 'http' is not known"),
-        ('package://my_robot/meshes/chassis.dae', 108, 'reads .stl, .obj, .msh, not .dae'),
+        ('package://my_robot/meshes/chassis.dae', 108, '/chassis.dae: (there is|it cannot be)'),
+        ('package://my_robot/meshes/chassis.fbx', 108, r'reads .stl, .*, .msh, not .fbx'),
     ],
 )
 def test_mesh_that_cannot_be_had(package, uri, code, text):

@@ -38,7 +38,8 @@ export async function loadMesh(
   if (!answer.ok) {
     throw new Error(`the mesh '${name}' was not served: ${answer.status} ${answer.statusText}`);
   }
-  const kind = /\.(\w+)$/.exec(name)?.[1].toLowerCase();
+  // Of what is served, which is not always what is named: glTF comes as STL.
+  const kind = /\.(\w+)$/.exec(address)?.[1];
   switch (kind) {
     case 'stl':
       return new Mesh(new STLLoader().parse(await answer.arrayBuffer()), twoSided(material));
@@ -47,13 +48,13 @@ export async function loadMesh(
     case 'dae':
       return readCollada(await answer.text(), folderOf(name), files, manager, material);
     default:
-      throw new Error(`'${name}' is of a kind that is not drawn here: .stl, .dae and .obj are`);
+      throw new Error(`'${name}' is of a kind that is not drawn here: .stl, .dae, .obj and glTF are`);
   }
 }
 
 /**
- * A COLLADA scene without its lights and cameras. Vertices are taken as they are, whatever
- * <up_axis> says, as RViz does.
+ * A COLLADA scene without its lights and cameras, in m. Vertices are taken as they are, whatever
+ * <up_axis> says, as RViz, Gazebo and the simulator (amr_description/model/meshes.py) do.
  */
 function readCollada(
   text: string,

@@ -160,6 +160,12 @@ export class Scene {
     return { frames: this.painter.frames, triangles: this.painter.triangles };
   }
 
+  /** The extent of the robots that are near the first one, m: least x, y, z, then greatest. */
+  extent(): number[] {
+    const { min, max } = this.picture.bounds();
+    return [...min.toArray(), ...max.toArray()];
+  }
+
   /** How many points the trails have, by robot: of the truth's, and of the odometry's. */
   trailSizes(): Record<string, [truth: number, odometry: number]> {
     return this.picture.trailSizes();

@@ -1,0 +1,50 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Relative paths in a description: made absolute where its file is still known.
+
+``<mesh filename="meshes/a.stl"/>`` is meant from the folder of the file. Who gets the text alone,
+from a topic or a parameter, cannot know that folder: neither the simulator, nor the page, nor
+RViz. So whatever reads the file and passes the text on writes ``file://`` URIs into it, which all
+of them understand. The standard library is enough: the launcher does so, too.
+"""
+
+from pathlib import Path
+import re
+from urllib.parse import quote
+from xml.sax.saxutils import unescape
+
+_FILE_NAME = re.compile(
+    r'(<(?:mesh|texture)\s(?:[^<>"\']|"[^"]*"|\'[^\']*\')*?\bfilename\s*=\s*)("[^"<]*"|\'[^\'<]*\')'
+)
+_SCHEME = re.compile(r'[A-Za-z][A-Za-z0-9+.-]*:')
+_ENTITIES = {'&quot;': '"', '&apos;': "'"}
+
+
+def with_absolute_paths(text: str, folder: Path) -> str:
+    """
+    Return a URDF whose relative paths of meshes and textures are ``file://`` URIs.
+
+    Args:
+        text: The URDF; it need not be sound, and keeps its lines.
+        folder: That of its file.
+
+    Returns:
+        The text; paths that are absolute, URIs, or of no file below or beside the folder, as they
+        were.
+    """
+
+    def absolute(match: re.Match[str]) -> str:
+        before, quoted = match.groups()
+        path = unescape(quoted[1:-1], _ENTITIES).strip()
+        if not path or path.startswith(('/', '~', '$')) or _SCHEME.match(path):
+            return match[0]
+        file = folder / path
+        try:
+            if not file.is_file():
+                return match[0]
+        except (OSError, ValueError):  # such as a name that no file can have
+            return match[0]
+        return f'{before}"file://{quote(str(file.resolve()))}"'
+
+    return _FILE_NAME.sub(absolute, text)

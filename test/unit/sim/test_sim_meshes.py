@@ -1,0 +1,149 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Robots of meshes in the simulator: whatever the format, they stand where their shape says."""
+
+from fixtures.sim.driving import Lines
+from lxml import etree
+import mujoco
+import numpy as np
+import pytest
+from support.mesh_files import ascii_stl, binary_stl, box, dae, FACES, glb, gltf, obj, write
+
+from amr_description.cli import check_urdf
+from amr_description.model.frames import Transform
+from amr_description.sim import meshes as sim_meshes
+from amr_description.sim.meshes import insert_meshes, resolve_meshes
+from amr_description.sim.spawning import read_description
+from amr_description.sim.world import MujocoWorld
+
+SIZE = (0.2, 0.4, 0.6)
+BOX = box(SIZE, (0.0, 0.0, 0.1))
+"""From 0.2 m below to 0.4 m above its origin."""
+Y_UP_BOX = [(x, z, -y) for x, y, z in BOX]
+
+
+def centimetres(corners):
+    return [tuple(100.0 * each for each in corner) for corner in corners]
+
+
+def urdf(name, visual=None, scale='1 1 1'):
+    """A robot of one link, with a mass of 48 kg; its mesh lies beside it."""
+    seen = visual or name
+    return f"""<robot name="crate"><link name="base_link">
+<inertial><origin xyz="0 0 0.1"/><mass value="48"/>
+<inertia ixx="2.08" iyy="1.6" izz="0.8" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><geometry><mesh filename="{seen}" scale="{scale}"/></geometry></visual>
+<collision><geometry><mesh filename="{name}" scale="{scale}"/></geometry></collision>
+</link></robot>"""
+
+
+def spawned(folder, text, log=None):
+    source = write(folder / 'crate.urdf', text)
+    world = MujocoWorld('empty', log=log or Lines())
+    robot = read_description(text, str(source))
+    world.spawn('crate', robot, Transform((0.0, 0.0, 0.25)))
+    return world
+
+
+CRATES = {
+    'metres.dae': dae(BOX, up='Z_UP'),
+    'metres_y.dae': dae(BOX, meter=1.0, up='Y_UP'),
+    'centimetres.dae': dae(centimetres(BOX), meter=0.01, up='Z_UP'),
+    'centimetres_y.dae': dae(centimetres(BOX), meter=0.01, up='Y_UP'),
+    'a.gltf': gltf(Y_UP_BOX),
+    'a.glb': glb(Y_UP_BOX),
+    'text.stl': ascii_stl(BOX),
+    'binary.stl': binary_stl(BOX),
+    'a.obj': obj(BOX),
+}
+
+
+@pytest.mark.parametrize('name', CRATES)
+def test_a_robot_of_a_mesh_stands_on_the_ground_and_weighs_what_it_should(tmp_path, name, capsys):
+    write(tmp_path / name, CRATES[name])
+    log = Lines()
+    world = spawned(tmp_path, urdf(name), log)
+    world.step(1000)
+    pose = world.robot('crate').pose('base_link')
+    assert pose.translation == pytest.approx((0.0, 0.0, 0.2), abs=1e-3)
+    assert log.lines == []
+    # 1000 kg/m³ · 0.2 m · 0.4 m · 0.6 m, and the moments of the box in the URDF.
+    options = ('--inertia', 'base_link', '--density', '1000')
+    assert check_urdf.main([str(tmp_path / 'crate.urdf'), *options]) == 0
+    told = etree.fromstring(capsys.readouterr().out)
+    assert float(told.find('mass').get('value')) == pytest.approx(48.0)
+    given = etree.fromstring(urdf(name)).find('.//inertia').attrib
+    for key, moment in told.find('inertia').attrib.items():
+        assert float(moment) == pytest.approx(float(given[key]), rel=1e-5)
+
+
+@pytest.mark.parametrize('name', ['metres.dae', 'a.glb', 'text.stl'])
+def test_scale_is_applied_once(tmp_path, name):
+    write(tmp_path / name, CRATES[name])
+    world = spawned(tmp_path, urdf(name, scale='2 2 0.5'))
+    world.step(1000)
+    assert world.robot('crate').pose('base_link').translation[2] == pytest.approx(0.1, abs=1e-3)
+
+
+def prepared(folder, text):
+    """The spec of a description's meshes, ready to compile."""
+    tree = etree.fromstring(text)
+    settings = etree.SubElement(etree.SubElement(tree, 'mujoco'), 'compiler')
+    settings.attrib.update({'strippath': 'false', 'discardvisual': 'false'})
+    found = resolve_meshes(tree, str(write(folder / 'crate.urdf', text)), Lines())
+    spec = mujoco.MjSpec.from_string(etree.tostring(tree, encoding='unicode'))
+    insert_meshes(spec, found)
+    return spec, found
+
+
+def test_equal_files_give_equal_bytes_and_one_mesh_each(tmp_path):
+    write(tmp_path / 'a.dae', CRATES['metres.dae'])
+    models = []
+    for _ in range(2):
+        sim_meshes._load.cache_clear()
+        spec, found = prepared(tmp_path, urdf('a.dae'))
+        assert len(found) == 2  # one to see, one to touch
+        models.append(spec.compile())
+    assert [mesh.name for mesh in spec.meshes] == ['a', 'a1']
+    assert models[0].mesh_vert.tobytes() == models[1].mesh_vert.tobytes()
+    assert models[0].geom_pos.tobytes() == models[1].geom_pos.tobytes()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ['a.dae', 'crate.urdf']
+
+
+def test_what_mujoco_reads_itself_is_left_to_it(tmp_path):
+    for name in ('a.obj', 'binary.stl'):
+        write(tmp_path / name, CRATES[name])
+    spec, found = prepared(tmp_path, urdf('a.obj', 'binary.stl'))
+    assert found == {}
+    assert {mesh.file for mesh in spec.meshes} == {
+        str(tmp_path / 'a.obj'), str(tmp_path / 'binary.stl')
+    }  # fmt: skip
+
+
+def test_an_stl_with_more_triangles_than_mujoco_reads(tmp_path):
+    corners = np.array(BOX)[np.array(FACES * 16_667)]
+    records = np.zeros(len(corners), dtype=[('n', '<f4', 3), ('v', '<f4', (3, 3)), ('c', '<u2')])
+    records['v'] = corners
+    head = bytes(80) + len(corners).to_bytes(4, 'little')
+    write(tmp_path / 'large.stl', head + records.tobytes())
+    _, found = prepared(tmp_path, urdf('large.stl'))
+    assert {len(mesh.faces) for mesh in found.values()} == {200_004}
+    world = spawned(tmp_path, urdf('large.stl'))
+    world.step(1000)
+    assert world.robot('crate').pose('base_link').translation[2] == pytest.approx(0.2, abs=1e-3)
+
+
+def test_a_flat_picture_on_a_robot_does_not_refuse_it(tmp_path):
+    write(tmp_path / 'a.dae', CRATES['metres.dae'])
+    write(tmp_path / 'flat.dae', dae([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+    world = spawned(tmp_path, urdf('a.dae', 'flat.dae'))
+    world.step(1000)
+    assert world.robot('crate').pose('base_link').translation[2] == pytest.approx(0.2, abs=1e-3)
+
+
+def test_a_file_that_has_changed_is_read_again(tmp_path):
+    write(tmp_path / 'a.dae', CRATES['metres.dae'])
+    prepared(tmp_path, urdf('a.dae'))
+    write(tmp_path / 'a.dae', dae(box((1.0, 1.0, 1.25))))
+    _, found = prepared(tmp_path, urdf('a.dae'))
+    assert {mesh.size for mesh in found.values()} == {(1.0, 1.0, 1.25)}
