@@ -327,7 +327,7 @@ def has_module_table(folder: Path) -> bool:
 
 
 @pytest.mark.parametrize(
-    'folder', filter(has_module_table, PACKAGES), ids=lambda folder: folder.name
+    'folder', [*filter(has_module_table, PACKAGES)], ids=lambda folder: folder.name
 )
 def test_each_module_is_named_once_in_the_table_of_its_package(folder):
     table = ast.get_docstring(ast.parse((folder / '__init__.py').read_text())) or ''

@@ -8,8 +8,8 @@ from xml.sax.saxutils import escape
 
 from fixtures.sim.driving import AMR
 from hypothesis import example, given, settings, strategies as st
-from mesh_files import box, glb, gltf, write
 import pytest
+from support.mesh_files import box, glb, gltf, write
 
 from amr_description.model.meshes import load_mesh
 from amr_description.viewer.http import digest, StaticFiles

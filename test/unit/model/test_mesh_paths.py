@@ -8,10 +8,10 @@ from hypothesis import given, strategies as st
 from lxml import etree
 import pytest
 
+from amr_description.ament_index import resolve_uri
 from amr_description.bringup.urdf_text import robot_description
 from amr_description.model.description_file import description_at
 from amr_description.model.mesh_paths import with_absolute_paths
-from amr_description.sim.resources import resolve_uri
 
 
 @pytest.fixture
