@@ -70,7 +70,7 @@ class Rig:
         deadline = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < deadline
-            self.run_once()
+            self.turn()
             if board is not None:
                 board.answered.wait(0.01)
                 board.answered.clear()
@@ -356,7 +356,7 @@ def test_nothing_infinite_reaches_the_wire(rig, board, bad):
     drive(rig, board)
     rig.command(1.0, bad)
     with pytest.raises(HardwareDeactivationError, match='a finite number is needed'):
-        rig.run_once()
+        rig.turn()
     rig.system.deactivate()
     assert board.mode is Mode.IDLE
     assert {(m.left, m.right) for m in heard(board) if isinstance(m, Set)} <= {(5.0, -3.0)}
@@ -366,7 +366,7 @@ def test_wheels_of_a_side_must_be_commanded_alike(rig):
     rig.command(1.0, 1.0)
     rig.commands['joint_wheel_back_left/velocity'].value = 2.0
     with pytest.raises(HardwareDeactivationError, match='differ, but one motor turns both'):
-        rig.run_once()
+        rig.turn()
 
 
 def test_a_side_that_changes_hands_stops(rig, board):

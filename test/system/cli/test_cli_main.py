@@ -17,7 +17,8 @@ from amr_description.ros.signals import StopRequested
 # A stand-in for a command; the program under test is what surrounds it.
 RUN = """\
 import sys, types
-from amr_description.cli import main, streams
+from amr_description import streams
+from amr_description.cli import main
 def command(argv):
     {body}
 sys.modules['command'] = types.SimpleNamespace(main=command)
