@@ -1,15 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The page to read before writing a controller or a hardware component; what a component sees of a
-simulated world stands in :mod:`amr_description.control.world`.
+The interfaces of a controller and of a hardware component: the page to read before writing one.
 
-Nothing here knows ROS, MuJoCo or a clock. One thread, **the owner**, calls every method below but
-:meth:`Controller.configure`; what comes from other threads arrives through :class:`Input`. Times
-and periods are integer nanoseconds. All physical values are SI.
+What a component sees of a simulated world is in :mod:`amr_description.control.world`.
 
-A transition or an update that cannot be done raises (:mod:`amr_description.errors`); nothing
-returns a flag.
+Nothing here depends on ROS, MuJoCo or a clock. A single thread, **the control thread**, calls
+every method below except :meth:`Controller.configure`; data from other threads arrives through
+:class:`Input`. Times and periods are integer nanoseconds, all physical values SI.
+
+A transition or an update that fails raises (:mod:`amr_description.errors`); nothing returns a
+flag.
 """
 
 from abc import ABC, abstractmethod
@@ -47,30 +48,34 @@ class Severity(enum.IntEnum):
 
 class Log(Protocol):
     """
-    Where a component says something; it never logs by itself.
+    The logger of a component, which has no other way to log.
 
-    The caller's thread only stores the line. Whoever owns the node emits it, under the component's
-    own logger.
+    The calling thread only stores the line; another one emits it, under the component's own
+    logger.
     """
 
     def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
         """
-        Say ``text``.
+        Log ``text``.
 
-        ``throttle``: the least time in s between two lines with the same format (``math.inf``:
-        once); the key is the text up to its first digit, so that a changing number does not defeat
-        it.
+        Args:
+            severity: of the line.
+            text: one line.
+            throttle: least time between two lines of the same format, s; ``math.inf``: log once.
+                Lines that are equal up to their first digit have the same format.
         """
 
 
-# --- Ports: what a controller hears and says -----------------------------------------------------
+def null_log(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+    """Log nothing."""
+
+
+# --- Ports: the topics of a controller -----------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
 class Qos:
-    """
-    A quality of service; ``'system_default'`` leaves the choice to the middleware, as rmw does.
-    """
+    """A quality of service; ``'system_default'`` leaves the choice to the middleware."""
 
     depth: int = 0
     reliability: str = 'system_default'
@@ -105,55 +110,49 @@ class Port:
 
 class Input[Sample]:
     """
-    The mailbox of an input port: any thread puts, the owner drains.
+    The queue of a subscribed topic: any thread puts samples, the control thread drains them.
 
-    Closed (the state before activation) it takes nothing. When more than ``capacity`` samples
-    arrive between two updates, the oldest go.
+    It is closed, and takes nothing, until the controller is activated.
     """
 
     def __init__(self, port: Port, capacity: int = 16) -> None:
+        """``capacity``: if more samples arrive between two updates, the oldest are dropped."""
         self.port = port
         self.is_open = False
         self._samples: deque[Sample] = deque(maxlen=capacity)
 
     def put(self, sample: Sample) -> bool:
-        """Store a sample; ``False`` when the input is closed, and the sample is gone."""
+        """Store a sample; return False if the input is closed, which drops it."""
         if self.is_open:
             self._samples.append(sample)
         return self.is_open
 
     def drain(self) -> list[Sample]:
-        """All samples since the last call, oldest first."""
+        """Return all samples since the last call, oldest first."""
         samples = self._samples
         return [samples.popleft() for _ in range(len(samples))]
 
     def open(self) -> None:
-        """Begin to take samples; the manager calls it when the controller is activated."""
+        """Start to take samples; the manager calls it when the controller is activated."""
         self._samples.clear()
         self.is_open = True
 
     def close(self) -> None:
-        """Take no more samples and forget those that wait."""
+        """Take no more samples and drop the waiting ones."""
         self.is_open = False
         self._samples.clear()
 
 
 class Output[Sample]:
-    """
-    The outlet of an output port; the owner sends.
-
-    ``sink`` is set by whoever gives the controller its node; without one (in a test, say) what is
-    sent is dropped.
-    """
+    """A published topic; the control thread sends samples."""
 
     def __init__(self, port: Port) -> None:
         self.port = port
         self.sink: Callable[[Sample], None] | None = None
+        """Set along with the controller's node. None (in a unit test): samples are dropped."""
 
     def send(self, sample: Sample) -> None:
-        """
-        Publish a sample after this turn of the loop, behind the ``/clock`` of the same instant.
-        """
+        """Publish a sample at the end of this cycle, after the ``/clock`` of the same instant."""
         if self.sink is not None:
             self.sink(sample)
 
@@ -163,7 +162,7 @@ class Output[Sample]:
 
 @dataclass(frozen=True, slots=True)
 class ControllerContext:
-    """What a controller may know of its surroundings; handed over once, at construction."""
+    """What a controller is given at construction."""
 
     name: str
     log: Log
@@ -171,23 +170,23 @@ class ControllerContext:
     update_rate: int = 100
     """Hz, of this controller."""
     robot: 'Robot | None' = None
-    """The robot's description, when the manager has one."""
+    """The robot's description, if the manager has one."""
 
 
 class Controller(ABC):
     """
-    The logic between states and commands; one object per controller name.
+    Computes commands from states; one object per controller name.
 
-    Life: constructed (unconfigured) → ``configure`` → inactive → ``activate`` → active, ``update``
-    every period → ``deactivate`` → inactive → ``cleanup`` → unconfigured. ``configure`` may come
-    again after ``cleanup``.
+    Lifecycle: constructed (unconfigured) → ``configure`` → inactive → ``activate`` → active,
+    ``update`` every period → ``deactivate`` → inactive → ``cleanup`` → unconfigured. After
+    ``cleanup`` it can be configured again.
     """
 
     parameters_type: ClassVar[type]
     """The frozen dataclass of its parameters, see :mod:`amr_description.parameters`."""
 
     is_chainable: ClassVar[bool] = False
-    """True when others may stand before it, by :meth:`references` or :meth:`exported_states`."""
+    """True: other controllers may use its :meth:`references` and :meth:`exported_states`."""
 
     def __init__(self, context: ControllerContext) -> None:
         self.context = context
@@ -198,49 +197,52 @@ class Controller(ABC):
     @abstractmethod
     def configure(self, parameters: Any) -> None:
         """
-        Take over checked parameters (an instance of ``parameters_type``). Raises ControllerError.
+        Take over checked parameters (an instance of ``parameters_type``).
 
-        May take its time: it alone of all methods runs on a worker thread, while the owner's loop
-        goes on. Nobody else touches the controller meanwhile; what it shares with others is its
-        own affair.
+        It may take long: this is the only method that runs on a worker thread, while the control
+        thread goes on. No other method of the controller is called meanwhile; access to anything
+        that it shares with others is for the controller to synchronize.
+
+        Raises:
+            ControllerError: it stays unconfigured.
         """
 
     def command_interfaces(self) -> InterfaceRequest:
-        """The command interfaces to claim; asked after ``configure``."""
+        """Return the command interfaces to claim; called after ``configure``."""
         return NO_INTERFACES
 
     def state_interfaces(self) -> InterfaceRequest:
-        """The state interfaces to read; asked after ``configure``."""
+        """Return the state interfaces to read; called after ``configure``."""
         return NO_INTERFACES
 
     def references(self) -> tuple[CommandInterface, ...]:
         """
-        What a preceding controller may command in chained mode, named
-        ``<controller>/<reference>``; asked after ``configure``.
+        Return what a preceding controller may command in chained mode, named
+        ``<controller>/<reference>``; called after ``configure``.
         """
         return ()
 
     def exported_states(self) -> tuple[StateInterface, ...]:
         """
-        What other controllers may read of it, named ``<controller>/<state>``; asked after
+        Return what other controllers may read, named ``<controller>/<state>``; called after
         ``configure``.
         """
         return ()
 
     def set_chained_mode(self, is_chained: bool) -> None:
         """
-        Take commands from the references (``True``) or from the topics; while inactive.
+        Take commands from the references (True) or from the topics; called while inactive.
 
         Raises ControllerError to refuse.
         """
         self.is_chained = is_chained
 
     def inputs(self) -> tuple[Input[Any], ...]:
-        """The topics it hears; asked after ``configure``, opened by ``activate``."""
+        """Return the topics to subscribe to; called after ``configure``, opened at activation."""
         return ()
 
     def outputs(self) -> tuple[Output[Any], ...]:
-        """The topics it says; asked after ``configure``."""
+        """Return the topics to publish; called after ``configure``."""
         return ()
 
     @abstractmethod
@@ -248,37 +250,44 @@ class Controller(ABC):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """
-        Take the lent handles, in the order of the requests.
+        Take the interfaces on loan.
 
-        ``time``: of the simulation or the machine, ns. Raises ControllerError; the handles are
-        then taken back.
+        Args:
+            commands: in the order of :meth:`command_interfaces`.
+            states: in the order of :meth:`state_interfaces`.
+            time: simulated or system time, ns.
+
+        Raises:
+            ControllerError: it stays inactive, and the interfaces are released.
         """
 
     @abstractmethod
     def update(self, time: int, period: int) -> None:
         """
-        Read states, compute, write commands.
+        Read states, compute, write commands. An exception deactivates the controller.
 
-        ``time``: of this update, ns. ``period``: since this controller's previous update, ns; the
-        nominal one at the first. Raising deactivates the controller.
+        Args:
+            time: of this update, ns.
+            period: since the previous update of this controller, ns; the nominal period at the
+                first.
         """
 
     def deactivate(self, time: int) -> None:
-        """Leave the actuators safe (a drive: at rest) and forget the handles."""
+        """Leave the actuators safe (a drive: at rest) and drop the interfaces."""
 
     def cleanup(self) -> None:
-        """Forget what ``configure`` made."""
+        """Undo ``configure``."""
 
     def reset(self, time: int) -> None:
         """
-        The world began anew at ``time``, ns, while inactive or active: forget every stamp, and
-        start from the present states.
+        The simulation was reset to ``time``, ns: forget every stamp, and start from the present
+        states. Called while inactive or active.
         """
 
     def set_clock(self, time: int) -> None:
         """
-        The clock was set, forward or back, to ``time``, ns, while the robot went on: forget every
-        stamp, and keep the rest; while inactive or active.
+        The clock jumped, forward or back, to ``time``, ns, while the robot went on: forget every
+        stamp, and keep the rest. Called while inactive or active.
         """
         self.reset(time)
 
@@ -288,23 +297,31 @@ class Controller(ABC):
 
 class HardwareComponent(ABC):
     """
-    The one layer that is swapped on a real robot: it turns commands into motion and encoders into
-    states.
+    The driver of a device, simulated or real: commands to actuators, sensors to states.
 
-    Life as a controller's, and at its end finalized. ``read`` is called while inactive or active,
-    ``write`` only while active, and not of a sensor; with ``rw_rate`` both come at that rate, with
-    the true period. Neither may block: a component that owns a device lets a thread of its own do
-    the I/O and exchanges snapshots with it. When one of them raises, the component is brought down
-    (``deactivate``, ``cleanup``), so that nothing goes on moving by itself, and with it all of its
-    ``group``; a ``write`` that raises
-    :class:`~amr_description.errors.HardwareDeactivationError` only makes it inactive. Either way
-    controllers that need its interfaces are deactivated, and it may be configured again.
+    Its lifecycle is that of a controller, and ends in finalized. ``read`` is called while inactive
+    or active, ``write`` only while active, and never for a sensor; with ``rw_rate`` both are
+    called at that rate, with the true period. Neither may block: a component with slow I/O does it
+    on a thread of its own and exchanges snapshots with it.
+
+    If one of them raises, the component and all others of its ``group`` are brought down
+    (``deactivate``, ``cleanup``), so that no actuator keeps moving; if ``write`` raises
+    :class:`~amr_description.errors.HardwareDeactivationError`, the component only becomes
+    inactive. Either way the controllers that need its interfaces are deactivated, and it can be
+    configured again.
     """
 
     def __init__(self, info: 'HardwareInfo', log: Log, world: World | None) -> None:
         """
-        ``world`` is ``None`` on a real robot. Raises HardwareError when ``info`` asks what it
-        cannot do.
+        Take over the description.
+
+        Args:
+            info: the ``<ros2_control>`` block.
+            log: the component's logger.
+            world: the simulated world; None on a real robot.
+
+        Raises:
+            HardwareError: ``info`` asks for something that it does not support.
         """
         self.info = info
         self.log = log
@@ -312,11 +329,17 @@ class HardwareComponent(ABC):
 
     @abstractmethod
     def state_interfaces(self) -> Sequence[StateInterface]:
-        """Its gauges, ``StateInterface.of(joint, interface)``; asked once, after construction."""
+        """
+        Return its state interfaces, made by ``StateInterface.of(joint, interface)``; called once,
+        after construction.
+        """
 
     @abstractmethod
     def command_interfaces(self) -> Sequence[CommandInterface]:
-        """Its knobs, ``CommandInterface.of(joint, interface)``; asked once, after construction."""
+        """
+        Return its command interfaces, made by ``CommandInterface.of(joint, interface)``; called
+        once, after construction.
+        """
 
     def configure(self) -> None:
         """Open the device."""
@@ -331,33 +354,39 @@ class HardwareComponent(ABC):
         """Close the device."""
 
     def shutdown(self) -> None:
-        """The very last call, when it is finalized; it is unconfigured by then."""
+        """Unconfigured → finalized: the last call."""
 
     def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """
-        These of its command interfaces are to be claimed and released. Raises HardwareError to
-        refuse; changes nothing yet, as another component may refuse.
+        Check a switch of command interfaces; change nothing yet, as another component may refuse.
+
+        Args:
+            start: names of its command interfaces that are to be claimed.
+            stop: names of those that are to be released.
+
+        Raises:
+            HardwareError: it refuses.
         """
 
     def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """
-        These of its command interfaces are now claimed and released.
+        Carry out a switch of command interfaces; arguments as above.
 
-        Not always announced: where ``start`` is empty their controller may have failed.
+        It was not always prepared: with an empty ``start``, a controller may have failed.
         """
 
     def reset(self, time: int) -> None:
-        """The world began anew at ``time``, ns, while inactive or active."""
+        """The simulation was reset to ``time``, ns; called while inactive or active."""
 
     @abstractmethod
     def read(self, time: int, period: int) -> None:
-        """Bring the state cells up to date. Raises HardwareError."""
+        """Update the state interfaces; times in ns, see the class. Raises HardwareError."""
 
     @abstractmethod
     def write(self, time: int, period: int) -> None:
         """
-        Put the command cells to the actuators. Raises HardwareError.
+        Send the commands to the actuators; times in ns, see the class. Raises HardwareError.
 
-        A NaN command is no command; an infinite one never comes here: the manager makes it
-        standing still (velocity, effort, acceleration) or none.
+        NaN means that there is no command. Infinite commands never arrive here: the manager
+        replaces them by 0.0 (velocity, effort, acceleration, jerk) or NaN.
         """

@@ -1,12 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The words of ros2_control: interface names, state and command handles, lifecycle states.
+The terms of ros2_control: interface names, state and command interfaces, lifecycle states.
 
-A **state interface** is a gauge (what an encoder reads), a **command interface** a knob (what a
-motor is told). Both are named ``<joint>/<interface>``, for instance
-``joint_wheel_front_left/velocity``. The hardware component owns the cells; controllers are lent
-them for as long as they are active.
+A **state interface** holds a measured value, a **command interface** a commanded one. Both are
+named ``<joint>/<interface>``, for instance ``joint_wheel_front_left/velocity``. The hardware
+component owns them and lends them to controllers, for as long as these are active.
 
 Units are SI: position rad or m, velocity rad/s or m/s, acceleration rad/s² or m/s², jerk rad/s³ or
 m/s³, effort N·m or N.
@@ -61,16 +60,16 @@ DATA_TYPES: Mapping[str, float | int | bool] = {
     **{f'int{bits}': 2 ** (bits - 1) - 1 for bits in (8, 16, 32)},
     **{f'uint{bits}': 2**bits - 1 for bits in (8, 16, 32)},
 }
-"""The data types of a cell, as ``<ros2_control>`` names them → its value before any write."""
+"""Data type of an interface, as ``<ros2_control>`` names it → its value before any write."""
 _ALWAYS_SET = ('double', 'float32', 'bool')
 
 
 class Handle:
     """
-    One cell that a hardware component and a controller share.
+    One value that a hardware component and controllers share.
 
-    ``value`` is that of :data:`DATA_TYPES` (NaN for a number with a point) until it is first
-    written. The cell is read and written on the owner's thread only.
+    ``value`` is that of :data:`DATA_TYPES` (NaN for a floating-point type) until it is first
+    written. It is read and written on the control thread only.
     """
 
     __slots__ = ('prefix', 'interface', 'data_type', 'value')
@@ -82,7 +81,18 @@ class Handle:
         value: float | None = None,
         data_type: str = 'double',
     ) -> None:
-        """``value``: the first, where it is not that of the type. Raises InterfaceError."""
+        """
+        Create an interface.
+
+        Args:
+            prefix: of its name: the joint, sensor, GPIO or controller.
+            interface: the rest of its name, for instance ``velocity``.
+            value: initial value; None: that of the data type.
+            data_type: one of :data:`DATA_TYPES`.
+
+        Raises:
+            InterfaceError: there is no such data type.
+        """
         if data_type not in DATA_TYPES:
             raise InterfaceError(
                 f"interface '{prefix}/{interface}' has the data type '{data_type}'; there are: "
@@ -96,19 +106,17 @@ class Handle:
 
     @classmethod
     def of(cls, component: 'ComponentInfo', interface: 'InterfaceInfo') -> Self:
-        """Make the cell that a joint, sensor or GPIO declares, with its initial value."""
+        """Create the interface that a joint, sensor or GPIO declares, with its initial value."""
         return cls(component.name, interface.name, interface.initial_value, interface.data_type)
 
     @property
     def name(self) -> str:
-        """
-        ``<prefix>/<interface>``; the prefix is the joint, sensor, GPIO or chained controller.
-        """
+        """``<prefix>/<interface>``."""
         return f'{self.prefix}/{self.interface}'
 
     @property
     def is_set(self) -> bool:
-        """False while it holds what it held before any write: a command then is no command."""
+        """False while it has the value of before any write: there is no command, or no state."""
         if self.value != self.value:  # NaN
             return False
         return self.data_type in _ALWAYS_SET or self.value != DATA_TYPES[self.data_type]
@@ -118,13 +126,13 @@ class Handle:
 
 
 class StateInterface(Handle):
-    """A gauge: written by the hardware component in ``read``, read by controllers."""
+    """Written by the hardware component in ``read``, read by controllers."""
 
     __slots__ = ()
 
 
 class CommandInterface(Handle):
-    """A knob: written by the one controller that claimed it, read by the hardware in ``write``."""
+    """Written by the controller that has claimed it, read by the hardware in ``write``."""
 
     __slots__ = ()
 
@@ -146,7 +154,7 @@ class InterfaceRequest:
 
     @classmethod
     def individual(cls, names: Iterable[str]) -> 'InterfaceRequest':
-        """Exactly these interfaces, handed over in this order."""
+        """Request exactly these interfaces, to be handed over in this order."""
         return cls(Claim.INDIVIDUAL, tuple(names))
 
 

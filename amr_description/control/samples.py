@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class TwistSample:
-    """A planar velocity command: what a differential drive hears of a TwistStamped."""
+    """A planar velocity command: the part of a TwistStamped that a differential drive uses."""
 
     stamp: int
     linear: float
@@ -23,7 +23,7 @@ class TwistSample:
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """What of an odometry message does not change: frames, and variances of six axes."""
+    """The constant part of an odometry message: frames, and variances of six axes."""
 
     frame_id: str
     child_frame_id: str
@@ -51,7 +51,7 @@ class OdometrySample:
 
 @dataclass(frozen=True, slots=True)
 class JointStateSample:
-    """A sensor_msgs/JointState; all four tuples have one length, NaN where nothing is known."""
+    """A sensor_msgs/JointState; all four tuples have one length, NaN: not known."""
 
     stamp: int
     frame_id: str
@@ -66,7 +66,7 @@ class JointStateSample:
 
 @dataclass(frozen=True, slots=True)
 class DynamicLayout:
-    """What of a DynamicJointState does not change: the names, and their order."""
+    """The constant part of a DynamicJointState: the names, and their order."""
 
     frame_id: str
     names: tuple[str, ...]
@@ -94,7 +94,7 @@ class CommandsSample:
 
 @dataclass(frozen=True, slots=True)
 class ImuConstants:
-    """What of an Imu message does not change; 3 × 3 covariances by rows, about x, y, z."""
+    """The constant part of an Imu message; 3 × 3 covariances by rows, about x, y, z."""
 
     frame_id: str
     orientation_covariance: tuple[float, ...]

@@ -20,9 +20,8 @@ import mujoco
 import numpy as np
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError
-from amr_description.sim.spawning import null_log
 
 
 def one_line(text: str) -> str:

@@ -11,7 +11,7 @@ import enum
 import math
 import re
 
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import DescriptionError, SpawnError
 from amr_description.model.checks import require_sound
 from amr_description.model.frames import Quaternion, Transform
@@ -37,10 +37,6 @@ class SpawnCode(enum.IntEnum):
     MISSING_ASSETS = 107
     UNSUPPORTED_ASSETS = 108
     INVALID_POSE = 109
-
-
-def null_log(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
-    """A log that nobody reads."""
 
 
 def check_name(name: str, taken: Collection[str]) -> None:

@@ -19,10 +19,10 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
+from amr_description.control.contracts import null_log
 from amr_description.sim.engine import compiler_warnings
 from amr_description.sim.faults import listen_to_mujoco
 from amr_description.sim.robot_spec import RobotSpec, tread_name
-from amr_description.sim.spawning import null_log
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
 from amr_description.sim.world_file import apply_settings, WorldSettings
 

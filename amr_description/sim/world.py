@@ -17,7 +17,7 @@ The simulated world: a ground, robots that come and go, and time.
 import mujoco
 import numpy as np
 
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
@@ -29,7 +29,6 @@ from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import (
     check_name,
     checked_pose,
-    null_log,
     read_description,
     SpawnCode,
 )

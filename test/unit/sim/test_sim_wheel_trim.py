@@ -9,9 +9,10 @@ from fixtures.sim.arm import ARM
 from fixtures.sim.driving import AMR, Lines, ROOT
 import pytest
 
+from amr_description.control.contracts import null_log
 from amr_description.model.frames import Transform
 from amr_description.sim.robot_spec import build_robot
-from amr_description.sim.spawning import null_log, read_description
+from amr_description.sim.spawning import read_description
 from amr_description.sim.wheel_contact import WHEEL_CONTACT
 from amr_description.sim.wheel_trim import trimmed_contacts
 from amr_description.sim.world import MujocoWorld
