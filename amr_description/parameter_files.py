@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from amr_description.errors import ParameterError
+from amr_description.text import unwrap
 
 _SHAPE = 'a parameter file is written as  node_name: {ros__parameters: {name: value}}'
 
@@ -35,7 +36,7 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
         place = f':{mark.line + 1}:{mark.column + 1}' if mark else ''
         raise ParameterError(f'{path}{place}: {error.problem}') from error
     except yaml.YAMLError as error:
-        raise ParameterError(f'{path}: {" ".join(str(error).split())}') from error
+        raise ParameterError(f'{path}: {unwrap(str(error))}') from error
     except RecursionError as error:
         raise ParameterError(f'{path}: nested too deeply') from error
     except ValueError as error:  # a date such as 2026-99-99, an integer of 5000 digits

@@ -1,8 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Text of messages: one printable line, quoted, shortened; the known word closest to a given one."""
+"""
+Text of messages and of arguments: on one line, printable, quoted, shortened; truth values; the
+known words closest to a misspelt one.
+"""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from difflib import get_close_matches
 
 _LONGEST_WORD = 60
@@ -10,6 +13,7 @@ _MOST_WORDS = 300
 _SHOWN_CHARACTERS = 80
 _LONGEST_LINE = 200
 _TAIL = 60
+_TRUTH_VALUES = {'true': True, '1': True, 'false': False, '0': False}
 
 
 def one_line(text: str) -> str:
@@ -17,9 +21,19 @@ def one_line(text: str) -> str:
     return ''.join(c if c.isprintable() else c.encode('unicode_escape').decode() for c in text)
 
 
+def unwrap(text: str) -> str:
+    """Return the lines of ``text`` as one, with single spaces between its words."""
+    return ' '.join(text.split())
+
+
+def encodable(text: str) -> str:
+    r"""Return ``text`` as UTF-8 can encode it: bytes that were none are written as ``\\udc80``."""
+    return text.encode('utf-8', 'backslashreplace').decode()
+
+
 def shorten(text: str) -> str:
     """Return ``text`` as one printable line, without its middle if it is over 200 characters."""
-    line = ''.join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+    line = one_line(text)
     if len(line) <= _LONGEST_LINE:
         return line
     return f'{line[: _LONGEST_LINE - _TAIL]} ... {line[-_TAIL:]}'
@@ -38,6 +52,11 @@ def quote_all(texts: Sequence[str], limit: int = 10) -> str:
         return 'none'
     more = f' and {len(texts) - limit} more' if len(texts) > limit else ''
     return ', '.join(quote(text) for text in texts[:limit]) + more
+
+
+def truth(text: str) -> bool | None:
+    """Read ``true``, ``1``, ``false`` or ``0`` in any case, as launch does; None: another word."""
+    return _TRUTH_VALUES.get(text.lower())
 
 
 def closest_match(word: str, known: Collection[str], similarity: float = 0.6) -> str:
@@ -64,3 +83,16 @@ def suggestion(word: str, known: Sequence[str]) -> str:
     match = closest_match(word, known)
     guess = f"; did you mean '{match}'?" if match else ';'
     return f'{guess} known: {", ".join(known) or "none"}'
+
+
+def did_you_mean(word: str, known: Iterable[str], prefix: str = '') -> str:
+    """
+    Return ``; did you mean A or B?`` with up to three similar words; '' if there are none.
+
+    Args:
+        word: as it was written.
+        known: what would have been right; there may be thousands, so they are not listed.
+        prefix: what each of them is shown with in front.
+    """
+    close = [prefix + match for match in get_close_matches(word, list(known), 3)]
+    return f'; did you mean {" or ".join(close)}?' if close else ''

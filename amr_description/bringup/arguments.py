@@ -18,9 +18,7 @@ import inspect
 from typing import Annotated, Any, get_args, get_origin, get_type_hints, Literal
 
 from amr_description.errors import BringupError, UsageError
-from amr_description.text import suggestion
-
-_BOOLEANS = {'true': True, '1': True, 'false': False, '0': False}  # as launch's conditions read
+from amr_description.text import suggestion, truth
 
 
 @dataclass(frozen=True)
@@ -43,10 +41,13 @@ class Argument:
                 f'Valid options are: {list(self.choices)}'
             )
         try:
-            return _BOOLEANS[text.lower()] if self.type is bool else self.type(text)
-        except (ValueError, KeyError):
+            value = truth(text) if self.type is bool else self.type(text)
+        except ValueError:
+            value = None
+        if value is None:
             wanted = {bool: 'true or false', int: 'an integer', float: 'a number'}[self.type]
-            raise UsageError(f"{self.name}:={text}: '{text}' is not {wanted}") from None
+            raise UsageError(f"{self.name}:={text}: '{text}' is not {wanted}")
+        return value
 
 
 def declared(function: Callable[..., object]) -> list[Argument]:

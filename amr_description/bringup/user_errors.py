@@ -7,6 +7,7 @@ import sysconfig
 import traceback
 
 from amr_description.errors import AmrError
+from amr_description.text import unwrap
 
 _NOT_OF_USERS = (
     str(Path(__file__).parents[1]),
@@ -17,7 +18,7 @@ _NOT_OF_USERS = (
 
 def describe(error: BaseException) -> str:
     """Return ``ValueError: no such arm (my_arm.py, line 7)``; of errors on purpose no type."""
-    text = ' '.join(str(error).split())
+    text = unwrap(str(error))
     if isinstance(error, AmrError):
         return f'{text}{location(error)}'
     name = type(error).__name__

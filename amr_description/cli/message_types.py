@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Message, service and action classes by their names."""
 
-import difflib
 import importlib
 from types import ModuleType
 from typing import Any
 
 from amr_description.errors import AmrError
-from amr_description.text import shorten
+from amr_description.text import did_you_mean, shorten
 
 # What a class of each kind has, by which it is told from the parts that stand beside it.
 _MARKS = {'msg': 'get_fields_and_field_types', 'srv': 'Request', 'action': 'Goal'}
@@ -63,5 +62,4 @@ def _interface(name: str, kind: str, invalid: str) -> Any:
 
 def _similar(module: ModuleType, name: str, kind: str) -> str:
     names = [known for known, value in vars(module).items() if hasattr(value, _MARKS[kind])]
-    close = difflib.get_close_matches(name, names, n=3)
-    return f'; did you mean {" or ".join(close)}?' if close else ''
+    return did_you_mean(name, names)

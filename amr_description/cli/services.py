@@ -3,10 +3,11 @@
 """Who is there: services with their types."""
 
 from collections.abc import Iterable
-import difflib
 
 from rclpy.node import Node
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
+
+from amr_description.text import did_you_mean
 
 
 def services(node: Node, *, hidden: bool = False) -> list[tuple[str, list[str]]]:
@@ -34,5 +35,5 @@ def explain_absence(service: str, type_name: str, known: Iterable[tuple[str, lis
     others = [name for name in types.pop(service, []) if name != type_name]
     if others:
         return f'you call {service} as {type_name}, but it is {" and ".join(others)}; use that'
-    close = difflib.get_close_matches(service, types, n=3)
-    return f'there is no service {service}; did you mean {" or ".join(close)}?' if close else ''
+    hint = did_you_mean(service, types)
+    return f'there is no service {service}{hint}' if hint else ''

@@ -6,6 +6,7 @@ import traceback
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.errors import AmrError
+from amr_description.text import encodable, unwrap
 
 
 def describe(error: Exception) -> str:
@@ -17,7 +18,7 @@ def describe(error: Exception) -> str:
 
 def one_line(error: Exception) -> str:
     """Return the text of an error without line breaks, as a log of lines needs it."""
-    return ' '.join(_text_of(error).split())
+    return unwrap(_text_of(error))
 
 
 def log_traceback(log: Log, error: Exception) -> None:
@@ -25,13 +26,8 @@ def log_traceback(log: Log, error: Exception) -> None:
     log(Severity.DEBUG, ''.join(traceback.format_exception(error)))
 
 
-def printable(text: str) -> str:
-    """Return a text as it can be logged and sent: bytes that were no UTF-8 are spelt out."""
-    return text.encode('utf-8', 'backslashreplace').decode()
-
-
 def _text_of(error: Exception) -> str:
     try:
-        return printable(str(error))
+        return encodable(str(error))
     except Exception:  # of its own __str__
         return '(it cannot be put in words)'

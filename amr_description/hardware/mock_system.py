@@ -36,6 +36,7 @@ from amr_description.control.interfaces import (
 from amr_description.control.joint_limits import value_at_rest
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import ComponentInfo, ComponentType, HardwareInfo
+from amr_description.text import truth
 
 MODES = (POSITION, VELOCITY, ACCELERATION)
 """What a joint with dynamics can be commanded by."""
@@ -146,9 +147,6 @@ class MockPart:
     def _show(self) -> None:
         for name, state in self.states.items():
             state.value = self._values[name]
-
-
-_TRUTH_VALUES = {'true': True, '1': True, 'false': False, '0': False}
 
 
 class MockSystem(HardwareComponent):
@@ -280,9 +278,9 @@ class MockSystem(HardwareComponent):
 
     def _flag(self, name: str) -> bool:
         text = self.info.parameters.get(name, 'false')
-        if text.lower() in _TRUTH_VALUES:
-            return _TRUTH_VALUES[text.lower()]
-        raise self._unreadable(name, text, 'true or false')
+        if (flag := truth(text)) is None:
+            raise self._unreadable(name, text, 'true or false')
+        return flag
 
     def _number(self, name: str) -> float:
         text = self.info.parameters.get(name, '0.0')

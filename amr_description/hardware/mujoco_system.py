@@ -29,6 +29,7 @@ from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware.simulated_imu import imus_of
 from amr_description.model.gazebo import GAZEBOS_GAIN, ros2_control_host_of
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
+from amr_description.text import truth
 
 
 class CommandModes:
@@ -86,7 +87,6 @@ class CommandModes:
 
 STATES = (POSITION, VELOCITY, EFFORT)
 COMMANDS = (POSITION, VELOCITY, EFFORT)
-_TRUTH_VALUES = {'true': True, '1': True, 'false': False, '0': False}
 
 
 class MujocoSystem(HardwareComponent):
@@ -303,6 +303,6 @@ def _holds_joints(info: HardwareInfo, world: World) -> bool:
     text = info.parameters.get('hold_joints')
     if text is None:
         return ros2_control_host_of(world.description).hold_joints
-    if text.lower() not in _TRUTH_VALUES:
+    if (hold := truth(text)) is None:
         raise HardwareError(f"parameter 'hold_joints' is '{text}'; true or false is needed")
-    return _TRUTH_VALUES[text.lower()]
+    return hold

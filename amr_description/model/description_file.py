@@ -24,7 +24,7 @@ from amr_description.ament_index import resolve_uri
 from amr_description.errors import AmrError, DescriptionError, UsageError
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.xml_reader import read_file
-from amr_description.text import one_line, quote, quote_all
+from amr_description.text import one_line, quote, quote_all, unwrap
 
 SUFFIX = '.xacro'
 _NO_MAPPINGS: Mapping[str, str] = {}
@@ -126,7 +126,7 @@ def _complaint(error: Exception, path: str) -> str:
     elif isinstance(error, RecursionError):
         reason = 'nested too deeply; does a macro or an include contain itself?'
     else:
-        reason = ' '.join(' '.join(_words(error)).split())
+        reason = unwrap(' '.join(_words(error)))
     return one_line(f'{place}: {reason}{_way(xacro.macrostack or [], files[:-1])}')
 
 

@@ -21,7 +21,7 @@ from amr_description.model.findings import raise_error, Report
 from amr_description.model.frames import Transform
 from amr_description.model.robot import Robot
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
-from amr_description.text import quote
+from amr_description.text import quote, truth
 
 _ROS2_CONTROL_PLUGINS = (
     'gz_ros2_control::GazeboSimROS2ControlPlugin',
@@ -112,9 +112,9 @@ def _texts(element: etree._Element, path: str) -> list[str]:
 
 def _read_hold_joints(element: etree._Element, reader: ElementReader) -> bool:
     text = element.findtext('hold_joints', 'true').strip().lower()
-    if text not in ('true', 'false', '1', '0'):
+    if truth(text) is None:
         reader.error(element, '<hold_joints>', found=quote(text), expected='true or false')
-    return text not in ('false', '0')
+    return truth(text) is not False
 
 
 def _read_gain(element: etree._Element, reader: ElementReader) -> float:

@@ -26,6 +26,7 @@ from amr_description.ros.arguments import other_arguments, ros_arguments
 from amr_description.ros.messages import fill_pose
 from amr_description.ros.runtime import argument_errors, program, ros
 from amr_description.ros.service_calls import ask_until_answered, call_with, wait_until
+from amr_description.text import truth
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'
@@ -177,11 +178,9 @@ def _find_simulator(node: Node, world: str) -> str:
 
 
 def _bool(text: str) -> bool:
-    if text.lower() in ('true', '1'):
-        return True
-    if text.lower() in ('false', '0'):
-        return False
-    raise argparse.ArgumentTypeError(f'{text!r} is neither true nor false')
+    if (value := truth(text)) is None:
+        raise argparse.ArgumentTypeError(f'{text!r} is neither true nor false')
+    return value
 
 
 def main(args: list[str] | None = None) -> int:

@@ -14,7 +14,8 @@ import time
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.plugin_errors import describe, log_traceback, printable
+from amr_description.control.plugin_errors import describe, log_traceback
+from amr_description.text import encodable, unwrap
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 _MOST_WAITING = 2000
@@ -53,7 +54,7 @@ class LogThread:
                 logger.warning(
                     f'{dropped} lines of the log were dropped: more is said than can be written'
                 )
-            _emit(logger, severity, printable(str(text)))
+            _emit(logger, severity, encodable(str(text)))
 
 
 class Lines:
@@ -105,7 +106,7 @@ class NodeLog:
 
 def log_error(log: Log, error: Exception) -> str:
     """Say in one line what went wrong, and at DEBUG where; return the line."""
-    line = ' '.join(describe(error).split())
+    line = unwrap(describe(error))
     log(Severity.ERROR, line)
     log_traceback(log, error)
     return line

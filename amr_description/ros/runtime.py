@@ -71,6 +71,7 @@ from rclpy.task import Future
 from amr_description.errors import AmrError, ParameterError
 from amr_description.ros.discovery import use_quick_discovery, use_whole_graph
 from amr_description.ros.signals import StopRequested, StopRequests
+from amr_description.text import unwrap
 
 # Only a bound, s: messages, timers and Executor.wake() end the wait at once.
 _SPIN_TIMEOUT = 0.5
@@ -250,7 +251,7 @@ def argument_errors() -> Iterator[None]:
         ParameterException,
         NameValidationException,
     ) as error:
-        raise ParameterError(_one_line(str(error))) from error
+        raise ParameterError(_without_places(str(error))) from error
 
 
 def _spin_until_stopped(
@@ -274,9 +275,9 @@ def _spin_until_stopped(
             executor.shutdown()
 
 
-def _one_line(text: str) -> str:
+def _without_places(text: str) -> str:
     """Drop line breaks and the places in rcl's sources: ``, at /project/src/.../x.c:352``."""
-    return ' '.join(re.sub(r',? at /\S+:\d+', '', text).split())
+    return unwrap(re.sub(r',? at /\S+:\d+', '', text))
 
 
 def run_in_thread(call: Callable[[], None], executor: Executor, name: str) -> Future:

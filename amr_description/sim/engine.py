@@ -22,11 +22,12 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError
+from amr_description.text import unwrap
 
 
 def one_line(text: str) -> str:
     """MuJoCo's message without its line breaks and its leading ``Error:``."""
-    return ' '.join(text.split()).removeprefix('Error: ')
+    return unwrap(text).removeprefix('Error: ')
 
 
 @contextmanager

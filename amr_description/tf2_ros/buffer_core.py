@@ -27,7 +27,6 @@ Not safe to use from several threads at once: its owner locks.
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 import math
 
 from amr_description.clock import NANOSECONDS
@@ -38,6 +37,7 @@ from amr_description.errors import (
     TransformException,
 )
 from amr_description.model.frames import normalize, Transform
+from amr_description.text import closest_match
 from amr_description.tf2_ros.frame_graph import FrameRecord, FrameTree, listed, loop_error
 from amr_description.tf2_ros.time_cache import (
     Frame,
@@ -326,9 +326,8 @@ class BufferCore:
 
     def _others(self, frame: str) -> str:
         """What there is instead of a frame."""
-        near = get_close_matches(frame, self._tree.names, n=1, cutoff=_NEAR)
-        if near:
-            return f"Did you mean '{near[0]}'?"
+        if match := closest_match(frame, self._tree.names, _NEAR):
+            return f"Did you mean '{match}'?"
         return f'Known are: {listed(self._tree.names) or "none yet"}'
 
 

@@ -3,7 +3,6 @@
 """Which interfaces the packages of the ament index define, and in which files."""
 
 from collections.abc import Mapping
-import difflib
 import os
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from amr_description.ament_index import packages
 from amr_description.cli.interface.definition import Definition
 from amr_description.cli.interface.kinds import kind_of, KINDS
 from amr_description.errors import AmrError
-from amr_description.text import shorten
+from amr_description.text import did_you_mean, shorten
 
 _RESOURCE = 'rosidl_interfaces'  # what rosidl registers for each of these packages
 
@@ -68,7 +67,7 @@ def _path(name: str) -> Path:
         if path.is_file():
             return path
     known = [n.partition('/')[2] for n in interfaces_of(package) if kind_of(n) == kind]
-    similar = _similar(interface, known, f'{package}/{kind}/')
+    similar = did_you_mean(interface, known, f'{package}/{kind}/')
     raise AmrError(f"Could not find the interface '{shorten(str(path))}'{similar}")
 
 
@@ -89,10 +88,5 @@ def _completed(parts: list[str]) -> str:
 
 def _unknown_package(package: str) -> AmrError:
     known = packages()
-    hint = _similar(package, list(known)) if known else '; source scripts/activate first'
+    hint = did_you_mean(package, known) if known else '; source scripts/activate first'
     return AmrError(f"Unknown package '{shorten(package)}'{hint}")
-
-
-def _similar(name: str, known: list[str], prefix: str = '') -> str:
-    close = difflib.get_close_matches(name, known, n=3)
-    return f'; did you mean {" or ".join(prefix + word for word in close)}?' if close else ''

@@ -5,7 +5,6 @@
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-import difflib
 from typing import Any
 
 from rcl_interfaces.msg import (
@@ -23,7 +22,7 @@ from amr_description.cli.param.requests import ask_all, describe_all, list_all
 from amr_description.cli.param.values import advice, to_message, typed, Value
 from amr_description.cli.session import open_session, Session
 from amr_description.errors import AmrError
-from amr_description.text import shorten
+from amr_description.text import did_you_mean, shorten
 
 _SHOWN = 5  # names in an error
 
@@ -91,7 +90,7 @@ class RemoteParameters:
         names = self.names()
         if name in names:
             return f"'{name}' of {self.node} is declared, but was given no value"
-        return f"{self.node} has no parameter '{shorten(name)}'{_close(name, names)}"
+        return f"{self.node} has no parameter '{shorten(name)}'{did_you_mean(name, names)}"
 
     def explain(self, name: str, text: str) -> str:
         """
@@ -133,9 +132,4 @@ def _instead(name: str, known: Sequence[str]) -> str:
     if not known:
         return ': there are no nodes'
     more = ', ...' if len(known) > _SHOWN else ''
-    return _close(name, known) or f'; there are {", ".join(known[:_SHOWN])}{more}'
-
-
-def _close(name: str, known: Sequence[str]) -> str:
-    close = difflib.get_close_matches(name, known, n=3)
-    return f'; did you mean {" or ".join(close)}?' if close else ''
+    return did_you_mean(name, known) or f'; there are {", ".join(known[:_SHOWN])}{more}'

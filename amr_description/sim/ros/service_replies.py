@@ -18,6 +18,7 @@ from amr_description.control.contracts import Log
 from amr_description.control.plugin_errors import describe
 from amr_description.errors import AmrError, RequestError
 from amr_description.ros.log_thread import log_error
+from amr_description.text import unwrap
 
 type Handler = Callable[[Any, Any], Awaitable[None]]
 """``async (request, response)``; the response has a ``result``."""
@@ -37,7 +38,7 @@ def fill_error(result: Result, error: Exception) -> None:
     """Write in one line what went wrong, and its code."""
     is_coded = isinstance(error, RequestError)
     result.result = error.code if is_coded else Result.RESULT_OPERATION_FAILED
-    result.error_message = ' '.join(describe(error).split())
+    result.error_message = unwrap(describe(error))
 
 
 def _answering(handler: Handler, log: Log) -> Callable[[Any, Any], Awaitable[Any]]:

@@ -31,6 +31,7 @@ from amr_description.sim.ros.ground_truth import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import read_description, SpawnCode
+from amr_description.text import unwrap
 
 FEATURES = (
     SimulatorFeatures.SPAWNING,
@@ -173,7 +174,7 @@ def _checked_namespace(namespace: str) -> str:
     except InvalidNamespaceException as error:
         raise SpawnError(
             f"the entity's namespace is '{namespace}', which ROS does not allow: "
-            f'{" ".join(str(error).split())}',
+            f'{unwrap(str(error))}',
             SpawnCode.NAMESPACE_INVALID,
         ) from error
     return absolute

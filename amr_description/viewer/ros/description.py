@@ -16,6 +16,7 @@ from amr_description.model import findings
 from amr_description.model.checks import examine
 from amr_description.model.meshes import load_mesh, stl_bytes
 from amr_description.model.robot import Joint, JointType, Mesh, Robot
+from amr_description.text import one_line
 from amr_description.viewer.http import digest
 from amr_description.viewer.protocol import Finding, JointInfo, Model
 
@@ -144,6 +145,6 @@ def _finding(finding: findings.Finding) -> Finding:
     return Finding(
         level='error' if finding.severity is findings.Severity.ERROR else 'warning',
         line=finding.line or None,
-        text=findings.one_line(text),
-        remedy=findings.one_line(finding.fix),
+        text=one_line(text),
+        remedy=one_line(finding.fix),
     )

@@ -41,6 +41,7 @@ from simulation_interfaces.srv import (
 from amr_description.errors import ViewerError
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_pose
+from amr_description.text import unwrap
 from amr_description.viewer.protocol import (
     ControllerInfo,
     Controllers,
@@ -332,4 +333,4 @@ async def _switch(
     asked.timeout.sec = int(_SWITCH_TIMEOUT)
     response = await services.call(f'{manager}/switch_controller', asked, 2 * _SWITCH_TIMEOUT)
     if not response.ok:
-        raise ViewerError(' '.join(response.message.split()) or f'{manager} refuses')
+        raise ViewerError(unwrap(response.message) or f'{manager} refuses')
