@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The standard streams of a command."""
+"""The standard streams of a command: opened where closed, buffered, kept free of noise."""
 
 import contextlib
 import os
@@ -11,10 +11,18 @@ _STDERR = 2
 
 
 def open_missing() -> None:
-    """Put an empty stream where the caller closed one (``<&-``, ``>&-``), and Python has None."""
-    for name, mode in (('stdin', 'r'), ('stdout', 'w'), ('stderr', 'w')):
+    """
+    Open /dev/null where the caller closed a stream (``<&-``, ``>&-``), and Python has None.
+
+    Otherwise the next file or socket gets the number 0, 1 or 2, and what is printed goes there.
+    """
+    for number, (name, mode) in enumerate((('stdin', 'r'), ('stdout', 'w'), ('stderr', 'w'))):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
         if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115 - as long as the process
+            setattr(sys, name, open(number, mode, closefd=False))  # noqa: SIM115 - stays open
 
 
 def make_line_buffered() -> None:

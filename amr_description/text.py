@@ -27,7 +27,7 @@ def unwrap(text: str) -> str:
 
 
 def encodable(text: str) -> str:
-    r"""Return ``text`` as UTF-8 can encode it: bytes that were none are written as ``\\udc80``."""
+    r"""Return ``text`` as UTF-8 can encode it: bytes that were none are written as ``\udc80``."""
     return text.encode('utf-8', 'backslashreplace').decode()
 
 

@@ -19,6 +19,7 @@ import signal
 import sys
 import threading
 
+from amr_description import streams
 from amr_description.bringup import environment, run_registry
 from amr_description.bringup.arguments import declared, parse, show
 from amr_description.bringup.command_line import jobs_of, LaunchPrefix, ProcessSpec
@@ -132,7 +133,7 @@ def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
 
     ``prog``: what messages call it.
     """
-    _open_closed_streams()
+    streams.open_missing()
     words = sys.argv[1:] if args is None else args
     try:
         if words and words[0] in COMMANDS:
@@ -144,17 +145,6 @@ def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
         return error.exit_code
     except KeyboardInterrupt:  # before or after the orchestrator handles it
         return 130
-
-
-def _open_closed_streams() -> None:
-    """Open what was closed (``>&-``): else a pipe or a file takes its number and gets output."""
-    for number in range(3):
-        try:
-            os.fstat(number)
-        except OSError:
-            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
-    sys.stdout = sys.stdout or open(1, 'w', closefd=False)  # noqa: SIM115 - stays open
-    sys.stderr = sys.stderr or open(2, 'w', closefd=False)  # noqa: SIM115
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -20,12 +20,12 @@ any other exception: a bug                        its traceback                 
 
 from collections.abc import Sequence
 import errno
-import importlib
 import signal
 import sys
 
 from amr_description import streams
 from amr_description.errors import AmrError
+from amr_description.registry import resolve
 
 PROGRAMS = {
     'ros2': 'amr_description.cli.ros2',
@@ -43,7 +43,7 @@ def main(command: str, argv: Sequence[str]) -> int:
     try:
         streams.open_missing()
         streams.make_line_buffered()
-        code = importlib.import_module(PROGRAMS[command]).main(list(argv))
+        code = resolve(f'{PROGRAMS[command]}:main')(list(argv))
         sys.stdout.flush()
         return code
     except AmrError as error:
