@@ -93,12 +93,12 @@ def _delays(node: Node, page: PageClient) -> list[float]:
 
     subscription = node.create_subscription(TwistStamped, _topic(page), hear, 100)
     try:
-        _wait(node, lambda: page.say('drive', robot='/', linear=0.0, angular=0.0) or heard)
+        _wait(node, lambda: page.send('drive', robot='/', linear=0.0, angular=0.0) or heard)
         for number in range(1, _KEYS + 1):
             said[number] = time.monotonic()
-            page.say('drive', robot='/', linear=0.0, angular=number * _STEP)
+            page.send('drive', robot='/', linear=0.0, angular=number * _STEP)
             _wait(node, lambda number=number: number in heard)
-        page.say('stop', robot='/')
+        page.send('stop', robot='/')
     finally:
         node.destroy_subscription(subscription)
     return [heard[number] - at for number, at in said.items()]

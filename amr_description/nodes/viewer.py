@@ -3,30 +3,31 @@
 """
 ``viewer``: RViz, joint_state_publisher_gui and the Gazebo window, as one page in the browser.
 
-``ros2 run amr_description viewer`` prints the address of the page. It shows every robot that is in
-the ROS graph, ours or another, and drives it; of a simulator it shows the world, and asks its
-services. The parameters are in :class:`Settings`.
+``ros2 run amr_description viewer`` logs the address of the page. It shows and drives every robot
+of the ROS graph, also third-party ones. For a simulator it shows the world, and calls its
+services. The parameters are in :class:`ViewerSettings`.
 
-========= =================================== =================================================
-direction topic, for each robot               used for
-========= =================================== =================================================
-hears     ``robot_description``               model, meshes, what check_urdf finds
-hears     ``joint_states``, odometry          states
-hears     ``ground_truth/odom``, ``…/wheels`` states: the simulator's truth
-both      the command topic                   driving: Twist or TwistStamped, as it is wanted
-publishes ``…/set_joint_positions``           sliders, where joint_state_publisher runs
-hears     ``~/introspection_data/…`` of its   states: velocities that joints are commanded
-          manager
-hears     ``/tf``, ``/tf_static``, ``/clock``,
-          ``/diagnostics``, ``~/activity`` of
-          managers, ``~/world`` of simulators
-========= =================================== =================================================
+========== =================================== ================================================
+direction  topic, for each robot               used for
+========== =================================== ================================================
+subscribes ``robot_description``               model, meshes, findings of check_urdf
+subscribes ``joint_states``, odometry          states
+subscribes ``ground_truth/odom``, ``…/wheels`` states: ground truth of the simulator
+both       the command topic                   driving: Twist or TwistStamped, as subscribed
+publishes  ``…/set_joint_positions``           sliders, if joint_state_publisher runs
+subscribes ``~/introspection_data/…`` of its   states: commanded joint velocities
+           manager
+subscribes ``/tf``, ``/tf_static``, ``/clock``,
+           ``/diagnostics``, ``~/activity`` of
+           managers, ``~/world`` of simulators
+========== =================================== ================================================
 
-While no page is open nothing is subscribed. Commands carry the time of ``/clock`` where there is
-one, whatever ``use_sim_time`` says.
+While no page is open, nothing is subscribed. Commands are stamped with the time of ``/clock`` if
+it is published, whatever ``use_sim_time`` is.
 
-The page is for this host; for others ``-p host:=0.0.0.0`` (or an address of this host) makes one
-whose address holds a random token. That is plain HTTP: for a network that is trusted.
+The page is for this host only. With ``-p host:=0.0.0.0`` (or an address of this host) it can be
+opened from other hosts, at an address with a random token. It is plain HTTP: use it only in a
+trusted network.
 """
 
 from collections.abc import Sequence
@@ -42,11 +43,11 @@ from amr_description.parameters import parameter
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, spin
 from amr_description.viewer.ros.backend import GraphBackend
-from amr_description.viewer.server import DEFAULT_HOST, Server, Settings as ServerSettings
+from amr_description.viewer.server import DEFAULT_HOST, Server, ServerSettings
 
 
 @dataclass(frozen=True)
-class Settings:
+class ViewerSettings:
     """The parameters of the node ``viewer``."""
 
     host: str = parameter(
@@ -97,8 +98,8 @@ def view(args: list[str] | None) -> None:
 
 
 def _server(node: Node, executor: SingleThreadedExecutor) -> Server:
-    """Make the server and its backend. Raises AmrError."""
-    settings = declare(node, Settings)
+    """Create the server and its backend. Raises AmrError."""
+    settings = declare(node, ViewerSettings)
     backend = GraphBackend(node, executor, node.get_logger().error)
     backend.server = Server(
         ServerSettings(
@@ -118,7 +119,7 @@ def _server(node: Node, executor: SingleThreadedExecutor) -> Server:
 def _version() -> str:
     try:
         return version('amr_description')
-    except PackageNotFoundError:  # a source tree that is not built
+    except PackageNotFoundError:  # a source tree that is not installed
         return ''
 
 

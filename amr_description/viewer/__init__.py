@@ -1,22 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The browser page's server; knows no ROS, and is the only package that imports websockets.
+The server of the browser page, without ROS; the only package that imports websockets.
 
-=============  ================================================================================
-``server``     :class:`Server`: one port for the page and its WebSocket; the one to start from
-``backend``    what the server asks of whoever knows the robots: :class:`Backend`
-``protocol``   what pages are told; with ``requests`` and ``states`` it mirrors
-               ``web/src/protocol.ts``
-``requests``   what pages tell, read with distrust
-``states``     the binary frames
-``pages``      the pages that are connected, and what a slow one is spared
-``web``        plain HTTP: the files of the page, meshes, headers
-``files``      … found by name in one folder
-``access``     who may talk to the server
-``driving``    who drives, and until when
-``client``     a page without a browser, for measurements and tests
-=============  ================================================================================
+==================  ============================================================================
+``server.py``       :class:`Server`: one port for the page and its WebSocket; start reading here
+``backend.py``      :class:`Backend`: what the server needs to know about the robots
+``sessions.py``     the connected pages, and what becomes of their messages
+``drive_lock.py``   which page drives which robot, and until when
+``protocol.py``     messages to pages; with ``requests`` and ``states``, ``web/src/protocol.ts``
+``requests.py``     messages from pages, validated
+``states.py``       the binary frames: everything that moves
+``http.py``         plain HTTP: the files of the page, meshes, security headers
+``access.py``       which requests are answered: Host, Origin, token
+``graph.py``        names and types of a ROS graph -> robots and simulators
+``client.py``       a page without a browser, for measurements and tests
+``ros/``            the backend for the ROS graph
+==================  ============================================================================
 
 ``static/`` is the built page; its sources are in ``web/`` at the top.
 """

@@ -1,19 +1,19 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Who may talk to the server: this host's own page, and who knows the token.
+Which requests the server answers: those of its own page on this host, or with its token.
 
 A browser lets every web site send requests to 127.0.0.1, so listening there only is not enough:
 
-- ``Host`` must name the loopback, or another site, whose name was made to lead here (DNS
-  rebinding), could read and drive.
-- ``Origin``, if there is one, must be this server's own page. A program that is no browser sends
-  none, and may as well publish on the robot's topics.
+- ``Host`` must name the loopback. Otherwise a web site whose name resolves to 127.0.0.1 (DNS
+  rebinding) could read states and drive.
+- ``Origin``, if present, must be the server's own page. Programs other than browsers send none;
+  they could publish on the robot's topics just as well.
 
-A server that listens elsewhere has a random token: in the URL of the first page, then in a cookie.
-Whoever has it may use any name of the host.
+A server that listens on another address has a random token: in the URL of the first request, then
+in a cookie. With it, any name of the host is accepted.
 
-Pure, but for the token, which the caller makes.
+Pure: the caller generates the token.
 """
 
 from collections.abc import Mapping
@@ -25,12 +25,12 @@ import ipaddress
 from urllib.parse import parse_qs, urlsplit
 
 TOKEN_PARAMETER = 'token'
-"""Of the URL."""
+"""The query parameter of the URL that holds the token."""
 
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why a request is not answered; ``reason`` is one line."""
+    """Why a request is refused; ``reason`` is one line."""
 
     status: HTTPStatus
     reason: str
@@ -38,12 +38,21 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Access:
-    """The rules of a server; ``token``: None for one that listens on the loopback only."""
+    """The rules of a server; ``token`` is None if it listens on the loopback only."""
 
     token: str | None = None
 
     def refusal(self, target: str, headers: Mapping[str, str]) -> Refusal | None:
-        """Judge a request by its target (``/path?query``) and headers; None: it may."""
+        """
+        Check a request.
+
+        Args:
+            target: ``/path?query``.
+            headers: of the request, by name.
+
+        Returns:
+            Why it is refused; None: it is accepted.
+        """
         host = headers.get('Host', '')
         if self.token is None and not is_loopback(host_name(host)):
             return Refusal(
@@ -64,7 +73,7 @@ class Access:
         return None
 
     def new_cookie(self, target: str, headers: Mapping[str, str]) -> str | None:
-        """Return the Set-Cookie header for who comes with the token in the URL."""
+        """Return the Set-Cookie header, if the URL of the request has the token; else None."""
         if self.token is None or not self._has_token_in_url(target):
             return None
         name = cookie_name(headers.get('Host', ''))
@@ -90,9 +99,9 @@ class Access:
 
 def cookie_name(host: str) -> str:
     """
-    Return the name of the cookie that holds the token of the server at a Host header.
+    Return the name of the cookie that holds the token; ``host`` is the Host header.
 
-    A browser gives a cookie to all ports of a host, so that two viewers need two names.
+    Browsers send a cookie to all ports of a host, so the name includes the port.
     """
     try:
         port = urlsplit(f'//{host}').port
@@ -102,7 +111,7 @@ def cookie_name(host: str) -> str:
 
 
 def host_name(host: str) -> str:
-    """Return a Host header without its port; nothing for one that is malformed."""
+    """Return a Host header without its port; '' if it is malformed."""
     try:
         return urlsplit(f'//{host}').hostname or ''
     except ValueError:
@@ -110,7 +119,7 @@ def host_name(host: str) -> str:
 
 
 def is_loopback(host: str) -> bool:
-    """Tell whether a name or address can only mean this host."""
+    """Return whether a name or address can only mean this host."""
     if host == 'localhost':
         return True
     try:

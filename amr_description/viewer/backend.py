@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the server asks of whoever knows the robots."""
+"""What the server needs from whatever knows the robots."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,25 +14,25 @@ class Backend(Protocol):
     """
     The robots, as pages see and move them.
 
-    Everything is called on the server's thread, and nothing may block. A ViewerError is told to
-    the page that asked.
+    Every method is called on the server's thread and must not block. The message of a ViewerError
+    is sent to the page that asked.
     """
 
-    def opened(self) -> None:
-        """The first page has come: from now on there is somebody to look."""
+    def open(self) -> None:
+        """The first page has connected: start to collect data."""
 
-    def closed(self) -> None:
-        """The last page has gone."""
+    def close(self) -> None:
+        """The last page has disconnected: stop."""
 
-    def state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
+    def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
         """
-        What is new since the last call: messages, then a state; None where nothing has moved.
+        Return what is new since the last call: messages, then a state, None if nothing moved.
 
-        A state's layout comes as a message with or before it.
+        The layout of a state is among the messages of the same call or of an earlier one.
         """
 
     def robots(self) -> Sequence[str]:
-        """Return those that take commands."""
+        """Return the robots that take velocity commands."""
 
     def drive(self, robot: str, linear: float, angular: float) -> None:
         """Publish one command now, m/s and rad/s. Raises ViewerError."""
@@ -40,8 +40,8 @@ class Backend(Protocol):
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
         """Move joints that joint_state_publisher publishes, rad or m. Raises ViewerError."""
 
-    async def answer(self, request: Request) -> str:
-        """Do what is asked; say in one line what was done. Raises ViewerError."""
+    async def handle(self, request: Request) -> str:
+        """Carry out a request; return one line about what was done. Raises ViewerError."""
 
     def mesh(self, name: str) -> Path | bytes | None:
         """Return what a model calls ``/mesh/<name>``, or its file; None: no model names it."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A page without a browser: the other end of the WebSocket, for measurements and tests."""
+"""A page without a browser: the client of the WebSocket, for measurements and tests."""
 
 from collections.abc import Sequence
 import json
@@ -18,7 +18,7 @@ from amr_description.viewer.protocol import SUBPROTOCOL
 def page_socket(
     url: str, subprotocols: Sequence[str] | None = (SUBPROTOCOL,), **options: Any
 ) -> ClientConnection:
-    """Open the WebSocket of the page at an address as the viewer prints it; a context manager."""
+    """Open the WebSocket of the page at ``url``, as the viewer logs it; a context manager."""
     parts = urlsplit(url)
     query = f'?{parts.query}' if parts.query else ''
     return connect(
@@ -30,12 +30,12 @@ def page_socket(
 
 
 class PageClient:
-    """A page that counts the states and remembers the graph; a thread of its own reads."""
+    """A page that counts states and keeps the latest graph; it receives in a thread of its own."""
 
     def __init__(self, url: str) -> None:
         self.states = 0
         self.robots: tuple[dict[str, Any], ...] = ()
-        """Of the last message about the graph."""
+        """The robots of the latest graph message."""
         self._socket = page_socket(url)
         self._reader = threading.Thread(target=self._read, name='page')
         self._reader.start()
@@ -47,7 +47,7 @@ class PageClient:
         self._socket.close()
         self._reader.join()
 
-    def say(self, kind: str, **fields: Any) -> None:
+    def send(self, kind: str, **fields: Any) -> None:
         """Send a text frame."""
         self._socket.send(json.dumps({'type': kind, **fields}))
 

@@ -1,82 +1,92 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Who drives which robot: one page at a time, and never longer than it says so.
+Which page drives which robot: one at a time, and only while it keeps sending commands.
 
-Pure; times are s of any clock that only goes forward. Every method that ends a drive returns the
-robots that are to be stopped, each by one command of zero; after it there is silence, so that
-others (a joystick, Nav2) may command.
+Pure; times are s of any monotonic clock. A robot whose lock is released must be stopped with one
+command of zero. After that nothing is published for it, so that others (a joystick, Nav2) can
+command it.
 
-Whoever was stopped by somebody else must let go before driving on: be silent for the time-out, or
-stop. A key that is still held when another page presses the big stop drives no further.
+A page whose robot was stopped by another page must let go before it drives on: send nothing for
+the time-out, or a stop. So a key that is still held does not drive on after the stop button of
+another page.
 """
 
 from dataclasses import dataclass
 
 DRIVE_TIMEOUT = 0.4
-"""s after the last drive until the robot is stopped."""
+"""s after the last drive message until the robot is stopped."""
 
 
 @dataclass(slots=True)
-class _Drive:
-    """``until``: when it ends by itself."""
-
+class _Holder:
     client: str
     until: float
+    """When the lock expires, s."""
 
 
 class DriveLock:
-    """The wheel of every robot."""
+    """The locks of all robots."""
 
     def __init__(self, timeout: float = DRIVE_TIMEOUT) -> None:
         self._timeout = timeout
-        self._drives: dict[str, _Drive] = {}
-        self._stopped: dict[tuple[str, str], float] = {}
-        """(robot, client) that another one stopped -> until when it may not drive."""
+        self._holders: dict[str, _Holder] = {}
+        self._blocked: dict[tuple[str, str], float] = {}
+        """(robot, client) that another client stopped -> until when it is refused."""
 
-    def driver(self, robot: str) -> str | None:
-        """Return who drives a robot; None: nobody."""
-        drive = self._drives.get(robot)
-        return drive.client if drive else None
+    def holder(self, robot: str) -> str | None:
+        """Return the client that drives a robot; None: nobody."""
+        holder = self._holders.get(robot)
+        return holder.client if holder else None
 
     def robots(self) -> list[str]:
-        """Return those that are driven."""
-        return list(self._drives)
+        """Return the robots that are being driven."""
+        return list(self._holders)
 
-    def drive(self, robot: str, client: str, time: float) -> bool:
-        """Take the wheel, or keep it; False: somebody else has it, or stopped this one."""
-        drive = self._drives.get(robot)
-        if drive is not None and drive.client != client and time < drive.until:
+    def acquire(self, robot: str, client: str, time: float) -> bool:
+        """
+        Acquire the lock of a robot, or extend it.
+
+        Returns:
+            False: another client holds it, or stopped this one, which has not let go since.
+        """
+        holder = self._holders.get(robot)
+        if holder is not None and holder.client != client and time < holder.until:
             return False
-        if time < self._stopped.pop((robot, client), time):
-            self._stopped[robot, client] = time + self._timeout  # it has not let go yet
+        if time < self._blocked.pop((robot, client), time):
+            self._blocked[robot, client] = time + self._timeout
             return False
-        self._drives[robot] = _Drive(client, time + self._timeout)
+        self._holders[robot] = _Holder(client, time + self._timeout)
         return True
 
     def stop(self, robot: str, client: str, time: float) -> str | None:
-        """Take the wheel from whoever has it, as ``client`` asks; return who must let go."""
-        drive = self._drives.pop(robot, None)
-        self._stopped.pop((robot, client), None)
-        if drive is None or drive.client == client:
-            return None
-        self._stopped[robot, drive.client] = time + self._timeout
-        return drive.client
+        """
+        Release the lock of a robot, whoever holds it, because ``client`` stops the robot.
 
-    def leave(self, client: str) -> list[str]:
-        """Take the wheel from a page that is gone."""
-        self._stopped = {key: until for key, until in self._stopped.items() if key[1] != client}
-        return self._end({r: d for r, d in self._drives.items() if d.client == client})
+        Returns:
+            The other client that held it and must let go; None: nobody, or ``client`` itself.
+        """
+        holder = self._holders.pop(robot, None)
+        self._blocked.pop((robot, client), None)
+        if holder is None or holder.client == client:
+            return None
+        self._blocked[robot, holder.client] = time + self._timeout
+        return holder.client
+
+    def release_all(self, client: str) -> list[str]:
+        """Release the locks of a client that is gone; return their robots, to be stopped."""
+        self._blocked = {key: until for key, until in self._blocked.items() if key[1] != client}
+        return self._release([r for r, each in self._holders.items() if each.client == client])
 
     def expire(self, time: float) -> list[str]:
-        """Take the wheel from all who have been silent for too long."""
-        return self._end({r: d for r, d in self._drives.items() if d.until <= time})
+        """Release the locks that were not extended in time; return their robots, to be stopped."""
+        return self._release([r for r, each in self._holders.items() if each.until <= time])
 
     def next_expiry(self) -> float | None:
-        """Return when :meth:`expire` is due; None: nobody drives."""
-        return min((drive.until for drive in self._drives.values()), default=None)
+        """Return when :meth:`expire` is due, s; None: nobody drives."""
+        return min((each.until for each in self._holders.values()), default=None)
 
-    def _end(self, drives: dict[str, _Drive]) -> list[str]:
-        for robot in drives:
-            del self._drives[robot]
-        return list(drives)
+    def _release(self, robots: list[str]) -> list[str]:
+        for robot in robots:
+            del self._holders[robot]
+        return robots

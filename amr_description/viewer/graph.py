@@ -1,20 +1,20 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What of a ROS graph is a robot, and which of its topics mean what.
+Finds the robots and simulators of a ROS graph, and what each of their topics means.
 
-Pure: names and types in, names out. A robot is whatever has a ``robot_description``, in whatever
-namespace; what lies below a namespace belongs to the robot of the longest one that fits.
+Pure: names and types in, names out. Every namespace with a ``robot_description`` is a robot. A
+name belongs to the robot with the longest namespace that contains it.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from amr_description.viewer.protocol import Command
 
 STRING = 'std_msgs/msg/String'
 TWISTS = ('geometry_msgs/msg/TwistStamped', 'geometry_msgs/msg/Twist')
-"""Of a topic of both, the first is taken."""
+"""Types of velocity commands; if a topic has subscribers of both, the first is used."""
 JOINT_STATE = 'sensor_msgs/msg/JointState'
 ODOMETRY = 'nav_msgs/msg/Odometry'
 DYNAMIC_JOINT_STATE = 'control_msgs/msg/DynamicJointState'
@@ -25,26 +25,26 @@ STATISTICS_VALUES = 'pal_statistics_msgs/msg/StatisticsValues'
 LIST_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
 SET_SIMULATION_STATE = 'simulation_interfaces/srv/SetSimulationState'
 
-type Types = Mapping[str, Iterable[str]]
-"""Name of a topic or service → its types."""
+type NamesAndTypes = Mapping[str, Iterable[str]]
+"""Name of a topic or service -> its types."""
 
 
 @dataclass(frozen=True, slots=True)
-class Names:
-    """What the graph has: ``published`` and ``heard`` are topics by direction, with types."""
+class GraphNames:
+    """The topics that are published, those that are subscribed to, and the services."""
 
-    published: Types = field(default_factory=dict)
-    heard: Types = field(default_factory=dict)
-    services: Types = field(default_factory=dict)
+    published: NamesAndTypes = field(default_factory=dict)
+    subscribed: NamesAndTypes = field(default_factory=dict)
+    services: NamesAndTypes = field(default_factory=dict)
 
-    def publishes(self, topic: str, kind: str) -> str | None:
-        """Return the topic, if somebody publishes this type on it."""
-        return topic if kind in self.published.get(topic, ()) else None
+    def if_published(self, topic: str, type_name: str) -> str | None:
+        """Return the topic if it is published with this type, else None."""
+        return topic if type_name in self.published.get(topic, ()) else None
 
 
 @dataclass(frozen=True, slots=True)
 class FoundRobot:
-    """A robot by its namespace, ``/`` or ``/robot1``, and its topics and nodes."""
+    """A robot: its namespace, ``/`` or ``/robot1``, and its topics and nodes; None: not there."""
 
     id: str
     description: str
@@ -57,12 +57,12 @@ class FoundRobot:
     manager: str | None
     activity: str | None
     introspection: str | None
-    """``…/introspection_data`` of its controller manager: below it are ``names``, ``values``."""
+    """``…/introspection_data`` of its controller manager, with ``/names`` and ``/values``."""
 
 
 @dataclass(frozen=True, slots=True)
 class FoundSimulator:
-    """A simulator by its node; ``world``: where it publishes its surroundings."""
+    """A simulator: its node, the topic of its world's markers, and its services."""
 
     id: str
     world: str | None
@@ -70,24 +70,23 @@ class FoundSimulator:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
-    """
-    All robots and simulators, by name.
-
-    ``trees``: namespaces with a TF of their own, such as ``/robot1`` of ``/robot1/tf``.
-    """
+class DiscoveredGraph:
+    """All robots and simulators, sorted by name."""
 
     robots: tuple[FoundRobot, ...] = ()
     simulators: tuple[FoundSimulator, ...] = ()
-    trees: tuple[str, ...] = ()
+    tf_namespaces: tuple[str, ...] = ()
+    """Namespaces with a TF of their own, such as ``/robot1`` of ``/robot1/tf``."""
 
 
-def discover(names: Names, described: Iterable[str] = ()) -> Found:
+def discover(names: GraphNames, described: Iterable[str] = ()) -> DiscoveredGraph:
     """
-    Return what there is to see.
+    Find robots and simulators.
 
-    ``described``: the ids of robots whose description is known otherwise; they are there as long
-    as their truth is.
+    Args:
+        names: of the graph.
+        described: ids of robots whose description is known from elsewhere. They are found as long
+            as their ground truth is published.
     """
     ids = {
         topic.removesuffix('robot_description').rstrip('/') or '/'
@@ -95,81 +94,67 @@ def discover(names: Names, described: Iterable[str] = ()) -> Found:
         if topic.endswith('/robot_description') and STRING in types
     }
     ids |= {each for each in described if _truth(names, each)}
-    robots = tuple(_robot(names, each, lambda name: owner(name, ids)) for each in sorted(ids))
-    simulators = tuple(
-        FoundSimulator(
-            service.rpartition('/')[0],
-            names.publishes(f'{service.rpartition("/")[0]}/world', MARKERS),
-            frozenset(_below(service.rpartition('/')[0], names.services)),
-        )
-        for service, types in sorted(names.services.items())
-        if SET_SIMULATION_STATE in types
+    return DiscoveredGraph(
+        tuple(_robot(names, each, lambda name: robot_of(name, ids)) for each in sorted(ids)),
+        tuple(_simulators(names)),
+        _tf_namespaces(names),
     )
-    return Found(robots, simulators, _trees(names))
 
 
-def owner(name: str, ids: Iterable[str]) -> str | None:
-    """Return the robot whose namespace a name is in; of several, the deepest."""
+def robot_of(name: str, ids: Iterable[str]) -> str | None:
+    """Return the id of the robot that a name belongs to: the longest namespace around it."""
     fitting = [each for each in ids if each == '/' or name.startswith(f'{each}/')]
     return max(fitting, key=len, default=None)
 
 
-def _trees(names: Names) -> tuple[str, ...]:
-    places = {
-        topic.rpartition('/')[0]
-        for topic, types in names.published.items()
-        if TF in types and topic.rpartition('/')[2] in ('tf', 'tf_static')
-    }
-    return tuple(sorted(places - {''}))
+def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None]) -> FoundRobot:
+    namespace = robot.rstrip('/')
 
-
-def _robot(names: Names, robot: str, owner_of: Callable[[str], str | None]) -> FoundRobot:
-    place = robot.rstrip('/')
-
-    def own(names: Types, kind: str) -> list[str]:
-        return [name for name, types in names.items() if kind in types and owner_of(name) == robot]
+    def own(names: NamesAndTypes, type_name: str) -> list[str]:
+        return [
+            name
+            for name, types in names.items()
+            if type_name in types and find_robot(name) == robot
+        ]
 
     odometries = [
         topic for topic in own(names.published, ODOMETRY) if '/ground_truth/' not in topic
     ]
-    publishers = [
-        topic for topic in own(names.heard, JOINT_STATE) if topic.endswith('/set_joint_positions')
+    joint_publishers = [
+        topic.removesuffix('/set_joint_positions')
+        for topic in own(names.subscribed, JOINT_STATE)
+        if topic.endswith('/set_joint_positions')
     ]
     managers = [
-        name.rpartition('/')[0]
+        name.removesuffix('/list_controllers')
         for name in own(names.services, LIST_CONTROLLERS)
         if name.endswith('/list_controllers')
     ]
-    manager = _first(managers)
+    manager = _shortest(managers)
+    introspection = f'{manager}/introspection_data'
     return FoundRobot(
         id=robot,
-        description=f'{place}/robot_description',
-        command=_command(own, names),
-        odometry=_first(odometries, f'{place}/odom'),
+        description=f'{namespace}/robot_description',
+        command=_command(names, own),
+        odometry=_shortest(odometries, f'{namespace}/odom'),
         truth=_truth(names, robot),
-        wheels=names.publishes(f'{place}/ground_truth/wheels', DYNAMIC_JOINT_STATE),
-        joint_states=names.publishes(f'{place}/joint_states', JOINT_STATE),
-        joint_publisher=(_first(publishers) or '').removesuffix('/set_joint_positions') or None,
+        wheels=names.if_published(f'{namespace}/ground_truth/wheels', DYNAMIC_JOINT_STATE),
+        joint_states=names.if_published(f'{namespace}/joint_states', JOINT_STATE),
+        joint_publisher=_shortest(joint_publishers) or None,
         manager=manager,
-        activity=names.publishes(f'{manager}/activity', ACTIVITY),
-        introspection=_introspection(names, f'{manager}/introspection_data'),
+        activity=names.if_published(f'{manager}/activity', ACTIVITY),
+        introspection=introspection
+        if names.if_published(f'{introspection}/values', STATISTICS_VALUES)
+        else None,
     )
 
 
-def _truth(names: Names, robot: str) -> str | None:
-    return names.publishes(f'{robot.rstrip("/")}/ground_truth/odom', ODOMETRY)
-
-
-def _introspection(names: Names, place: str) -> str | None:
-    return place if names.publishes(f'{place}/values', STATISTICS_VALUES) else None
-
-
-def _command(own: Callable[[Types, str], list[str]], names: Names) -> Command | None:
-    """A topic of velocities that somebody hears; best one called cmd_vel, and stamped."""
+def _command(names: GraphNames, own: Callable[[NamesAndTypes, str], list[str]]) -> Command | None:
+    """Choose among the topics with subscribers: first by the name cmd_vel, then stamped."""
     choices = [
         (not topic.endswith('/cmd_vel'), rank, len(topic), topic)
-        for rank, kind in enumerate(TWISTS)
-        for topic in own(names.heard, kind)
+        for rank, type_name in enumerate(TWISTS)
+        for topic in own(names.subscribed, type_name)
     ]
     if not choices:
         return None
@@ -177,10 +162,26 @@ def _command(own: Callable[[Types, str], list[str]], names: Names) -> Command | 
     return Command(topic, TWISTS[rank])
 
 
-def _first(names: list[str], preferred: str = '') -> str | None:
-    """The preferred one, or the shortest."""
+def _truth(names: GraphNames, robot: str) -> str | None:
+    return names.if_published(f'{robot.rstrip("/")}/ground_truth/odom', ODOMETRY)
+
+
+def _simulators(names: GraphNames) -> Iterator[FoundSimulator]:
+    for service, types in sorted(names.services.items()):
+        if SET_SIMULATION_STATE in types:
+            node = service.rpartition('/')[0]
+            services = frozenset(name for name in names.services if name.startswith(f'{node}/'))
+            yield FoundSimulator(node, names.if_published(f'{node}/world', MARKERS), services)
+
+
+def _tf_namespaces(names: GraphNames) -> tuple[str, ...]:
+    namespaces = {
+        topic.rpartition('/')[0]
+        for topic, types in names.published.items()
+        if TF in types and topic.rpartition('/')[2] in ('tf', 'tf_static')
+    }
+    return tuple(sorted(namespaces - {''}))
+
+
+def _shortest(names: list[str], preferred: str = '') -> str | None:
     return min(names, key=lambda name: (name != preferred, len(name), name), default=None)
-
-
-def _below(node: str, services: Types) -> list[str]:
-    return [name for name in services if name.startswith(f'{node}/')]

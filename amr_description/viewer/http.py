@@ -1,12 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Plain HTTP: the page's files, the robots' meshes, and a clear word for everything else.
+Plain HTTP: the files of the page, the meshes of the robots, and one line for everything else.
 
-No answer lets a browser ask anybody but this server, run what is not in a file of the page, or
-show the page inside another one.
-
-The files that a page is made of: found by name in one folder, told apart by their content.
+The headers of every response keep a browser from contacting any other server, from running inline
+scripts, and from showing the page inside another one.
 """
 
 import asyncio
@@ -24,7 +22,9 @@ from websockets.http11 import Request, Response
 
 from amr_description.viewer.access import Access
 
-TYPES = {
+SOCKET_PATH = '/ws'
+MESH_PATH = '/mesh/'
+CONTENT_TYPES = {
     '.html': 'text/html; charset=utf-8',
     '.js': 'text/javascript; charset=utf-8',
     '.css': 'text/css; charset=utf-8',
@@ -42,67 +42,12 @@ TYPES = {
     '.obj': 'model/obj',
     '.dae': 'model/vnd.collada+xml',
 }
-"""Content types by suffix; nothing else is served."""
-
-
-@dataclass(frozen=True, slots=True)
-class Content:
-    """What a file holds; ``tag`` changes with it."""
-
-    data: bytes
-    kind: str
-    tag: str
-
-
-def digest(data: bytes) -> str:
-    """Return a short hash of some content."""
-    return hashlib.sha256(data).hexdigest()[:20]
-
-
-class StaticFiles:
-    """
-    The files below a folder that have a known type.
-
-    A path is looked up among the names that there are, so that none leads out of the folder.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._known: dict[Path, tuple[tuple[int, int], Content]] = {}
-
-    def get(self, path: str) -> Content | None:
-        """Return the file of a URL path such as ``/index.html``; None: there is none."""
-        file = self._files().get(path)
-        try:
-            return self._read(file) if file else None
-        except OSError:  # a build is just replacing it
-            return None
-
-    def _read(self, file: Path) -> Content:
-        status = file.stat()
-        version = (status.st_mtime_ns, status.st_size)
-        known = self._known.get(file)
-        if known is None or known[0] != version:
-            data = file.read_bytes()
-            known = (version, Content(data, TYPES[file.suffix.lower()], digest(data)))
-            self._known[file] = known
-        return known[1]
-
-    def _files(self) -> dict[str, Path]:
-        return {
-            f'/{file.relative_to(self._folder).as_posix()}': file
-            for file in self._folder.rglob('*')
-            if file.suffix.lower() in TYPES and file.is_file()
-        }
-
-
-SOCKET_PATH = '/ws'
-MESH_PATH = '/mesh/'
+"""By suffix; no other files are served."""
 _INDEX = '/index.html'
-_ONCE = ('Host', 'Origin', 'Cookie', 'If-None-Match')
-"""Headers that a request has once: of two, each reader may believe another one."""
+_SINGLE_HEADERS = ('Host', 'Origin', 'Cookie', 'If-None-Match')
+"""Headers that may occur once: two parsers could use different ones."""
 
-POLICY = '; '.join(
+CONTENT_SECURITY_POLICY = '; '.join(
     (
         "default-src 'none'",
         "script-src 'self'",
@@ -118,7 +63,7 @@ POLICY = '; '.join(
     )
 )
 _HEADERS = {
-    'Content-Security-Policy': POLICY,
+    'Content-Security-Policy': CONTENT_SECURITY_POLICY,
     'Cross-Origin-Opener-Policy': 'same-origin',
     'Cross-Origin-Resource-Policy': 'same-origin',
     'Referrer-Policy': 'no-referrer',
@@ -130,8 +75,59 @@ _NOT_BUILT = (
 )
 
 
-class Web:
-    """Answers requests for files; what is for the WebSocket passes."""
+@dataclass(frozen=True, slots=True)
+class Content:
+    """The data of a file, its content type, and an ETag that changes with the data."""
+
+    data: bytes
+    kind: str
+    tag: str
+
+
+def digest(data: bytes) -> str:
+    """Return a short hash: ETag of a file, URL of a mesh."""
+    return hashlib.sha256(data).hexdigest()[:20]
+
+
+class StaticFiles:
+    """
+    The files below a folder that have a known content type.
+
+    A path is looked up among the files that exist, so no path leads out of the folder.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._known: dict[Path, tuple[tuple[int, int], Content]] = {}
+
+    def get(self, path: str) -> Content | None:
+        """Return the file of a URL path such as ``/index.html``; None if there is none."""
+        file = self._files().get(path)
+        try:
+            return self._read(file) if file else None
+        except OSError:  # a build is replacing it
+            return None
+
+    def _read(self, file: Path) -> Content:
+        status = file.stat()
+        version = (status.st_mtime_ns, status.st_size)
+        known = self._known.get(file)
+        if known is None or known[0] != version:
+            data = file.read_bytes()
+            known = (version, Content(data, CONTENT_TYPES[file.suffix.lower()], digest(data)))
+            self._known[file] = known
+        return known[1]
+
+    def _files(self) -> dict[str, Path]:
+        return {
+            f'/{file.relative_to(self._folder).as_posix()}': file
+            for file in self._folder.rglob('*')
+            if file.suffix.lower() in CONTENT_TYPES and file.is_file()
+        }
+
+
+class HttpFiles:
+    """Responds to requests for files; passes those for the WebSocket on."""
 
     def __init__(
         self, static: StaticFiles, mesh: Callable[[str], Path | bytes | None], access: Access
@@ -140,9 +136,9 @@ class Web:
         self._mesh = mesh
         self._access = access
 
-    async def answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Return the response; None: it goes on as a WebSocket."""
-        for name in _ONCE:
+    async def respond(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Return the response; None: the request continues as a WebSocket handshake."""
+        for name in _SINGLE_HEADERS:
             if len(request.headers.get_all(name)) > 1:
                 return _text(HTTPStatus.BAD_REQUEST, f'the request has more than one {name}')
         refusal = self._access.refusal(request.path, request.headers)
@@ -177,7 +173,7 @@ def _read_mesh(name: str, found: Path | bytes) -> Content | None:
         data = found if isinstance(found, bytes) else found.read_bytes()
     except OSError:
         return None
-    return Content(data, TYPES[Path(name).suffix], digest(data))
+    return Content(data, CONTENT_TYPES[Path(name).suffix], digest(data))
 
 
 def _file(content: Content, request: Request, *, is_immutable: bool) -> Response:

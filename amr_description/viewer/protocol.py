@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the node tells a page; the node's side of ``web/src/protocol.ts``, which says what it means.
+Messages to pages: this side of ``web/src/protocol.ts``, which documents them.
 
-A message is a frozen dataclass of the same name with the same fields; :func:`encode` makes the
-text frame of it. What pages tell the node is read in ``requests.py``, the binary states are made
-in ``states.py``.
+A message is a frozen dataclass with the name and the fields that it has there; :func:`encode`
+returns its text frame. Messages from pages are in ``requests.py``, binary states in
+``states.py``.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from typing import Any, ClassVar, Literal
 from amr_description.model.frames import Quaternion, Vector
 
 SUBPROTOCOL = 'amr.v1'
-"""Of the WebSocket; a page of another version is refused."""
+"""The WebSocket subprotocol; a page of another version is refused."""
 
 type Colour = tuple[float, float, float, float]
 """Red, green, blue, alpha in 0..1."""
@@ -37,7 +37,7 @@ class Hello:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """Where commands go: a topic, and the type that is wanted there."""
+    """The topic of velocity commands, and its message type."""
 
     topic: str
     message: str
@@ -45,7 +45,7 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class RobotInfo:
-    """One robot; ``id`` is its namespace, the rest are topics and nodes."""
+    """One robot; ``id`` is its namespace, the other names are topics and nodes."""
 
     id: str
     name: str
@@ -60,7 +60,7 @@ class RobotInfo:
 
 @dataclass(frozen=True, slots=True)
 class SimulatorInfo:
-    """A simulator, by its node, and who is in its world."""
+    """A simulator: its node, and the entities in its world."""
 
     id: str
     entities: tuple[str, ...]
@@ -68,7 +68,7 @@ class SimulatorInfo:
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """What there is in the ROS graph."""
+    """The robots and simulators of the ROS graph."""
 
     type: ClassVar[str] = 'graph'
     robots: tuple[RobotInfo, ...]
@@ -78,7 +78,7 @@ class Graph:
 
 @dataclass(frozen=True, slots=True)
 class JointInfo:
-    """A joint that moves, with one position; ``lower`` and ``upper`` are finite."""
+    """A joint with one position, rad or m; ``lower`` and ``upper`` are finite."""
 
     name: str
     kind: Literal['revolute', 'continuous', 'prismatic']
@@ -90,7 +90,7 @@ class JointInfo:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What check_urdf says of the description."""
+    """A finding of check_urdf about the description."""
 
     level: Literal['error', 'warning', 'note']
     line: int | None
@@ -113,7 +113,7 @@ class Model:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A part of the surroundings."""
+    """A static shape of the world."""
 
     name: str
     kind: Literal['box', 'sphere', 'cylinder', 'capsule', 'plane', 'triangles']
@@ -126,7 +126,7 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class World:
-    """The static surroundings."""
+    """The static shapes of a simulator's world."""
 
     type: ClassVar[str] = 'world'
     simulator: str
@@ -135,7 +135,7 @@ class World:
 
 @dataclass(frozen=True, slots=True)
 class FrameInfo:
-    """A frame of TF, and the one that it is in."""
+    """A TF frame and its parent."""
 
     name: str
     parent: str
@@ -143,7 +143,7 @@ class FrameInfo:
 
 @dataclass(frozen=True, slots=True)
 class RobotLayout:
-    """The parts of a robot of which a state tells."""
+    """The joints and wheels of a robot, in the order of the states."""
 
     id: str
     joints: tuple[str, ...]
@@ -152,7 +152,7 @@ class RobotLayout:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """What stands where in the states that follow."""
+    """The order of the values in the states that follow."""
 
     type: ClassVar[str] = 'layout'
     id: int
@@ -162,7 +162,7 @@ class Layout:
 
 @dataclass(frozen=True, slots=True)
 class SimulationStatus:
-    """The simulator's clock and health."""
+    """State, time (s) and real-time factors of a simulator."""
 
     type: ClassVar[str] = 'simulation'
     simulator: str
@@ -174,7 +174,7 @@ class SimulationStatus:
 
 @dataclass(frozen=True, slots=True)
 class TimeReset:
-    """Time went back."""
+    """Time has jumped back, to ``time`` (s)."""
 
     type: ClassVar[str] = 'reset'
     time: float
@@ -182,7 +182,7 @@ class TimeReset:
 
 @dataclass(frozen=True, slots=True)
 class ControllerInfo:
-    """A controller, and the interfaces that it has claimed."""
+    """A controller and the command interfaces that it has claimed."""
 
     name: str
     kind: str
@@ -201,7 +201,7 @@ class HardwareComponentInfo:
 
 @dataclass(frozen=True, slots=True)
 class Controllers:
-    """What a controller manager has."""
+    """The controllers and hardware components of a controller manager."""
 
     type: ClassVar[str] = 'controllers'
     robot: str
@@ -211,7 +211,7 @@ class Controllers:
 
 @dataclass(frozen=True, slots=True)
 class DiagnosticItem:
-    """One line of /diagnostics."""
+    """One status of /diagnostics."""
 
     level: Literal['ok', 'warn', 'error', 'stale']
     name: str
@@ -220,7 +220,7 @@ class DiagnosticItem:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostics:
-    """What /diagnostics says of a robot."""
+    """The latest statuses of /diagnostics for a robot."""
 
     type: ClassVar[str] = 'diagnostics'
     robot: str
@@ -229,7 +229,7 @@ class Diagnostics:
 
 @dataclass(frozen=True, slots=True)
 class Driver:
-    """Who drives a robot; None: nobody. ``stopped``: who drove, until another page stopped it."""
+    """The page that drives a robot; ``stopped``: the one that drove until another stopped it."""
 
     type: ClassVar[str] = 'driver'
     robot: str
@@ -239,7 +239,7 @@ class Driver:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """The answer to a request."""
+    """The reply to a request."""
 
     type: ClassVar[str] = 'reply'
     id: int
@@ -249,7 +249,7 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """Something that a person should know."""
+    """A line for the user."""
 
     type: ClassVar[str] = 'notice'
     level: Literal['info', 'warning', 'error']
@@ -273,11 +273,11 @@ type ServerMessage = (
 
 
 def encode(message: ServerMessage) -> str:
-    """Return the text frame of a message; a number that is none becomes null."""
+    """Return the text frame of a message; NaN and infinity become null."""
     fields = {'type': message.type, **asdict(message)}
     try:
         return json.dumps(fields, allow_nan=False, separators=(',', ':'))
-    except ValueError:  # of a stranger's message: JSON has no NaN, and a page could not read it
+    except ValueError:  # from a third-party message; JSON has neither NaN nor infinity
         return json.dumps(_finite(fields), allow_nan=False, separators=(',', ':'))
 
 

@@ -1,8 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a page tells the node, read with distrust: a text frame becomes a frozen dataclass, or a
-ProtocolError says what is wrong with it. ``web/src/protocol.ts`` says what each means.
+Messages from pages, validated: a text frame becomes a frozen dataclass, or a ProtocolError says
+what is wrong with it. ``web/src/protocol.ts`` documents each message.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,12 +15,12 @@ from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
 from amr_description.text import quote
 
-_LARGEST_ID = 2**53  # of JavaScript's whole numbers
-_SHOWN = 80  # characters of what was found
-_FASTEST = 100.0  # m/s or rad/s: whatever is faster is a mistake, of a robot on wheels
+_LARGEST_ID = 2**53  # up to here JavaScript's numbers are exact integers
+_SHOWN = 80  # characters of a value that an error quotes
+_FASTEST = 100.0  # m/s or rad/s; no wheeled robot is faster
 
 type Speed = float
-"""m/s or rad/s, of a robot that is driven by hand."""
+"""m/s or rad/s; its own type, because it has a limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Drive:
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """Stop a robot, or all."""
+    """Stop a robot; None: all robots."""
 
     types: ClassVar[tuple[str, ...]] = ('stop',)
     robot: str | None
@@ -52,7 +52,7 @@ class SetJoints:
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """Let time go on, or (``pause``) stand still."""
+    """Run the simulation, or (type ``pause``) pause it."""
 
     types: ClassVar[tuple[str, ...]] = ('play', 'pause')
     type: str
@@ -62,7 +62,7 @@ class Play:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Make physics steps while time stands still."""
+    """Advance a paused simulation by physics steps."""
 
     types: ClassVar[tuple[str, ...]] = ('step',)
     id: int
@@ -72,7 +72,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class ResetSimulation:
-    """All robots back to their starts, time to 0."""
+    """Reset the time to 0, and all robots to their initial poses."""
 
     types: ClassVar[tuple[str, ...]] = ('reset_simulation',)
     id: int
@@ -91,7 +91,7 @@ class SetFactor:
 
 @dataclass(frozen=True, slots=True)
 class Spawn:
-    """Put another robot into the world: the description of robot ``like``, yaw in rad."""
+    """Spawn a robot with the description of robot ``like``; position in m, yaw in rad."""
 
     types: ClassVar[tuple[str, ...]] = ('spawn',)
     id: int
@@ -105,7 +105,7 @@ class Spawn:
 
 @dataclass(frozen=True, slots=True)
 class Delete:
-    """Take a robot out of the world."""
+    """Delete a robot from the world."""
 
     types: ClassVar[tuple[str, ...]] = ('delete',)
     id: int
@@ -125,7 +125,7 @@ class Switch:
 
 
 type Request = Play | Step | ResetSimulation | SetFactor | Spawn | Delete | Switch
-"""These have an ``id`` and get a reply."""
+"""Messages with an ``id``, which get a reply."""
 type ClientMessage = Drive | Stop | SetJoints | Request
 
 REQUESTS = (Play, Step, ResetSimulation, SetFactor, Spawn, Delete, Switch)

@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The server: one port for the page and its WebSocket, one asyncio loop in a thread of its own.
+The server: one port for the page and its WebSocket, and an asyncio loop in a thread of its own.
 
-Whoever owns it calls :meth:`Server.start`, :meth:`Server.show`, :meth:`Server.forget`,
-:meth:`Server.call` and :meth:`Server.stop` on any thread; all else runs on the server's.
+:meth:`Server.start`, :meth:`Server.publish`, :meth:`Server.retain`, :meth:`Server.call` and
+:meth:`Server.stop` may be called on any thread; everything else runs on the server's thread.
 """
 
 import asyncio
@@ -24,7 +24,7 @@ from amr_description.errors import ProtocolError, ViewerError
 from amr_description.viewer.access import Access, is_loopback, TOKEN_PARAMETER
 from amr_description.viewer.backend import Backend
 from amr_description.viewer.drive_lock import DRIVE_TIMEOUT
-from amr_description.viewer.http import StaticFiles, Web
+from amr_description.viewer.http import HttpFiles, StaticFiles
 from amr_description.viewer.protocol import (
     Hello,
     Layout,
@@ -38,28 +38,33 @@ from amr_description.viewer.sessions import MessageRouter, MOST_PAGES, Page, Pag
 STATIC = Path(__file__).parent / 'static'
 DEFAULT_HOST = '127.0.0.1'
 _PORTS = 20
-"""How many are tried where the first is taken."""
+"""How many more ports are tried if the first is taken."""
 _LARGEST_FRAME = 64 * 1024
-"""Bytes, of what a page may send; 1000 sliders need half of it."""
+"""Bytes of a frame from a page; 1000 sliders need half of it."""
 _OPEN_TIMEOUT = 20.0
-"""s for a request and its answer, as large as a mesh may be."""
-_MOST_UNDECIDED = 64
-"""Sockets that have not asked for anything yet; of more, the oldest goes."""
+"""s for a request and its response, which may be a large mesh."""
+_MOST_IDLE = 64
+"""Connections that have not sent a request yet; when there are more, the oldest is closed."""
 _MOST_UNSENT = 8 * 1024
-"""Bytes that the system takes ahead of sending; by default megabytes, a minute of states."""
+"""Bytes in the system's send buffer; the default, megabytes, would hold a minute of states."""
 _PING = 10.0
 _CLOSE_TIMEOUT = 1.0
 _REASON_BYTES = 123
-"""Of the reason of a close, by RFC 6455."""
+"""Largest reason of a close frame (RFC 6455)."""
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class ServerSettings:
     """
-    Where the server listens and what it is.
+    Where the server listens, and what it sends to every page.
 
-    ``rate``: states per second, at most. ``token``: asked of every page where ``host`` is not the
-    loopback.
+    Attributes:
+        host: address to listen on.
+        port: port to listen on, or the next free one; 0: any free one.
+        rate: most states per second.
+        token: required from every page, unless ``host`` is the loopback.
+        version: of this package.
+        domain: ROS domain id.
     """
 
     host: str = DEFAULT_HOST
@@ -71,71 +76,68 @@ class Settings:
 
     @property
     def access(self) -> Access:
-        """The rules for who may talk to it."""
+        """The rules for requests."""
         return Access(None if is_loopback(self.host) else self.token)
 
 
 class Server:
-    """The page's server; ``backend`` knows the robots, ``say`` logs a line that is a fault."""
+    """The page's server; ``log_error`` logs a line about an exception that is a bug."""
 
     def __init__(
         self,
-        settings: Settings,
+        settings: ServerSettings,
         backend: Backend,
-        say: Callable[[str], object],
+        log_error: Callable[[str], object],
         static: Path = STATIC,
     ) -> None:
-        """Bind the port, or the next one that is free. Raises ViewerError."""
+        """Bind the port, or the next free one. Raises ViewerError."""
         self._settings = settings
         self._backend = backend
-        self._say = say
+        self._log_error = log_error
         self._socket = _bind(settings.host, settings.port)
-        self._web = Web(StaticFiles(static), backend.mesh, settings.access)
+        self._http = HttpFiles(StaticFiles(static), backend.mesh, settings.access)
         self._pages = Pages()
         self._loop = asyncio.new_event_loop()
-        self._loop.set_exception_handler(self._on_fault)
-        self._ended = asyncio.Event()
-        self._somebody_looks = asyncio.Event()
-        self._undecided: dict[ServerConnection, None] = {}
-        self._talk = MessageRouter(backend, self._pages, say)
+        self._loop.set_exception_handler(self._on_exception)
+        self._stopping = asyncio.Event()
+        self._has_pages = asyncio.Event()
+        self._idle: dict[ServerConnection, None] = {}
+        self._router = MessageRouter(backend, self._pages, log_error)
         self._thread = threading.Thread(target=self._run, name='viewer')
 
     @property
     def url(self) -> str:
-        """Where the page is."""
+        """The address of the page, with the token if it needs one."""
         host, port, *_ = self._socket.getsockname()
-        place = f'[{host}]' if ':' in host else host
+        host = f'[{host}]' if ':' in host else host
         token = self._settings.access.token
-        return f'http://{place}:{port}/' + (f'?{TOKEN_PARAMETER}={token}' if token else '')
+        return f'http://{host}:{port}/' + (f'?{TOKEN_PARAMETER}={token}' if token else '')
 
     def start(self) -> None:
-        """Begin to serve."""
+        """Start the thread."""
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop the robots that are driven, part from all pages, and end the thread."""
+        """Stop the robots that pages drive, disconnect all pages, and join the thread."""
         if self._thread.is_alive():
-            self._loop.call_soon_threadsafe(self._ended.set)
+            self._loop.call_soon_threadsafe(self._stopping.set)
             self._thread.join()
         self._socket.close()
 
-    def show(self, subject: str, message: ServerMessage) -> None:
-        """As :meth:`Pages.show`."""
-        self._call(lambda: self._pages.show(subject, message))
+    def publish(self, subject: str, message: ServerMessage) -> None:
+        """Call :meth:`Pages.publish` on the server's thread."""
+        self.call(lambda: self._pages.publish(subject, message))
 
-    def show_now(self, subject: str, message: ServerMessage) -> None:
-        """As :meth:`show`, on the server's thread."""
-        self._pages.show(subject, message)
+    def publish_now(self, subject: str, message: ServerMessage) -> None:
+        """Call :meth:`Pages.publish`; on the server's thread."""
+        self._pages.publish(subject, message)
 
-    def forget(self, keep: list[str]) -> None:
-        """As :meth:`Pages.forget`."""
-        self._call(lambda: self._pages.forget(keep))
+    def retain(self, subjects: list[str]) -> None:
+        """Call :meth:`Pages.retain` on the server's thread."""
+        self.call(lambda: self._pages.retain(subjects))
 
     def call(self, callback: Callable[[], object]) -> None:
-        """Have something called on the server's thread."""
-        self._call(callback)
-
-    def _call(self, callback: Callable[[], object]) -> None:
+        """Call something on the server's thread soon, unless it has ended."""
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(callback)
 
@@ -150,16 +152,16 @@ class Server:
 
     async def _serve(self) -> None:
         quiet = logging.getLogger('amr_description.viewer.websockets')
-        quiet.addHandler(logging.NullHandler())  # what strangers send is no fault of ours
+        quiet.addHandler(logging.NullHandler())  # malformed requests are not errors of ours
         quiet.propagate = False
         states = asyncio.create_task(self._send_states())
         states.add_done_callback(self._on_end_of_states)
         server = await serve(
-            self._attend,
+            self._serve_page,
             sock=self._socket,
             subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
             compression=None,
-            process_request=self._web.answer,
+            process_request=self._http.respond,
             server_header=None,
             open_timeout=_OPEN_TIMEOUT,
             ping_interval=_PING,
@@ -169,61 +171,61 @@ class Server:
             logger=quiet,
             create_connection=self._connection,
         )
-        await self._ended.wait()
+        await self._stopping.wait()
         states.cancel()
-        self._talk.stop_all()
+        self._router.stop_all()
         server.close(code=CloseCode.SERVICE_RESTART, reason='the viewer has ended')
-        for connection in [*self._undecided]:
+        for connection in [*self._idle]:
             connection.transport.abort()
         await server.wait_closed()
 
     def _connection(self, *args: object, **options: object) -> ServerConnection:
-        return _Connection(self._undecided, *args, **options)
+        return _Connection(self._idle, *args, **options)
 
-    async def _attend(self, connection: ServerConnection) -> None:
-        """Talk with a page from its first word to its last."""
+    async def _serve_page(self, connection: ServerConnection) -> None:
+        """Serve a page from its connection to its end."""
         if self._pages.is_full:
             reason = f'{MOST_PAGES} pages are open already; close one of them first'
             await connection.close(CloseCode.TRY_AGAIN_LATER, reason)
             return
-        page = Page(self._pages.name(), connection)
-        self._enter(page)
+        page = Page(self._pages.next_name(), connection)
+        self._connect(page)
         try:
             async for frame in connection:
                 if isinstance(frame, bytes):
                     raise ProtocolError('binary frames are not understood')
-                self._talk.hear(page, decode(frame))
+                self._router.route(page, decode(frame))
         except ProtocolError as error:
-            await connection.close(CloseCode.POLICY_VIOLATION, _reason(error))
+            await connection.close(CloseCode.POLICY_VIOLATION, _close_reason(error))
         except ConnectionClosed:
-            pass  # without a goodbye
+            pass  # without a close frame
         finally:
-            self._leave(page)
+            self._disconnect(page)
 
-    def _enter(self, page: Page) -> None:
+    def _connect(self, page: Page) -> None:
         settings = self._settings
         if not len(self._pages):
-            self._backend.opened()
-            self._somebody_looks.set()
+            self._backend.open()
+            self._has_pages.set()
         hello = Hello(page.name, settings.version, settings.domain, settings.rate, DRIVE_TIMEOUT)
         self._pages.add(page, hello)
 
-    def _leave(self, page: Page) -> None:
+    def _disconnect(self, page: Page) -> None:
         self._pages.remove(page)
-        self._talk.leave(page)
+        self._router.disconnect(page)
         if not len(self._pages):
-            self._somebody_looks.clear()
-            self._backend.closed()
-            self._pages.clear()
+            self._has_pages.clear()
+            self._backend.close()
+            self._pages.clear_latched()
 
     async def _send_states(self) -> None:
-        """Look for what has moved, at a steady rate, while somebody looks."""
+        """Send what is new, at a steady rate, while there are pages."""
         period, due = 1.0 / self._settings.rate, self._loop.time()
         while True:
-            await self._somebody_looks.wait()
-            messages, state = self._backend.state()
+            await self._has_pages.wait()
+            messages, state = self._backend.take_state()
             for message in messages:
-                self._tell(message)
+                self._publish_message(message)
             if state is not None:
                 self._pages.send_state(state)
             due = max(due + period, self._loop.time())
@@ -231,45 +233,45 @@ class Server:
 
     def _on_end_of_states(self, task: asyncio.Task[None]) -> None:
         if not task.cancelled() and (error := task.exception()) is not None:
-            self._say(f'no more states are sent: {type(error).__name__}: {error}')
+            self._log_error(f'no more states are sent: {type(error).__name__}: {error}')
 
-    def _tell(self, message: ServerMessage) -> None:
+    def _publish_message(self, message: ServerMessage) -> None:
         match message:
             case Layout():
-                self._pages.show('', message)
+                self._pages.publish('', message)
             case SimulationStatus():
-                self._pages.show(message.simulator, message)
+                self._pages.publish(message.simulator, message)
             case _:
-                self._pages.tell(message)
+                self._pages.send_message(message)
 
-    def _on_fault(self, _: asyncio.AbstractEventLoop, context: dict[str, object]) -> None:
+    def _on_exception(self, _: asyncio.AbstractEventLoop, context: dict[str, object]) -> None:
         error = context.get('exception')
-        self._say(f'{context.get("message")}: {type(error).__name__}: {error}')
+        self._log_error(f'{context.get("message")}: {type(error).__name__}: {error}')
 
 
 class _Connection(ServerConnection):
-    """A socket; as long as it has asked for nothing, it is one of the undecided."""
+    """A connection; it is in ``idle`` until it has sent a request."""
 
     def __init__(
-        self, undecided: dict[ServerConnection, None], *args: object, **options: object
+        self, idle: dict[ServerConnection, None], *args: object, **options: object
     ) -> None:
         super().__init__(*args, **options)  # type: ignore[arg-type]
-        self._undecided = undecided
+        self._idle = idle
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         super().connection_made(transport)
-        self._undecided[self] = None
-        self.request_rcvd.add_done_callback(lambda _: self._undecided.pop(self, None))
-        if len(self._undecided) > _MOST_UNDECIDED:
-            next(iter(self._undecided)).transport.abort()
+        self._idle[self] = None
+        self.request_rcvd.add_done_callback(lambda _: self._idle.pop(self, None))
+        if len(self._idle) > _MOST_IDLE:
+            next(iter(self._idle)).transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._undecided.pop(self, None)
+        self._idle.pop(self, None)
         super().connection_lost(exc)
 
 
 def _bind(host: str, port: int) -> socket.socket:
-    """Listen on ``port``, 0 for any, or the next one that is free. Raises ViewerError."""
+    """Listen on ``port``, or on the next free one; 0: on any free one. Raises ViewerError."""
     family = socket.AF_INET6 if ':' in host else socket.AF_INET
     last = min(port + _PORTS, 65535) if port else 0
     for each in range(port, last + 1):
@@ -282,7 +284,7 @@ def _bind(host: str, port: int) -> socket.socket:
                     '-p port:=… choose where'
                 ) from error
         else:
-            # What it accepts inherits this.
+            # Accepted sockets inherit this option.
             bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, _MOST_UNSENT)
             return bound
     raise ViewerError(
@@ -291,5 +293,5 @@ def _bind(host: str, port: int) -> socket.socket:
     )
 
 
-def _reason(error: Exception) -> str:
+def _close_reason(error: Exception) -> str:
     return str(error).encode()[:_REASON_BYTES].decode(errors='ignore')

@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The binary frames: what ``web/src/protocol.ts`` calls a state, filled in place.
+The binary frames: a state as ``web/src/protocol.ts`` defines it, filled in place.
 
 ::
 
     0  u8 1 │ 1  u8 0 │ 2  u16 layout │ 4  u32 number │ 8  f64 time │ 16  f32 …
 
-The f32 are, for each frame its pose (7), then for each robot the positions of its joints, their
-velocities, the velocities that they are commanded, odometry (9), truth (9), command (2), wheels
-(4 each). NaN: not known.
+The f32 values are the pose of each frame (7), then for each robot: joint positions, joint
+velocities, commanded joint velocities, odometry (9), ground truth (9), command (2), and 4 per
+wheel. NaN: not known.
 """
 
 from dataclasses import dataclass
@@ -27,16 +27,16 @@ MOTION_FLOATS = 9
 COMMAND_FLOATS = 2
 WHEEL_FLOATS = 4
 LAYOUTS = 2**16
-"""Ids of layouts go from 0 to below this."""
+"""Number of layout ids; they are reused after that."""
 _NUMBERS = 2**32
 
 type Floats = np.ndarray
-"""float32, a view into the frame: what is written there is sent."""
+"""float32, a view into the frame: what is written here is sent."""
 
 
 @dataclass(frozen=True, slots=True)
 class RobotFloats:
-    """The part of one robot."""
+    """The values of one robot; ``wheels`` has the shape (wheels, 4)."""
 
     positions: Floats
     velocities: Floats
@@ -48,7 +48,7 @@ class RobotFloats:
 
 
 class StateFrame:
-    """One frame of a layout, filled again and again."""
+    """The frame of one layout, reused for every state."""
 
     def __init__(self, layout: Layout) -> None:
         self.layout = layout
@@ -59,14 +59,14 @@ class StateFrame:
         floats.fill(np.nan)
         end = POSE_FLOATS * len(layout.frames)
         self.poses: Floats = floats[:end].reshape(-1, POSE_FLOATS)
-        """x y z qx qy qz qw of each frame in its parent."""
+        """Of each frame in its parent: x y z (m), qx qy qz qw; shape (frames, 7)."""
         self.robots: tuple[RobotFloats, ...] = ()
         for robot in layout.robots:
             begin, end = end, end + _size(robot)
             self.robots += (_parts(floats[begin:end], robot),)
 
     def encode(self, number: int, time: float) -> bytes:
-        """Return the frame as it is now; ``time``: s."""
+        """Return the frame as bytes; ``number`` counts states, ``time`` is in s."""
         HEADER.pack_into(self._data, 0, KIND, 0, self.layout.id, number % _NUMBERS, time)
         return bytes(self._data)
 

@@ -19,8 +19,7 @@ The parameters are in :class:`Settings`; all may be set at run time. A new ``rob
 that cannot be used is refused and the old one kept.
 
 Transforms carry the stamp of the joint states they come from. As in the original, messages are
-thinned out by comparing these stamps (:class:`~amr_description.nodes.robot_state_publisher.robot_state.Throttle`). Where
-the original hurts:
+throttled by these stamps (``robot_state.Throttle``). Where it differs from the original:
 
 * a joint state with a zero stamp, which it never publishes, counts as stamped on arrival (its
   transforms too: TF has no use for stamp 0), and is thinned out by that stamp;

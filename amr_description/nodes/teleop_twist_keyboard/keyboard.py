@@ -7,7 +7,7 @@ Keys come at once and are not shown, while Ctrl-C and Ctrl-Z remain signals for 
 its user expects. Ctrl-Z is told as a key too, for the reader to call :meth:`Keyboard.suspend` when
 it has stopped the robot; ``fg`` takes the terminal again.
 
-A terminal that knows the kitty keyboard protocol (:mod:`amr_description.nodes.teleop_twist_keyboard.keyboard`) tells
+A terminal that knows the kitty keyboard protocol tells
 releases too. It is asked at the start and nobody waits for its answer: until it comes, and where
 it never comes, keys are ordinary ones. An answer that is still due when the terminal is given
 back is waited for, 0.5 s at most, or the shell would find it on its command line.

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The robots of the ROS graph, as the page's server wants them (viewer/backend.py)."""
+"""The robots of the ROS graph as the backend of the page's server (viewer/backend.py)."""
 
 import asyncio
 from collections.abc import Callable, Coroutine, Mapping, Sequence
@@ -13,6 +13,7 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 from visualization_msgs.msg import MarkerArray
 
+from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, ViewerError
 from amr_description.viewer.protocol import (
     Graph,
@@ -23,69 +24,70 @@ from amr_description.viewer.protocol import (
 )
 from amr_description.viewer.requests import Request, Spawn, Switch
 from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
-from amr_description.viewer.ros.markers import DiagnosticsBoard, shapes_of
-from amr_description.viewer.ros.robot import RobotLink
+from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
+from amr_description.viewer.ros.robot import RobotConnection
 from amr_description.viewer.ros.service_clients import (
+    activate_same_controllers,
     list_controllers,
-    Services,
-    Simulator,
-    start_like,
+    ServiceClients,
+    SimulatorClient,
     switch_controllers,
 )
-from amr_description.viewer.ros.states import States
+from amr_description.viewer.ros.states import StateAssembler
 from amr_description.viewer.server import Server
 
 _REFRESH_PERIOD = 1.0
-"""s between two questions to a simulator, or to a manager that does not tell its activity."""
+"""s between two queries of a simulator, or of a controller manager without ``~/activity``."""
 _STATUS_PERIOD = 0.25
-"""s between two messages about a simulator's time."""
+"""s between two messages about the time of a simulator."""
 
 
 class GraphBackend(GraphObserver):
     """
-    On the server's thread, but for what :class:`GraphObserver` has.
+    Runs on the server's thread, except for the callbacks of :class:`GraphObserver`.
 
-    :attr:`server` has to be set before the server starts; ``say`` logs a fault of ours.
+    :attr:`server` must be set before the server starts. ``log_error`` logs a line about an
+    exception that is a bug.
     """
 
     server: Server
 
-    def __init__(self, node: Node, executor: Executor, say: Callable[[str], object]) -> None:
+    def __init__(self, node: Node, executor: Executor, log_error: Callable[[str], object]) -> None:
         self._node = node
         self._executor = executor
-        self._say = say
-        self._services = Services(node)
-        self._states = States()
-        self._stage = GraphMonitor(node, self._states, self._services)
-        self._stage.audience = self
-        self._simulators: dict[str, Simulator] = {}
-        self._diagnostics = DiagnosticsBoard()
-        self._watch: asyncio.Task[None] | None = None
+        self._log_error = log_error
+        self._services = ServiceClients(node)
+        self._states = StateAssembler()
+        self._monitor = GraphMonitor(node, self._states, self._services)
+        self._monitor.observer = self
+        self._simulators: dict[str, SimulatorClient] = {}
+        self._diagnostics = LatestDiagnostics()
+        self._refresher: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._status_due = 0.0
-        self._sessions = 0
+        self._session_count = 0
         self._session = 0
-        """From the first page's coming to the last one's going; 0: nobody looks."""
+        """From the first page's connection to the last one's end; 0: no pages."""
         self._infos: tuple[RobotInfo, ...] = ()
 
-    # --- what the server asks --------------------------------------------------------------------
+    # --- called by the server --------------------------------------------------------------------
 
-    def opened(self) -> None:
-        """Somebody looks: connect."""
-        self._sessions += 1
-        self._session = self._sessions
-        self._executor.create_task(self._catch_up)
-        self._watch = asyncio.create_task(self._refresh_for_ever())
+    def open(self) -> None:
+        """Connect with the graph."""
+        self._session_count += 1
+        self._session = self._session_count
+        self._executor.create_task(self._set_session)
+        self._refresher = asyncio.create_task(self._refresh_periodically())
 
-    def closed(self) -> None:
-        """Nobody looks any more: part with everything."""
+    def close(self) -> None:
+        """Disconnect from the graph."""
         self._session = 0
-        self._executor.create_task(self._catch_up)
-        if self._watch is not None:
-            self._watch.cancel()
+        self._executor.create_task(self._set_session)
+        if self._refresher is not None:
+            self._refresher.cancel()
 
-    def state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
-        """Return what is new."""
+    def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
+        """Return what is new: messages, then a state."""
         messages, state = self._states.take()
         now = time.monotonic()
         if now >= self._status_due:
@@ -94,21 +96,21 @@ class GraphBackend(GraphObserver):
         return messages, state
 
     def robots(self) -> Sequence[str]:
-        """Return those that take commands."""
-        return [name for name, link in self._stage.links.items() if link.found.command]
+        """Return the robots that take velocity commands."""
+        return [name for name, each in self._monitor.connections.items() if each.found.command]
 
     def drive(self, robot: str, linear: float, angular: float) -> None:
         """Publish one command."""
-        self._link(robot).drive(linear, angular, self._now())
+        self._connection(robot).drive(linear, angular, self._now())
 
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
         """Move joints that joint_state_publisher publishes."""
-        self._link(robot).set_joints(positions, self._now())
+        self._connection(robot).set_joints(positions, self._now())
 
-    async def answer(self, request: Request) -> str:
-        """Do what is asked."""
+    async def handle(self, request: Request) -> str:
+        """Carry out a request."""
         if isinstance(request, Switch):
-            manager = self._link(request.robot).found.manager
+            manager = self._connection(request.robot).found.manager
             if manager is None:
                 raise ViewerError(f'{request.robot} has no controller manager')
             try:
@@ -120,85 +122,85 @@ class GraphBackend(GraphObserver):
             known = ', '.join(self._simulators) or 'none'
             raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
         try:
-            done = await simulator.answer(request)
+            done = await simulator.handle(request)
         finally:
-            self._do(self._refresh(simulator))
-        return f'{done}{await self._join(request)}' if isinstance(request, Spawn) else done
+            self._start(self._refresh(simulator))
+        return f'{done}{await self._set_up(request)}' if isinstance(request, Spawn) else done
 
-    async def _join(self, request: Spawn) -> str:
-        """Have a robot that was just spawned drawn and driven as the one that it is like."""
-        like, place = self._link(request.like), f'/{request.namespace.strip("/")}'
-        self._executor.create_task(self._stage.describe, place, self._description_of(request.like))
+    async def _set_up(self, request: Spawn) -> str:
+        """Give a spawned robot the description and the active controllers of the other one."""
+        like, robot = self._connection(request.like), f'/{request.namespace.strip("/")}'
+        self._executor.create_task(
+            self._monitor.set_description, robot, self._description_of(request.like)
+        )
         if like.found.manager is None:
             return ''
-        manager = place.rstrip('/') + like.found.manager.removeprefix(like.found.id.rstrip('/'))
+        manager = robot.rstrip('/') + like.found.manager.removeprefix(like.found.id.rstrip('/'))
         try:
-            names = await start_like(self._services, like.found.manager, manager)
+            names = await activate_same_controllers(self._services, like.found.manager, manager)
         except ViewerError as error:
             return f', but its controllers are not active: {error}'
         return f'; active: {", ".join(names) or "no controllers"}'
 
     def mesh(self, name: str) -> Path | bytes | None:
-        """Return what a description names, or its file."""
-        for link in self._stage.links.values():
-            if link.described is not None and name in link.described.files:
-                return link.described.files[name]
+        """Return a file that a description names, or its converted data."""
+        for each in self._monitor.connections.values():
+            if each.described is not None and name in each.described.files:
+                return each.described.files[name]
         return None
 
     # --- on the ROS thread -----------------------------------------------------------------------
 
-    def _catch_up(self) -> None:
-        """Be open for the present session alone; rclpy runs tasks in any order."""
-        self._stage.attend(self._session)
+    def _set_session(self) -> None:
+        """Pass on the present session: rclpy runs tasks in any order."""
+        self._monitor.set_session(self._session)
 
     def graph_changed(self) -> None:
-        """Tell the pages."""
-        links, simulators = self._stage.links, self._stage.found.simulators
-        subjects = [*links, *(each.id for each in simulators)]
-        infos = tuple(link.info for link in links.values())
-        names = [each.id for each in simulators]
-        self.server.call(lambda: self._follow(names))
-        self.server.forget(subjects)
-        self.server.call(lambda: self._show_graph(infos))
-        for link in links.values():
-            if link.found.manager:
-                self.controllers_changed(link.found.id)
+        """Publish the graph."""
+        connections, found = self._monitor.connections, self._monitor.found
+        simulators = [each.id for each in found.simulators]
+        infos = tuple(each.info for each in connections.values())
+        self.server.call(lambda: self._set_simulators(simulators))
+        self.server.retain([*connections, *simulators])
+        self.server.call(lambda: self._publish_graph(infos))
+        for name, each in connections.items():
+            if each.found.manager:
+                self.controllers_changed(name)
 
-    def model_came(self, link: RobotLink) -> None:
-        """Tell the pages."""
-        if link.described is not None:
-            self.server.show(link.found.id, link.described.message)
+    def description_changed(self, connection: RobotConnection) -> None:
+        """Publish the description."""
+        if connection.described is not None:
+            self.server.publish(connection.found.id, connection.described.message)
 
     def controllers_changed(self, robot: str) -> None:
-        """Ask for the whole list."""
+        """List the controllers anew."""
         self.server.call(lambda: self._list_controllers(robot))
 
-    def world_came(self, simulator: str, message: MarkerArray) -> None:
-        """Tell the pages."""
-        self.server.show(simulator, World(simulator, shapes_of(message)))
+    def world_received(self, simulator: str, message: MarkerArray) -> None:
+        """Publish the shapes of the world."""
+        self.server.publish(simulator, World(simulator, shapes_of(message)))
 
-    def diagnostics_came(self, message: DiagnosticArray) -> None:
-        """Tell the pages what is new."""
-        robots = [*self._stage.links]
-        for each in self._diagnostics.take(message, robots):
-            self.server.show(each.robot, each)
+    def diagnostics_received(self, message: DiagnosticArray) -> None:
+        """Publish the diagnostics of each robot."""
+        for each in self._diagnostics.update(message, [*self._monitor.connections]):
+            self.server.publish(each.robot, each)
 
     # --- on the server's thread ------------------------------------------------------------------
 
-    def _follow(self, names: Sequence[str]) -> None:
-        known = self._simulators
+    def _set_simulators(self, names: Sequence[str]) -> None:
+        before = self._simulators
         self._simulators = {
-            name: known.get(name) or Simulator(name, self._services, self._description_of)
+            name: before.get(name) or SimulatorClient(name, self._services, self._description_of)
             for name in names
         }
         for name, simulator in self._simulators.items():
-            if name not in known:
-                self._do(self._refresh(simulator))
+            if name not in before:
+                self._start(self._refresh(simulator))
 
-    def _show_graph(self, robots: tuple[RobotInfo, ...]) -> None:
+    def _publish_graph(self, robots: tuple[RobotInfo, ...]) -> None:
         self._infos = robots
         simulators = tuple(each.info for each in self._simulators.values())
-        self.server.show_now('', Graph(robots, simulators, None if robots else self._hint()))
+        self.server.publish_now('', Graph(robots, simulators, None if robots else self._hint()))
 
     def _hint(self) -> str:
         return (
@@ -208,77 +210,78 @@ class GraphBackend(GraphObserver):
         )
 
     def _statuses(self) -> list[SimulationStatus]:
-        scene = self._states.scene
-        if scene is None:
+        sources = self._states.sources
+        if sources is None:
             return []
         return [
             SimulationStatus(
                 simulator=name,
                 state=simulator.state,  # type: ignore[arg-type]
-                time=(scene.clock.time or 0) / 1e9,
+                time=(sources.clock.time or 0) / NANOSECONDS,
                 factor=simulator.factor,
-                real_factor=scene.clock.factor,
+                real_factor=sources.clock.factor,
             )
             for name, simulator in self._simulators.items()
         ]
 
-    def _link(self, robot: str) -> RobotLink:
-        link = self._stage.links.get(robot)
-        if link is None:
-            known = ', '.join(self._stage.links) or 'none'
+    def _connection(self, robot: str) -> RobotConnection:
+        connection = self._monitor.connections.get(robot)
+        if connection is None:
+            known = ', '.join(self._monitor.connections) or 'none'
             raise ViewerError(f'there is no robot {robot!a}; there are: {known}')
-        return link
+        return connection
 
     def _description_of(self, robot: str) -> str:
-        described = self._link(robot).described
+        described = self._connection(robot).described
         if described is None:
             raise ViewerError(f'the description of {robot} has not come yet')
         return described.message.urdf
 
     def _now(self) -> int:
-        """ROS time, ns: of /clock, where there is one, as of just now."""
-        scene = self._states.scene
-        if scene is not None:
-            scene.clock.look()
-            if scene.clock.time is not None:
-                return scene.clock.time
+        """Return ROS time, ns: that of /clock if it is published, else the node's."""
+        sources = self._states.sources
+        if sources is not None:
+            sources.clock.poll()
+            if sources.clock.time is not None:
+                return sources.clock.time
         return self._node.get_clock().now().nanoseconds
 
     def _list_controllers(self, robot: str) -> None:
-        async def ask() -> None:
-            link = self._stage.links.get(robot)
-            if link is not None and link.found.manager is not None:
-                found = await list_controllers(self._services, link.found.manager, robot)
-                self.server.show_now(robot, found)
+        async def list_them() -> None:
+            connection = self._monitor.connections.get(robot)
+            if connection is not None and connection.found.manager is not None:
+                manager = connection.found.manager
+                controllers = await list_controllers(self._services, manager, robot)
+                self.server.publish_now(robot, controllers)
 
-        self._do(ask())
+        self._start(list_them())
 
-    async def _refresh(self, simulator: Simulator) -> None:
+    async def _refresh(self, simulator: SimulatorClient) -> None:
         before = simulator.info
         await simulator.refresh()
         if simulator.info != before:
-            self._show_graph(self._infos)
+            self._publish_graph(self._infos)
 
-    async def _refresh_for_ever(self) -> None:
+    async def _refresh_periodically(self) -> None:
         while True:
             await asyncio.sleep(_REFRESH_PERIOD)
             for simulator in self._simulators.values():
-                self._do(self._refresh(simulator))
-            for name, link in self._stage.links.items():
-                if link.found.activity is None and link.found.manager is not None:
+                self._start(self._refresh(simulator))
+            for name, each in self._monitor.connections.items():
+                if each.found.activity is None and each.found.manager is not None:
                     self._list_controllers(name)
 
-    def _do(self, work: Coroutine[Any, Any, None]) -> None:
-        """Have something done; a service that does not answer is asked again later."""
+    def _start(self, work: Coroutine[Any, Any, None]) -> None:
+        """Start a task; services that do not answer are called again later."""
 
-        async def do() -> None:
+        async def run() -> None:
             try:
                 await work
             except AmrError:
-                pass  # who is asked is just going, or coming
+                pass  # the server of the service is starting or ending
             except Exception as error:
-                self._say(f'{type(error).__name__}: {error}')
+                self._log_error(f'{type(error).__name__}: {error}')
 
-        task = asyncio.get_running_loop().create_task(do())
+        task = asyncio.get_running_loop().create_task(run())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)

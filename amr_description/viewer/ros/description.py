@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A robot's description as a page wants it: joints, meshes, and what check_urdf says of it."""
+"""A robot description for the page: joints, meshes, and the findings of check_urdf."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ _IMAGE_OF_COLLADA = re.compile(r'<init_from>\s*(?:<ref>\s*)?([^<]+?)\s*</')
 
 @dataclass(frozen=True, slots=True)
 class DescribedRobot:
-    """A description: the message for the pages, and the files that it names, by their URLs."""
+    """The message for the pages, and the files that it refers to, by the names in their URLs."""
 
     name: str
     message: Model
@@ -41,12 +41,12 @@ class DescribedRobot:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Those that move."""
+        """The names of the joints that have a position."""
         return tuple(joint.name for joint in self.message.joints)
 
 
 def describe_robot(robot: str, text: str) -> DescribedRobot:
-    """Read the description of the robot with this namespace, however broken."""
+    """Read the description ``text`` of the robot with id ``robot``; errors become findings."""
     examination = examine(text, SOURCE)
     model, told = examination.robot, [_finding(each) for each in examination.findings]
     meshes: dict[str, str] = {}
@@ -97,7 +97,7 @@ def _textures(robot: Robot) -> Iterable[str]:
 
 
 def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
-    """The images that a COLLADA file names, beside it; what it has not is drawn without."""
+    """Yield the URIs of the images that a COLLADA file names, in its own folder or below."""
     folder = uri[: uri.rindex('/') + 1]
     for found in _IMAGE_OF_COLLADA.findall(data.decode(errors='replace')):
         name = unescape(found)
@@ -106,7 +106,7 @@ def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
 
 
 def _read(file: Path) -> bytes:
-    """Read a file that a page draws. Raises ResourceError."""
+    """Read a mesh or image. Raises ResourceError."""
     suffix = file.suffix.lower()
     if suffix not in _MESHES | _CONVERTED | _IMAGES:
         kinds = ', '.join(sorted(_MESHES | _CONVERTED | _IMAGES))

@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The names of the ROS graph as discovery (viewer/graph.py) wants them.
+Watches the ROS graph, and connects the viewer with its robots and simulators.
 
-The viewer's side towards ROS: looks at the graph, and connects with what is there.
-
-Everything here runs on the ROS thread. What the server's thread reads, :attr:`GraphMonitor.links`,
-:attr:`GraphMonitor.found` and ``states.scene``, is replaced as a whole and never changed.
+Everything here runs on the ROS thread. What the server's thread reads,
+:attr:`GraphMonitor.connections`, :attr:`GraphMonitor.found` and ``states.sources``, is replaced as
+a whole and never modified.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from functools import partial
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.clock import Clock
@@ -22,24 +22,28 @@ from visualization_msgs.msg import MarkerArray
 from amr_description.viewer.graph import (
     ACTIVITY,
     discover,
+    DiscoveredGraph,
     DYNAMIC_JOINT_STATE,
-    Found,
     FoundRobot,
+    GraphNames,
     JOINT_STATE,
     MARKERS,
-    Names,
     ODOMETRY,
     STATISTICS_VALUES,
     STRING,
     TF,
     TWISTS,
 )
-from amr_description.viewer.ros.robot import RobotLink, WorldLink
-from amr_description.viewer.ros.robot_topics import Frames
-from amr_description.viewer.ros.service_clients import clients_of, manager_clients, Services
-from amr_description.viewer.ros.states import RosClock, Scene, States
+from amr_description.viewer.ros.robot import RobotConnection, WorldSubscription
+from amr_description.viewer.ros.robot_topics import TransformTopics
+from amr_description.viewer.ros.service_clients import (
+    manager_service_types,
+    ServiceClients,
+    simulator_service_types,
+)
+from amr_description.viewer.ros.states import RosClock, StateAssembler, StateSources
 
-_PUBLISHED = {
+_PUBLISHED_TYPES = {
     ACTIVITY,
     DYNAMIC_JOINT_STATE,
     JOINT_STATE,
@@ -49,69 +53,56 @@ _PUBLISHED = {
     STRING,
     TF,
 }
-_HEARD = {JOINT_STATE, *TWISTS}
-
-
-def names_in(node: Node) -> Names:
-    """Return what others publish, hear and serve, as far as it may matter to a page."""
-    published, heard = {}, {}
-    for topic, types in node.get_topic_names_and_types():
-        if not _PUBLISHED.isdisjoint(types) and node.count_publishers(topic):
-            published[topic] = types
-        if not _HEARD.isdisjoint(types):
-            wanted = {
-                each.topic_type
-                for each in node.get_subscriptions_info_by_topic(topic)
-                if (each.node_name, each.node_namespace) != (node.get_name(), node.get_namespace())
-            }
-            if wanted:
-                heard[topic] = sorted(wanted)
-    return Names(published, heard, dict(node.get_service_names_and_types()))
-
-
+_SUBSCRIBED_TYPES = {JOINT_STATE, *TWISTS}
 _PERIOD = 0.5
-"""s between two looks at the graph."""
+"""s between two polls of the graph."""
 
 
 class GraphObserver:
-    """Whom the stage tells; all is called on the ROS thread, and does nothing by default."""
+    """Callbacks of :class:`GraphMonitor`, on the ROS thread; by default they do nothing."""
 
     def graph_changed(self) -> None:
-        """Robots, simulators or what they have: see ``found`` and ``links``."""
+        """``found`` or ``connections`` have changed."""
 
-    def model_came(self, link: RobotLink) -> None:
-        """The description of a robot came, or changed."""
+    def description_changed(self, connection: RobotConnection) -> None:
+        """The description of a robot was received, or has changed."""
 
     def controllers_changed(self, robot: str) -> None:
-        """A controller or hardware component has another state."""
+        """The state of a controller or hardware component has changed."""
 
-    def world_came(self, simulator: str, message: MarkerArray) -> None:
-        """The surroundings came, or changed."""
+    def world_received(self, simulator: str, message: MarkerArray) -> None:
+        """The markers of a simulator's world were received."""
 
-    def diagnostics_came(self, message: DiagnosticArray) -> None:
-        """Somebody said how it is."""
+    def diagnostics_received(self, message: DiagnosticArray) -> None:
+        """A message on /diagnostics was received."""
 
 
 class GraphMonitor:
-    """Closed at first: nothing is subscribed."""
+    """
+    Connected with the graph while a session is open; nothing is subscribed at first.
 
-    def __init__(self, node: Node, states: States, services: Services) -> None:
-        self.audience = GraphObserver()
-        self.found = Found()
-        self.links: Mapping[str, RobotLink] = {}
+    A session lasts from the first page's connection to the last one's end.
+    """
+
+    def __init__(self, node: Node, states: StateAssembler, services: ServiceClients) -> None:
+        self.observer = GraphObserver()
+        self.found = DiscoveredGraph()
+        self.connections: Mapping[str, RobotConnection] = {}
+        """By the id of the robot."""
         self._node = node
         self._states = states
         self._services = services
-        self._worlds: dict[str, WorldLink] = {}
+        self._worlds: dict[str, WorldSubscription] = {}
         self._session = 0
-        self._described: dict[str, str] = {}
+        self._descriptions: dict[str, str] = {}
+        """Of robots that publish none: id -> URDF."""
         self._timer: Timer | None = None
         self._diagnostics: Subscription | None = None
         self._clock: RosClock | None = None
-        self._frames: Frames | None = None
+        self._transforms: TransformTopics | None = None
 
-    def attend(self, session: int) -> None:
-        """Be open for this session, which is told everything anew; 0: be closed."""
+    def set_session(self, session: int) -> None:
+        """Open a session, which the observer is notified of everything anew; 0: close it."""
         if session == self._session:
             return
         self._session = session
@@ -119,107 +110,127 @@ class GraphMonitor:
         if session:
             self._open()
 
-    def describe(self, robot: str, text: str) -> None:
-        """Take this for the description of a robot that nobody else describes."""
-        self._described[robot] = text
+    def set_description(self, robot: str, text: str) -> None:
+        """Use this description for a robot that publishes none itself."""
+        self._descriptions[robot] = text
         if self._timer is not None:
-            self._look()
+            self._poll()
 
     def _open(self) -> None:
-        """Connect with what is there, and go on looking."""
         node = self._node
-        self._clock, self._frames = RosClock(node), Frames(node)
+        self._clock, self._transforms = RosClock(node), TransformTopics(node)
         self._diagnostics = node.create_subscription(
-            DiagnosticArray, '/diagnostics', lambda m: self.audience.diagnostics_came(m), 10
+            DiagnosticArray, '/diagnostics', lambda m: self.observer.diagnostics_received(m), 10
         )
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(_PERIOD, self._look, clock=steady)
-        self._set_scene()
-        self._look()
-        self.audience.graph_changed()
+        self._timer = node.create_timer(_PERIOD, self._poll, clock=steady)
+        self._update_sources()
+        self._poll()
+        self.observer.graph_changed()
 
     def _close(self) -> None:
-        """Part with everything."""
-        if self._timer is None or self._clock is None or self._frames is None:
+        if self._timer is None or self._clock is None or self._transforms is None:
             return
-        self._states.scene = None
+        self._states.sources = None
         self._node.destroy_timer(self._timer)
         self._timer = None
         self._node.destroy_subscription(self._diagnostics)
         self._clock.destroy()
-        self._frames.destroy()
-        self._follow(Found())
+        self._transforms.destroy()
+        self._connect(DiscoveredGraph())
 
-    def _look(self) -> None:
-        """See whether the graph has changed."""
+    def _poll(self) -> None:
+        """Compare the graph with what is connected."""
         self._forget_dead_clock()
-        found = discover(names_in(self._node), self._described)
+        found = discover(names_in_graph(self._node), self._descriptions)
         if found != self.found:
-            self._follow(found)
-            self._set_scene()
-            self.audience.graph_changed()
+            self._connect(found)
+            self._update_sources()
+            self.observer.graph_changed()
 
     def _forget_dead_clock(self) -> None:
-        """Let no command carry the time of a simulation that is gone: robots take it for old."""
+        """Stamp no command with the time of a simulation that has ended: it would be too old."""
         if self._clock is not None and not self._node.count_publishers('/clock'):
             self._clock.time = None
 
-    def _follow(self, found: Found) -> None:
-        self._services.keep(_clients(found))
-        links = {each.id: self._link(each) for each in found.robots}
-        gone = [link for name, link in self.links.items() if name not in links]
-        is_other_tree = bool(gone) or found.trees != self.found.trees
-        self.links, self.found = links, found
-        for link in gone:
-            link.destroy()
-            self._described.pop(link.found.id, None)
-        for name, link in links.items():
-            if link.described is None and name in self._described:
-                link.describe(self._described[name])
-        worlds = {each.id: each.world for each in found.simulators if each.world}
-        for name in [*self._worlds]:
-            if worlds.get(name) != self._worlds[name].topic:
-                self._worlds.pop(name).destroy()
-        for name, topic in worlds.items():
-            if name not in self._worlds:
-                self._worlds[name] = WorldLink(self._node, topic, self._teller(name))
-        if is_other_tree and self._timer is not None:  # frames that are gone would stay for ever
-            assert self._frames is not None, 'they are there while it is open'
-            self._frames.destroy()
-            self._frames = Frames(self._node, found.trees)
+    def _connect(self, found: DiscoveredGraph) -> None:
+        """Connect with what is found, and disconnect from what is not found any more."""
+        self._services.set_services(_service_types(found))
+        connections = {each.id: self._connection(each) for each in found.robots}
+        gone = [each for name, each in self.connections.items() if name not in connections]
+        has_other_frames = bool(gone) or found.tf_namespaces != self.found.tf_namespaces
+        self.connections, self.found = connections, found
+        for connection in gone:
+            connection.destroy()
+            self._descriptions.pop(connection.found.id, None)
+        for name, connection in connections.items():
+            if connection.described is None and name in self._descriptions:
+                connection.set_description(self._descriptions[name])
+        self._connect_worlds({each.id: each.world for each in found.simulators if each.world})
+        if has_other_frames and self._timer is not None:  # the frames of a robot never expire
+            assert self._transforms is not None, 'a session is open'
+            self._transforms.destroy()
+            self._transforms = TransformTopics(self._node, found.tf_namespaces)
 
-    def _link(self, found: FoundRobot) -> RobotLink:
-        link = self.links.get(found.id)
-        if link is None:
-            return RobotLink(
+    def _connection(self, found: FoundRobot) -> RobotConnection:
+        connection = self.connections.get(found.id)
+        if connection is None:
+            return RobotConnection(
                 self._node,
                 found,
-                self._model_came,
-                lambda link: self.audience.controllers_changed(link.found.id),
+                self._on_description,
+                lambda each: self.observer.controllers_changed(each.found.id),
             )
-        if link.found != found:
-            link.follow(found)
-        return link
+        if connection.found != found:
+            connection.update(found)
+        return connection
 
-    def _teller(self, simulator: str) -> Callable[[MarkerArray], None]:
-        return lambda message: self.audience.world_came(simulator, message)
+    def _connect_worlds(self, topics: Mapping[str, str]) -> None:
+        """Subscribe to the worlds of these simulators, and to no others."""
+        for name in [*self._worlds]:
+            if topics.get(name) != self._worlds[name].topic:
+                self._worlds.pop(name).destroy()
+        for name, topic in topics.items():
+            if name not in self._worlds:
+                callback = partial(self._on_world, name)
+                self._worlds[name] = WorldSubscription(self._node, topic, callback)
 
-    def _model_came(self, link: RobotLink) -> None:
-        self._set_scene()
-        self.audience.model_came(link)
-        self.audience.graph_changed()
+    def _on_world(self, simulator: str, message: MarkerArray) -> None:
+        self.observer.world_received(simulator, message)
 
-    def _set_scene(self) -> None:
-        assert self._clock and self._frames, 'they are there while it is open'
-        robots = tuple(link.topics for link in self.links.values())
-        self._states.scene = Scene(self._clock, self._frames, robots)
+    def _on_description(self, connection: RobotConnection) -> None:
+        self._update_sources()
+        self.observer.description_changed(connection)
+        self.observer.graph_changed()
+
+    def _update_sources(self) -> None:
+        assert self._clock and self._transforms, 'a session is open'
+        robots = tuple(each.topics for each in self.connections.values())
+        self._states.sources = StateSources(self._clock, self._transforms, robots)
 
 
-def _clients(found: Found) -> dict[str, type]:
-    wanted: dict[str, type] = {}
+def names_in_graph(node: Node) -> GraphNames:
+    """Return the names of the graph with the types that pages use, without ``node``'s own."""
+    published, subscribed = {}, {}
+    for topic, types in node.get_topic_names_and_types():
+        if not _PUBLISHED_TYPES.isdisjoint(types) and node.count_publishers(topic):
+            published[topic] = types
+        if not _SUBSCRIBED_TYPES.isdisjoint(types):
+            expected = {
+                each.topic_type
+                for each in node.get_subscriptions_info_by_topic(topic)
+                if (each.node_name, each.node_namespace) != (node.get_name(), node.get_namespace())
+            }
+            if expected:
+                subscribed[topic] = sorted(expected)
+    return GraphNames(published, subscribed, dict(node.get_service_names_and_types()))
+
+
+def _service_types(found: DiscoveredGraph) -> dict[str, type]:
+    types: dict[str, type] = {}
     for simulator in found.simulators:
-        wanted |= clients_of(simulator.id, simulator.services)
+        types |= simulator_service_types(simulator.id, simulator.services)
     for robot in found.robots:
         if robot.manager is not None:
-            wanted |= manager_clients(robot.manager)
-    return wanted
+            types |= manager_service_types(robot.manager)
+    return types

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Markers of a world, ours (sim/ros/world_markers.py) or a stranger's, as a page draws them.
+The markers of a world, and /diagnostics, converted to messages for pages.
 
-``/diagnostics`` as pages show it: the last word of each name, by robot.
+The markers may be those of sim/ros/world_markers.py, or of another simulator.
 """
 
 from collections.abc import Sequence
@@ -15,23 +15,31 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.ros.messages import transform_of
 from amr_description.viewer import protocol
-from amr_description.viewer.graph import owner
+from amr_description.viewer.graph import robot_of
 from amr_description.viewer.protocol import DiagnosticItem, Diagnostics
 
 _ENDLESS = 100.0
-"""m: a plane that is as wide has no end."""
+"""m: a plane as wide as that is drawn without an end."""
+_MOST_STATUSES = 500
+"""Names that are kept: nobody reads more, and a faulty publisher could invent new ones."""
 _KINDS = {
     Marker.CUBE: 'box',
     Marker.SPHERE: 'sphere',
     Marker.CYLINDER: 'cylinder',
     Marker.TRIANGLE_LIST: 'triangles',
 }
+_LEVELS = {
+    DiagnosticStatus.OK: 'ok',
+    DiagnosticStatus.WARN: 'warn',
+    DiagnosticStatus.ERROR: 'error',
+    DiagnosticStatus.STALE: 'stale',
+}
 
 
 def shapes_of(message: MarkerArray) -> tuple[protocol.Shape, ...]:
-    """Return what a page draws for a message; nothing where a number is none."""
+    """Return the shapes that a page draws; markers with NaN or infinity are left out."""
     shapes = (
-        _drawn(marker)
+        _shape(marker)
         for marker in message.markers
         if marker.action == Marker.ADD and marker.type in _KINDS
     )
@@ -43,7 +51,7 @@ def _is_finite(shape: protocol.Shape) -> bool:
     return all(math.isfinite(number) for each in numbers for number in each)
 
 
-def _drawn(marker: Any) -> protocol.Shape:
+def _shape(marker: Any) -> protocol.Shape:
     pose = transform_of(marker.pose)
     color, scale = marker.color, marker.scale
     kind, size, position = _KINDS[marker.type], (scale.x, scale.y, scale.z), pose.translation
@@ -70,31 +78,21 @@ def _drawn(marker: Any) -> protocol.Shape:
     )
 
 
-_LEVELS = {
-    DiagnosticStatus.OK: 'ok',
-    DiagnosticStatus.WARN: 'warn',
-    DiagnosticStatus.ERROR: 'error',
-    DiagnosticStatus.STALE: 'stale',
-}
-_MOST = 500
-"""Names that are remembered: nobody reads more, and a made-up publisher may invent them."""
-
-
-class DiagnosticsBoard:
+class LatestDiagnostics:
     """
-    The last status of each name.
+    The latest status of each name.
 
-    A name such as ``/robot1/controller_manager: Hardware`` says whose it is; of any other, the
-    first robot.
+    The name, such as ``/robot1/controller_manager: Hardware``, tells the robot; statuses with
+    other names are shown with the first robot.
     """
 
     def __init__(self) -> None:
         self._items: dict[str, DiagnosticItem] = {}
 
-    def take(self, message: DiagnosticArray, robots: Sequence[str]) -> list[Diagnostics]:
-        """Take a message; return what there is to tell of each robot."""
+    def update(self, message: DiagnosticArray, robots: Sequence[str]) -> list[Diagnostics]:
+        """Take in a message; return the statuses of each robot; ``robots`` are the ids."""
         for status in message.status:
-            if status.name in self._items or len(self._items) < _MOST:
+            if status.name in self._items or len(self._items) < _MOST_STATUSES:
                 level = _LEVELS.get(status.level, 'stale')
                 self._items[status.name] = DiagnosticItem(level, status.name, status.message)  # type: ignore[arg-type]
         return [Diagnostics(robot, self._of(robot, robots)) for robot in robots]
@@ -103,5 +101,5 @@ class DiagnosticsBoard:
         return tuple(
             item
             for name, item in sorted(self._items.items())
-            if (owner(name, robots) or robots[0]) == robot
+            if (robot_of(name, robots) or robots[0]) == robot
         )

@@ -1,6 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What connects the viewer with one robot or simulator of the graph, made on the ROS thread."""
+"""
+The connections of the viewer with one robot, and with the world of one simulator.
+
+They are created and destroyed on the ROS thread; commands are published on the server's thread.
+"""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -23,43 +27,46 @@ from amr_description.viewer.ros.description import describe_robot, DescribedRobo
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_FRAME = 'base_link'
+_COMMAND_FRAME = 'base_link'
 
 
-class RobotLink:
+class RobotConnection:
     """
-    One robot: its description, its moving parts, and the way to command it.
+    One robot: its description, the topics of what moves, and the publishers of commands.
 
-    ``on_change`` is called with the link when its description comes, ``on_activity`` when a state
-    of a controller has changed; both on the ROS thread.
+    Args:
+        node: of the viewer.
+        found: the robot's topics and nodes.
+        on_description: called on the ROS thread when the description was received or changed.
+        on_activity: called on the ROS thread when the state of a controller has changed.
     """
 
     def __init__(
         self,
         node: Node,
         found: FoundRobot,
-        on_change: Callable[['RobotLink'], None],
-        on_activity: Callable[['RobotLink'], None],
+        on_description: Callable[['RobotConnection'], None],
+        on_activity: Callable[['RobotConnection'], None],
     ) -> None:
         self.found = found
         self.described: DescribedRobot | None = None
         self.topics = RobotTopics(node, found, ())
         self._node = node
-        self._on_change = on_change
+        self._on_description = on_description
         self._on_activity = on_activity
         self._description = node.create_subscription(
-            String, found.description, lambda message: self.describe(message.data), LATCHED
+            String, found.description, lambda message: self.set_description(message.data), LATCHED
         )
         self._activity: Any = None
         self._commands: Publisher | None = None
         self._joints: Publisher | None = None
-        self._open_commands()
-        self._open_joints()
-        self._listen_to_activity()
+        self._advertise_commands()
+        self._advertise_joints()
+        self._subscribe_activity()
 
     @property
     def info(self) -> RobotInfo:
-        """What pages are told of it."""
+        """The robot as in the graph message."""
         found = self.found
         return RobotInfo(
             id=found.id,
@@ -73,25 +80,33 @@ class RobotLink:
             manager=found.manager,
         )
 
-    def follow(self, found: FoundRobot) -> None:
-        """
-        Its topics have changed.
+    def set_description(self, text: str) -> None:
+        """Read a description, unless it is the present one."""
+        if self.described is not None and self.described.message.urdf == text:
+            return
+        self.described = describe_robot(self.found.id, text)
+        self._subscribe_topics()
+        self._on_description(self)
 
-        What is published where it was stays: a new publisher loses what it says before others
-        know it, such as a stop.
+    def update(self, found: FoundRobot) -> None:
+        """
+        Follow a change of the robot's topics.
+
+        A publisher whose topic has not changed is kept: what a new one publishes before it is
+        matched with its subscribers is lost, and that could be a stop.
         """
         before, self.found = self.found, found
-        self.topics.destroy()  # first: in one process a topic cannot have two types at a time
+        self.topics.destroy()  # first: in one process a topic can only have one type
         if found.command != before.command:
-            self._open_commands()
+            self._advertise_commands()
         if found.joint_publisher != before.joint_publisher:
-            self._open_joints()
+            self._advertise_joints()
         if found.activity != before.activity:
-            self._listen_to_activity()
-        self._listen()
+            self._subscribe_activity()
+        self._subscribe_topics()
 
     def destroy(self) -> None:
-        """It is gone."""
+        """Destroy all publishers and subscriptions."""
         for publisher in (self._commands, self._joints):
             if publisher is not None:
                 self._node.destroy_publisher(publisher)
@@ -102,7 +117,7 @@ class RobotLink:
         self.topics.destroy()
 
     def drive(self, linear: float, angular: float, time: int) -> None:
-        """Publish a command, m/s and rad/s, stamped ``time`` (ns); on any thread."""
+        """Publish a command, m/s and rad/s, stamped ``time`` (ns). Raises ViewerError."""
         publisher = self._commands
         if publisher is None:
             raise ViewerError(
@@ -113,14 +128,14 @@ class RobotLink:
         twist = message
         if isinstance(message, TwistStamped):
             fill_stamp(time, message.header.stamp)
-            message.header.frame_id = _FRAME
+            message.header.frame_id = _COMMAND_FRAME
             twist = message.twist
         assert isinstance(twist, Twist), 'the only other type'
         twist.linear.x, twist.angular.z = linear, angular
         self._publish(publisher, message)
 
     def set_joints(self, positions: Mapping[str, float], time: int) -> None:
-        """Have joint_state_publisher publish these, rad or m; on any thread."""
+        """Send positions (rad or m) to joint_state_publisher. Raises ViewerError."""
         publisher = self._joints
         if publisher is None:
             raise ViewerError(
@@ -134,20 +149,21 @@ class RobotLink:
     def _publish(self, publisher: Publisher, message: Any) -> None:
         try:
             publisher.publish(message)
-        except InvalidHandle:  # the ROS thread has just destroyed it
+        except InvalidHandle:  # the ROS thread has destroyed it in the meantime
             raise ViewerError(f'{self.found.id} is just going') from None
 
-    def _open_commands(self) -> None:
+    def _advertise_commands(self) -> None:
         command = self.found.command
-        kind, topic = (COMMAND_TYPES[command.message], command.topic) if command else (None, None)
-        self._commands = _instead_of(self._commands, self._node, kind, topic)
+        message_type = COMMAND_TYPES[command.message] if command else None
+        topic = command.topic if command else None
+        self._commands = _replace_publisher(self._commands, self._node, message_type, topic)
 
-    def _open_joints(self) -> None:
+    def _advertise_joints(self) -> None:
         node = self.found.joint_publisher
         topic = node and f'{node}/set_joint_positions'
-        self._joints = _instead_of(self._joints, self._node, JointState, topic)
+        self._joints = _replace_publisher(self._joints, self._node, JointState, topic)
 
-    def _listen_to_activity(self) -> None:
+    def _subscribe_activity(self) -> None:
         topic = self.found.activity
         if self._activity is not None:
             self._node.destroy_subscription(self._activity)
@@ -155,31 +171,23 @@ class RobotLink:
             ControllerManagerActivity, topic, lambda _: self._on_activity(self), LATCHED
         )
 
-    def _listen(self) -> None:
+    def _subscribe_topics(self) -> None:
         self.topics.destroy()
         joints = self.described.joints if self.described else ()
         self.topics = RobotTopics(self._node, self.found, joints)
 
-    def describe(self, text: str) -> None:
-        """Take a description."""
-        if self.described is not None and self.described.message.urdf == text:
-            return
-        self.described = describe_robot(self.found.id, text)
-        self._listen()
-        self._on_change(self)
 
-
-def _instead_of(
-    publisher: Publisher | None, node: Node, kind: Any, topic: str | None
+def _replace_publisher(
+    publisher: Publisher | None, node: Node, message_type: Any, topic: str | None
 ) -> Publisher | None:
-    """Destroy a publisher, and return the one for this topic, if there is one."""
+    """Destroy a publisher; return a new one for ``topic``, None without a topic."""
     if publisher is not None:
         node.destroy_publisher(publisher)
-    return node.create_publisher(kind, topic, 10) if topic else None
+    return node.create_publisher(message_type, topic, 10) if topic else None
 
 
-class WorldLink:
-    """The surroundings that a simulator publishes."""
+class WorldSubscription:
+    """The subscription to the markers of a simulator's world."""
 
     def __init__(self, node: Node, topic: str, on_world: Callable[[MarkerArray], None]) -> None:
         self.topic = topic
@@ -187,5 +195,5 @@ class WorldLink:
         self._subscription = node.create_subscription(MarkerArray, topic, on_world, LATCHED)
 
     def destroy(self) -> None:
-        """It is gone."""
+        """Unsubscribe."""
         self._node.destroy_subscription(self._subscription)

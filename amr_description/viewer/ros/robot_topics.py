@@ -1,19 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-/tf and /tf_static, as the tree of frames and their poses that a page draws.
+The topics of everything that moves, polled when the page's server assembles a state.
 
-Robots that have a TF of their own, such as ``/robot1/tf``, call their frames all the same: the
-page's are called ``robot1/odom`` and so on, as they would be on one ``/tf``.
-
-What joints are commanded: of the introspection topics of a controller manager.
-
-``names`` says which number is which, ``values`` has the numbers after every cycle; the manager
-publishes them as long as somebody listens.
-
-What moves of one robot: its topics, read into a state when the page's server asks for one.
-
-Made and destroyed on the ROS thread, read on the server's.
+Created and destroyed on the ROS thread, polled on the server's thread.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -46,38 +36,46 @@ from amr_description.viewer.graph import FoundRobot, TWISTS
 from amr_description.viewer.protocol import FrameInfo, RobotLayout
 from amr_description.viewer.states import Floats, RobotFloats
 
-_STATIC = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
+_TF_STATIC = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
 
-class Frames:
-    """Made and destroyed on the ROS thread, read on the server's."""
+class TransformTopics:
+    """
+    /tf and /tf_static: the tree of frames, and their latest poses.
 
-    def __init__(self, node: Node, trees: Sequence[str] = ()) -> None:
-        """``trees``: namespaces with a TF of their own."""
-        self._topics = [
-            (f'{place[1:]}/' if place else '', topic)
-            for place in ('', *trees)
-            for topic in (
-                PolledTopic(node, TFMessage, f'{place}/tf_static', read_transforms, qos=_STATIC),
-                PolledTopic(node, TFMessage, f'{place}/tf', read_transforms, depth=100),
-            )
-        ]
+    Robots with a TF of their own, such as ``/robot1/tf``, use the same frame names as others. Here
+    these frames get the prefix ``robot1/``, as they would on a shared ``/tf``.
+    """
+
+    def __init__(self, node: Node, namespaces: Sequence[str] = ()) -> None:
+        """Subscribe; ``namespaces``: those with a TF of their own."""
+        self._topics: list[tuple[str, PolledTopic[Any]]] = []
+        for namespace in ('', *namespaces):
+            static, moving = f'{namespace}/tf_static', f'{namespace}/tf'
+            prefix = f'{namespace[1:]}/' if namespace else ''
+            self._topics += [
+                (prefix, PolledTopic(node, TFMessage, static, read_transforms, qos=_TF_STATIC)),
+                (prefix, PolledTopic(node, TFMessage, moving, read_transforms, depth=100)),
+            ]
         self._poses: dict[str, tuple[float, ...]] = {}
         self._parents: dict[str, str] = {}
 
     def destroy(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         for _, topic in self._topics:
             topic.destroy()
 
     def take(self) -> tuple[set[str], bool]:
-        """Look at the topics; return the frames that have moved, and whether the tree changed."""
+        """Poll the topics; return the frames with a new pose, and whether the tree has changed."""
         moved: set[str] = set()
         is_changed = False
         for prefix, topic in self._topics:
             while (transforms := topic.take()) is not None:
                 for each in transforms:
-                    name, parent = _within(prefix, each.name), _within(prefix, each.parent)
+                    name, parent = _prefixed(prefix, each.name), _prefixed(prefix, each.parent)
                     is_changed |= self._parents.get(name) != parent
                     self._parents[name] = parent
                     self._poses[name] = each.pose
@@ -85,11 +83,11 @@ class Frames:
         return moved, is_changed
 
     def pose(self, name: str) -> tuple[float, ...]:
-        """Return the last pose of a frame in its parent, x y z qx qy qz qw, m."""
+        """Return the latest pose of a frame in its parent: x y z (m), qx qy qz qw."""
         return self._poses[name]
 
     def tree(self) -> tuple[FrameInfo, ...]:
-        """Return the frames, parents before children; what hangs in a loop is left out."""
+        """Return the frames, parents before children, without those that form a loop."""
         children: dict[str, list[str]] = {}
         for name, parent in self._parents.items():
             children.setdefault(parent, []).append(name)
@@ -103,71 +101,70 @@ class Frames:
         return tuple(frames)
 
 
-def _within(prefix: str, name: str) -> str:
+def _prefixed(prefix: str, name: str) -> str:
     return name if name.startswith(prefix) else f'{prefix}{name}'
-
-
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class CommandedVelocities:
     """
-    The command interfaces ``<joint>/velocity`` of these joints; taken as a polled topic is.
+    The command interfaces ``<joint>/velocity``, from the introspection topics of a manager.
 
-    ``place``: the name of the topics but for ``/names`` and ``/values``.
+    ``names`` has the names, rarely; ``values`` the values, after every cycle. The manager
+    publishes them while there are subscribers. Polled like a :class:`PolledTopic`.
+
+    Args:
+        node: of the viewer.
+        prefix: of the two topics, ``…/introspection_data``.
+        joints: whose commands are wanted.
     """
 
-    def __init__(self, node: Node, place: str, joints: Sequence[str]) -> None:
+    def __init__(self, node: Node, prefix: str, joints: Sequence[str]) -> None:
         self._wanted = [f'command_interface.{joint}/velocity' for joint in joints]
         self._names = PolledTopic(
-            node, StatisticsNames, f'{place}/names', read_statistics_names, qos=_LATCHED
+            node, StatisticsNames, f'{prefix}/names', read_statistics_names, qos=_LATCHED
         )
         self._values = PolledTopic(
-            node, StatisticsValues, f'{place}/values', read_statistics_values
+            node, StatisticsValues, f'{prefix}/values', read_statistics_values
         )
         self._version: int | None = None
-        self._places: list[int | None] = []
+        self._indices: list[int | None] = []
 
     def take(self) -> tuple[float, ...] | None:
-        """Return the latest, rad/s or m/s, NaN without such an interface; None: nothing new."""
+        """Return the latest, rad/s or m/s; NaN: no such interface. None: nothing new."""
         latest = self._values.take()
         if latest is None:
             return None
         if latest.version != self._version:
             self._read_names()
         if latest.version != self._version:
-            return None  # they are still on their way
+            return None  # the names of these values have not arrived yet
         count = len(latest.values)
         return tuple(
-            latest.values[place] if place is not None and place < count else math.nan
-            for place in self._places
+            latest.values[index] if index is not None and index < count else math.nan
+            for index in self._indices
         )
 
     def _read_names(self) -> None:
         names = self._names.take()
         if names is not None:
-            places = {name: place for place, name in enumerate(names.names)}
-            self._places = [places.get(name) for name in self._wanted]
+            indices = {name: index for index, name in enumerate(names.names)}
+            self._indices = [indices.get(name) for name in self._wanted]
             self._version = names.version
 
     def destroy(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._names.destroy()
         self._values.destroy()
 
 
-COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
-_WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
-
-
 class RobotTopics:
-    """The moving part of a robot; ``joints``: those of its description."""
+    """All other topics of one robot; ``joints``: those of its description that move."""
 
     def __init__(self, node: Node, found: FoundRobot, joints: Sequence[str]) -> None:
         self.found = found
         self._joints = {name: index for index, name in enumerate(joints)}
         self.layout = RobotLayout(found.id, tuple(joints), ())
-        """What there is to tell; it changes when the wheels are heard of."""
+        """Joints and wheels; the wheels are known when their topic has been received."""
         self._latest: dict[str, Any] = {}
         self._writers: dict[str, Callable[[Any, RobotFloats], None]] = {
             'joint_states': self._write_joints,
@@ -186,12 +183,12 @@ class RobotTopics:
             self._topics['commanded'] = CommandedVelocities(node, found.introspection, joints)
 
     def destroy(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         for topic in self._topics.values():
             topic.destroy()
 
     def take(self) -> list[str]:
-        """Look at the topics; return which of the parts have something new."""
+        """Poll the topics; return the parts of a state that have new values."""
         new = []
         for part, topic in self._topics.items():
             message = topic.take()
@@ -204,7 +201,7 @@ class RobotTopics:
         return new
 
     def write(self, floats: RobotFloats, parts: Sequence[str] | None = None) -> None:
-        """Write these parts, or all, as they were last heard."""
+        """Write the latest values of these parts, or of all, into a state."""
         for part in self._latest if parts is None else parts:
             self._writers[part](self._latest[part], floats)
 
@@ -213,14 +210,16 @@ class RobotTopics:
             (message.positions, floats.positions),
             (message.velocities, floats.velocities),
         ):
-            for name, value in zip(message.names, values, strict=False):  # one may be left empty
+            for name, value in zip(
+                message.names, values, strict=False
+            ):  # either array may be empty
                 index = self._joints.get(name)
                 if index is not None:
                     target[index] = value
 
 
 def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable[[bytes], Any]]]:
-    """Yield part, message type, topic, and how a message is read."""
+    """Yield part of the state, message type, topic, and the function that decodes a message."""
     yield 'joint_states', JointState, found.joint_states, read_joint_state
     yield 'odometry', Odometry, found.odometry, read_odometry
     yield 'truth', Odometry, found.truth, read_odometry

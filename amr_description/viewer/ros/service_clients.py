@@ -1,14 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A simulator that serves simulation_interfaces, asked on behalf of the pages.
+Services of simulators (simulation_interfaces) and controller managers, called for the pages.
 
-Services of others, awaited on the asyncio thread of the page's server.
-
-Clients are made and removed on the ROS thread, as soon as their services are there: a server that
-does not know a client yet throws its response away.
-
-A controller manager, asked on behalf of the pages.
+Calls are awaited on the asyncio thread of the page's server. The clients are created and destroyed
+on the ROS thread, and created as soon as their services are there: a server that has not
+discovered a client yet drops the response to it.
 """
 
 import asyncio
@@ -60,33 +57,65 @@ from amr_description.viewer.requests import (
 )
 
 _READY_TIMEOUT = 5.0
-_POLL = 0.05
+_READY_PERIOD = 0.05
+_CALL_TIMEOUT = 10.0
+_SIMULATOR_TIMEOUT = 60.0
+"""s: a request may be for thousands of steps, or for a large robot."""
+_SWITCH_TIMEOUT = 5.0
+_MANAGER_TIMEOUT = 20.0
+_MANAGER_PERIOD = 0.1
+
+_WORLD_FRAME = 'world'
+_FACTOR = 'real_time_factor'
+_STATES = {
+    SimulationState.STATE_STOPPED: 'stopped',
+    SimulationState.STATE_PLAYING: 'playing',
+    SimulationState.STATE_PAUSED: 'paused',
+}
+_SIMULATOR_TYPES = {
+    'set_simulation_state': SetSimulationState,
+    'get_simulation_state': GetSimulationState,
+    'step_simulation': StepSimulation,
+    'reset_simulation': ResetSimulation,
+    'spawn_entity': SpawnEntity,
+    'delete_entity': DeleteEntity,
+    'get_entities': GetEntities,
+    'get_parameters': GetParameters,
+    'set_parameters': SetParameters,
+}
+_MANAGER_TYPES = {
+    'list_controllers': ListControllers,
+    'list_hardware_components': ListHardwareComponents,
+    'switch_controller': SwitchController,
+    'load_controller': LoadController,
+    'configure_controller': ConfigureController,
+}
 
 
-class Services:
-    """Clients by the names of their services."""
+class ServiceClients:
+    """All clients, by the names of their services."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[str, Client] = {}
 
-    def keep(self, wanted: Mapping[str, type]) -> None:
-        """Have these clients and no others; on the ROS thread."""
-        kept = {name: each for name, each in self._clients.items() if name in wanted}
-        gone = [each for name, each in self._clients.items() if name not in wanted]
-        for name, service_type in wanted.items():
-            if name not in kept:
-                kept[name] = self._node.create_client(service_type, name)
-        self._clients = kept
+    def set_services(self, types: Mapping[str, type]) -> None:
+        """Have clients for these services and no others; on the ROS thread."""
+        clients = {name: each for name, each in self._clients.items() if name in types}
+        gone = [each for name, each in self._clients.items() if name not in types]
+        for name, service_type in types.items():
+            if name not in clients:
+                clients[name] = self._node.create_client(service_type, name)
+        self._clients = clients
         for client in gone:
             self._node.destroy_client(client)
 
     def __contains__(self, name: str) -> bool:
-        """Tell whether there is such a service; on any thread."""
+        """Return whether there is such a service; on any thread."""
         return name in self._clients
 
-    async def call(self, name: str, request: Any, timeout: float = 10.0) -> Any:
-        """Return the response; on the asyncio thread. Raises ViewerError."""
+    async def call(self, name: str, request: Any, timeout: float = _CALL_TIMEOUT) -> Any:
+        """Return the response; ``timeout`` in s. On the asyncio thread. Raises ViewerError."""
         client = self._clients.get(name)
         if client is None:
             raise ViewerError(f'there is no service {name}; is its node running?')
@@ -117,62 +146,43 @@ async def _ready(client: Client) -> None:
                 f'service {client.srv_name} is not there after {_READY_TIMEOUT:g} s; is its node '
                 'running?'
             )
-        await asyncio.sleep(_POLL)
+        await asyncio.sleep(_READY_PERIOD)
 
 
-_WORLD_FRAME = 'world'
-_FACTOR = 'real_time_factor'
-_STATES = {
-    SimulationState.STATE_STOPPED: 'stopped',
-    SimulationState.STATE_PLAYING: 'playing',
-    SimulationState.STATE_PAUSED: 'paused',
-}
-_TYPES = {
-    'set_simulation_state': SetSimulationState,
-    'get_simulation_state': GetSimulationState,
-    'step_simulation': StepSimulation,
-    'reset_simulation': ResetSimulation,
-    'spawn_entity': SpawnEntity,
-    'delete_entity': DeleteEntity,
-    'get_entities': GetEntities,
-    'get_parameters': GetParameters,
-    'set_parameters': SetParameters,
-}
-_STEP_TIMEOUT = 60.0
-"""s: thousands of steps may be asked, and a spawned robot be large."""
+def simulator_service_types(simulator: str, services: Iterable[str]) -> dict[str, type]:
+    """Return those services of a simulator that are called here, with their types."""
+    types = {f'{simulator}/{name}': each for name, each in _SIMULATOR_TYPES.items()}
+    return {name: types[name] for name in services if name in types}
 
 
-def clients_of(simulator: str, services: Iterable[str]) -> dict[str, type]:
-    """Return the services of a simulator that are asked here, with their types."""
-    wanted = {f'{simulator}/{name}': service_type for name, service_type in _TYPES.items()}
-    return {name: wanted[name] for name in services if name in wanted}
-
-
-class Simulator:
+class SimulatorClient:
     """
-    One simulator, on the server's thread.
+    One simulator; on the server's thread.
 
-    ``description_of`` returns the URDF of a robot that is in the graph; raises ViewerError.
+    Args:
+        name: the node of the simulator.
+        services: the clients.
+        description_of: returns the URDF of a robot of the graph; raises ViewerError.
     """
 
     def __init__(
-        self, name: str, services: Services, description_of: Callable[[str], str]
+        self, name: str, services: ServiceClients, description_of: Callable[[str], str]
     ) -> None:
         self.name = name
         self.state = 'unknown'
         self.factor: float | None = None
-        """Asked for; None: it has no such parameter."""
+        """The parameter ``real_time_factor``; None: the simulator has none."""
         self.entities: tuple[str, ...] = ()
         self._services = services
         self._description_of = description_of
 
     @property
     def info(self) -> SimulatorInfo:
-        """What pages are told of it."""
+        """The simulator as in the graph message."""
         return SimulatorInfo(self.name, self.entities)
 
     async def refresh(self) -> None:
-        """Ask for what is told of it. Raises ViewerError."""
+        """Query its state, real-time factor and entities. Raises ViewerError."""
         response = await self._call('get_simulation_state', GetSimulationState.Request())
         self.state = _STATES.get(response.state.state, 'unknown')
         if self._offers('get_parameters'):
@@ -183,8 +193,8 @@ class Simulator:
             entities = await self._call('get_entities', GetEntities.Request())
             self.entities = tuple(entities.entities)
 
-    async def answer(self, request: Request) -> str:
-        """Do what a page asks; return what was done. Raises ViewerError."""
+    async def handle(self, request: Request) -> str:
+        """Carry out a request; return one line about what was done. Raises ViewerError."""
         match request:
             case Play(type='play'):
                 return await self._set_state(SimulationState.STATE_PLAYING, 'time goes on')
@@ -194,9 +204,9 @@ class Simulator:
                 await self._do('step_simulation', StepSimulation.Request(steps=request.steps))
                 return f'{request.steps} steps were made'
             case Reset():
-                asked = ResetSimulation.Request
-                scope = asked.SCOPE_TIME | asked.SCOPE_STATE
-                await self._do('reset_simulation', asked(scope=scope))
+                reset = ResetSimulation.Request
+                scope = reset.SCOPE_TIME | reset.SCOPE_STATE
+                await self._do('reset_simulation', reset(scope=scope))
                 return 'time is 0, and every robot where it was spawned'
             case SetFactor():
                 return await self._set_factor(request.factor)
@@ -209,9 +219,9 @@ class Simulator:
 
     async def _set_state(self, state: int, done: str) -> str:
         request = SetSimulationState.Request(state=SimulationState(state=state))
-        response = await self._call('set_simulation_state', request, _STEP_TIMEOUT)
+        response = await self._call('set_simulation_state', request, _SIMULATOR_TIMEOUT)
         if response.result.result != response.ALREADY_IN_TARGET_STATE:
-            _require(response.result)
+            _check(response.result)
         return done
 
     async def _set_factor(self, factor: float) -> str:
@@ -226,53 +236,42 @@ class Simulator:
         return f'the real-time factor is {factor:g}' if factor else 'as fast as possible'
 
     async def _spawn(self, request: Spawn) -> str:
-        asked = SpawnEntity.Request(
+        call = SpawnEntity.Request(
             name=request.name,
             allow_renaming=False,
             entity_namespace=request.namespace,
             resource_string=self._description_of(request.like),
         )
-        asked.initial_pose.header.frame_id = _WORLD_FRAME
+        call.initial_pose.header.frame_id = _WORLD_FRAME
         pose = Transform.from_xyz_rpy(request.position, (0.0, 0.0, request.yaw))
-        fill_pose(pose, asked.initial_pose.pose)
-        response = await self._do('spawn_entity', asked)
+        fill_pose(pose, call.initial_pose.pose)
+        response = await self._do('spawn_entity', call)
         return f"'{response.entity_name}' is in the world"
 
     def _offers(self, service: str) -> bool:
         return f'{self.name}/{service}' in self._services
 
     async def _do(self, service: str, request: Any) -> Any:
-        response = await self._call(service, request, _STEP_TIMEOUT)
-        _require(response.result)
+        response = await self._call(service, request, _SIMULATOR_TIMEOUT)
+        _check(response.result)
         return response
 
-    async def _call(self, service: str, request: Any, timeout: float = 10.0) -> Any:
+    async def _call(self, service: str, request: Any, timeout: float = _CALL_TIMEOUT) -> Any:
         return await self._services.call(f'{self.name}/{service}', request, timeout)
 
 
-def _require(result: Result) -> None:
+def _check(result: Result) -> None:
     if result.result != Result.RESULT_OK:
         raise ViewerError(result.error_message or f'the simulator refuses: result {result.result}')
 
 
-_SWITCH_TIMEOUT = 5.0
-_MANAGER_TIMEOUT = 20.0
-_MANAGER_POLL = 0.1
+def manager_service_types(manager: str) -> dict[str, type]:
+    """Return the services of a controller manager that are called here, with their types."""
+    return {f'{manager}/{name}': each for name, each in _MANAGER_TYPES.items()}
 
 
-def manager_clients(manager: str) -> dict[str, type]:
-    """Return the services of a controller manager that are asked here, with their types."""
-    return {
-        f'{manager}/list_controllers': ListControllers,
-        f'{manager}/list_hardware_components': ListHardwareComponents,
-        f'{manager}/switch_controller': SwitchController,
-        f'{manager}/load_controller': LoadController,
-        f'{manager}/configure_controller': ConfigureController,
-    }
-
-
-async def list_controllers(services: Services, manager: str, robot: str) -> Controllers:
-    """Ask what a manager has. Raises ViewerError."""
+async def list_controllers(services: ServiceClients, manager: str, robot: str) -> Controllers:
+    """Return the controllers and hardware of ``robot``'s manager. Raises ViewerError."""
     controllers = await services.call(f'{manager}/list_controllers', ListControllers.Request())
     components = await services.call(
         f'{manager}/list_hardware_components', ListHardwareComponents.Request()
@@ -290,27 +289,38 @@ async def list_controllers(services: Services, manager: str, robot: str) -> Cont
     )
 
 
-async def switch_controllers(services: Services, manager: str, request: Switch) -> str:
-    """Activate and deactivate; return what was done. Raises ViewerError."""
+async def switch_controllers(services: ServiceClients, manager: str, request: Switch) -> str:
+    """Switch controllers; return one line about what was done. Raises ViewerError."""
     await _switch(services, manager, request.activate, request.deactivate)
     done = [f'{name} is active' for name in request.activate]
     done += [f'{name} is inactive' for name in request.deactivate]
     return ', '.join(done) or 'nothing was asked'
 
 
-async def start_like(services: Services, model: str, manager: str) -> list[str]:
+async def activate_same_controllers(
+    services: ServiceClients, source: str, manager: str
+) -> list[str]:
     """
-    Load and activate in a new manager what is active in another; return the names.
+    Load and activate in a new controller manager what is active in another.
 
-    Raises ViewerError.
+    Args:
+        services: the clients.
+        source: the manager whose active controllers are wanted.
+        manager: the new one; it is waited for.
+
+    Returns:
+        The names of the controllers.
+
+    Raises:
+        ViewerError: the new manager is not there, or cannot activate one of them.
     """
-    listed = await services.call(f'{model}/list_controllers', ListControllers.Request())
+    listed = await services.call(f'{source}/list_controllers', ListControllers.Request())
     names = [each.name for each in reversed(listed.controller) if each.state == 'active']
     deadline = asyncio.get_running_loop().time() + _MANAGER_TIMEOUT
     while f'{manager}/load_controller' not in services:
         if asyncio.get_running_loop().time() > deadline:
             raise ViewerError(f'{manager} is not there after {_MANAGER_TIMEOUT:g} s')
-        await asyncio.sleep(_MANAGER_POLL)
+        await asyncio.sleep(_MANAGER_PERIOD)
     for name in names:
         for step in (LoadController, ConfigureController):
             verb = step.__name__.removesuffix('Controller').lower()
@@ -322,15 +332,15 @@ async def start_like(services: Services, model: str, manager: str) -> list[str]:
 
 
 async def _switch(
-    services: Services, manager: str, activate: Sequence[str], deactivate: Sequence[str]
+    services: ServiceClients, manager: str, activate: Sequence[str], deactivate: Sequence[str]
 ) -> None:
-    asked = SwitchController.Request(
+    call = SwitchController.Request(
         activate_controllers=activate,
         deactivate_controllers=deactivate,
         strictness=SwitchController.Request.STRICT,
         activate_asap=True,
     )
-    asked.timeout.sec = int(_SWITCH_TIMEOUT)
-    response = await services.call(f'{manager}/switch_controller', asked, 2 * _SWITCH_TIMEOUT)
+    call.timeout.sec = int(_SWITCH_TIMEOUT)
+    response = await services.call(f'{manager}/switch_controller', call, 2 * _SWITCH_TIMEOUT)
     if not response.ok:
         raise ViewerError(unwrap(response.message) or f'{manager} refuses')

@@ -1,15 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-States: all that moves, put together when the page's server asks for it.
+States: everything that moves, assembled when the page's server asks for it.
 
-The ROS thread hands over a :class:`Scene`, in one assignment, whenever the graph has changed; the
-server's thread reads its topics. So ROS callbacks cost nothing sixty times a second, and nothing
-is locked.
+Whenever the graph has changed, the ROS thread assigns a new :class:`StateSources`; the server's
+thread polls its topics. So there are no callbacks at the rate of the topics, and no locks.
 """
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 import time
 
@@ -22,125 +21,135 @@ from amr_description.clock import NANOSECONDS
 from amr_description.ros.cdr import read_clock
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.viewer.protocol import Layout, ServerMessage, TimeReset
-from amr_description.viewer.ros.robot_topics import Frames, RobotTopics
+from amr_description.viewer.ros.robot_topics import RobotTopics, TransformTopics
 from amr_description.viewer.states import LAYOUTS, StateFrame
 
 _WINDOW = 1.0
-"""s of the wall clock over which the real-time factor is measured."""
+"""s of wall-clock time over which the real-time factor is measured."""
 
 
 class RosClock:
-    """The time of /clock, where there is one."""
+    """The time of /clock, and the real-time factor."""
 
     def __init__(self, node: Node) -> None:
         qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=qos)
-        self._heard: deque[tuple[float, int]] = deque()
-        self._is_back = False
+        self._samples: deque[tuple[float, int]] = deque()
+        """(wall-clock time, s; simulation time, ns)."""
+        self._jumped_back = False
         self._last: int | None = None
         self.time: int | None = None
-        """ns; None: nobody tells the time, or no longer, as the ROS thread may say."""
+        """ns; None: not published. The ROS thread sets it to None when the publisher is gone."""
 
     def destroy(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._topic.destroy()
 
     def take(self) -> bool:
-        """Look at the topic; True: time went back since the last call."""
-        self.look()
-        is_back, self._is_back = self._is_back, False
-        return is_back
+        """Poll the topic; return whether time has jumped back since the last call."""
+        self.poll()
+        jumped_back, self._jumped_back = self._jumped_back, False
+        return jumped_back
 
-    def look(self) -> None:
-        """Have :attr:`time` as of now."""
-        heard = self._topic.take()
-        if heard is None:
+    def poll(self) -> None:
+        """Update :attr:`time`."""
+        latest = self._topic.take()
+        if latest is None:
             return
-        before, self.time, self._last = self._last, heard, heard
-        if before is not None and heard < before:
-            self._is_back = True
-            self._heard.clear()
+        before, self.time, self._last = self._last, latest, latest
+        if before is not None and latest < before:
+            self._jumped_back = True
+            self._samples.clear()
         now = time.monotonic()
-        self._heard.append((now, heard))
-        while now - self._heard[0][0] > _WINDOW and len(self._heard) > 2:  # noqa: PLR2004
-            self._heard.popleft()
+        self._samples.append((now, latest))
+        while now - self._samples[0][0] > _WINDOW and len(self._samples) > 2:  # noqa: PLR2004
+            self._samples.popleft()
 
     @property
     def factor(self) -> float | None:
-        """Simulated seconds per second of the wall clock; None: not known yet."""
-        if len(self._heard) < 2:  # noqa: PLR2004
+        """Simulated seconds per second of wall-clock time; None: not known yet."""
+        if len(self._samples) < 2:  # noqa: PLR2004
             return None
-        (wall_0, time_0), (wall_1, time_1) = self._heard[0], self._heard[-1]
+        (wall_0, time_0), (wall_1, time_1) = self._samples[0], self._samples[-1]
         elapsed = wall_1 - wall_0
         return (time_1 - time_0) / NANOSECONDS / elapsed if elapsed else None
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """What is looked at; made and destroyed on the ROS thread."""
+class StateSources:
+    """What a state is assembled from; created and destroyed on the ROS thread."""
 
     clock: RosClock
-    frames: Frames
+    transforms: TransformTopics
     robots: tuple[RobotTopics, ...]
 
 
-class States:
-    """On the server's thread, but for :attr:`scene`, which any thread may set."""
+class StateAssembler:
+    """
+    Assembles states on the server's thread; any thread may assign :attr:`sources`.
 
-    def __init__(self, machine_time: Callable[[], float] = time.time) -> None:
-        self.scene: Scene | None = None
-        self._machine_time = machine_time
-        self._seen: Scene | None = None
-        self._wheels: tuple[object, ...] = ()
+    ``system_time`` returns the time of a state without /clock, s.
+    """
+
+    def __init__(self, system_time: Callable[[], float] = time.time) -> None:
+        self.sources: StateSources | None = None
+        self._system_time = system_time
+        self._laid_out: StateSources | None = None
+        self._robots: tuple[object, ...] = ()
         self._frame: StateFrame | None = None
         self._indices: dict[str, int] = {}
-        self._layouts = self._number = 0
+        self._layout_id = self._number = 0
         self._last: int | None = None
 
     def take(self) -> tuple[Sequence[ServerMessage], bytes | None]:
         """Return what is new: messages, then a state."""
-        scene = self.scene
-        if scene is None:
+        sources = self.sources
+        if sources is None:
             return (), None
         messages: list[ServerMessage] = []
-        if scene.clock.take():
-            messages.append(TimeReset((scene.clock.time or 0) / NANOSECONDS))
-        moved, tree_changed = scene.frames.take()
-        new = [robot.take() for robot in scene.robots]
-        layouts = tuple(robot.layout for robot in scene.robots)
-        if tree_changed or scene is not self._seen or layouts != self._wheels:
-            self._seen, self._wheels = scene, layouts
-            messages.append(self._lay_out(scene))
+        if sources.clock.take():
+            messages.append(TimeReset((sources.clock.time or 0) / NANOSECONDS))
+        moved, tree_changed = sources.transforms.take()
+        new = [robot.take() for robot in sources.robots]
+        layouts = tuple(robot.layout for robot in sources.robots)
+        if tree_changed or sources is not self._laid_out or layouts != self._robots:
+            self._laid_out, self._robots = sources, layouts
+            messages.append(self._lay_out(sources))
         elif moved or any(new):
-            self._write(scene, moved, new)
-        elif scene.clock.time == self._last:
+            self._write(sources, moved, new)
+        elif sources.clock.time == self._last:
             return messages, None
-        self._last = scene.clock.time
-        assert self._frame is not None, 'there is a layout as soon as there is a scene'
+        self._last = sources.clock.time
+        assert self._frame is not None, 'made with the first layout'
         self._number += 1
-        return messages, self._frame.encode(self._number, self._time(scene))
+        return messages, self._frame.encode(self._number, self._time(sources))
 
-    def _lay_out(self, scene: Scene) -> Layout:
-        self._layouts = (self._layouts + 1) % LAYOUTS
-        tree = scene.frames.tree()
-        layout = Layout(self._layouts, tree, tuple(robot.layout for robot in scene.robots))
+    def _lay_out(self, sources: StateSources) -> Layout:
+        self._layout_id = (self._layout_id + 1) % LAYOUTS
+        tree = sources.transforms.tree()
+        layout = Layout(self._layout_id, tree, tuple(robot.layout for robot in sources.robots))
         self._frame = StateFrame(layout)
         self._indices = {frame.name: index for index, frame in enumerate(tree)}
-        self._write(scene, self._indices, [None] * len(scene.robots))
+        self._write(sources, self._indices, [None] * len(sources.robots))
         return layout
 
-    @np.errstate(over='ignore')  # what is too large for float32 is infinite then
-    def _write(self, scene: Scene, moved: object, new: Sequence[Sequence[str] | None]) -> None:
-        """Write frames by name, and of each robot these parts; None: all."""
+    @np.errstate(over='ignore')  # values too large for float32 become infinite
+    def _write(
+        self,
+        sources: StateSources,
+        moved: Iterable[str],
+        new: Sequence[Sequence[str] | None],
+    ) -> None:
+        """Write the poses of these frames, and these parts of each robot; None: all."""
         frame = self._frame
-        assert frame is not None, 'it is made with the first layout'
-        for name in moved:  # type: ignore[attr-defined]
+        assert frame is not None, 'made with the first layout'
+        for name in moved:
             index = self._indices.get(name)
             if index is not None:
-                frame.poses[index] = scene.frames.pose(name)
-        for robot, floats, parts in zip(scene.robots, frame.robots, new, strict=True):
+                frame.poses[index] = sources.transforms.pose(name)
+        for robot, floats, parts in zip(sources.robots, frame.robots, new, strict=True):
             robot.write(floats, parts)
 
-    def _time(self, scene: Scene) -> float:
-        stamp = scene.clock.time
-        return self._machine_time() if stamp is None else stamp / NANOSECONDS
+    def _time(self, sources: StateSources) -> float:
+        stamp = sources.clock.time
+        return self._system_time() if stamp is None else stamp / NANOSECONDS

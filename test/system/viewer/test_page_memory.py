@@ -53,10 +53,10 @@ class LongDrive(Backend):
         self.known = (Graph((robot,), (), None), described.message, layout)
         self.count = 0
 
-    def opened(self):
+    def open(self):
         self.new = self.known
 
-    def state(self):
+    def take_state(self):
         new, self.new = self.new, ()
         if self.time < self.end:
             self.time += PERIOD

@@ -1,85 +1,85 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who drives: one page at a time, and never longer than it says so."""
+"""One page at a time drives a robot, and only while it keeps sending commands."""
 
 from hypothesis import given, strategies as st
 
 from amr_description.viewer.drive_lock import DRIVE_TIMEOUT, DriveLock
 
 
-def test_the_first_takes_the_wheel_and_keeps_it():
-    driving = DriveLock(0.4)
-    assert driving.drive('/', 'a', 0.0)
-    assert not driving.drive('/', 'b', 0.1)
-    assert driving.drive('/', 'a', 0.3)
-    assert driving.driver('/') == 'a'
-    assert driving.next_expiry() == 0.7
+def test_the_first_client_acquires_the_lock_and_keeps_it():
+    lock = DriveLock(0.4)
+    assert lock.acquire('/', 'a', 0.0)
+    assert not lock.acquire('/', 'b', 0.1)
+    assert lock.acquire('/', 'a', 0.3)
+    assert lock.holder('/') == 'a'
+    assert lock.next_expiry() == 0.7
 
 
-def test_another_robot_is_another_wheel():
-    driving = DriveLock(0.4)
-    assert driving.drive('/r1', 'a', 0.0)
-    assert driving.drive('/r2', 'b', 0.0)
-    assert (driving.driver('/r1'), driving.driver('/r2')) == ('a', 'b')
+def test_each_robot_has_its_own_lock():
+    lock = DriveLock(0.4)
+    assert lock.acquire('/r1', 'a', 0.0)
+    assert lock.acquire('/r2', 'b', 0.0)
+    assert (lock.holder('/r1'), lock.holder('/r2')) == ('a', 'b')
 
 
-def test_who_is_silent_loses_the_wheel_once():
-    driving = DriveLock(0.4)
-    driving.drive('/', 'a', 1.0)
-    assert driving.expire(1.39) == []
-    assert driving.expire(1.4) == ['/']
-    assert driving.expire(1.5) == []
-    assert driving.driver('/') is None
-    assert driving.next_expiry() is None
+def test_a_lock_that_is_not_extended_expires_once():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 1.0)
+    assert lock.expire(1.39) == []
+    assert lock.expire(1.4) == ['/']
+    assert lock.expire(1.5) == []
+    assert lock.holder('/') is None
+    assert lock.next_expiry() is None
 
 
-def test_whose_time_is_over_can_be_relieved_before_anybody_has_looked():
-    driving = DriveLock(0.4)
-    driving.drive('/', 'a', 0.0)
-    assert driving.drive('/', 'b', 0.4)
-    assert driving.driver('/') == 'b'
+def test_an_expired_lock_can_be_acquired_before_expire_is_called():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    assert lock.acquire('/', 'b', 0.4)
+    assert lock.holder('/') == 'b'
 
 
-def test_who_leaves_gives_all_wheels_back():
-    driving = DriveLock(0.4)
+def test_release_all_releases_every_lock_of_a_client():
+    lock = DriveLock(0.4)
     for robot, client in (('/r1', 'a'), ('/r2', 'b'), ('/r3', 'a')):
-        driving.drive(robot, client, 0.0)
-    assert driving.leave('a') == ['/r1', '/r3']
-    assert driving.robots() == ['/r2']
-    assert driving.leave('a') == []
+        lock.acquire(robot, client, 0.0)
+    assert lock.release_all('a') == ['/r1', '/r3']
+    assert lock.robots() == ['/r2']
+    assert lock.release_all('a') == []
 
 
-def test_everybody_may_stop():
-    driving = DriveLock(0.4)
-    driving.drive('/', 'a', 0.0)
-    assert driving.stop('/', 'b', 0.1) == 'a'
-    assert driving.stop('/', 'b', 0.1) is None
-    assert driving.driver('/') is None
-    assert driving.drive('/', 'b', 0.1)
+def test_every_client_may_stop_a_robot():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    assert lock.stop('/', 'b', 0.1) == 'a'
+    assert lock.stop('/', 'b', 0.1) is None
+    assert lock.holder('/') is None
+    assert lock.acquire('/', 'b', 0.1)
 
 
-def test_who_was_stopped_by_another_must_let_go_first():
-    driving = DriveLock(0.4)
-    driving.drive('/', 'a', 0.0)
-    driving.stop('/', 'b', 0.1)
-    assert not driving.drive('/', 'a', 0.13)  # a key that is still held
-    assert not driving.drive('/', 'a', 0.5)  # all the time
-    assert driving.drive('/', 'a', 0.9)  # and pressed again
+def test_a_client_stopped_by_another_must_let_go_first():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    lock.stop('/', 'b', 0.1)
+    assert not lock.acquire('/', 'a', 0.13)  # a key that is still held
+    assert not lock.acquire('/', 'a', 0.5)  # all the time
+    assert lock.acquire('/', 'a', 0.9)  # and pressed again
 
 
-def test_who_was_stopped_by_another_and_stops_has_let_go():
-    driving = DriveLock(0.4)
-    driving.drive('/', 'a', 0.0)
-    driving.stop('/', 'b', 0.1)
-    driving.stop('/', 'a', 0.2)
-    assert driving.drive('/', 'a', 0.2)
+def test_a_client_stopped_by_another_lets_go_by_a_stop():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    lock.stop('/', 'b', 0.1)
+    lock.stop('/', 'a', 0.2)
+    assert lock.acquire('/', 'a', 0.2)
 
 
-def test_who_stops_may_drive_at_once():
-    driving = DriveLock(0.4)
-    driving.drive('/', 'a', 0.0)
-    assert driving.stop('/', 'a', 0.1) is None
-    assert driving.drive('/', 'a', 0.1)
+def test_a_client_that_stops_may_drive_at_once():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    assert lock.stop('/', 'a', 0.1) is None
+    assert lock.acquire('/', 'a', 0.1)
 
 
 EVENTS = st.lists(
@@ -90,15 +90,15 @@ EVENTS = st.lists(
 
 
 @given(EVENTS)
-def test_every_drive_is_ended_by_a_stop_within_the_time(events):
-    driving, now, last = DriveLock(), 0.0, None
+def test_every_lock_is_released_within_the_timeout(events):
+    lock, now, last = DriveLock(), 0.0, None
     for elapsed, client, event in events:
         now += elapsed
-        stopped = driving.expire(now)
+        stopped = lock.expire(now)
         assert bool(stopped) == (last is not None and now >= last + DRIVE_TIMEOUT)
         last = None if stopped else last
-        if event == 'drive' and driving.drive('/', client, now):
+        if event == 'drive' and lock.acquire('/', client, now):
             last = now
-        elif event == 'leave' and driving.leave(client):
+        elif event == 'leave' and lock.release_all(client):
             last = None
-        assert (driving.driver('/') is None) == (last is None)
+        assert (lock.holder('/') is None) == (last is None)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What of a ROS graph is a robot, and which of its topics mean what."""
+"""Robots and simulators are found by names and types alone."""
 
 import dataclasses
 
@@ -10,12 +10,12 @@ from amr_description.viewer.graph import (
     ACTIVITY,
     discover,
     DYNAMIC_JOINT_STATE,
+    GraphNames,
     JOINT_STATE,
     LIST_CONTROLLERS,
     MARKERS,
-    Names,
     ODOMETRY,
-    owner,
+    robot_of,
     SET_SIMULATION_STATE,
     STATISTICS_VALUES,
     STRING,
@@ -28,7 +28,7 @@ STAMPED, PLAIN = TWISTS
 
 
 def robot(place):
-    """The names of a simulated robot in a namespace: published, heard, services."""
+    """The names of a simulated robot in a namespace: published, subscribed, services."""
     return (
         {
             f'{place}/robot_description': [STRING],
@@ -44,15 +44,15 @@ def robot(place):
     )
 
 
-def names(*places, published=None, heard=None, services=None):
-    parts = [published or {}, heard or {}, services or {}]
+def names(*places, published=None, subscribed=None, services=None):
+    parts = [published or {}, subscribed or {}, services or {}]
     for place in places:
         parts = [a | b for a, b in zip(parts, robot(place), strict=True)]
-    return Names(*parts)
+    return GraphNames(*parts)
 
 
 @pytest.mark.parametrize('place', ['', '/r1', '/fleet/r1'])
-def test_a_robot_has_what_lies_in_its_namespace(place):
+def test_names_in_the_namespace_belong_to_the_robot(place):
     (found,) = discover(names(place)).robots
     assert dataclasses.asdict(found) == {
         'id': place or '/',
@@ -69,7 +69,7 @@ def test_a_robot_has_what_lies_in_its_namespace(place):
     }
 
 
-def test_several_robots_keep_what_is_theirs():
+def test_robots_in_nested_namespaces_keep_their_own_names():
     found = discover(names('', '/r1', '/r1/arm', '/r10')).robots
     assert [each.id for each in found] == ['/', '/r1', '/r1/arm', '/r10']
     assert [each.manager for each in found] == [
@@ -80,21 +80,21 @@ def test_several_robots_keep_what_is_theirs():
     ]
 
 
-def test_a_robot_described_otherwise_is_there_as_long_as_its_truth():
+def test_a_robot_described_elsewhere_is_found_while_its_ground_truth_is_published():
     there = {'/r1/ground_truth/odom': [ODOMETRY], '/r1/odom': [ODOMETRY]}
-    (found,) = discover(Names(there), ['/r1', '/r2']).robots
+    (found,) = discover(GraphNames(there), ['/r1', '/r2']).robots
     assert (found.id, found.truth, found.odometry) == ('/r1', '/r1/ground_truth/odom', '/r1/odom')
-    assert discover(Names({'/r1/odom': [ODOMETRY]}), ['/r1']).robots == ()
-    assert discover(Names(there)).robots == ()
+    assert discover(GraphNames({'/r1/odom': [ODOMETRY]}), ['/r1']).robots == ()
+    assert discover(GraphNames(there)).robots == ()
 
 
 def test_nothing_is_found_in_nothing():
-    found = discover(Names())
+    found = discover(GraphNames())
     assert (found.robots, found.simulators) == ((), ())
 
 
-def test_a_description_that_is_only_heard_is_no_robot():
-    assert discover(names(heard={'/robot_description': [STRING]})).robots == ()
+def test_a_description_that_is_only_subscribed_is_no_robot():
+    assert discover(names(subscribed={'/robot_description': [STRING]})).robots == ()
     assert discover(names(published={'/robot_description': ['std_msgs/msg/Int8']})).robots == ()
 
 
@@ -105,7 +105,7 @@ def test_a_robot_may_have_nothing_but_a_description():
 
 
 @pytest.mark.parametrize(
-    ('heard', 'expected'),
+    ('subscribed', 'expected'),
     [
         ({'/cmd_vel': [PLAIN]}, Command('/cmd_vel', PLAIN)),
         ({'/cmd_vel': [PLAIN, STAMPED]}, Command('/cmd_vel', STAMPED)),
@@ -117,44 +117,44 @@ def test_a_robot_may_have_nothing_but_a_description():
         ({}, None),
     ],
 )
-def test_commands_go_where_they_are_heard_as_they_are_wanted(heard, expected):
+def test_commands_go_to_subscribers_with_the_type_that_they_expect(subscribed, expected):
     published = {'/robot_description': [STRING], '/cmd_vel_out': [STAMPED]}
-    (found,) = discover(Names(published, heard)).robots
+    (found,) = discover(GraphNames(published, subscribed)).robots
     assert found.command == expected
 
 
-def test_odometry_is_odom_or_whatever_else_there_is():
+def test_odometry_is_odom_or_the_shortest_other_name():
     published = {'/robot_description': [STRING], '/ekf/filtered': [ODOMETRY], '/a': [ODOMETRY]}
-    (found,) = discover(Names(published)).robots
+    (found,) = discover(GraphNames(published)).robots
     assert found.odometry == '/a'
-    (found,) = discover(Names(published | {'/odom': [ODOMETRY]})).robots
+    (found,) = discover(GraphNames(published | {'/odom': [ODOMETRY]})).robots
     assert found.odometry == '/odom'
 
 
 def test_the_truth_is_no_odometry():
     published = {'/robot_description': [STRING], '/ground_truth/odom': [ODOMETRY]}
-    (found,) = discover(Names(published)).robots
+    (found,) = discover(GraphNames(published)).robots
     assert (found.odometry, found.truth) == (None, '/ground_truth/odom')
 
 
 def test_sliders_go_to_the_joint_state_publisher():
-    heard = {'/jsp/set_joint_positions': [JOINT_STATE], '/joint_states': [JOINT_STATE]}
-    (found,) = discover(Names({'/robot_description': [STRING]}, heard)).robots
+    subscribed = {'/jsp/set_joint_positions': [JOINT_STATE], '/joint_states': [JOINT_STATE]}
+    (found,) = discover(GraphNames({'/robot_description': [STRING]}, subscribed)).robots
     assert found.joint_publisher == '/jsp'
 
 
-def test_a_simulator_is_who_serves_its_state():
+def test_a_simulator_is_a_node_that_serves_set_simulation_state():
     services = {
         '/mujoco_sim/set_simulation_state': [SET_SIMULATION_STATE],
         '/mujoco_sim/spawn_entity': ['simulation_interfaces/srv/SpawnEntity'],
         '/other/spawn_entity': ['simulation_interfaces/srv/SpawnEntity'],
     }
-    (found,) = discover(Names({'/mujoco_sim/world': [MARKERS]}, {}, services)).simulators
+    (found,) = discover(GraphNames({'/mujoco_sim/world': [MARKERS]}, {}, services)).simulators
     assert (found.id, found.world) == ('/mujoco_sim', '/mujoco_sim/world')
     assert found.services == {
         '/mujoco_sim/set_simulation_state', '/mujoco_sim/spawn_entity'
     }  # fmt: skip
-    (found,) = discover(Names({}, {}, services)).simulators
+    (found,) = discover(GraphNames({}, {}, services)).simulators
     assert found.world is None
 
 
@@ -162,12 +162,12 @@ def test_a_simulator_is_who_serves_its_state():
     ('name', 'expected'),
     [('/odom', '/'), ('/r1/odom', '/r1'), ('/r10/odom', '/'), ('/r1/arm/x', '/r1/arm')],
 )
-def test_a_name_is_owned_by_the_deepest_namespace(name, expected):
-    assert owner(name, ['/', '/r1', '/r1/arm']) == expected
-    assert owner('/x', ['/r1']) is None
+def test_a_name_belongs_to_the_longest_namespace(name, expected):
+    assert robot_of(name, ['/', '/r1', '/r1/arm']) == expected
+    assert robot_of('/x', ['/r1']) is None
 
 
-def test_namespaces_with_a_tf_of_their_own_are_told():
+def test_namespaces_with_their_own_tf_are_found():
     topics = ('/tf', '/tf_static', '/r2/tf', '/r1/tf', '/r1/tf_static', '/r3/tf_old')
     found = discover(names(published={each: [TF] for each in topics} | {'/r4/tf': [STRING]}))
-    assert found.trees == ('/r1', '/r2')
+    assert found.tf_namespaces == ('/r1', '/r2')
