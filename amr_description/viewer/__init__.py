@@ -18,5 +18,5 @@ The server of the browser page, without ROS; the only package that imports webso
 ``ros/``            the backend for the ROS graph
 ==================  ============================================================================
 
-``static/`` is the built page; its sources are in ``web/`` at the top.
+The built page is in ``static/``; its sources are in ``web/`` at the top.
 """
