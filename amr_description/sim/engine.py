@@ -1,14 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The MuJoCo model and its state: built, stepped, and rebuilt when a robot comes or goes.
+The MuJoCo model and its state: compiled, stepped, and recompiled when a robot comes or goes.
 
-What MuJoCo's compiler says, as lines of a log.
-
-The choice of the physics step: the largest divisor of the control period not above 2 ms.
-
-Everything is an integer number of nanoseconds, so that the simulated time of a tick is exact
-after any number of steps.
+Times are integer nanoseconds: simulated time is a count of physics steps and exact after any
+number of them. The physics step is the longest divisor of the control period that is not above
+:data:`LONGEST_STEP`, see :func:`physics_stepping`.
 """
 
 from collections.abc import Iterator
@@ -24,21 +21,7 @@ from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError
 from amr_description.text import unwrap
 
-
-def one_line(text: str) -> str:
-    """MuJoCo's message without its line breaks and its leading ``Error:``."""
-    return unwrap(text).removeprefix('Error: ')
-
-
-@contextmanager
-def compiler_warnings(log: Log, source: str) -> Iterator[None]:
-    """Tell ``log`` in one line each what is warned of meanwhile; ``source``: of what."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter('always', UserWarning)
-        yield
-    for line in dict.fromkeys(one_line(str(warning.message)) for warning in caught):
-        log(Severity.WARN, f'{source}: MuJoCo: {line}')
-
+_INTEGRATION = mujoco.mjtState.mjSTATE_INTEGRATION
 
 LONGEST_STEP = 2_000_000
 """ns; the contact settings of :mod:`amr_description.sim.wheel_contact` are tuned for it."""
@@ -59,12 +42,18 @@ class Stepping:
 
 def physics_stepping(control_period: int, longest: int = LONGEST_STEP) -> Stepping:
     """
-    Divide a control period (ns) into equal physics steps, as few as ``longest`` (ns) allows.
+    Divide a control period into equal physics steps, as few as ``longest`` allows.
 
     A period without a divisor between ``longest / 2`` and ``longest`` (150 Hz gives 6666667 ns) is
-    rounded to the next multiple of a whole step: the result's ``period`` then differs from what
-    was asked by less than its ``count`` in ns, which the caller reports. Raises SimulationError
-    if the period is not positive.
+    rounded to the nearest multiple of a whole step. The ``period`` of the result then differs from
+    the requested one by less than ``count`` ns; the caller reports it.
+
+    Args:
+        control_period: ns.
+        longest: The longest physics step, ns.
+
+    Raises:
+        SimulationError: The period is not positive.
     """
     if control_period <= 0:
         raise SimulationError(
@@ -78,22 +67,16 @@ def physics_stepping(control_period: int, longest: int = LONGEST_STEP) -> Steppi
 
 
 def steps_in(control_period: int, step: int) -> Stepping:
-    """
-    Fit a control period (ns) to a physics step (ns) that is given: the next whole number of
-    steps, at least one.
-    """
+    """Round a control period (ns) to a whole number of physics steps (ns), at least one."""
     return Stepping(step, max(1, round(control_period / step)))
-
-
-_INTEGRATION = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
 class Engine:
     """
     One ``mjModel`` and one ``mjData``, with the spec they come from.
 
-    Whoever keeps views into ``data`` compares ``generation`` and binds them anew when it changed:
-    a recompile makes a new model and new data.
+    A recompile makes a new model and new data and increments ``generation``: code that keeps views
+    into ``data`` compares it and makes its views anew when it has changed.
     """
 
     def __init__(self, spec: mujoco.MjSpec, timestep: int = LONGEST_STEP) -> None:
@@ -103,7 +86,7 @@ class Engine:
         self._timestep = timestep
         self._steps = 0
         self._time_at_step_0 = 0
-        self._truth_at: tuple[int, int] | None = None
+        self._kinematics_at: tuple[int, int] | None = None
         spec.option.timestep = timestep / NANOSECONDS
         self.model: mujoco.MjModel = spec.compile()
         self.data = mujoco.MjData(self.model)
@@ -117,7 +100,7 @@ class Engine:
     def time(self, time: int) -> None:
         self._time_at_step_0, self._steps = time, 0
         self.data.time = time / NANOSECONDS
-        self.forget_truth()
+        self.invalidate_kinematics()
 
     @property
     def timestep(self) -> int:
@@ -130,12 +113,12 @@ class Engine:
             raise SimulationError(f'a physics step of {timestep} ns is asked; it must be positive')
         self._time_at_step_0, self._steps = self.time, 0
         self._timestep = timestep
-        self.forget_truth()
+        self.invalidate_kinematics()
         seconds = timestep / NANOSECONDS
         self.spec.option.timestep = self.model.opt.timestep = seconds
 
     def state(self) -> bytes:
-        """All that the next step follows from, and the time: equal bytes, equal futures."""
+        """Return everything the next step depends on, and the time: equal bytes, equal futures."""
         state = np.empty(mujoco.mj_stateSize(self.model, _INTEGRATION))
         mujoco.mj_getState(self.model, self.data, state, _INTEGRATION)
         return self.time.to_bytes(8) + state.tobytes()
@@ -146,32 +129,58 @@ class Engine:
         self._steps += count
 
     def recompile(self) -> None:
-        """Follow the edits of ``spec``, keeping state and time. Raises ValueError, unchanged."""
-        with compiler_warnings(null_log, ''):  # told of the world and of each robot by itself
+        """
+        Apply the edits of ``spec``; state and time are kept.
+
+        Raises MuJoCo's ValueError; nothing has changed then.
+        """
+        # The warnings were logged when the world and each robot were compiled by themselves.
+        with compiler_warnings(null_log, ''):
             self.model, self.data = self.spec.recompile(self.model, self.data)
         self.generation += 1
 
     def reset(self) -> None:
-        """Time 0, everything where the model has it, commands zero."""
+        """Set the time to 0, the state to that of the model, all commands to zero."""
         mujoco.mj_resetData(self.model, self.data)
         self._time_at_step_0 = self._steps = 0
-        self._truth_at = None
+        self._kinematics_at = None
 
-    def forget_truth(self) -> None:
-        """The state was changed otherwise than by a step."""
-        self._truth_at = None
+    def invalidate_kinematics(self) -> None:
+        """Note that the state was changed other than by a step: body poses are outdated."""
+        self._kinematics_at = None
 
-    def refresh_truth(self) -> None:
+    def refresh_kinematics(self) -> None:
         """
         Bring body poses and velocities up to the present state.
 
-        After ``mj_step`` they lag one step behind ``qpos``. This recomputes nothing that a step
-        starts from, so looking does not change what follows.
+        After ``mj_step`` they lag one step behind ``qpos``. Nothing that the next step starts from
+        is recomputed, so that reading the world does not change its future.
         """
         now = (self.generation, self._steps)
-        if self._truth_at == now:
+        if self._kinematics_at == now:
             return
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_comPos(self.model, self.data)
         mujoco.mj_comVel(self.model, self.data)
-        self._truth_at = now
+        self._kinematics_at = now
+
+
+def one_line(text: str) -> str:
+    """Return a message of MuJoCo without its line breaks and its leading ``Error:``."""
+    return unwrap(text).removeprefix('Error: ')
+
+
+@contextmanager
+def compiler_warnings(log: Log, source: str) -> Iterator[None]:
+    """
+    Log what MuJoCo's compiler warns of while inside, each warning once and in one line.
+
+    Args:
+        log: Gets the warnings.
+        source: What is compiled; begins each line.
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter('always', UserWarning)
+        yield
+    for line in dict.fromkeys(one_line(str(warning.message)) for warning in caught):
+        log(Severity.WARN, f'{source}: MuJoCo: {line}')

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A robot as one thing in the world: where it is, how it moves, what space it takes; put elsewhere.
+A robot as an entity of ``simulation_interfaces``: its pose, motion and bounds; moving it.
 
-Everything is said of the robot's root link, in the axes of the world.
+Poses and velocities are those of the robot's root link, in the axes of the world.
 """
 
 from dataclasses import dataclass
@@ -26,8 +26,8 @@ from amr_description.sim.robot_view import RobotView
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
-    """m/s, rad/s, m/s², rad/s², in the axes of the world."""
+class EntityMotion:
+    """Velocities (m/s, rad/s) and accelerations (m/s², rad/s²) in the axes of the world."""
 
     linear_velocity: Vector
     angular_velocity: Vector
@@ -36,21 +36,21 @@ class Motion:
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
-    """Its two opposite corners, m."""
+class BoundingBox:
+    """Two opposite corners, m."""
 
     lower: Vector
     upper: Vector
 
 
 def pose_of(robot: RobotView) -> Transform:
-    """Transform from the root link to the world. Raises SimulationError."""
+    """Return the transform from the root link to the world. Raises SimulationError."""
     return robot.pose(robot.description.root.name)
 
 
-def motion_of(engine: Engine, robot: RobotView) -> Motion:
+def motion_of(engine: Engine, robot: RobotView) -> EntityMotion:
     """
-    How the origin of the root link moves. Raises SimulationError.
+    Return how the origin of the root link moves. Raises SimulationError.
 
     The acceleration is that of the last physics step: (velocity after - before) / step.
     """
@@ -62,8 +62,8 @@ def motion_of(engine: Engine, robot: RobotView) -> Motion:
     mujoco.mj_rnePostConstraint(model, data)
     change = np.empty(6)
     mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, change, 0)
-    # MuJoCo lets the world accelerate upwards in the place of gravity.
-    return Motion(
+    # MuJoCo models gravity as an upward acceleration of the world.
+    return EntityMotion(
         linear_velocity=rotate(pose.rotation, linear),
         angular_velocity=rotate(pose.rotation, angular),
         linear_acceleration=_vector(change[3:] + model.opt.gravity),
@@ -71,14 +71,21 @@ def motion_of(engine: Engine, robot: RobotView) -> Motion:
     )
 
 
-def place(
+def set_state(
     engine: Engine, robot: RobotView, pose: Transform, linear: Vector, angular: Vector
 ) -> None:
     """
-    Put a robot elsewhere and set it in motion; its joints stay as they are.
+    Set pose and velocity of a robot; its joints stay as they are.
 
-    ``pose``: from the root link to the world, with a unit quaternion; ``linear`` (m/s) and
-    ``angular`` (rad/s): of the root link's origin. Raises SimulationError for a fixed robot.
+    Args:
+        engine: Of the world.
+        robot: Of the world.
+        pose: Transform from the root link to the world, with a unit quaternion.
+        linear: Velocity of the root link's origin, m/s.
+        angular: Its angular velocity, rad/s.
+
+    Raises:
+        SimulationError: The robot stands fixed.
     """
     name = f'{robot.name}/{root_joint(robot.description)}'
     joint = mujoco.mj_name2id(engine.model, mujoco.mjtObj.mjOBJ_JOINT, name)
@@ -89,18 +96,24 @@ def place(
         )
     state = engine.data.joint(joint)
     state.qpos[:] = (*pose.translation, *wxyz_from_xyzw(pose.rotation))
-    # MuJoCo turns a free body in its own axes, and moves it in the world's.
+    # The angular velocity of a free joint is in the axes of the body, the linear in the world's.
     state.qvel[:] = (*linear, *rotate(conjugate(pose.rotation), angular))
-    engine.forget_truth()
+    engine.invalidate_kinematics()
 
 
-def bounds_of(engine: Engine, robot: RobotView, frame: Transform) -> Box | None:
+def bounds_of(engine: Engine, robot: RobotView, frame: Transform) -> BoundingBox | None:
     """
-    The box around all of a robot's shapes as it stands now, with its edges along ``frame``.
+    Return the box around all geoms of a robot as it is now, or None without any.
 
-    ``frame``: transform from it to the world. None: there is no shape. Raises SimulationError.
+    Args:
+        engine: Of the world.
+        robot: Of the world.
+        frame: Transform to the world from the frame in which the box is axis-aligned.
+
+    Raises:
+        SimulationError: The robot was removed.
     """
-    robot.pose(robot.description.root.name)  # brings the places of the shapes up to date
+    robot.pose(robot.description.root.name)  # brings geom poses up to date
     model, data = engine.model, engine.data
     to_frame = np.array(frame.inverse().to_matrix())
     corners = []
@@ -114,7 +127,7 @@ def bounds_of(engine: Engine, robot: RobotView, frame: Transform) -> Box | None:
             corners.append(to_frame[:3, :3] @ (data.geom_xpos[geom] + turned) + to_frame[:3, 3])
     if not corners:
         return None
-    return Box(_vector(np.min(corners, axis=0)), _vector(np.max(corners, axis=0)))
+    return BoundingBox(_vector(np.min(corners, axis=0)), _vector(np.max(corners, axis=0)))
 
 
 def _vector(values: np.ndarray) -> Vector:

@@ -67,7 +67,7 @@ class DofName:
         return f"robot '{self.robot}': {self.part}" if self.robot else self.part
 
 
-def place_of_dof(model: mujoco.MjModel, dof: int) -> DofName:
+def name_of_dof(model: mujoco.MjModel, dof: int) -> DofName:
     """Name an index into ``qvel``."""
     joint = int(model.dof_jntid[dof])
     robot, name = _split(model.joint(joint).name)
@@ -87,17 +87,17 @@ def dof_of_position(model: mujoco.MjModel, index: int) -> int:
     return int(model.jnt_dofadr[joint])
 
 
-def place_of_actuator(model: mujoco.MjModel, actuator: int) -> DofName:
+def name_of_actuator(model: mujoco.MjModel, actuator: int) -> DofName:
     """Name an index into ``ctrl``, by the joint that it drives if it drives one."""
     if model.actuator_trntype[actuator] == mujoco.mjtTrn.mjTRN_JOINT:
-        return place_of_dof(model, int(model.jnt_dofadr[model.actuator_trnid[actuator, 0]]))
+        return name_of_dof(model, int(model.jnt_dofadr[model.actuator_trnid[actuator, 0]]))
     robot, name = _split(model.actuator(actuator).name)
     return DofName(robot, f"actuator '{name}'", '')
 
 
 def robots_of_dofs(model: mujoco.MjModel, dofs: Sequence[int]) -> list[str]:
     """The robots to which degrees of freedom belong, each once, in order."""
-    robots = dict.fromkeys(place_of_dof(model, dof).robot for dof in dofs)
+    robots = dict.fromkeys(name_of_dof(model, dof).robot for dof in dofs)
     return [robot for robot in robots if robot]
 
 
@@ -161,7 +161,7 @@ def _effort_cause(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> str 
         effort = float(model.actuator_gainprm[actuator, 0] * data.ctrl[actuator])
         inertia = float(model.dof_M0[model.jnt_dofadr[joint]])
         if abs(effort) > _ABSURD * inertia:
-            where = place_of_dof(model, int(model.jnt_dofadr[joint])).part
+            where = name_of_dof(model, int(model.jnt_dofadr[joint])).part
             return (
                 f'{where} is driven with an effort of {effort:.4g}, on an inertia of '
                 f'{inertia:.2g}: command less, or give it a <limit effort="…"> in the URDF'
@@ -224,7 +224,7 @@ _BAD_VALUE = re.compile(r'value in (QPOS|QVEL|QACC|CTRL) at \w+ (\d+)')
 _QUANTITY = {'QPOS': 'position', 'QVEL': 'velocity', 'QACC': 'acceleration', 'CTRL': 'command'}
 
 
-def listen_to_mujoco() -> None:
+def collect_mujoco_warnings() -> None:
     """Have MuJoCo's warnings collected, of all worlds in this process."""
     mujoco.set_mju_user_warning(_warnings.append)
 
@@ -285,7 +285,7 @@ class FaultMonitor:
         if bad is None:
             self._tell(Severity.WARN, f'mujoco {text[:20]}', f'MuJoCo: {one_line(text)}')
         elif bad[1] == 'CTRL':
-            where = place_of_actuator(self._engine.model, int(bad[2]))
+            where = name_of_actuator(self._engine.model, int(bad[2]))
             value = float(self._engine.data.ctrl[int(bad[2])])
             self._tell(
                 Severity.ERROR,
@@ -300,7 +300,7 @@ class FaultMonitor:
         self._state_is_lost = True
         model, data = self._engine.model, self._engine.data
         dof = dof_of_position(model, index) if quantity == 'QPOS' else index
-        where = place_of_dof(model, dof)
+        where = name_of_dof(model, dof)
         value = float(getattr(data, quantity.lower())[index])
         self._tell(
             Severity.ERROR,
@@ -322,7 +322,7 @@ class FaultMonitor:
         if abs(speed) < HIGHEST_SPEED:
             return
         model = self._engine.model
-        where = place_of_dof(model, dof)
+        where = name_of_dof(model, dof)
         self._tell(
             Severity.ERROR,
             f'speed {where}',

@@ -1,22 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The friction of what a world leaves without: not MuJoCo's 1, with which driven wheels climb walls.
+The sliding friction of geoms that MuJoCo would give its default of 1, and of links.
 
-A robot on four driven wheels of radius r, the axles at ±a from its middle, rears up at a wall when
-the moments about its rear contacts lift its front. With friction µ on the ground and µ_w on the
-wall that is ``µ (r + µ_w (a + r)) > a``; where both are equal, ``µ > a / (a + r)``: 0.67 for the
-shipped robot, whose momentum lifts it at 1 m/s from 0.6 on. A rigid rubber wheel would truly do
-so; walls are smoother than that, and so is what a world does not speak of.
+**Geoms of a world without a friction of their own** get :data:`DEFAULT_FRICTION`: with MuJoCo's 1
+driven wheels climb walls. A robot on four driven wheels of radius r, the axles at ±a from its
+middle, rears up at a wall when the moments about its rear contacts lift its front. With friction µ
+on the ground and µ_w on the wall that is ``µ (r + µ_w (a + r)) > a``; where both are equal,
+``µ > a / (a + r)``: 0.67 for the shipped robot, whose momentum lifts it at 1 m/s from 0.6 on. A
+rigid rubber wheel would really do so; walls are smoother.
 
-The friction that a URDF made for Gazebo gives its links: ``<gazebo reference="caster"><mu1>``.
+**Links** have the friction that a URDF made for Gazebo gives them:
+``<gazebo reference="caster"><mu1>``. As in Gazebo, the smaller friction of two touching geoms
+counts, so that of a link matters where it is small, as for a ball caster that cannot roll.
 
-As in Gazebo, the smaller friction of the two that touch counts. So a link's own is of use where it
-is small, above all for a caster that Gazebo's users make slippery because it cannot roll.
-
-A wheel is slippery on whatever moves, which is above all the side of another robot: with MuJoCo's
-1 robots that run into each other climb. What it drives on has its own friction; see
-:mod:`amr_description.sim.wheel_contact`.
+**Wheels** have :data:`WHEEL_FRICTION` on everything that moves, which is above all the side of
+another robot: with MuJoCo's 1 robots that run into each other climb. Static surfaces have their
+own friction, see :mod:`amr_description.sim.wheel_contact`.
 """
 
 from collections.abc import Mapping
@@ -31,70 +31,78 @@ from amr_description.model.findings import raise_error
 from amr_description.model.robot import Robot
 from amr_description.model.xml_reader import parse_xml
 
-SILENT_FRICTION = 0.5
+DEFAULT_FRICTION = 0.5
 """Rubber on a smooth dry floor; holds on 26 degrees, climbs kerbs of 20 mm, and no wall."""
 
-_MARK = 0.987654321
-"""A friction that nobody writes."""
+WHEEL_FRICTION = 0.2
+"""
+Of a wheel on everything that moves: smooth paint. From ``(a - r) / (a + r)`` on, 0.33 for the
+shipped robot, it would rear up there, the friction of the ground being 1.
+"""
+
+WHEEL_PRIORITY, LINK_PRIORITY = 1, 2
+"""MuJoCo takes the friction of the geom with the higher priority: a link's own prevails."""
+
+_MUJOCO_DEFAULT = 1.0
+_TAGS = ('mu1', 'mu', 'collision/surface/friction/ode/mu')
+
+_SENTINEL = 0.987654321
+"""A friction that no file has."""
 
 
-def fill_in_friction(spec: mujoco.MjSpec, path: Path) -> None:
+def apply_default_friction(spec: mujoco.MjSpec, path: Path) -> None:
     """
-    Give the geoms whose friction the file at ``path`` leaves open SILENT_FRICTION.
+    Give the geoms for which a file sets no friction DEFAULT_FRICTION.
 
-    In ``spec`` a friction that is left open cannot be told from a 1 that is written: the file is
-    read once more, with another default.
+    In the spec, a friction of 1 may be MuJoCo's default or written in the file: the file is read
+    once more, with another default, to distinguish them.
+
+    Args:
+        spec: Read from the file; edited.
+        path: The MJCF file.
     """
     root = etree.parse(path).getroot()
     _include(root, path.parent)
-    _mark(root)
+    _set_default(root)
     try:
-        marked = mujoco.MjSpec.from_string(etree.tostring(root, encoding='unicode'))
+        probed = mujoco.MjSpec.from_string(etree.tostring(root, encoding='unicode'))
     except ValueError:
-        return  # it attaches models by relative paths: they speak for themselves
-    for geom, other in zip(spec.geoms, marked.geoms, strict=True):
-        if other.friction[0] == _MARK:
-            geom.friction[0] = SILENT_FRICTION
+        return  # it attaches models by relative paths: their frictions stay as they are
+    for geom, other in zip(spec.geoms, probed.geoms, strict=True):
+        if other.friction[0] == _SENTINEL:
+            geom.friction[0] = DEFAULT_FRICTION
 
 
 def _include(root: etree._Element, folder: Path) -> None:
-    """Put what is included in its place; MuJoCo looks for it beside the file of the world."""
+    """Expand ``<include>``; MuJoCo looks for the files in the folder of the world."""
     for element in tuple(root.iter('include')):
         included = etree.parse(folder / element.get('file', '')).getroot()
         _include(included, folder)
         parent = element.getparent()
-        place = parent.index(element)
-        parent[place : place + 1] = list(included)
+        index = parent.index(element)
+        parent[index : index + 1] = list(included)
 
 
-def _mark(root: etree._Element) -> None:
-    """Let the default of the whole file be _MARK, unless it has one."""
+def _set_default(root: etree._Element) -> None:
+    """Set the default friction of the whole file to _SENTINEL, unless it has one."""
     defaults = root.findall('default')
     if any(geom.get('friction') for each in defaults for geom in each.findall('geom')):
         return
     first = defaults[0] if defaults else etree.Element('default')
     if not defaults:
         root.insert(0, first)
-    geom = etree.Element('geom', friction=str(_MARK))
+    geom = etree.Element('geom', friction=str(_SENTINEL))
     first.insert(0, geom)
 
 
-SIDE_FRICTION = 0.2
-"""
-Of a wheel on what moves: smooth paint. From ``(a - r) / (a + r)`` on, 0.33 for the shipped robot,
-it would rear up there, the friction of the ground being 1; see
-:mod:`amr_description.sim.friction`.
-"""
-
-SIDE_PRIORITY, LINK_PRIORITY = 1, 2
-"""Whose friction counts between two that touch, in MuJoCo's terms; a URDF's own prevails."""
-
-_MUJOCOS = 1.0
-_TAGS = ('mu1', 'mu', 'collision/surface/friction/ode/mu')
-
-
 def link_frictions(robot: Robot, log: Log) -> Mapping[str, float]:
-    """The sliding friction of the links that have their own; the log is told what is no number."""
+    """
+    Return the sliding friction of the links that have one of their own.
+
+    Args:
+        robot: Its ``<gazebo reference="…">`` blocks are read.
+        log: Gets a warning for each value that is no number or negative.
+    """
     root = parse_xml(robot.text, robot.source, raise_error)
     assert root is not None, 'raise_error does not return from an error'
     names = {link.name for link in robot.links}
@@ -116,12 +124,12 @@ def link_frictions(robot: Robot, log: Log) -> Mapping[str, float]:
     return frictions
 
 
-def make_slippery(spec: mujoco.MjSpec, frictions: Mapping[str, float]) -> None:
-    """Let a link that is more slippery than MuJoCo's default have its own friction prevail."""
+def apply_link_frictions(spec: mujoco.MjSpec, frictions: Mapping[str, float]) -> None:
+    """Let the friction of a link prevail where it is smaller than that of its geoms."""
     for link, friction in frictions.items():
         for geom in spec.body(link).geoms:
-            is_tread = geom.priority == SIDE_PRIORITY
-            if friction < (_MUJOCOS if is_tread else geom.friction[0]):
+            is_wheel = geom.priority == WHEEL_PRIORITY
+            if friction < (_MUJOCO_DEFAULT if is_wheel else geom.friction[0]):
                 geom.friction[0] = friction
                 geom.priority = LINK_PRIORITY
 

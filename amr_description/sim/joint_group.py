@@ -1,11 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Some joints of one robot, read and commanded in the control tick.
+A group of joints of one robot, read and commanded in every control cycle.
 
-Some elements of MuJoCo's arrays, read and written in the control tick.
-
-A read is one slice and one ``tolist()``, well below 1 µs; access by name would cost 10 µs.
+The joints are bound once to views into MuJoCo's arrays. A read is then one slice and one
+``tolist()``, well below 1 µs; access by name costs 10 µs.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,45 +19,12 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SimulationError
 from amr_description.model.robot import Joint
-from amr_description.sim.actuator_modes import EffortReader, JointActuatorSet, Mode
+from amr_description.sim.actuator_modes import ActuatorMode, EffortReader, RobotActuators
 from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name
 from amr_description.sim.engine import Engine
 
 type Reader = Callable[[], list[float]]
 type Writer = Callable[[Sequence[float]], None]
-
-
-def reader(array: np.ndarray, indices: Sequence[int]) -> Reader:
-    """A function that reads these elements as Python floats."""
-    if not indices:
-        return list
-    first, end = min(indices), max(indices) + 1
-    view = array[first:end]
-    if list(indices) == list(range(first, end)):
-        return view.tolist
-    pick = itemgetter(*(index - first for index in indices))
-    return lambda: list(pick(view.tolist()))
-
-
-def writer(array: np.ndarray, indices: Sequence[int]) -> Writer:
-    """A function that writes these elements."""
-    first, end = min(indices, default=0), max(indices, default=-1) + 1
-    if sorted(indices) != list(range(first, end)) or len(indices) < 2:
-        where: Any = list(indices)
-
-        def scatter(values: Sequence[float]) -> None:
-            array[where] = values
-
-        return scatter
-    # A permuted run is written as a slice, which is three times faster than by index.
-    view = array[first:end]
-    pick = itemgetter(*(indices.index(index) for index in range(first, end)))
-
-    def write(values: Sequence[float]) -> None:
-        view[:] = pick(values)
-
-    return write
-
 
 _JOINT = mujoco.mjtObj.mjOBJ_JOINT
 _ACTUATOR = mujoco.mjtObj.mjOBJ_ACTUATOR
@@ -77,15 +43,15 @@ class MujocoJointGroup:
         engine: Engine,
         robot: str,
         joints: Sequence[Joint],
-        drives: JointActuatorSet,
+        actuators: RobotActuators,
         log: Log,
     ) -> None:
-        """Bind these joints of ``robot``. Raises SimulationError if one is not there."""
+        """Bind joints of ``robot``. Raises SimulationError: one is not in the world."""
         self._engine = engine
         self._robot = robot
         self._joints = tuple(joints)
         self._names = tuple(joint.name for joint in joints)
-        self._drives = drives
+        self._actuators = actuators
         self._log = log
         self._bind()
 
@@ -102,31 +68,37 @@ class MujocoJointGroup:
         return self._read_velocities()
 
     def efforts(self) -> list[float]:
-        """The actuators' generalised force during the last physics step, N·m or N."""
+        """Generalised force of the actuators during the last physics step, N·m or N."""
         if self._generation != self._engine.generation:
             self._bind()
         return self._read_efforts()
 
     def command(self, interface: str, values: Sequence[float]) -> None:
         """
-        Let the joints follow ``interface`` (``position``: rad or m, ``velocity``: rad/s or m/s,
-        ``effort``: N·m or N) from now on, and no other; kept until the next call.
+        Let the joints follow one command interface, until the next call.
 
-        A value beyond the joint's limit is clamped, which is told once. Raises SimulationError if
-        one is not finite, or if a joint takes no such command.
+        A value beyond the joint's limit is clamped, which is logged once.
+
+        Args:
+            interface: ``position`` (rad or m), ``velocity`` (rad/s or m/s) or ``effort`` (N·m
+                or N).
+            values: One for each joint.
+
+        Raises:
+            SimulationError: A value is not finite, or a joint has no such command interface.
         """
         if self._generation != self._engine.generation:
             self._bind()
         if interface != self._interface:
-            self._turn_to(interface)
+            self._select(interface)
         for value, (lower, upper) in zip(values, self._bounds, strict=True):
             # False for NaN too.
             if not lower <= value <= upper:
-                values = self._judged(values)
+                values = self._clamped(values)
                 break
-        if self._drives.changes != self._seen_changes:
-            self._drives.switch(self._names, Mode(interface))
-            self._seen_changes = self._drives.changes
+        if self._actuators.changes != self._known_changes:
+            self._actuators.switch(self._names, ActuatorMode(interface))
+            self._known_changes = self._actuators.changes
         if interface == POSITION and self._has_rotors:
             values = [
                 value + rotor - joint
@@ -137,21 +109,24 @@ class MujocoJointGroup:
         self._write(values)
 
     def hold(self) -> None:
-        """Bring the joints to a stop and keep them where they stop."""
+        """Stop the joints and hold them where they stop."""
         if self._generation != self._engine.generation:
             self._bind()
-        self._drives.hold(self._names)
+        self._actuators.hold(self._names)
 
     def release(self) -> None:
-        """Let the joints swing: no actuator exerts a force."""
+        """Let the joints move freely: no actuator exerts a force."""
         if self._generation != self._engine.generation:
             self._bind()
-        self._drives.switch(self._names, Mode.FREE)
+        self._actuators.switch(self._names, ActuatorMode.FREE)
 
-    def _turn_to(self, interface: str) -> None:
-        """Look up where commands of this interface go. Raises SimulationError."""
+    def _select(self, interface: str) -> None:
+        """Bind the commands of an interface. Raises SimulationError: a joint has no such one."""
         for name in self._names:
-            if interface not in self._drives.commands.get(name, ()) or interface not in COMMANDS:
+            if (
+                interface not in self._actuators.commands.get(name, ())
+                or interface not in COMMANDS
+            ):
                 raise SimulationError(
                     f"robot '{self._robot}': joint '{name}' takes no {interface} command: its "
                     '<ros2_control> block declares none'
@@ -162,10 +137,10 @@ class MujocoJointGroup:
         bounds = (command_bounds(joint, interface) for joint in self._joints)
         self._bounds = [(each.lower, each.upper) for each in bounds]
         self._interface = interface
-        self._seen_changes = -1
+        self._known_changes = -1
 
-    def _judged(self, values: Sequence[float]) -> list[float]:
-        """Refuse what is not finite; clamp what is beyond its limit, and tell of it."""
+    def _clamped(self, values: Sequence[float]) -> list[float]:
+        """Clamp values to the limits, and log it. Raises SimulationError: one is not finite."""
         clamped = []
         for joint, value in zip(self._joints, values, strict=True):
             where = f"robot '{self._robot}': joint '{joint.name}': the {self._interface} command"
@@ -183,7 +158,7 @@ class MujocoJointGroup:
         return clamped
 
     def _bind(self) -> None:
-        """Make the views into the present model and data; again after every recompile."""
+        """Make the views into the present model and data; repeated after every recompile."""
         model, data = self._engine.model, self._engine.data
         joints = self._find(_JOINT, self._names)
         for name, index in zip(self._names, joints, strict=True):
@@ -191,7 +166,7 @@ class MujocoJointGroup:
                 raise SimulationError(
                     f"robot '{self._robot}': joint '{name}' is not in the simulated world"
                 )
-        # Behind a slip clutch the servo works on the rotor.
+        # The servo of a joint with a slip clutch drives the rotor.
         rotors = self._find(_JOINT, [rotor_name(name) for name in self._names])
         self._has_rotors = max(rotors, default=-1) >= 0
         rotors = [j if rotor < 0 else rotor for j, rotor in zip(joints, rotors, strict=True)]
@@ -203,6 +178,38 @@ class MujocoJointGroup:
         self._generation = self._engine.generation
 
     def _find(self, kind: mujoco.mjtObj, names: Sequence[str]) -> list[int]:
-        """The indices of the robot's elements, -1 where there is none of that name."""
+        """Return the indices of elements of the robot; -1: there is none of that name."""
         model = self._engine.model
         return [mujoco.mj_name2id(model, kind, f'{self._robot}/{name}') for name in names]
+
+
+def reader(array: np.ndarray, indices: Sequence[int]) -> Reader:
+    """Return a function that reads elements of an array as Python floats."""
+    if not indices:
+        return list
+    first, end = min(indices), max(indices) + 1
+    view = array[first:end]
+    if list(indices) == list(range(first, end)):
+        return view.tolist
+    pick = itemgetter(*(index - first for index in indices))
+    return lambda: list(pick(view.tolist()))
+
+
+def writer(array: np.ndarray, indices: Sequence[int]) -> Writer:
+    """Return a function that writes elements of an array."""
+    first, end = min(indices, default=0), max(indices, default=-1) + 1
+    if sorted(indices) != list(range(first, end)) or len(indices) < 2:
+        where: Any = list(indices)
+
+        def scatter(values: Sequence[float]) -> None:
+            array[where] = values
+
+        return scatter
+    # A permuted range is written as a slice, three times faster than by index.
+    view = array[first:end]
+    pick = itemgetter(*(indices.index(index) for index in range(first, end)))
+
+    def write(values: Sequence[float]) -> None:
+        view[:] = pick(values)
+
+    return write

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A robot that is spawned inside something else, and where it would stand free.
+Rejects a robot that is spawned inside something else, and finds the height at which it is free.
 
 Its contacts would throw it out: measured, a robot 2 mm inside the ground comes up by 0.4 mm, one
 10 mm inside hops by 13 mm, and one 50 mm inside by 420 mm.
@@ -17,18 +17,18 @@ from amr_description.sim.engine import Engine
 from amr_description.sim.spawning import SpawnCode
 
 TOLERANCE = 0.002
-"""m; a pose that is less than this inside something is taken."""
+"""m; a smaller overlap is accepted."""
 
-_MOST_LIFTS = 50
+_MAX_LIFTS = 50
 
 
 @dataclass(frozen=True, slots=True)
 class Overlap:
-    """A part of the robot inside something."""
+    """The overlap of a link with something that is not of its robot."""
 
     link: str
     other: str
-    """In words: what it is inside of."""
+    """What the link is inside of, as text for a message."""
     is_robot: bool
     depth: float
     """m."""
@@ -36,11 +36,11 @@ class Overlap:
 
 def refuse_overlap(engine: Engine, robot: str) -> None:
     """Raise SpawnError if ``robot`` is inside the world or another robot; nothing is changed."""
-    look = _Look(engine, robot)
-    found = look.deepest()
+    probe = _OverlapProbe(engine, robot)
+    found = probe.deepest()
     if found is None:
         return
-    lift = None if found.is_robot else look.lift()
+    lift = None if found.is_robot else probe.lift()
     if lift is None:
         remedy = 'spawn it elsewhere'
     else:
@@ -52,8 +52,8 @@ def refuse_overlap(engine: Engine, robot: str) -> None:
     )
 
 
-class _Look:
-    """The present state on a sheet of its own, so that the world does not change."""
+class _OverlapProbe:
+    """A copy of the present state, so that the world itself does not change."""
 
     def __init__(self, engine: Engine, robot: str) -> None:
         self._model = engine.model
@@ -64,7 +64,7 @@ class _Look:
         self._data.mocap_quat[:] = engine.data.mocap_quat
 
     def deepest(self) -> Overlap | None:
-        """The deepest overlap, or None where the robot stands free."""
+        """Return the deepest overlap, or None where the robot is free."""
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         mujoco.mj_collision(self._model, self._data)
@@ -76,18 +76,18 @@ class _Look:
             own, other = sorted(geoms, key=lambda geom: not self._is_own(self._body_of(geom)))
             if self._is_own(self._body_of(own)) and not self._is_own(self._body_of(other)):
                 link = self._body_of(own).removeprefix(self._prefix)
-                worst = Overlap(link, *self._in_words(other), depth=-distance)
+                worst = Overlap(link, *self._describe(other), depth=-distance)
         return worst
 
     def lift(self) -> float | None:
-        """How much higher the robot stands free, m; None if that is not found."""
-        # The model of a robot that stands fixed is lifted, so it must not be the world's.
+        """Return how much higher the robot is free, m; None if no such height is found."""
+        # A robot that stands fixed is lifted in the model, so that must be a copy.
         self._model = copy.copy(self._model)
         lifted = 0.0
-        for _ in range(_MOST_LIFTS):
+        for _ in range(_MAX_LIFTS):
             found = self.deepest()
             if found is None:
-                # To the next mm, so that what is printed is enough.
+                # Whole millimetres: the number in the message is then sufficient.
                 return lifted
             step = max(0.001, round(found.depth, 3))
             self._raise(step)
@@ -112,8 +112,8 @@ class _Look:
     def _is_own(self, body: str) -> bool:
         return body.startswith(self._prefix)
 
-    def _in_words(self, geom: int) -> tuple[str, bool]:
-        """What a geom belongs to, and whether that is a robot."""
+    def _describe(self, geom: int) -> tuple[str, bool]:
+        """Return what a geom belongs to, and whether that is a robot."""
         robot, _, link = self._body_of(geom).partition('/')
         if link:
             return f"link '{link}' of robot '{robot}'", True

@@ -20,7 +20,7 @@ from amr_description.model.frames import (
     xyzw_from_wxyz,
 )
 from amr_description.model.robot import Robot, WORLD_LINK
-from amr_description.sim.actuator_modes import JointActuatorSet
+from amr_description.sim.actuator_modes import RobotActuators
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
 from amr_description.sim.robot_spec import RobotSpec, root_joint
@@ -40,35 +40,43 @@ class RobotView:
         name: str,
         description: Robot,
         model: RobotSpec,
-        place: Transform,
+        pose: Transform,
         log: Log,
         seed: int = 0,
     ) -> None:
         """
-        ``place``: the pose at which the robot, of the spec ``model``, was spawned. ``seed``: that
-        of the world.
+        Bind a robot that has just been spawned.
+
+        Args:
+            engine: Of the world.
+            name: Of the robot in the world.
+            description: Its URDF.
+            model: The spec made of it.
+            pose: Where it was spawned: transform from its root link to the world.
+            log: Gets what the joints' commands cause.
+            seed: Of the world.
         """
         self.name = name
         self.seed = (seed, *name.encode())
-        """From it follows the noise of the robot's sensors."""
+        """Seeds the noise of the robot's sensors."""
         self.description = description
         self.wheels = model.wheels
         """The links that touch the ground as wheels."""
-        self._place = place
+        self._spawn_pose = pose
         self._log = log
         self._engine = engine
         self._bodies: dict[str, int] = {}
         self._generation = -1
-        self._initial = model.initial
-        self._drives = JointActuatorSet(engine, name, model.commands)
+        self._initial_states = model.initial_states
+        self._actuators = RobotActuators(engine, name, model.commands)
         self.start()
 
     def start(self) -> None:
-        """Put the joints to where they begin, held; for the world, at spawn and after a reset."""
-        for name, state in self._initial.items():
+        """Set the joints to their initial states, held; called at spawn and after a reset."""
+        for name, state in self._initial_states.items():
             joint = self._engine.data.joint(f'{self.name}/{name}')
             joint.qpos[:], joint.qvel[:] = state.position, state.velocity
-        self._drives.start()
+        self._actuators.start()
 
     @property
     def time(self) -> int:
@@ -76,7 +84,7 @@ class RobotView:
         return self._engine.time
 
     def joints(self, names: Sequence[str]) -> MujocoJointGroup:
-        """These joints, in this order. Raises SimulationError."""
+        """Return a group of joints, in the given order. Raises SimulationError."""
         known = {joint.name: joint for joint in self.description.joints if joint.has_position}
         for name in names:
             if name not in known:
@@ -85,25 +93,26 @@ class RobotView:
                     f'{", ".join(known)}'
                 )
         joints = [known[name] for name in names]
-        return MujocoJointGroup(self._engine, self.name, joints, self._drives, self._log)
+        return MujocoJointGroup(self._engine, self.name, joints, self._actuators, self._log)
 
     def pose(self, link: str) -> Transform:
-        """``transform_link_to_world`` at the present time. Raises SimulationError."""
+        """Return the transform from a link to the world, now. Raises SimulationError."""
         body = self._body(link)
         if body == 0:
-            return self._place
-        self._engine.refresh_truth()
+            return self._spawn_pose
+        self._engine.refresh_kinematics()
         data = self._engine.data
         x, y, z = data.xpos[body].tolist()
         return Transform((x, y, z), xyzw_from_wxyz(data.xquat[body].tolist()))
 
     def velocity(self, link: str) -> tuple[Vector, Vector]:
         """
-        Linear (m/s) and angular (rad/s) velocity of the link's origin, both in the link's own
-        axes. Raises SimulationError.
+        Return the linear (m/s) and angular (rad/s) velocity of a link's origin.
+
+        Both in the link's own axes. Raises SimulationError.
         """
         body = self._body(link)
-        self._engine.refresh_truth()
+        self._engine.refresh_kinematics()
         result = np.empty(6)
         mujoco.mj_objectVelocity(
             self._engine.model, self._engine.data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 1
@@ -111,30 +120,36 @@ class RobotView:
         wx, wy, wz, vx, vy, vz = result.tolist()
         return (vx, vy, vz), (wx, wy, wz)
 
-    def imu(self, link: str, place: Transform) -> ImuReading:
+    def imu(self, link: str, mount_pose: Transform) -> ImuReading:
         """
-        What an inertial measurement unit on ``link`` measures; ``place``: the transform from the
-        unit to the link. Raises SimulationError.
+        Return what an inertial measurement unit on ``link`` measures, without noise.
 
         The acceleration is that of the last physics step: (velocity after - before) / step.
+
+        Args:
+            link: The link that the unit is fixed to.
+            mount_pose: Transform from the unit to the link.
+
+        Raises:
+            SimulationError: There is no such link.
         """
         body = self._body(link)
         model, data = self._engine.model, self._engine.data
-        self._engine.refresh_truth()
+        self._engine.refresh_kinematics()
         mujoco.mj_rnePostConstraint(model, data)
         motion, change = np.empty(6), np.empty(6)
-        # In the world's axes; gravity is in it, as MuJoCo lets the world accelerate upwards.
+        # In world axes, including gravity, which MuJoCo models as an upward acceleration.
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, motion, 0)
         mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, change, 0)
         rate, turning, acceleration = map(_vector, (motion[:3], change[:3], change[3:]))
         pose = self.pose(link)
-        lever = rotate(pose.rotation, place.translation)
+        lever = rotate(pose.rotation, mount_pose.translation)
         # a + α × r + ω × (ω × r)
         parts = zip(
             acceleration, cross(turning, lever), cross(rate, cross(rate, lever)), strict=True
         )
         x, y, z = (sum(part) for part in parts)
-        orientation = multiply(pose.rotation, place.rotation)
+        orientation = multiply(pose.rotation, mount_pose.rotation)
         back = conjugate(orientation)
         return ImuReading(
             orientation=orientation,
@@ -143,7 +158,7 @@ class RobotView:
         )
 
     def height_index(self) -> int | None:
-        """The index of the root's height in ``qpos``; None for a robot that stands fixed."""
+        """Return the index of the root's height in ``qpos``; None: the robot stands fixed."""
         model = self._engine.model
         joint = mujoco.mj_name2id(
             model, mujoco.mjtObj.mjOBJ_JOINT, f'{self.name}/{root_joint(self.description)}'

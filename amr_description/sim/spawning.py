@@ -1,9 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The request to spawn an entity, checked before MuJoCo sees it.
+Checks of a request to spawn an entity, before MuJoCo gets it: name, pose, description.
 
-Every refusal is a SpawnError with the ``result`` code of ``simulation_interfaces/SpawnEntity``.
+What is rejected raises a SpawnError with the ``result`` code of
+``simulation_interfaces/srv/SpawnEntity``.
 """
 
 from collections.abc import Collection
@@ -40,7 +41,7 @@ class SpawnCode(enum.IntEnum):
 
 
 def check_name(name: str, taken: Collection[str]) -> None:
-    """Refuse a name that is taken, or that is not made of letters, digits and ``_ . -``."""
+    """Raise SpawnError: the name is taken, or has other than letters, digits and ``_ . -``."""
     if not _NAME.fullmatch(name):
         raise SpawnError(
             f"'{name}' cannot name an entity: letters, digits and _ . - will do",
@@ -55,7 +56,7 @@ def check_name(name: str, taken: Collection[str]) -> None:
 
 
 def free_name(name: str, taken: Collection[str]) -> str:
-    """``name``, or with ``allow_renaming`` the first of ``name_1``, ``name_2`` … that is free."""
+    """Return ``name``, or the first of ``name_1``, ``name_2`` … that is not taken."""
     candidate, number = name, 0
     while candidate in taken:
         number += 1
@@ -64,7 +65,7 @@ def free_name(name: str, taken: Collection[str]) -> str:
 
 
 def checked_pose(pose: Transform) -> Transform:
-    """The pose with a unit quaternion; refused when not finite or without a direction."""
+    """Return the pose with a unit quaternion. Raises SpawnError: it is not finite, or 0."""
     values = (*pose.translation, *pose.rotation)
     length = math.hypot(*pose.rotation)
     if not all(map(math.isfinite, values)) or length < 1e-6:
@@ -80,10 +81,15 @@ def checked_pose(pose: Transform) -> Transform:
 
 def read_description(text: str, source: str, log: Log = null_log) -> Robot:
     """
-    The robot of a URDF; ``source`` names the text in messages.
+    Read and check the URDF of a robot.
 
-    What the checker warns of goes to the log. Refused: no text, another format than URDF, and what
-    the checker calls an error.
+    Args:
+        text: The URDF.
+        source: What messages call the text, such as its path.
+        log: Gets the checker's warnings.
+
+    Raises:
+        SpawnError: The text is empty, has another format, or has an error by the checker.
     """
     if not text.strip():
         raise SpawnError('no robot description: resource_string is empty', SpawnCode.NO_RESOURCE)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The static surroundings of a world as shapes to draw: what there was before any robot came."""
+"""The visible static geometry of a world, as shapes to draw."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ _Type = mujoco.mjtGeom
 type Color = tuple[float, float, float, float]
 
 
-class Kind(StrEnum):
-    """How a shape is drawn: centred on its pose, extending along the axes by ``size``."""
+class ShapeKind(StrEnum):
+    """Kinds of shapes; each is centred on its pose and extends along its axes by ``size``."""
 
     BOX = 'box'
     SPHERE = 'sphere'
@@ -27,17 +27,17 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class VisibleShape:
     """
     One geom, in the frame ``world``.
 
-    ``size``: whole extents along x, y, z, m; of a plane 0 where it has no end. ``color``: red,
+    ``size``: full extents along x, y, z, m; 0 along an infinite side of a plane. ``color``: red,
     green, blue, alpha in 0..1. ``points``: the corners of triangles, three each, in the shape's
-    own axes; they go round counter-clockwise as seen from outside.
+    own axes, counter-clockwise as seen from outside.
     """
 
     name: str
-    kind: Kind
+    kind: ShapeKind
     size: Vector
     position: Vector
     rotation: Quaternion
@@ -45,11 +45,11 @@ class Shape:
     points: tuple[Vector, ...] = ()
 
 
-def visible_shapes(spec: mujoco.MjSpec) -> tuple[Shape, ...]:
+def visible_shapes(spec: mujoco.MjSpec) -> tuple[VisibleShape, ...]:
     """
-    Return what stands around, visible and static; of a world that no robot has come to yet.
+    Return the visible static geoms of a world without robots.
 
-    ``spec`` is compiled as a copy, and stays as it is. A geom without a name is called after its
+    ``spec`` itself stays as it is: a copy of it is compiled. A geom without a name gets one of its
     kind and number.
     """
     model = spec.copy().compile()
@@ -62,34 +62,34 @@ def visible_shapes(spec: mujoco.MjSpec) -> tuple[Shape, ...]:
     return tuple(shape for shape in shapes if shape is not None)
 
 
-def _shape(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Shape | None:
-    """None for what has no shape of its own, such as a line."""
+def _shape(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> VisibleShape | None:
+    """Return a geom as a shape; None for one that is not drawn, such as a line."""
     a, b, c = (float(each) for each in model.geom_size[geom])
     points: tuple[Vector, ...] = ()
     match _Type(model.geom_type[geom]):
         case _Type.mjGEOM_PLANE:
-            kind, size = Kind.PLANE, (2 * a, 2 * b, 0.0)
+            kind, size = ShapeKind.PLANE, (2 * a, 2 * b, 0.0)
         case _Type.mjGEOM_BOX:
-            kind, size = Kind.BOX, (2 * a, 2 * b, 2 * c)
+            kind, size = ShapeKind.BOX, (2 * a, 2 * b, 2 * c)
         case _Type.mjGEOM_SPHERE:
-            kind, size = Kind.SPHERE, (2 * a, 2 * a, 2 * a)
+            kind, size = ShapeKind.SPHERE, (2 * a, 2 * a, 2 * a)
         case _Type.mjGEOM_ELLIPSOID:
-            kind, size = Kind.SPHERE, (2 * a, 2 * b, 2 * c)
+            kind, size = ShapeKind.SPHERE, (2 * a, 2 * b, 2 * c)
         case _Type.mjGEOM_CYLINDER:
-            kind, size = Kind.CYLINDER, (2 * a, 2 * a, 2 * b)
+            kind, size = ShapeKind.CYLINDER, (2 * a, 2 * a, 2 * b)
         case _Type.mjGEOM_CAPSULE:
-            kind, size = Kind.CAPSULE, (2 * a, 2 * a, 2 * (a + b))
+            kind, size = ShapeKind.CAPSULE, (2 * a, 2 * a, 2 * (a + b))
         case _Type.mjGEOM_MESH:
             points = tuple(_mesh(model, int(model.geom_dataid[geom])))
-            kind, size = Kind.TRIANGLES, _extent(points)
+            kind, size = ShapeKind.TRIANGLES, _extent(points)
         case _Type.mjGEOM_HFIELD:
             points = tuple(_height_field(model, int(model.geom_dataid[geom])))
-            kind, size = Kind.TRIANGLES, _extent(points)
+            kind, size = ShapeKind.TRIANGLES, _extent(points)
         case _:
             return None
     rotation = np.empty(4)
     mujoco.mju_mat2Quat(rotation, data.geom_xmat[geom])
-    return Shape(
+    return VisibleShape(
         name=model.geom(geom).name or f'{kind}_{geom}',
         kind=kind,
         size=size,
@@ -101,7 +101,7 @@ def _shape(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Shape | Non
 
 
 def _color(model: mujoco.MjModel, geom: int) -> Color:
-    """Of the material, if it has one: a texture's own colours are not drawn."""
+    """Return the color of the material, or else of the geom; textures are ignored."""
     material = int(model.geom_matid[geom])
     color = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
     r, g, b, a = (float(each) for each in color)
@@ -117,7 +117,7 @@ def _mesh(model: mujoco.MjModel, mesh: int) -> Iterator[Vector]:
 
 
 def _height_field(model: mujoco.MjModel, field: int) -> Iterator[Vector]:
-    """Two triangles for each cell of the grid; x grows with the column, y with the row."""
+    """Yield two triangles for each cell of the grid; columns along x, rows along y."""
     rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
     radius_x, radius_y, height, _ = (float(each) for each in model.hfield_size[field])
     start = model.hfield_adr[field]

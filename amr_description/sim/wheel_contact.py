@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How a wheel touches the ground.
+The contact of a wheel with a static surface, and its measured settings.
 
 Four fixed wheels scrub when the robot turns. With MuJoCo's default contacts the slip lifts them
-and the robot hops; the settings here let it slide as Coulomb's law has it. The slip couples into
+and the robot hops; with these settings it slides by Coulomb's law. The slip couples into
 the normal force as ``R f = a_ref + mu b v_slip - a`` with ``b = 2 / (d tc_friction)``; a wheel
 leaves the ground once ``mu b v_slip / (1 + h b)`` exceeds ``R f``. Hence a small impedance ``d``,
 a small step ``h``, a long time constant with a damping ratio below 1, and a ``margin`` that
@@ -30,13 +30,13 @@ class ContactSettings:
     """Time constant in s and damping ratio of the tangential directions."""
     margin: float
     """
-    m; contacts begin this far above the surface, which cancels the sink under the weight. Each
-    robot gets its own: :mod:`amr_description.sim.wheel_trim`.
+    m; contacts begin this far above the surface, which cancels the sink under the weight. It is
+    adjusted for each robot by :mod:`amr_description.sim.wheel_trim`.
     """
     torsional_friction: float = 0.005
-    """m; without effect at ``condim`` 3."""
+    """m; no effect at ``condim`` 3."""
     rolling_friction: float = 0.0001
-    """m; without effect at ``condim`` 3."""
+    """m; no effect at ``condim`` 3."""
 
 
 WHEEL_CONTACT = ContactSettings(
@@ -72,13 +72,21 @@ def add_wheel_contact(
     spec: mujoco.MjSpec, wheel: str, surface: mujoco.MjsGeom, settings: ContactSettings
 ) -> None:
     """
-    Let the geom named ``wheel`` touch ``surface`` with these settings and the surface's own
-    sliding friction, or the wheel's where that prevails and is smaller.
+    Add a contact pair of a wheel and a static surface.
+
+    The sliding friction is that of the surface, or that of the wheel where its link has a smaller
+    one of its own (:mod:`amr_description.sim.friction`).
+
+    Args:
+        spec: The spec of the world, with the robot.
+        wheel: The name of the wheel's geom.
+        surface: A geom of the world.
+        settings: Of the contact.
     """
     mu = float(surface.friction[0])
-    tread = spec.geom(wheel)
-    if tread.priority >= LINK_PRIORITY > surface.priority:
-        mu = min(mu, float(tread.friction[0]))
+    geom = spec.geom(wheel)
+    if geom.priority >= LINK_PRIORITY > surface.priority:
+        mu = min(mu, float(geom.friction[0]))
     pair = spec.add_pair(geomname1=wheel, geomname2=surface.name)
     pair.condim = 3
     pair.friction = [

@@ -1,16 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The contacts on which a wheeled robot rests, each trimmed so that it rests at its true height.
+The contacts of wheels and casters, trimmed for each robot so that it rests at its true height.
 
-The soft contacts of :mod:`amr_description.sim.wheel_contact` sink under a load; a ``margin`` cancels
-that. How much it takes follows from how the robot's weight and inertia lie on its wheels, so each
-robot is let down onto flat ground once, by itself, before it is spawned. Measured with the margin
-of the shipped robot: a robot on two wheels of 50 mm and a ball sinks by 0.65 mm and drives 0.6 %
-short; trimmed, by 2 µm.
+The soft contacts of :mod:`amr_description.sim.wheel_contact` sink under load; a ``margin`` cancels
+that. The margin needed depends on how the robot's weight and inertia are spread over its wheels,
+so each robot is set down on flat ground once, by itself, before it is spawned. Measured with the
+margin of the shipped robot: a robot on two wheels of 50 mm and a ball sinks by 0.65 mm and drives
+0.6 % short; trimmed, by 2 µm.
 
-A ball on which it rests, a caster, slides as a wheel does when the robot turns. With MuJoCo's
-default contacts it hops, and its wheels slip by a tenth; so it gets a wheel's contact too.
+A ball caster slides when the robot turns, as a wheel does. With MuJoCo's default contacts it hops,
+and the wheels slip by 10 %; so it gets the contact of a wheel too.
 """
 
 from collections.abc import Mapping
@@ -21,13 +21,13 @@ import numpy as np
 
 from amr_description.control.contracts import null_log
 from amr_description.sim.engine import compiler_warnings
-from amr_description.sim.faults import listen_to_mujoco
-from amr_description.sim.robot_spec import RobotSpec, tread_name
+from amr_description.sim.faults import collect_mujoco_warnings
+from amr_description.sim.robot_spec import RobotSpec, wheel_geom_name
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
 from amr_description.sim.world_file import apply_settings, WorldSettings
 
 type Contacts = Mapping[str, ContactSettings]
-"""The contact with the ground of each geom that is to have one of its own."""
+"""Name of a geom → its contact with static surfaces."""
 
 _HIGH = 100.0
 """m; nothing of a robot is so far below its root."""
@@ -35,18 +35,23 @@ _STEPS = 1000
 _STEP = 0.002
 """s."""
 _STILL = 0.01
-"""m/s and rad/s; what moves faster is not at rest, and says nothing."""
+"""m/s and rad/s; a robot that moves faster is not at rest, and its heights are not used."""
 
 
 def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float) -> Contacts:
     """
-    The contact of each wheel, and of each ball on which the robot rests: ``settings`` with a
-    margin of its own; ``gravity``: m/s².
+    Return the contact of each wheel, and of each caster on which the robot rests.
 
-    A wheel that does not come to rest on the ground keeps ``settings``. Raises MuJoCo's
-    ValueError.
+    Args:
+        model: The robot.
+        settings: The contact whose margin is trimmed; a wheel that does not come to rest on the
+            ground keeps it as it is.
+        gravity: m/s².
+
+    Raises:
+        ValueError: MuJoCo's.
     """
-    contacts = dict.fromkeys((tread_name(wheel.link) for wheel in model.wheels), settings)
+    contacts = dict.fromkeys((wheel_geom_name(wheel.link) for wheel in model.wheels), settings)
     for geom, height in _rest_heights(model, settings, gravity).items():
         contacts[geom] = replace(settings, margin=max(0.0, settings.margin - height))
     return contacts
@@ -55,7 +60,7 @@ def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float
 def _rest_heights(
     model: RobotSpec, settings: ContactSettings, gravity: float
 ) -> Mapping[str, float]:
-    """How high the wheels and balls that come to rest on the ground are above it, m."""
+    """Return the heights above the ground of the wheels and casters that rest on it, m."""
     if not model.wheels or model.free_joint is None:
         return {}
     spec = mujoco.MjSpec()
@@ -66,33 +71,31 @@ def _rest_heights(
         name='ground', type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 1.0]
     )
     spec.attach(model.spec.copy(), frame=spec.worldbody.add_frame(), prefix='robot/')
-    round_ones = [*(tread_name(wheel.link) for wheel in model.wheels), *model.balls]
-    for geom in round_ones:
+    geoms = [*(wheel_geom_name(wheel.link) for wheel in model.wheels), *model.casters]
+    for geom in geoms:
         add_wheel_contact(spec, f'robot/{geom}', ground, settings)
-    with compiler_warnings(null_log, ''):  # told when the robot was built
+    with compiler_warnings(null_log, ''):  # logged when the robot was built
         compiled = spec.compile()
     data = mujoco.MjData(compiled)
-    _set_down(compiled, data, model)
-    # What goes wrong here goes wrong in the world too, and is told then.
+    _place_on_ground(compiled, data, model)
+    # Faults here will occur in the world too and be logged then.
     mujoco.set_mju_user_warning(lambda text: None)
     mujoco.mj_step(compiled, data, _STEPS)
-    listen_to_mujoco()
+    collect_mujoco_warnings()
     if not np.abs(data.qvel).max() < _STILL:
         return {}
     contacts = zip(data.contact.geom.tolist(), data.contact.dist.tolist(), strict=True)
     height_of = {compiled.geom(max(geoms)).name: height for geoms, height in contacts}
-    return {
-        geom: height_of[f'robot/{geom}'] for geom in round_ones if f'robot/{geom}' in height_of
-    }
+    return {geom: height_of[f'robot/{geom}'] for geom in geoms if f'robot/{geom}' in height_of}
 
 
-def _set_down(compiled: mujoco.MjModel, data: mujoco.MjData, model: RobotSpec) -> None:
-    """Put the joints where they begin, and the lowest point of the robot on the ground."""
-    for name, state in model.initial.items():
+def _place_on_ground(compiled: mujoco.MjModel, data: mujoco.MjData, model: RobotSpec) -> None:
+    """Set the initial joint positions, and put the lowest point of the robot on the ground."""
+    for name, state in model.initial_states.items():
         joint = f'robot/{name}'
         data.joint(joint).qpos[:] = state.position
         for actuator in range(compiled.nu):
-            # A spring that pulls at the joint itself; behind a clutch it pulls at the rotor.
+            # A spring on the joint itself; behind a clutch it acts on the rotor.
             if compiled.actuator_trnid[actuator, 0] == compiled.joint(joint).id:
                 is_spring = compiled.actuator_biasprm[actuator, 1] != 0.0
                 data.ctrl[actuator] = state.position if is_spring else 0.0

@@ -10,7 +10,7 @@ The simulated world: a ground, robots that come and go, and time.
     robot = world.spawn('amr', urdf_text, Transform((0.0, 0.0, 0.2)))
     wheels = robot.joints(['joint_wheel_front_left', …])
     wheels.command('velocity', [5.0, …])
-    world.step(5)                                           # 10 ms of simulated time
+    world.advance(10_000_000)                               # 10 ms of simulated time: 5 steps
     robot.pose('base_footprint')
 """
 
@@ -22,7 +22,7 @@ from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
 from amr_description.sim.engine import compiler_warnings, Engine, LONGEST_STEP, one_line
-from amr_description.sim.faults import FaultMonitor, listen_to_mujoco
+from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
 from amr_description.sim.overlap import refuse_overlap
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
@@ -42,9 +42,11 @@ _FILE_SETTINGS = WorldSettings()
 
 class MujocoWorld:
     """
-    One MuJoCo world with any number of robots; every call on the owner's thread.
+    One MuJoCo world with any number of robots.
 
-    Same world, same robots, same commands at the same steps: the same bits.
+    Not thread-safe: every call is made on the control thread. Deterministic: the same world,
+    robots and commands at the same steps give the same :meth:`state`, bit by bit. It is a
+    :class:`~amr_description.control.loop.Stepper`.
     """
 
     def __init__(
@@ -58,13 +60,20 @@ class MujocoWorld:
         log: Log = null_log,
     ) -> None:
         """
-        Load a shipped world by name or an MJCF file by path.
+        Load a world.
 
-        ``settings`` go over what the file says. ``timestep``: physics step, ns; the longest that
-        settings and file allow, unless given. ``seed``: from 0 on; the noise of all sensors
-        follows from it. Raises SimulationError.
+        Args:
+            world: The name of a shipped world, or the path of an MJCF file.
+            settings: Physics options; they take precedence over the file's.
+            timestep: Physics step, ns; by default the longest that settings and file allow.
+            contact: The contact of wheels with static surfaces.
+            seed: Not negative; seeds the noise of all sensors.
+            log: Gets warnings and faults.
+
+        Raises:
+            SimulationError: There is no such world, or MuJoCo rejects it.
         """
-        listen_to_mujoco()
+        collect_mujoco_warnings()
         with compiler_warnings(log, f"world '{world}'"):
             spec = load_world(world, settings)
         self.longest_step = longest_step(spec, settings)
@@ -79,8 +88,8 @@ class MujocoWorld:
         self._contact = contact
         self._seed = seed
         self._contacts: dict[str, Contacts] = {}
-        # MuJoCo keeps every spec that was ever attached, 0.1 MB each: so one for each description,
-        # copied into the world whenever a robot of it comes.
+        # MuJoCo keeps every spec that was ever attached, 0.1 MB each: so there is one for each
+        # description, and it is copied into the world for each robot of it.
         self._specs: dict[str, mujoco.MjSpec] = {}
         spec.copy_during_attach = True
         try:
@@ -91,13 +100,13 @@ class MujocoWorld:
             raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
         self._log = log
         self.faults = FaultMonitor(self.engine, log)
-        """Looks after every step; its ``on_fault`` may be set."""
+        """Checks the state after every step; its ``on_fault`` may be set."""
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
 
     @property
     def time(self) -> int:
-        """Simulated time, ns; it may be set, and nothing else changes."""
+        """Simulated time, ns; setting it changes nothing else."""
         return self.engine.time
 
     @time.setter
@@ -107,7 +116,7 @@ class MujocoWorld:
 
     @property
     def timestep(self) -> int:
-        """The physics step, ns; it may be set at any time, and time goes on from where it is."""
+        """The physics step, ns; it may be set at any time, time goes on from the present one."""
         return self.engine.timestep
 
     @timestep.setter
@@ -116,11 +125,11 @@ class MujocoWorld:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The robots, in the order of their coming."""
+        """The names of the robots, in the order in which they were spawned."""
         return tuple(self._robots)
 
     def robot(self, name: str) -> RobotView:
-        """A robot by name. Raises SimulationError naming those there are."""
+        """Return a robot by name. Raises SimulationError, which lists the names that exist."""
         try:
             return self._robots[name]
         except KeyError:
@@ -130,11 +139,21 @@ class MujocoWorld:
 
     def spawn(self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN) -> RobotView:
         """
-        Put a robot into the world, its joints held where they begin.
+        Put a robot into the world, its joints held at their initial positions.
 
-        ``description``: a URDF, or what :func:`~amr_description.sim.spawning.read_description`
-        made of it. ``pose``: transform from the robot's root link to the world. Time and all
-        other robots stay as they are. Raises SpawnError; the world is then as before.
+        Time and all other robots stay as they are.
+
+        Args:
+            name: Of the robot; prefixes its elements in the model.
+            description: A URDF, or what
+                :func:`~amr_description.sim.spawning.read_description` made of it.
+            pose: Transform from the robot's root link to the world.
+
+        Returns:
+            The robot, as a hardware component sees it.
+
+        Raises:
+            SpawnError: The world is unchanged.
         """
         check_name(name, self.names)
         pose = checked_pose(pose)
@@ -148,37 +167,41 @@ class MujocoWorld:
         try:
             refuse_overlap(self.engine, name)
         except SpawnError:
-            self._take_out(name)
+            self._detach(name)
             raise
         self._robots[name] = view
-        self._find_roots()
+        self._index_roots()
         return view
 
     def remove(self, name: str) -> None:
-        """Take a robot out; its view is dead. Raises SimulationError for an unknown name."""
+        """Remove a robot; its view becomes invalid. Raises SimulationError for an unknown name."""
         self.robot(name)
-        self._take_out(name)
+        self._detach(name)
         del self._robots[name]
-        self._find_roots()
+        self._index_roots()
 
     def step(self, count: int = 1) -> None:
-        """Advance by ``count`` physics steps; faults are told to the log."""
+        """Advance by ``count`` physics steps, then check for faults."""
         self.engine.step(count)
         self.faults.check(self._roots)
 
+    def advance(self, period: int) -> None:
+        """Advance by ``period`` (ns), rounded to whole physics steps, by one at least."""
+        self.step(max(1, round(period / self.engine.timestep)))
+
     def state(self) -> bytes:
-        """All that the next step follows from: to compare two runs, bit by bit."""
+        """Return everything the next step depends on, to compare two runs bit by bit."""
         return self.engine.state()
 
     def reset(self) -> None:
-        """Time 0, every robot as it was spawned, its joints held."""
+        """Set the time to 0 and every robot to where it was spawned, its joints held."""
         self.engine.reset()
         for view in self._robots.values():
             view.start()
         self.faults.reset()
 
     def _contacts_of(self, robot: Robot, model: RobotSpec) -> Contacts:
-        """What its wheels and casters have; found once for all robots of one description."""
+        """Return the contacts of wheels and casters, computed once for each description."""
         if robot.text not in self._contacts:
             gravity = float(np.linalg.norm(self.engine.spec.option.gravity))
             self._contacts[robot.text] = trimmed_contacts(model, self._contact, gravity)
@@ -188,11 +211,11 @@ class MujocoWorld:
         self, name: str, robot: mujoco.MjSpec, pose: Transform, contacts: Contacts
     ) -> None:
         spec = self.engine.spec
-        place = spec.worldbody.add_frame(
+        frame = spec.worldbody.add_frame(
             name=name, pos=pose.translation, quat=wxyz_from_xyzw(pose.rotation)
         )
         try:
-            spec.attach(robot, frame=place, prefix=f'{name}/')
+            spec.attach(robot, frame=frame, prefix=f'{name}/')
             for geom, contact in contacts.items():
                 for surface in self._surfaces:
                     add_wheel_contact(spec, f'{name}/{geom}', surface, contact)
@@ -204,18 +227,18 @@ class MujocoWorld:
                 SpawnCode.OPERATION_FAILED,
             ) from cause
 
-    def _take_out(self, name: str) -> None:
+    def _detach(self, name: str) -> None:
         self._delete(name)
         self.engine.recompile()
 
     def _delete(self, name: str) -> None:
-        """Take what was attached out of the spec, with the defaults that came along."""
+        """Delete from the spec what was attached, including its default class."""
         spec = self.engine.spec
         spec.delete(spec.frame(name))
         defaults = spec.find_default(f'{name}/main')
         if defaults is not None:
             spec.delete(defaults)
 
-    def _find_roots(self) -> None:
+    def _index_roots(self) -> None:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
         self._roots = tuple((name, index) for name, index in heights if index is not None)

@@ -1,32 +1,33 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A world (MJCF) as a MuJoCo spec, with its settings.
+The world: an MJCF file, by name or path, as a MuJoCo spec with its physics options.
 
-Physics of a world: what is set from outside, over what its file says, over what was measured.
+:class:`WorldSettings` take precedence over the file, the file over the measured defaults:
 
 =================  ==================  =====================================================
-what               when nobody sets    why not MuJoCo's default
+option             default             why not MuJoCo's default
 =================  ==================  =====================================================
 ``gravity``        9.81 m/s² down
 ``friction``       0.5                 with 1 driven wheels climb walls: see
                                        :mod:`amr_description.sim.friction`
-``physics_step``   2 ms                MuJoCo's own; :mod:`amr_description.sim.wheel_contact` is tuned
-                                       for it. It is the longest: see ``sim/engine.py``
-``integrator``     ``discrete``        it puts the stiff speed servos of the wheels inside the
-                                       friction problem; with any other the robot loses 0.8 of a
-                                       turn, or never comes to rest
-``cone``           ``elliptic``        friction is the same in all directions
+``physics_step``   2 ms                MuJoCo's own; the settings of
+                                       :mod:`amr_description.sim.wheel_contact` are tuned for it.
+                                       It is the longest step: see ``sim/engine.py``
+``integrator``     ``discrete``        it solves the stiff speed servos of the wheels together with
+                                       the friction; with any other the robot loses 0.8 of a turn,
+                                       or never comes to rest
+``cone``           ``elliptic``        same friction in all directions
 ``impratio``       1e4                 friction harder than the normal direction: no creep on
                                        slopes
 ``solver``         ``Newton``          MuJoCo's own
 ``iterations``     100                 MuJoCo's own
-jacobian           dense               MuJoCo 4.0.0's sparse Newton hits its iteration cap when
+``jacobian``       ``dense``             MuJoCo 4.0.0's sparse Newton hits its iteration cap when
                                        robots touch
 =================  ==================  =====================================================
 
-An option for which a file writes MuJoCo's own default cannot be told from one on which it is
-silent: to get the Euler integrator, set it here.
+An option that a file sets to MuJoCo's own default looks the same as one that it does not set: the
+Euler integrator has to be chosen by ``integrator``.
 """
 
 from collections.abc import Iterator
@@ -41,25 +42,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.parameters import parameter
 from amr_description.sim.engine import one_line
-from amr_description.sim.friction import fill_in_friction
-
-
-def shipped_worlds() -> dict[str, Path]:
-    """The worlds of this package: name → file."""
-    folder = package_share(OWN_PACKAGE) / 'config' / 'worlds'
-    return {path.stem: path for path in sorted(folder.glob('*.xml'))}
-
-
-def world_path(world: str) -> Path:
-    """The file of a world given as a shipped name or as a path. Raises SimulationError."""
-    shipped = shipped_worlds()
-    path = shipped.get(world) or Path(world).expanduser()
-    if path.is_file():
-        return path
-    raise SimulationError(
-        f"world '{world}': neither a file nor a shipped world; shipped are: {', '.join(shipped)}"
-    )
-
+from amr_description.sim.friction import apply_default_friction
 
 AS_IN_WORLD = 'world'
 
@@ -86,12 +69,12 @@ MEASURED_OPTIONS = (
     ('impratio', 1.0, 1e4),
     ('jacobian', mujoco.mjtJacobian.mjJAC_AUTO, mujoco.mjtJacobian.mjJAC_DENSE),
 )
-"""Option, MuJoCo's default, ours: a world that leaves an option at MuJoCo's default gets ours."""
+"""Option, MuJoCo's default, ours; an option at MuJoCo's default is set to ours."""
 
 
 @dataclass(frozen=True)
 class WorldSettings:
-    """Physics of the world; NaN, 0 and 'world' leave it to the world's file."""
+    """Physics of the world; NaN, 0 and 'world' leave an option as in the world's file."""
 
     gravity: float = parameter(
         math.nan,
@@ -140,8 +123,60 @@ class WorldSettings:
     )
 
 
+_FILE_SETTINGS = WorldSettings()
+
+
+def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.MjSpec:
+    """
+    Load a shipped world by name, or any MJCF file by path.
+
+    Args:
+        world: Name or path.
+        settings: Take precedence over the options of the file.
+
+    Raises:
+        SimulationError: There is no such world, or MuJoCo cannot read it.
+    """
+    path = world_path(world)
+    try:
+        spec = mujoco.MjSpec.from_file(str(path))
+    except ValueError as cause:
+        raise SimulationError(f"world '{world}': {path}: {one_line(str(cause))}") from cause
+    apply_default_friction(spec, path)
+    prepare_world(spec, settings)
+    return spec
+
+
+def shipped_worlds() -> dict[str, Path]:
+    """Return the worlds of this package: name → file."""
+    folder = package_share(OWN_PACKAGE) / 'config' / 'worlds'
+    return {path.stem: path for path in sorted(folder.glob('*.xml'))}
+
+
+def world_path(world: str) -> Path:
+    """Return the file of a world, given by shipped name or path. Raises SimulationError."""
+    shipped = shipped_worlds()
+    path = shipped.get(world) or Path(world).expanduser()
+    if path.is_file():
+        return path
+    raise SimulationError(
+        f"world '{world}': neither a file nor a shipped world; shipped are: {', '.join(shipped)}"
+    )
+
+
+def prepare_world(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> None:
+    """Set the options of ``spec``; give every static surface a name and its friction."""
+    apply_settings(spec.option, settings)
+    # Links without mass must stay bodies: their frames are needed.
+    spec.compiler.fusestatic = False
+    for index, surface in enumerate(static_surfaces(spec)):
+        surface.name = surface.name or f'surface_{index}'
+        if not math.isnan(settings.friction):
+            surface.friction[0] = settings.friction
+
+
 def apply_settings(option: mujoco.MjOption, settings: WorldSettings) -> None:
-    """Set what the measurements say, then what ``settings`` says; not the physics step."""
+    """Set the measured options, then those of ``settings``; all but the physics step."""
     for name, default, measured in MEASURED_OPTIONS:
         if getattr(option, name) == default:
             setattr(option, name, measured)
@@ -155,38 +190,12 @@ def apply_settings(option: mujoco.MjOption, settings: WorldSettings) -> None:
         chosen = getattr(settings, name)
         if chosen != AS_IN_WORLD:
             setattr(option, name, table[chosen])
-    # MuJoCo's reset after a fault would set time and robots back behind our back.
+    # MuJoCo would reset time and robots by itself after a fault.
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
 
 
-_FILE_SETTINGS = WorldSettings()
-
-
-def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.MjSpec:
-    """Load a shipped world by name, or any MJCF file by path. Raises SimulationError."""
-    path = world_path(world)
-    try:
-        spec = mujoco.MjSpec.from_file(str(path))
-    except ValueError as cause:
-        raise SimulationError(f"world '{world}': {path}: {one_line(str(cause))}") from cause
-    fill_in_friction(spec, path)
-    prepare_world(spec, settings)
-    return spec
-
-
-def prepare_world(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> None:
-    """Set the options, and give every static surface a name and its friction."""
-    apply_settings(spec.option, settings)
-    # Links without mass of their own must stay bodies, or their frames are gone.
-    spec.compiler.fusestatic = False
-    for index, surface in enumerate(static_surfaces(spec)):
-        surface.name = surface.name or f'surface_{index}'
-        if not math.isnan(settings.friction):
-            surface.friction[0] = settings.friction
-
-
 def longest_step(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> int:
-    """The longest physics step, ns: of the settings, else of the file (MuJoCo's own is 2 ms)."""
+    """Return the longest physics step, ns: of the settings, else of the file (default 2 ms)."""
     step = settings.physics_step
     if math.isnan(step):
         step = float(spec.option.timestep)
@@ -194,7 +203,7 @@ def longest_step(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) 
 
 
 def static_surfaces(spec: mujoco.MjSpec) -> tuple[mujoco.MjsGeom, ...]:
-    """The geoms of a world that can be touched and never move: what wheels drive on."""
+    """Return the geoms that collide and never move: the surfaces that wheels drive on."""
     return tuple(
         geom
         for body in _static_bodies(spec.worldbody)

@@ -44,7 +44,7 @@ from amr_description.ros.messages import (
     transform_of,
     vector_of,
 )
-from amr_description.sim.entity_state import bounds_of, Box, motion_of, place, pose_of
+from amr_description.sim.entity_state import BoundingBox, bounds_of, motion_of, pose_of, set_state
 from amr_description.sim.ros.entities import Category, Entity, EntityRecord
 from amr_description.sim.ros.ground_truth import WORLD_FRAME
 from amr_description.sim.ros.posix_regex import PosixRegex
@@ -96,7 +96,7 @@ def check_bounds(bounds: Bounds) -> None:
         )
 
 
-def overlaps(box: Box | None, bounds: Bounds) -> bool:
+def overlaps(box: BoundingBox | None, bounds: Bounds) -> bool:
     """Whether a box (in the world) and checked ``bounds`` have a point in common; none: none."""
     if box is None:
         return False
@@ -189,7 +189,7 @@ class EntityServices:
             )
         world = self._world
         await self._owner.submit(
-            lambda: place(world.engine, world.robot(name), pose, linear, angular)
+            lambda: set_state(world.engine, world.robot(name), pose, linear, angular)
         )
 
     async def _get_entity_info(
@@ -218,7 +218,7 @@ class EntityServices:
     ) -> None:
         name, world = self._robots.find(request.entity).name, self._world
 
-        def look() -> Box | None:
+        def look() -> BoundingBox | None:
             robot = world.robot(name)
             return bounds_of(world.engine, robot, pose_of(robot))
 

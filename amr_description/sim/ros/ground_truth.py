@@ -42,7 +42,7 @@ from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_view import RobotView
-from amr_description.sim.wheel_slip import WheelContacts
+from amr_description.sim.wheel_slip import WheelSlipReader
 from amr_description.sim.world import MujocoWorld
 
 ODOM_TOPIC = 'ground_truth/odom'
@@ -56,7 +56,7 @@ _QOS = QoSProfile(depth=10)
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class LinkMotion:
     """Where a link is, and how it moves."""
 
     stamp: int
@@ -125,7 +125,7 @@ class _RobotTruth:
         self.place = place
         self._robot = robot
         self._base = _base_of(robot.description)
-        self._contacts = WheelContacts(engine, robot)
+        self._contacts = WheelSlipReader(engine, robot)
         self._odom = node.create_publisher(Odometry, f'{place}/{ODOM_TOPIC}', _QOS)
         self._odometry = Odometry(child_frame_id=f'{place}/{self._base}'.removeprefix('/'))
         self._odometry.header.frame_id = WORLD_FRAME
@@ -147,7 +147,7 @@ class _RobotTruth:
         """Look at the robot, as far as anybody listens."""
         if _is_heard(self._odom):
             pose, velocity = self._robot.pose(self._base), self._robot.velocity(self._base)
-            send(_fill_motion, Motion(time, pose, velocity), self._odometry, self._odom)
+            send(_fill_motion, LinkMotion(time, pose, velocity), self._odometry, self._odom)
         if self._wheels is not None and _is_heard(self._wheels):
             values = tuple(
                 (float(wheel.is_touching), wheel.normal_force, wheel.along, wheel.across)
@@ -171,7 +171,7 @@ def _is_heard(publisher: Publisher) -> bool:
         return False
 
 
-def _fill_motion(motion: Motion, message: Any) -> None:
+def _fill_motion(motion: LinkMotion, message: Any) -> None:
     fill_stamp(motion.stamp, message.header.stamp)
     fill_pose(motion.pose, message.pose.pose)
     fill_velocity(*motion.velocity, message.twist.twist)

@@ -80,7 +80,7 @@ class SimulationParameters:
     )
 
 
-class State(enum.IntEnum):
+class SimulationState(enum.IntEnum):
     """See the module; the numbers are those of the message."""
 
     STOPPED = 0
@@ -183,13 +183,13 @@ class Simulation:
         self.logs.stop()
 
     @property
-    def state(self) -> State:
+    def state(self) -> SimulationState:
         """What it is doing."""
         if self._is_quitting:
-            return State.QUITTING
+            return SimulationState.QUITTING
         if self.owner.loop.is_running:
-            return State.PLAYING
-        return State.STOPPED if self._is_stopped else State.PAUSED
+            return SimulationState.PLAYING
+        return SimulationState.STOPPED if self._is_stopped else SimulationState.PAUSED
 
     async def play(self) -> None:
         """Let time go on."""

@@ -47,7 +47,7 @@ from amr_description.control.contracts import Severity
 from amr_description.errors import RequestError, ResourceError, SimulationError
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
-from amr_description.sim.ros.simulation import Simulation, State
+from amr_description.sim.ros.simulation import Simulation, SimulationState
 from amr_description.sim.world_file import shipped_worlds, world_path
 
 FEATURES = (
@@ -82,11 +82,11 @@ class SimulationServices:
         self._simulation = simulation
         self._features = features
         self._spawn_formats = spawn_formats
-        self._transitions: dict[State, Callable[[], Awaitable[None]]] = {
-            State.STOPPED: simulation.stop,
-            State.PLAYING: simulation.play,
-            State.PAUSED: simulation.pause,
-            State.QUITTING: simulation.quit,
+        self._transitions: dict[SimulationState, Callable[[], Awaitable[None]]] = {
+            SimulationState.STOPPED: simulation.stop,
+            SimulationState.PLAYING: simulation.play,
+            SimulationState.PAUSED: simulation.pause,
+            SimulationState.QUITTING: simulation.quit,
         }
         node.create_service(
             GetSimulatorFeatures, '~/get_simulator_features', self._get_simulator_features
@@ -138,7 +138,7 @@ class SimulationServices:
             raise RequestError(
                 f'the simulation is {present.name} already', response.ALREADY_IN_TARGET_STATE
             )
-        if present is State.QUITTING or target not in self._transitions:
+        if present is SimulationState.QUITTING or target not in self._transitions:
             choices = ', '.join(f'{state.name} ({state})' for state in self._transitions)
             raise RequestError(
                 f'state {target} is asked of a simulation that is {present.name}; there are: '
@@ -146,10 +146,10 @@ class SimulationServices:
                 response.INCORRECT_TRANSITION,
             )
         try:
-            await self._transitions[State(target)]()
+            await self._transitions[SimulationState(target)]()
         except Exception as error:
             raise RequestError(str(error), response.STATE_TRANSITION_ERROR) from error
-        self._simulation.log(Severity.INFO, f'The simulation is {State(target).name}')
+        self._simulation.log(Severity.INFO, f'The simulation is {SimulationState(target).name}')
 
     async def _reset_simulation(
         self, request: ResetSimulation.Request, _: ResetSimulation.Response
@@ -218,10 +218,10 @@ class SimulationServices:
 
     def _require_paused(self) -> None:
         state = self._simulation.state
-        if state is not State.PAUSED:
+        if state is not SimulationState.PAUSED:
             raise RequestError(
                 f'the simulation is {state.name}; steps are made while it is PAUSED '
-                f'(~/set_simulation_state, {State.PAUSED})',
+                f'(~/set_simulation_state, {SimulationState.PAUSED})',
                 Result.RESULT_INCORRECT_STATE,
             )
 

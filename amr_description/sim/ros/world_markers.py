@@ -26,7 +26,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
 from amr_description.sim.ros.ground_truth import WORLD_FRAME
-from amr_description.sim.static_geometry import Kind, Shape, visible_shapes
+from amr_description.sim.static_geometry import ShapeKind, visible_shapes, VisibleShape
 from amr_description.sim.world import MujocoWorld
 
 TOPIC = '~/world'
@@ -36,11 +36,11 @@ ENDLESS = 100.0
 _THICKNESS = 0.002
 """m, of a plane."""
 _TYPES = {
-    Kind.BOX: Marker.CUBE,
-    Kind.PLANE: Marker.CUBE,
-    Kind.SPHERE: Marker.SPHERE,
-    Kind.CYLINDER: Marker.CYLINDER,
-    Kind.TRIANGLES: Marker.TRIANGLE_LIST,
+    ShapeKind.BOX: Marker.CUBE,
+    ShapeKind.PLANE: Marker.CUBE,
+    ShapeKind.SPHERE: Marker.SPHERE,
+    ShapeKind.CYLINDER: Marker.CYLINDER,
+    ShapeKind.TRIANGLES: Marker.TRIANGLE_LIST,
 }
 
 
@@ -50,7 +50,7 @@ def publish_world(node: Node, world: MujocoWorld) -> None:
     publisher.publish(markers(visible_shapes(world.engine.spec)))
 
 
-def markers(shapes: Sequence[Shape]) -> MarkerArray:
+def markers(shapes: Sequence[VisibleShape]) -> MarkerArray:
     """Return the message for these shapes."""
     message = MarkerArray(markers=[Marker(action=Marker.DELETEALL)])
     message.markers += [_marker(part) for shape in shapes for part in _parts(shape)]
@@ -60,30 +60,30 @@ def markers(shapes: Sequence[Shape]) -> MarkerArray:
     return message
 
 
-def _parts(shape: Shape) -> Iterator[Shape]:
+def _parts(shape: VisibleShape) -> Iterator[VisibleShape]:
     """A shape as others that have a marker type."""
-    if shape.kind is not Kind.CAPSULE:
+    if shape.kind is not ShapeKind.CAPSULE:
         yield shape
         return
     width, _, length = shape.size
     half = (length - width) / 2
-    yield replace(shape, kind=Kind.CYLINDER, size=(width, width, length - width))
+    yield replace(shape, kind=ShapeKind.CYLINDER, size=(width, width, length - width))
     for end in (half, -half):
         yield replace(
             shape,
-            kind=Kind.SPHERE,
+            kind=ShapeKind.SPHERE,
             size=(width, width, width),
             position=_along_z(shape, end),
         )
 
 
-def _marker(shape: Shape) -> Marker:
+def _marker(shape: VisibleShape) -> Marker:
     marker = Marker(ns=shape.kind.value, text=shape.name, type=_TYPES[shape.kind])
     position, (x, y, z) = shape.position, shape.size
-    if shape.kind is Kind.PLANE:
+    if shape.kind is ShapeKind.PLANE:
         position = _along_z(shape, -_THICKNESS / 2)
         x, y, z = x or ENDLESS, y or ENDLESS, _THICKNESS
-    elif shape.kind is Kind.TRIANGLES:
+    elif shape.kind is ShapeKind.TRIANGLES:
         x = y = z = 1.0
         marker.points = [Point(x=a, y=b, z=c) for a, b, c in shape.points]
     marker.scale.x, marker.scale.y, marker.scale.z = x, y, z
@@ -95,7 +95,7 @@ def _marker(shape: Shape) -> Marker:
     return marker
 
 
-def _along_z(shape: Shape, distance: float) -> tuple[float, float, float]:
+def _along_z(shape: VisibleShape, distance: float) -> tuple[float, float, float]:
     """A point on the shape's own z axis, in the world."""
     x, y, z = shape.position
     dx, dy, dz = rotate(shape.rotation, (0.0, 0.0, distance))

@@ -9,7 +9,7 @@ import pytest
 from simulation_interfaces.msg import Bounds, EntityCategory, EntityFilters, TagsFilter
 
 from amr_description.errors import RequestError
-from amr_description.sim.entity_state import Box
+from amr_description.sim.entity_state import BoundingBox
 from amr_description.sim.ros.entities import Category, Entity, EntityRecord
 from amr_description.sim.ros.entity_services import check_bounds, chosen, has_tags, overlaps
 
@@ -18,7 +18,7 @@ ENTITIES = [
     Entity('amr_2', EntityRecord(Category.ROBOT, tags=('red',)), None, None),
     Entity('crate', EntityRecord(Category.DYNAMIC_OBJECT), None, None),
 ]
-UNIT = Box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+UNIT = BoundingBox((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
 eighths = integers(-24, 24).map(lambda n: n / 8)  # sums of their squares are exact
 coordinates = tuples(*[eighths] * 3)
 

@@ -15,7 +15,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from amr_description.model.frames import rotate
 from amr_description.ros.service_calls import wait_until
 from amr_description.sim.ros.world_markers import ENDLESS, LATCHED, markers, publish_world
-from amr_description.sim.static_geometry import Kind, visible_shapes
+from amr_description.sim.static_geometry import ShapeKind, visible_shapes
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world, shipped_worlds
 from amr_description.viewer.ros.markers import shapes_of
@@ -144,7 +144,7 @@ def test_a_plane_is_a_cube_whose_upper_face_it_is(shapes):
 
 
 def test_a_page_draws_what_there_is(shapes):
-    whole = [shape for shape in shapes.values() if shape.kind is not Kind.CAPSULE]
+    whole = [shape for shape in shapes.values() if shape.kind is not ShapeKind.CAPSULE]
     drawn = shapes_of(markers(whole))
     for shape, seen in zip(whole, drawn, strict=True):
         assert (seen.name, seen.kind) == (shape.name, shape.kind)
@@ -153,7 +153,7 @@ def test_a_page_draws_what_there_is(shapes):
         assert seen.colour == pytest.approx(shape.color)
         flat = [value for point in shape.points for value in point]
         assert list(seen.points) == flat
-        if shape.kind is not Kind.TRIANGLES:
+        if shape.kind is not ShapeKind.TRIANGLES:
             assert seen.size == pytest.approx(shape.size)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from amr_description.errors import SimulationError
 from amr_description.model.frames import quaternion_from_rpy, Transform
-from amr_description.sim.entity_state import bounds_of, motion_of, place, pose_of
+from amr_description.sim.entity_state import bounds_of, motion_of, pose_of, set_state
 from amr_description.sim.world import MujocoWorld
 
 G = 9.81
@@ -29,7 +29,7 @@ def test_a_thrown_ball_follows_its_parabola_and_turns_on(world):
     ball = world.spawn('ball', BALL, Transform((0.0, 0.0, 1.0)))
     turned = Transform((1.0, 2.0, 5.0), quaternion_from_rpy(0.3, -0.7, 2.0))
     velocity, spin = (1.0, -2.0, 3.0), (0.5, 4.0, -1.0)
-    place(world.engine, ball, turned, velocity, spin)
+    set_state(world.engine, ball, turned, velocity, spin)
     motion = motion_of(world.engine, ball)
     assert motion.linear_velocity == pytest.approx(velocity)
     assert motion.angular_velocity == pytest.approx(spin)
@@ -66,7 +66,7 @@ def test_the_box_turns_with_the_frame_and_holds_the_robot(world):
     robot = world.spawn('amr', AMR, Transform((0.0, 0.0, 0.05)))
     before = bounds_of(world.engine, robot, pose_of(robot))
     quarter = Transform((5.0, -1.0, 0.05), quaternion_from_rpy(0.0, 0.0, math.pi / 2))
-    place(world.engine, robot, quarter, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    set_state(world.engine, robot, quarter, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     after = bounds_of(world.engine, robot, pose_of(robot))
     assert after.lower == pytest.approx(before.lower, abs=1e-9)
     assert after.upper == pytest.approx(before.upper, abs=1e-9)
@@ -93,7 +93,7 @@ def test_a_fixed_robot_rests_and_is_not_put_elsewhere(world):
     assert pose_of(arm) == Transform()
     assert motion_of(world.engine, arm).linear_acceleration == pytest.approx((0, 0, 0))
     with pytest.raises(SimulationError, match="'arm' stands fixed in the world: its root link is"):
-        place(world.engine, arm, Transform(), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        set_state(world.engine, arm, Transform(), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 def test_time_may_be_set_and_the_rest_goes_on(world):

@@ -236,7 +236,7 @@ def test_wheels_driven_by_torque_roll_without_slip():
 def energy(world):
     """Kinetic and potential, J."""
     engine = world.engine
-    engine.refresh_truth()
+    engine.refresh_kinematics()
     mujoco.mj_energyPos(engine.model, engine.data)
     mujoco.mj_energyVel(engine.model, engine.data)
     return engine.data.energy.tolist()

@@ -8,7 +8,7 @@ from fixtures.sim.driving import AMR, Drive, LEFT, RIGHT, SEPARATION
 import pytest
 
 from amr_description.model.frames import Transform
-from amr_description.sim.wheel_slip import WheelContacts
+from amr_description.sim.wheel_slip import WheelSlipReader
 from amr_description.sim.world import MujocoWorld
 
 MASS = 7.0
@@ -32,7 +32,7 @@ def drive(request, tmp_path):
 
 @pytest.fixture
 def contacts(drive):
-    return WheelContacts(drive.world.engine, drive.robot)
+    return WheelSlipReader(drive.world.engine, drive.robot)
 
 
 def by_joint(contacts):
@@ -85,7 +85,8 @@ def test_in_a_spin_the_slip_is_that_of_a_rigid_body_over_the_ground(drive, conta
 def test_in_the_air_there_is_no_load_and_no_slip(drive, contacts):
     aloft = drive.world.spawn('aloft', AMR, Transform((0.0, 3.0, 1.0)))
     drive.tick()
-    assert not any(wheel.is_touching for wheel in WheelContacts(drive.world.engine, aloft).read())
+    wheels = WheelSlipReader(drive.world.engine, aloft).read()
+    assert not any(wheel.is_touching for wheel in wheels)
     assert all(wheel.is_touching for wheel in contacts.read())  # found again in the new model
 
 
@@ -94,4 +95,4 @@ def test_a_robot_without_wheels_has_none(drive):
         <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
         <collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>"""
     view = drive.world.spawn('box', box, Transform((0.0, 3.0, 1.0)))
-    assert WheelContacts(drive.world.engine, view).read() == ()
+    assert WheelSlipReader(drive.world.engine, view).read() == ()

@@ -116,9 +116,9 @@ def test_a_caster_that_rolls_does_not_shake_the_robot(left, right):
 
 
 def test_a_ball_that_does_not_bear_keeps_its_own_contact():
-    assert 'caster/ball_0' in contacts(TWO_WHEELS)
+    assert 'caster/caster_0' in contacts(TWO_WHEELS)
     lifted = TWO_WHEELS.replace('xyz="-0.12 0 -0.075"', 'xyz="-0.02 0 0.1"')
-    assert set(contacts(lifted)) == {'left_wheel/tread', 'right_wheel/tread'}
+    assert set(contacts(lifted)) == {'left_wheel/wheel', 'right_wheel/wheel'}
 
 
 def test_the_shipped_robot_keeps_the_measured_margin():

@@ -33,7 +33,7 @@ def test_every_wheel_has_its_contact_with_every_static_surface(name):
     assert len(surfaces) == world.engine.model.ngeom  # all of them can be touched
     world.spawn('amr', AMR)
     pairs = {(pair.geomname1, pair.geomname2) for pair in world.engine.spec.pairs}
-    treads = {f'amr/wheel_{a}_{b}/tread' for a in ('front', 'back') for b in ('left', 'right')}
+    treads = {f'amr/wheel_{a}_{b}/wheel' for a in ('front', 'back') for b in ('left', 'right')}
     assert pairs == {(tread, surface) for tread in treads for surface in surfaces}
 
 
