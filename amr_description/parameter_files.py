@@ -1,12 +1,29 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-ROS parameter files, checked before rcl reads them.
+ROS parameter files: checked before rcl reads them, searched as rcl searches them, and written.
 
-rcl says of a faulty file where its C source gave up; this says where the file is wrong.
+rcl says of a faulty file where its C source gave up; this says where the file is wrong. A file
+holds sections: the full name of a node, or a pattern for several, and below it
+``ros__parameters``. Namespaces may be part of the name or tables above it, and dots in the name
+of a parameter are the same as tables::
+
+    /left/arm:                    left:
+      ros__parameters:              arm:
+        gains.p: 1.0                  ros__parameters: {gains: {p: 1.0}}
+
+In a pattern ``*`` stands for one part of a name and ``**`` for any number of them. Which of
+several sections of a node wins is up to the caller: nodes take the last, ``ros2 param load`` the
+most particular one.
+
+PyYAML takes 20 ms to import, so programs that may do without import this module where they need
+it.
 """
 
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+import re
 from typing import Any
 
 import yaml
@@ -14,14 +31,58 @@ import yaml
 from amr_description.errors import ParameterError
 from amr_description.text import unwrap
 
+KEY = 'ros__parameters'
+EVERY_NODE = '/**'
+"""The pattern of a section that is for all nodes."""
+
 _SHAPE = 'a parameter file is written as  node_name: {ros__parameters: {name: value}}'
+# What rcl reads as a number or a truth value, and YAML 1.1 does not.
+_READ_OTHERWISE = re.compile(
+    r'[-+]?(\d+\.?\d*(e[-+]?\d+)?|\.\d+(e[-+]?\d+)?'
+    r'|0x[\da-f]+\.?[\da-f]*(p[-+]?\d+)?|inf(inity)?|nan(\(\w*\))?)|[yn]',
+    re.IGNORECASE,
+)
+
+
+class YamlError(ParameterError):
+    """A text is not YAML; ``where`` is its line and column, from 1, if they are known."""
+
+    def __init__(self, problem: str, where: tuple[int, int] | None = None) -> None:
+        super().__init__(problem)
+        self.where = where
+
+
+def load_yaml(text: str) -> Any:
+    """
+    Return what a text means as YAML 1.1.
+
+    Raises:
+        YamlError: it is not YAML.
+        ParameterError: it is nested too deeply to be read.
+    """
+    try:
+        return yaml.safe_load(text)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        where = (mark.line + 1, mark.column + 1) if mark else None
+        raise YamlError(str(error.problem), where) from error
+    except yaml.reader.ReaderError as error:
+        raise YamlError(
+            f'character {error.position + 1} is {_code_point(error.character)}, which YAML does '
+            'not allow'
+        ) from error
+    except RecursionError as error:
+        raise ParameterError('it is nested too deeply') from error
+    except ValueError as error:  # a date such as 2026-99-99, an integer of 5000 digits
+        raise YamlError(unwrap(str(error))) from error
 
 
 def read_parameter_file(path: Path) -> dict[str, Any]:
     """
     Return a parameter file as YAML gives it: nodes, perhaps below their namespaces.
 
-    :raises ParameterError: It is no good; with line and column where there are any.
+    Raises:
+        ParameterError: it is not a parameter file; with line and column where there are any.
     """
     try:
         text = path.read_text(encoding='utf-8')
@@ -30,34 +91,106 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise ParameterError(f"parameter file '{path}': not UTF-8 text ({error})") from error
     try:
-        content = yaml.safe_load(text)
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark
-        place = f':{mark.line + 1}:{mark.column + 1}' if mark else ''
-        raise ParameterError(f'{path}{place}: {error.problem}') from error
-    except yaml.YAMLError as error:
-        raise ParameterError(f'{path}: {unwrap(str(error))}') from error
-    except RecursionError as error:
-        raise ParameterError(f'{path}: nested too deeply') from error
-    except ValueError as error:  # a date such as 2026-99-99, an integer of 5000 digits
-        raise ParameterError(f'{path}: {error}') from error
-    if not isinstance(content, dict) or not content:
-        raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
-    try:
-        _require_nodes(content, path)
+        content = load_yaml(text)
+        if not isinstance(content, dict) or not content:
+            raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
+        for _ in sections(content):
+            pass
+    except YamlError as error:
+        line = ''.join(f':{number}' for number in error.where or ())
+        raise ParameterError(f'{path}{line}: {error}') from error
     except RecursionError as error:  # an anchor that holds itself
         raise ParameterError(f'{path}: nested too deeply') from error
     return content
 
 
-def _require_nodes(content: dict, path: Path, above: str = '') -> None:
-    """Every key is a node, or a namespace with nodes below it."""
+@dataclass(frozen=True, slots=True)
+class Section:
+    """The parameters of a node, or of those that a pattern matches, in a parameter file."""
+
+    keys: tuple[Any, ...]
+    """Those under which ``ros__parameters`` stands in the file, from outside to inside."""
+    parameters: Any
+    """As YAML gives them: a mapping, if the file is good."""
+
+    @property
+    def pattern(self) -> str:
+        """The full name of the node, perhaps with wildcards."""
+        return ''.join(f'/{str(key).strip("/")}' for key in self.keys)
+
+    def is_of(self, node: str) -> bool:
+        """Return whether it is for a node, given by its full name."""
+        wildcards = {'**': '(/[^/]+)*', '*': '/[^/]+'}
+        parts = self.pattern.removeprefix('/').split('/')
+        expression = ''.join(wildcards.get(part, f'/{re.escape(part)}') for part in parts)
+        return re.fullmatch(expression, node) is not None
+
+
+def sections(content: Mapping[Any, Any], above: tuple[Any, ...] = ()) -> Iterator[Section]:
+    """Yield the sections of a file in their order. Raises ParameterError: a node has none."""
     for key, value in content.items():
-        name = f'{above}{key}'
+        keys = (*above, key)
         if not isinstance(value, dict):
             raise ParameterError(
-                f"parameter file '{path}': below '{name}' stands {value!r}, and no "
-                f'ros__parameters; {_SHAPE}'
+                f"below '{'/'.join(map(str, keys))}' stands {value!r}, and no {KEY}; {_SHAPE}"
             )
-        if 'ros__parameters' not in value:
-            _require_nodes(value, path, f'{name}/')
+        if KEY in value:
+            yield Section(keys, value[KEY])
+        else:
+            yield from sections(value, keys)
+
+
+def flatten(
+    parameters: Mapping[Any, Any], above: tuple[Any, ...] = ()
+) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """Yield (keys from outside to inside, value) of every parameter; see :func:`dotted`."""
+    for key, value in parameters.items():
+        if isinstance(value, Mapping):
+            yield from flatten(value, (*above, key))
+        else:
+            yield (*above, key), value
+
+
+def dotted(keys: tuple[Any, ...]) -> str:
+    """Return the name of a parameter that stands below these keys."""
+    return '.'.join(map(str, keys))
+
+
+def parameter_file_text(node: str, parameters: Mapping[str, Any]) -> str:
+    """
+    Return a parameter file that rcl reads as it is meant, and ``ros2 param dump`` prints.
+
+    Args:
+        node: the full name of the node, or a pattern.
+        parameters: values that ROS has types for, by dotted name.
+    """
+    content = {node: {KEY: _nested(parameters)}}
+    return yaml.dump(content, Dumper=_Dumper, default_flow_style=False)
+
+
+class _Dumper(yaml.SafeDumper):
+    """Quotes the strings that rcl would not read as such."""
+
+    def represent_text(self, text: str) -> yaml.ScalarNode:
+        style = "'" if _READ_OTHERWISE.fullmatch(text) else None
+        return self.represent_scalar('tag:yaml.org,2002:str', text, style)
+
+
+_Dumper.add_representer(str, _Dumper.represent_text)
+
+
+def _nested(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Put ``a.b`` as b below a, unless a has a value of its own."""
+    tree: dict[str, Any] = {}
+    for name, value in sorted(parameters.items()):
+        table, rest = tree, name
+        while '.' in rest and isinstance(table.get(rest.partition('.')[0], {}), dict):
+            above, _, rest = rest.partition('.')
+            table = table.setdefault(above, {})
+        table[rest] = value
+    return tree
+
+
+def _code_point(character: int | str | bytes) -> str:
+    """PyYAML reports a number, but its own annotations allow the character."""
+    return f'U+{character if isinstance(character, int) else ord(character):04X}'

@@ -3,9 +3,7 @@
 """
 The differential drives of parameter files, with the lines on which their parameters stand.
 
-What belongs to a node is found as rcl finds it: under its full name, in a namespace of its own or
-by nesting, and under the wildcards ``*`` (one part of a name) and ``**`` (any); where a parameter
-is set more than once, the last counts.
+As for a node, the last of several sections that set a parameter counts.
 """
 
 from collections.abc import Iterator, Sequence
@@ -23,29 +21,35 @@ from amr_description.model.checks import examine
 from amr_description.model.checks.context import CheckInputs, DriveSettings, SourceLocation
 from amr_description.model.findings import Finding
 from amr_description.model.robot import Robot
-from amr_description.parameter_files import read_parameter_file
+from amr_description.parameter_files import (
+    dotted,
+    flatten,
+    KEY,
+    read_parameter_file,
+    Section,
+    sections,
+)
 from amr_description.parameters import build
 
 DIFF_DRIVE = 'diff_drive_controller/DiffDriveController'
-_PARAMETERS = 'ros__parameters'
 _TYPE = '.type'
 # Nodes, and parameters of one: aliases can make a short file mean any number of them.
 _MOST = 10_000
 
 
 @dataclass(frozen=True, slots=True)
-class _Block:
-    """The parameters below one ``ros__parameters``, by dotted name; wildcards in ``node``."""
+class _Section:
+    """A section with the values of its parameters, and where they stand, by dotted name."""
 
-    node: str
-    place: SourceLocation
+    section: Section
+    location: SourceLocation
     values: dict[str, Any]
-    places: dict[str, SourceLocation]
+    locations: dict[str, SourceLocation]
 
-    def is_of(self, node: str) -> bool:
-        """Tell whether this block speaks of a node, given by its full name."""
-        pattern = re.escape(self.node).replace(r'/\*\*', '(/.+)?').replace(r'\*', '[^/]+')
-        return self.node == '/**' or re.fullmatch(pattern, node) is not None
+    @property
+    def node(self) -> str:
+        """The full name of the node, perhaps with wildcards."""
+        return self.section.pattern
 
 
 def read_drives(*paths: str) -> tuple[DriveSettings, ...]:
@@ -56,15 +60,15 @@ def read_drives(*paths: str) -> tuple[DriveSettings, ...]:
     ParameterError when a file cannot be read, none names such a controller, or one holds a value
     that the controller would refuse.
     """
-    blocks = [block for path in paths for block in _read(path)]
-    blocks += [block for path in _further_files(blocks) for block in _read(path)]
-    nodes = list(dict.fromkeys(_drive_nodes(blocks)))
+    found = [each for path in paths for each in _read(path)]
+    found += [each for path in _further_files(found) for each in _read(path)]
+    nodes = list(dict.fromkeys(_drive_nodes(found)))
     if not nodes:
         raise ParameterError(
             f"parameter file '{', '.join(paths)}' names no controller of type {DIFF_DRIVE}; it is "
-            f'written as  controller_manager: {{{_PARAMETERS}: {{NAME: {{type: {DIFF_DRIVE}}}}}}}'
+            f'written as  controller_manager: {{{KEY}: {{NAME: {{type: {DIFF_DRIVE}}}}}}}'
         )
-    return tuple(_settings(node, blocks) for node in nodes)
+    return tuple(_settings(node, found) for node in nodes)
 
 
 def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
@@ -87,56 +91,55 @@ def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     return tuple(finding for finding in found if finding.source != robot.source)
 
 
-def _read(path: str) -> list[_Block]:
+def _read(path: str) -> list[_Section]:
     content = read_parameter_file(Path(path))
-    text = Path(path).read_text(encoding='utf-8')
-    tree = yaml.compose(text, Loader=yaml.SafeLoader)
+    tree = yaml.compose(Path(path).read_text(encoding='utf-8'), Loader=yaml.SafeLoader)
     try:
-        return list(islice(_blocks(content, tree, path, ''), _MOST))
+        return [_located(each, tree, path) for each in islice(sections(content), _MOST)]
     except RecursionError:  # an anchor that holds itself
         raise ParameterError(f"parameter file '{path}': nested too deeply") from None
 
 
-def _further_files(blocks: list[_Block]) -> Iterator[str]:
+def _further_files(found: list[_Section]) -> Iterator[str]:
     """Yield the files that a manager hands to its differential drives."""
-    for block in blocks:
-        for name, value in block.values.items():
-            files = block.values.get(f'{name.removesuffix(_TYPE)}.params_file')
+    for each in found:
+        for name, value in each.values.items():
+            files = each.values.get(f'{name.removesuffix(_TYPE)}.params_file')
             if name.endswith(_TYPE) and value == DIFF_DRIVE:
                 names = files if isinstance(files, list) else [files]
                 yield from (file for file in names if isinstance(file, str))
 
 
-def _drive_nodes(blocks: list[_Block]) -> Iterator[str]:
-    """Yield the full names of the controllers that the blocks give that type."""
-    for block in blocks:
-        if block.values.get('type') == DIFF_DRIVE and '*' not in block.node:
-            yield block.node
-        for name, value in block.values.items():
+def _drive_nodes(found: list[_Section]) -> Iterator[str]:
+    """Yield the full names of the controllers that the sections give that type."""
+    for each in found:
+        if each.values.get('type') == DIFF_DRIVE and '*' not in each.node:
+            yield each.node
+        for name, value in each.values.items():
             if name.endswith(_TYPE) and value == DIFF_DRIVE:
-                namespace = block.node.rpartition('/')[0]
+                namespace = each.node.rpartition('/')[0]
                 yield f'{"" if "*" in namespace else namespace}/{name.removesuffix(_TYPE)}'
 
 
-def _settings(node: str, blocks: list[_Block]) -> DriveSettings:
+def _settings(node: str, found: list[_Section]) -> DriveSettings:
     values: dict[str, Any] = {}
-    places: dict[str, SourceLocation] = {}
-    mine = [block for block in blocks if block.is_of(node)]
-    for block in mine:
-        values |= block.values
-        places |= block.places
+    locations: dict[str, SourceLocation] = {}
+    mine = [each for each in found if each.section.is_of(node)]
+    for each in mine:
+        values |= each.values
+        locations |= each.locations
     name = node.rpartition('/')[2]
-    own = [block.place for block in mine if block.node.rpartition('/')[2] == name]
-    place = own[-1] if own else blocks[0].place
+    own = [each.location for each in mine if each.node.rpartition('/')[2] == name]
+    location = own[-1] if own else found[0].location
     try:
         drive = build(DiffDriveParameters, values)
     except ParameterError as error:
         match = re.search(r"parameter '([^']+)'", str(error))
-        source, line = places.get(match[1], place) if match else place
+        source, line = locations.get(match[1], location) if match else location
         raise ParameterError(f'{source}:{line}: {name}: {error}') from error
     return DriveSettings(
         name=name,
-        place=place,
+        location=location,
         left_wheels=drive.left_wheel_names,
         right_wheels=drive.right_wheel_names,
         separation=drive.wheel_separation,
@@ -147,33 +150,27 @@ def _settings(node: str, blocks: list[_Block]) -> DriveSettings:
         publishes_transform=drive.enable_odom_tf,
         position_feedback=drive.position_feedback,
         open_loop=drive.open_loop,
-        places=places,
+        locations=locations,
     )
 
 
-def _blocks(content: dict, tree: yaml.Node, path: str, above: str) -> Iterator[_Block]:
-    for key, value in content.items():
-        line, below = _entry(tree, key)
-        name = f'{above}/{str(key).strip("/")}'
-        if _PARAMETERS not in value:
-            yield from _blocks(value, below, path, name)
-            continue
-        _, tree_below = _entry(below, _PARAMETERS)
-        values, places = {}, {}
-        parameters = _flatten(value[_PARAMETERS], tree_below, '')
-        for parameter, (number, item) in islice(parameters, _MOST):
-            values[parameter], places[parameter] = item, SourceLocation(path, number)
-        yield _Block(name, SourceLocation(path, line), values, places)
+def _located(section: Section, tree: yaml.Node, path: str) -> _Section:
+    line, below = _find(tree, section.keys)
+    values, locations = {}, {}
+    if isinstance(section.parameters, dict):
+        _, below = _find(below, (KEY,))
+        for keys, value in islice(flatten(section.parameters), _MOST):
+            values[dotted(keys)] = value
+            locations[dotted(keys)] = SourceLocation(path, _find(below, keys)[0])
+    return _Section(section, SourceLocation(path, line), values, locations)
 
 
-def _flatten(content: Any, tree: yaml.Node, prefix: str) -> Iterator[tuple[str, tuple[int, Any]]]:
-    """Yield the dotted name, line and value of every parameter."""
-    for key, value in content.items() if isinstance(content, dict) else ():
-        line, below = _entry(tree, key)
-        if isinstance(value, dict):
-            yield from _flatten(value, below, f'{prefix}{key}.')
-        else:
-            yield f'{prefix}{key}', (line, value)
+def _find(tree: yaml.Node, keys: tuple[Any, ...]) -> tuple[int, yaml.Node]:
+    """Return the line of the innermost key, and the node below it."""
+    line = tree.start_mark.line + 1
+    for key in keys:
+        line, tree = _entry(tree, key)
+    return line, tree
 
 
 def _entry(tree: yaml.Node, key: Any) -> tuple[int, yaml.Node]:

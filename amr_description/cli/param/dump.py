@@ -22,8 +22,8 @@ def main(args: Namespace) -> int:
     """Print the file; 0."""
     from rclpy.parameter import parameter_value_to_python
 
-    from amr_description.cli.param.files import file_text
     from amr_description.cli.param.remote import remote_parameters
+    from amr_description.parameter_files import parameter_file_text
 
     with remote_parameters(args) as parameters:
         names = parameters.names()
@@ -33,5 +33,5 @@ def main(args: Namespace) -> int:
         name: parameter_value_to_python(messages[name]) if name in messages else None
         for name in names
     }
-    print(file_text(node, values))
+    print(parameter_file_text(node, values))
     return 0

@@ -24,7 +24,7 @@ from amr_description.colors import BLUE, colored, CYAN, GREEN, YELLOW
 from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.spawner_arguments import ControllerPlan, SpawnOptions
 from amr_description.errors import ControllerError, ParameterError
-from amr_description.parameter_files import read_parameter_file
+from amr_description.parameter_files import EVERY_NODE, read_parameter_file, sections
 from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.service_calls import NoAnswerError, wait_until
 
@@ -74,10 +74,6 @@ def _lock(node: Node, descriptor: int, what: str) -> None:
     wait_until(node, taken, say, every=_EVERY)
 
 
-_WILDCARD = '/**'
-_KEY = 'ros__parameters'
-
-
 def files_in_arguments(words: Sequence[str]) -> list[str]:
     """Return the files behind ``--params-file`` among the ROS arguments of a command line."""
     pairs = pairwise(ros_arguments(words))
@@ -90,9 +86,8 @@ def controller_entries(
     """
     Return file → what it says of a controller, for those files that do; perhaps none.
 
-    Looked for as ``name``, ``/ns/name``, ``/**/name``, ``/**/ns/name``, the same below ``/**``,
-    and as ``/**``. Raises ParameterError: a file is no good, or all that speak of the controller
-    lack the ``namespace`` that it has.
+    Raises ParameterError: a file is no good, or all that speak of the controller lack the
+    ``namespace`` that it has.
     """
     entries, lacking = {}, False
     for path in dict.fromkeys(files):
@@ -140,23 +135,13 @@ def manager_parameters(
 
 def parameters_of(name: str, content: Mapping[str, Any], namespace: str) -> dict[str, Any] | None:
     """Return the parameters of a controller in the content of one file, or ``None``."""
-    for entry in _candidates(name, content, namespace.strip('/')):
-        if isinstance(entry, dict) and _KEY in entry:
-            return dict(entry[_KEY] or {})
-    return None
-
-
-def _candidates(name: str, content: Mapping[str, Any], namespace: str) -> Iterator[Any]:
-    inside = f'/{namespace}' if namespace else ''
-    keys = [f'{inside}/{name}', f'{_WILDCARD}/{name}', f'{_WILDCARD}{inside}/{name}']
-    if not namespace:
-        keys.insert(0, name)
-    yield from (content.get(key) for key in keys)
-    if namespace:
-        yield content.get(inside, content.get(namespace, {})).get(name)
-    wildcard = content.get(_WILDCARD, {})
-    yield from (wildcard.get(key) for key in (name, *keys))
-    yield wildcard
+    node = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
+    found = [section for section in sections(content) if section.is_of(node)]
+    if not found:
+        return None
+    # Its own name comes before patterns, and these before the one that is for all nodes.
+    own = min(found, key=lambda each: (each.pattern == EVERY_NODE, '*' in each.pattern))
+    return dict(own.parameters or {})
 
 
 def _read(name: str, path: str, namespace: str) -> dict[str, Any]:

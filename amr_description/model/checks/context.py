@@ -35,12 +35,12 @@ class DriveSettings:
     """
     One diff_drive_controller of some parameter files; lengths in m.
 
-    ``place`` is where the controller's parameters begin, ``places`` where each of them stands, by
+    ``location`` is where the controller's parameters begin, ``locations`` where each of them stands, by
     its name.
     """
 
     name: str
-    place: SourceLocation
+    location: SourceLocation
     left_wheels: tuple[str, ...]
     right_wheels: tuple[str, ...]
     separation: float
@@ -51,19 +51,19 @@ class DriveSettings:
     publishes_transform: bool
     position_feedback: bool
     open_loop: bool
-    places: Mapping[str, SourceLocation] = field(default_factory=dict)
+    locations: Mapping[str, SourceLocation] = field(default_factory=dict)
 
-    def place_of(self, parameter: str) -> SourceLocation:
+    def location_of(self, parameter: str) -> SourceLocation:
         """Return where a parameter stands, or the controller when no file sets it."""
-        return self.places.get(parameter, self.place)
+        return self.locations.get(parameter, self.location)
 
     def error(self, parameter: str, what: str, **details: str) -> Finding:
         """Return an error at a parameter; ``details`` as in Finding.error."""
-        return Finding.error(*self.place_of(parameter), f'{self.name}: {what}', **details)
+        return Finding.error(*self.location_of(parameter), f'{self.name}: {what}', **details)
 
     def warning(self, parameter: str, what: str, **details: str) -> Finding:
         """Return a warning at a parameter; ``details`` as in Finding.warning."""
-        return Finding.warning(*self.place_of(parameter), f'{self.name}: {what}', **details)
+        return Finding.warning(*self.location_of(parameter), f'{self.name}: {what}', **details)
 
 
 type IsThere = Callable[[str], bool]

@@ -18,9 +18,10 @@ from rclpy.parameter import parameter_value_to_python
 import yaml
 
 from amr_description.cli.param.describe import lines
-from amr_description.cli.param.files import file_text, select
+from amr_description.cli.param.files import select
 from amr_description.cli.param.values import advice, as_text, to_message, TYPE_NAMES, typed
 from amr_description.errors import AmrError, ParameterError
+from amr_description.parameter_files import parameter_file_text
 
 BOOL = ParameterType.PARAMETER_BOOL
 INTEGER = ParameterType.PARAMETER_INTEGER
@@ -233,17 +234,17 @@ def as_rcl_reads(tmp_path):
 
 
 def test_what_is_dumped_is_what_a_node_starts_with(as_rcl_reads):
-    read = as_rcl_reads('arm', file_text('/arm', VALUES))
+    read = as_rcl_reads('arm', parameter_file_text('/arm', VALUES))
     assert {name: read.get(name) for name in VALUES} == VALUES
     assert {name: type(read[name]) for name in VALUES} == {k: type(v) for k, v in VALUES.items()}
 
 
 def test_what_is_dumped_is_what_is_loaded():
-    assert select(yaml.safe_load(file_text('/left/arm', VALUES)), '/left/arm') == VALUES
+    assert select(yaml.safe_load(parameter_file_text('/left/arm', VALUES)), '/left/arm') == VALUES
 
 
 def test_a_dump_is_sorted_and_nested():
-    text = file_text('/arm', {'b': 'x', 'a.b.c': 1, 'a.b.a': [1, 2], 'a.c': None})
+    text = parameter_file_text('/arm', {'b': 'x', 'a.b.c': 1, 'a.b.a': [1, 2], 'a.c': None})
     assert text == (
         '/arm:\n  ros__parameters:\n    a:\n      b:\n        a:\n        - 1\n        - 2\n'
         '        c: 1\n      c: null\n    b: x\n'

@@ -24,7 +24,7 @@ def test_nodes_may_stand_below_their_namespaces(tmp_path):
         ('/arm: {gain: 1.0}', "below '/arm/gain' stands 1.0, and no ros__parameters"),
         ('/arm:\n  ros__parameters: {gain: [1', r"bad.yaml:2:29: expected ',' or '\]'"),
         ('/arm:\n\tros__parameters:', 'bad.yaml:2:1: found character'),
-        ('/arm: \x07', 'special characters are not allowed'),
+        ('/arm: \x07', 'character 7 is U.0007, which YAML does not allow'),
         ('/arm: 2026-99-99', 'month must be in 1..12'),
         ('{' * 50_000, 'nested too deeply'),
         ('a: &x\n  b: *x', 'nested too deeply'),

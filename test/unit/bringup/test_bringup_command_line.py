@@ -42,7 +42,7 @@ def test_command_line(prefix, tmp_path):
     assert second.command == [f'{prefix}/lib/toys/step', '--ros-args']
     assert not (tmp_path / 'worker-1-parameters-2.yaml').exists()
     first.write_parameter_files()
-    assert '"/left/w":' in (tmp_path / 'worker-1-parameters-2.yaml').read_text()
+    assert '/left/w:\n' in (tmp_path / 'worker-1-parameters-2.yaml').read_text()
     assert yaml.read_text() == ''
 
 

@@ -152,7 +152,7 @@ def test_numbers_and_command_lines(tmp_path, monkeypatch):
         '--params-file', f'{tmp_path}/worker-2-parameters-1.yaml', '-r', '/tf:=tf',
     ]  # fmt: skip
     second.write_parameter_files()
-    assert '"/robot1/w":' in (tmp_path / 'worker-2-parameters-1.yaml').read_text()
+    assert '/robot1/w:\n' in (tmp_path / 'worker-2-parameters-1.yaml').read_text()
 
 
 def test_what_cannot_be_is_refused():

@@ -68,7 +68,7 @@ def test_show_args_and_print_start_nothing(capsys, tmp_path):
     assert main([str(STACKS / 'in_order.py'), '-p']) == 0
     text = capsys.readouterr().out
     assert 'step-1: when step-4 exited with code 0\n' in text
-    assert '    LOG_FOLDER/worker-3-parameters-1.yaml:\n        "/**":\n' in text
+    assert '    LOG_FOLDER/worker-3-parameters-1.yaml:\n        /**:\n' in text
     assert text.endswith('ready: when step-1 exited with code 0\n')
     assert not (tmp_path / 'logs').exists()
 

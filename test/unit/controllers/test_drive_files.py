@@ -40,13 +40,13 @@ def test_shipped_file_with_its_lines():
     (drive,) = read_drives(str(path))
     lines = path.read_text().splitlines()
     assert drive.name == 'diff_drive_controller'
-    assert drive.place.source == str(path)
+    assert drive.location.source == str(path)
     assert (drive.separation, drive.radius, drive.separation_multiplier) == (0.30, 0.10, 2.82)
     assert (drive.base_frame, drive.publishes_transform) == ('base_footprint', True)
-    assert lines[drive.place.line - 1] == '/**/diff_drive_controller:'
+    assert lines[drive.location.line - 1] == '/**/diff_drive_controller:'
     for name in ('wheel_separation', 'wheel_radius', 'base_frame_id', 'left_wheel_names'):
-        assert lines[drive.place_of(name).line - 1].strip().startswith(f'{name}: ')
-    assert drive.place_of('open_loop') == drive.place, 'the file does not set it'
+        assert lines[drive.location_of(name).line - 1].strip().startswith(f'{name}: ')
+    assert drive.location_of('open_loop') == drive.location, 'the file does not set it'
 
 
 def test_defaults_are_those_of_the_controller(read):
@@ -102,7 +102,7 @@ def test_the_last_of_two_counts_and_gives_the_line(read):
     text = f'{MANAGER}"/**":\n  ros__parameters:\n{WHEELS}drive:\n  ros__parameters:\n'
     (drive,) = read(f'{text}    wheel_radius: 0.2\n')
     assert drive.radius == 0.2
-    assert drive.place_of('wheel_radius').line == (text + '.').count('\n') + 1
+    assert drive.location_of('wheel_radius').line == (text + '.').count('\n') + 1
     assert drive.separation == 0.3
 
 
@@ -111,7 +111,7 @@ def test_dotted_and_nested_names_are_the_same(read):
     (nested,) = read(f'{text}    linear:\n      x:\n        max_velocity: 1.0\n')
     (dotted,) = read(f'{text}    linear.x.max_velocity: 1.0\n')
     name = 'linear.x.max_velocity'
-    assert nested.place_of(name).line == dotted.place_of(name).line + 2
+    assert nested.location_of(name).line == dotted.location_of(name).line + 2
 
 
 @pytest.mark.parametrize(
@@ -144,7 +144,7 @@ def test_anchors_and_merges_are_read(read):
     text = f'{MANAGER}base: &base\n  ros__parameters: &p\n{WHEELS}'
     (drive,) = read(f'{text}drive:\n  ros__parameters:\n    <<: *p\n    base_frame_id: base\n')
     assert (drive.radius, drive.base_frame) == (0.1, 'base')
-    assert drive.place_of('wheel_radius') >= drive.place
+    assert drive.location_of('wheel_radius') >= drive.location
 
 
 def test_files_are_read_one_over_the_other(tmp_path):
@@ -153,8 +153,8 @@ def test_files_are_read_one_over_the_other(tmp_path):
     second.write_text('drive:\n  ros__parameters:\n    wheel_radius: 0.2\n')
     (drive,) = read_drives(str(first), str(second))
     assert drive.radius == 0.2
-    assert drive.place_of('wheel_radius') == (str(second), 3)
-    assert drive.place_of('wheel_separation') == (str(first), 9)
+    assert drive.location_of('wheel_radius') == (str(second), 3)
+    assert drive.location_of('wheel_separation') == (str(first), 9)
 
 
 @pytest.mark.parametrize('as_list', [False, True])
@@ -165,7 +165,7 @@ def test_files_that_the_manager_hands_over_are_read(tmp_path, as_list):
     path.write_text(f'{MANAGER}      params_file: {[str(own)] if as_list else own}\n')
     (drive,) = read_drives(str(path))
     assert drive.radius == 0.1
-    assert drive.place_of('wheel_radius') == (str(own), 6)
+    assert drive.location_of('wheel_radius') == (str(own), 6)
 
 
 def test_drives_that_run_and_are_mistaken_are_told():
