@@ -1,37 +1,36 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The simulated world, and the only package that imports MuJoCo.
+The simulated world, without ROS; the only package that imports MuJoCo.
 
-===================  =========================================================================
-``world``            :class:`MujocoWorld`: spawn, remove, step, reset; the one to start from
-``robot_view``       what a hardware component sees of it: one robot, by its URDF's names
-``joint_group``      some joints of one robot, cheap to read and command in the tick
-``array_views``      … by views into MuJoCo's arrays
-``efforts``          … the force that reaches a joint from its actuators
-``engine``           the MuJoCo model and its state; integer time; survives a recompile
-``stepping``         control period → physics step
-``world_file``       a world's name or path → MuJoCo spec
-``compiling``        what MuJoCo's compiler warns of, as lines of the log
-``silent_friction``  the friction of what a world leaves without
-``world_settings``   gravity, friction, step, solver: parameters, and the measured defaults
-``robot_spec``       a URDF → MuJoCo spec of one robot
-``meshes``           the mesh files of a URDF, found and judged, or read for MuJoCo
-``actuators``        command interface → MuJoCo actuators
-``drives``           which of a joint's actuators act
-``initial_state``    where joints begin
-``contact``          how a wheel touches the ground
-``link_friction``    the friction that a URDF made for Gazebo gives its links
-``wheel_trim``       … so that each robot rests on its wheels' true radius
-``wheel_contacts``   … and how much it bears and slips
-``spawning``         the request to spawn, checked; simulation_interfaces' codes
-``overlap``          a robot spawned inside something, and how much higher it would stand free
-``resources``        ``package://`` and ``file://``, world names
-``faults``           MuJoCo's warnings, non-finite states and falls, told once, in one line
-``drop``             the physical test of a description, in numbers
-``surroundings``    the static world as shapes to draw
-``bare_loop``        the physics alone, to measure against
-===================  =========================================================================
+======================  ==========================================================================
+``world.py``            MujocoWorld: spawn, remove, step, reset; start reading here
+``robot_view.py``       one robot by the names of its URDF: the World of a hardware component
+``joint_group.py``      some joints of a robot, read and commanded in every control cycle
+``engine.py``           the MuJoCo model and its state; integer time; recompiling; physics steps
 
-Not thread-safe: one owner calls everything.
+``world_file.py``       the world: MJCF file, physics options, measured defaults
+``friction.py``         sliding friction of geoms without one, of links and of wheels
+
+``spawning.py``         checks of a request to spawn; the codes of simulation_interfaces
+``robot_spec.py``       URDF to MuJoCo spec: bodies, wheels, initial joint states
+``meshes.py``           the mesh files of a URDF
+``overlap.py``          rejects a robot that is spawned inside something else
+
+``actuators.py``        command interface to MuJoCo actuators
+``actuator_modes.py``   which of a joint's actuators are active, and the force they exert
+
+``wheel_contact.py``    the contact of a wheel with the ground: the measured settings
+``wheel_trim.py``       the same, trimmed so that each robot rests at its true height
+``wheel_slip.py``       load and slip of wheels: ground truth
+
+``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log
+``entity_state.py``     pose, motion and bounds of a robot; setting them
+``static_geometry.py``  the visible shapes of a world
+``drop_test.py``        a physical test of a description, in numbers
+
+``ros/``                the ROS interface of the simulator
+======================  ==========================================================================
+
+Not thread-safe: the control thread makes all calls.
 """

@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The physical test of a description: dropped, left at rest, pushed, rolled, turned; in numbers.
+A physical test of a robot description: it is dropped, left at rest, pushed, rolled and turned.
 
 Deterministic: the same description gives the same numbers. It takes a few seconds of simulated
-time, a fraction of a second of the machine's.
+time, a fraction of a second of wall time.
 """
 
 from collections.abc import Callable
@@ -26,84 +26,84 @@ from amr_description.sim.robot_view import RobotView
 from amr_description.sim.world import MujocoWorld
 
 DROP_HEIGHT = 0.2
-"""m, of the lowest point of the robot above the ground."""
+"""m; height of the robot's lowest point above the ground."""
 PUSH_SHARE, PUSH_TIME = 0.5, 0.1
-"""A push to the left: this share of the robot's weight, for so many s."""
+"""A push to the left: as a share of the robot's weight, and its duration, s."""
 ROLL_SPEED, ROLL_TIME, TURN_TIME = 0.3, 0.5, 1.0
-"""m/s of the wheels' rims, forward and against each other; s."""
+"""Speed of the wheels' rims, m/s; duration of rolling forward and of turning, s."""
 
-_TICK = 0.01
-_RESPONSE = 0.05
+_PERIOD = 0.01
+_EFFORT_RESPONSE = 0.05
 """s; the time constant of a wheel that is driven by effort."""
-_LONGEST_SETTLING = 5.0
+_MAX_SETTLING = 5.0
 _REST_TIME = 0.2
 _STILL, _STILL_TURNING = 0.002, 0.02
-"""m/s and rad/s; slower is at rest."""
-_MOST_DRIFT = 0.005
-_MOST_TILT = math.radians(20.0)
-_LEAST_SHARE = 0.2
-_FASTEST = 20.0
+"""m/s and rad/s; a slower robot is at rest."""
+_MAX_DRIFT = 0.005
+_MAX_TILT = math.radians(20.0)
+_MIN_SHARE = 0.2
+_MAX_SPEED = 20.0
 _UP: Vector = (0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class DropReport:
     """
-    What was measured; m, s, rad. What was not reached, or has no meaning, is None.
+    The measurements, in m, s and rad; None for those that were not reached or have no meaning.
 
-    ``failures`` are the reasons why the robot does not pass, each in one line.
+    ``failures``: the reasons why the robot does not pass, each in one line.
     """
 
     stands_fixed: bool = False
-    """It was not dropped: its root is called ``world``."""
+    """Its root is called ``world``, so that it was not dropped."""
     rest_time: float | None = None
-    """From the release until it stands still."""
+    """From release to rest."""
     fastest: float = 0.0
-    """The greatest speed of the root on the way, m/s."""
+    """The greatest speed of the root during the test, m/s."""
     tilt: float | None = None
     """Between the root's z axis and the vertical, at rest."""
     drift: float | None = None
-    """Over the ground in the second after."""
+    """Of the root, in one second at rest."""
     push_force: float | None = None
     """N."""
     push_travel: float | None = None
     push_tilt: float | None = None
-    """The greatest tilt while it was pushed and came to rest again."""
+    """The greatest tilt during the push and until it is at rest again."""
     ahead: float | None = None
-    """Along the robot's x in half a second at ROLL_SPEED."""
+    """Distance along the robot's x axis in half a second at ROLL_SPEED."""
     aside: float | None = None
-    """Along its y, meanwhile."""
+    """Distance along its y axis, meanwhile."""
     veer: float | None = None
-    """The yaw, meanwhile."""
+    """Yaw, meanwhile."""
     turn: float | None = None
-    """The yaw in a second of turning left."""
+    """Yaw in a second of turning left."""
     failures: tuple[str, ...] = ()
 
 
 class _FailedError(Exception):
-    """What comes after has no meaning."""
+    """The robot has failed so that the remaining measurements have no meaning."""
 
 
 def drop_test(robot: Robot) -> DropReport:
     """
-    Drop a sound robot 20 cm onto flat ground, and see what it does.
+    Drop a robot that the checker has found sound by 20 cm onto flat ground, and measure.
 
-    A robot whose root is called ``world`` stands fixed and is only watched for a second. Raises
-    SpawnError when the simulator does not take it.
+    A robot whose root is called ``world`` stands fixed; it is only simulated for a second. Raises
+    SpawnError: the simulator rejects the robot.
     """
     return _DropTest(robot).run()
 
 
 class _DropTest:
-    """One robot in an empty world, on the way through the test."""
+    """One robot in the empty world, and what has been measured so far."""
 
     def __init__(self, robot: Robot) -> None:
         self._measured: dict[str, float] = {}
         self._failures: list[str] = []
-        self._heard: list[str] = []
+        self._errors: list[str] = []
         self._stands = robot.root.name == WORLD_LINK
         clearance = 0.0 if self._stands else DROP_HEIGHT - _lowest_point(robot)
-        self._world = MujocoWorld('empty', log=self._hear)
+        self._world = MujocoWorld('empty', log=self._log)
         self._view = self._world.spawn('robot', robot, Transform((0.0, 0.0, clearance)))
         self._root = robot.root.name
         by_speed, by_effort = _commanded(robot, VELOCITY), _commanded(robot, EFFORT)
@@ -111,7 +111,7 @@ class _DropTest:
         self._by_effort = by_effort - by_speed
 
     def run(self) -> DropReport:
-        """Go through it as far as it makes sense."""
+        """Run the test, up to the failure that makes the rest meaningless."""
         try:
             if self._stands:
                 self._run(1.0)
@@ -126,28 +126,28 @@ class _DropTest:
             self._failures.append(str(failure))
         return DropReport(self._stands, **self._measured, failures=tuple(self._failures))
 
-    def _hear(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
-        """The log of the world: a state that is lost, a robot below the ground."""
+    def _log(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+        """Keep the errors that the world logs: a lost state, a robot below the ground."""
         if severity >= Severity.ERROR:
-            self._heard.append(text)
+            self._errors.append(text)
 
     def _fall(self) -> None:
         released = self._world.time
         if not self._settle():
             raise _FailedError(
-                f'it does not come to rest in {_LONGEST_SETTLING:g} s: it still moves at '
+                f'it does not come to rest in {_MAX_SETTLING:g} s: it still moves at '
                 f'{self._speed():.3f} m/s'
             )
         self._measured['rest_time'] = (self._world.time - released) / NANOSECONDS - _REST_TIME
         tilt = self._measured['tilt'] = self._tilt()
-        if tilt > _MOST_TILT:
+        if tilt > _MAX_TILT:
             raise _FailedError(f'it tips over: it rests at a tilt of {math.degrees(tilt):.0f}°')
 
     def _rest(self) -> None:
         start = self._pose()
         self._run(1.0)
         drift = self._measured['drift'] = math.dist(start.translation, self._pose().translation)
-        if drift > _MOST_DRIFT:
+        if drift > _MAX_DRIFT:
             raise _FailedError(f'it drifts at rest: by {drift * 1000.0:.1f} mm in 1 s')
 
     def _push(self) -> None:
@@ -174,7 +174,7 @@ class _DropTest:
         is_still = self._settle()
         self._measured['push_tilt'] = max(tilt, self._tilt())
         self._measured['push_travel'] = math.dist(start.translation, self._pose().translation)
-        if self._measured['push_tilt'] > _MOST_TILT:
+        if self._measured['push_tilt'] > _MAX_TILT:
             raise _FailedError(f'it tips over when it is pushed with {force:.0f} N')
         if not is_still:
             raise _FailedError('it does not come to rest after a push')
@@ -183,12 +183,12 @@ class _DropTest:
         ahead, aside, veer = self._drive(ROLL_TIME, lambda wheel: 1.0)
         self._measured |= {'ahead': ahead, 'aside': aside, 'veer': veer}
         asked = ROLL_SPEED * ROLL_TIME
-        if ahead < -_LEAST_SHARE * asked:
+        if ahead < -_MIN_SHARE * asked:
             self._failures.append(
                 f'it drives backwards: positive wheel speeds carry it by {ahead:.3f} m along its '
                 'x; turn the <axis> of the wheel joints round'
             )
-        elif ahead < _LEAST_SHARE * asked:
+        elif ahead < _MIN_SHARE * asked:
             self._failures.append(
                 f'it does not drive: positive wheel speeds carry it by {ahead:.3f} m along its x, '
                 f'of {asked:.3f} m that the wheels roll'
@@ -211,7 +211,7 @@ class _DropTest:
             )
 
     def _drive(self, seconds: float, sign: Callable[[Wheel], float]) -> tuple[float, float, float]:
-        """Turn the wheels at ROLL_SPEED; return how far it went along x and y, and the yaw."""
+        """Turn the wheels at ROLL_SPEED; return the travel in x and y (m) and the yaw (rad)."""
         start = self._pose()
         speeds = [(w, sign(w) * ROLL_SPEED / w.radius) for w in self._wheels]
         self._view.joints([w.joint for w, _ in speeds if w.joint not in self._by_effort]).command(
@@ -219,53 +219,55 @@ class _DropTest:
         )
 
         pushed = [(w, speed) for w, speed in speeds if w.joint in self._by_effort]
-        places = self._view.joints([w.joint for w, _ in pushed]).positions()
+        starts = self._view.joints([w.joint for w, _ in pushed]).positions()
         begin = self._world.time
 
         def push() -> None:
             passed = (self._world.time - begin) / NANOSECONDS
-            for (wheel, speed), place in zip(pushed, places, strict=True):
-                self._push_wheel(wheel, speed, place + speed * passed)
+            for (wheel, speed), position in zip(pushed, starts, strict=True):
+                self._push_wheel(wheel, speed, position + speed * passed)
 
         self._run(seconds, push)
         moved = start.inverse() @ self._pose()
         self._view.joints([wheel.joint for wheel in self._wheels]).hold()
         return moved.translation[0], moved.translation[1], yaw_of(moved.rotation)
 
-    def _push_wheel(self, wheel: Wheel, speed: float, place: float) -> None:
-        """Drive a wheel that takes effort only to where it has to be (rad), at this speed."""
+    def _push_wheel(self, wheel: Wheel, speed: float, target: float) -> None:
+        """Control a wheel that has only an effort interface: its speed, rad/s, and target, rad."""
         joint = self._view.joints([wheel.joint])
         model = self._world.engine.model
         mass = float(model.body_subtreemass[model.body(f'robot/{self._root}').id])
         inertia = mass * wheel.radius**2 / len(self._wheels)
-        (here,), (present,) = joint.positions(), joint.velocities()
-        acceleration = (speed - present) / _RESPONSE + (place - here) / _RESPONSE**2
+        (position,), (velocity,) = joint.positions(), joint.velocities()
+        acceleration = (speed - velocity) / _EFFORT_RESPONSE + (
+            target - position
+        ) / _EFFORT_RESPONSE**2
         joint.command(EFFORT, [inertia * acceleration])
 
     def _settle(self) -> bool:
-        """Run until it has been still for a while; tell whether it came to that."""
+        """Run until the robot has been still for a while; return False if it never was."""
         still = 0.0
-        for _ in range(round(_LONGEST_SETTLING / _TICK)):
-            self._run(_TICK)
-            still = still + _TICK if self._is_still() else 0.0
-            if still >= _REST_TIME - _TICK / 2.0:
+        for _ in range(round(_MAX_SETTLING / _PERIOD)):
+            self._run(_PERIOD)
+            still = still + _PERIOD if self._is_still() else 0.0
+            if still >= _REST_TIME - _PERIOD / 2.0:
                 return True
         return False
 
     def _run(self, seconds: float, each: Callable[[], None] | None = None) -> float:
-        """Advance; ``each`` comes before every tick. Return the greatest tilt on the way."""
-        steps = round(_TICK * NANOSECONDS / self._world.timestep)
+        """Advance; ``each`` is called before every period. Return the greatest tilt meanwhile."""
+        steps = round(_PERIOD * NANOSECONDS / self._world.timestep)
         tilt = 0.0
-        for _ in range(round(seconds / _TICK)):
+        for _ in range(round(seconds / _PERIOD)):
             if each is not None:
                 each()
             self._world.step(steps)
-            if self._heard:
-                raise _FailedError(self._heard[0])
+            if self._errors:
+                raise _FailedError(self._errors[0])
             tilt = max(tilt, self._tilt())
             speed = self._speed()
             self._measured['fastest'] = max(speed, self._measured.get('fastest', 0.0))
-            if not speed < _FASTEST:
+            if not speed < _MAX_SPEED:
                 raise _FailedError(f'it explodes: its root moves at {speed:.3g} m/s')
         return tilt
 
@@ -285,15 +287,15 @@ class _DropTest:
 
 
 def _commanded(robot: Robot, interface: str) -> set[str]:
-    """The joints that have this command interface."""
+    """Return the joints that have a command interface of this name."""
     joints = (joint for hardware in hardware_of(robot) for joint in hardware.joints)
     return {j.name for j in joints if any(i.name == interface for i in j.command_interfaces)}
 
 
 def _lowest_point(robot: Robot) -> float:
-    """Return the height of the lowest point that touches, the root at the origin (m)."""
+    """Return the height of the lowest colliding point while the root is at the origin, m."""
     world = MujocoWorld('empty')
-    # High up, so that nothing of it is below the plane to which distances are measured.
+    # High up: all of it is above the plane to which distances are measured.
     high = 100.0
     view: RobotView = world.spawn('robot', robot, Transform((0.0, 0.0, high)))
     model, data = world.engine.model, world.engine.data

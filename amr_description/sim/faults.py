@@ -1,18 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What goes wrong in the physics: one line for each, with robot, joint, value, cause and remedy.
+Faults of the physics: one line of log for each, with robot, joint, value, cause and remedy.
 
-MuJoCo hands its warnings to one function of the process; without it a MUJOCO_LOG.TXT would appear
-in the user's folder. A step without a fault costs a look at an empty queue and at two numbers.
-Nothing is mended: what is lost stays lost until a reset that somebody asks for.
+MuJoCo passes its warnings to one callback of the process; without it, it would write a
+MUJOCO_LOG.TXT into the user's folder. A step without a fault costs a look at an empty queue and at
+two numbers. Faults are reported, not repaired: a lost state stays lost until somebody resets it.
 
-Nor is it contained: a value that is not finite in one robot is in all of them after the same step,
-as MuJoCo's solver weighs its start for the whole world at once. What is told is the robot where it
-began. To keep the others going, every step would have to be made again without that robot, from
-a state saved before.
-
-Where in a model something went wrong, in the names of the URDF, and what most likely did it.
+Faults are not contained either: a value that is not finite in one robot is in all robots after the
+same step, because MuJoCo's solver uses one warm start for the whole world. The robot in which it
+began is reported. To keep the others going, every step would have to be repeated without that
+robot, from a state saved before.
 """
 
 from collections import deque
@@ -29,37 +27,226 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.sim.actuators import rotor_name
 from amr_description.sim.engine import Engine, one_line
 
+FALL_HEIGHT = -0.1
+"""m; a robot whose root is below this height, with no ground under it, is falling."""
+
+HIGHEST_SPEED = 2000.0
+"""m/s or rad/s; no part of a robot is so fast, not even the rotor of a drone."""
+
+CAPPED_CHECKS = 5
+"""Checks in a row that find the solver at its iteration cap before it is logged."""
+
+SLOW_CHECK_INTERVAL = 100_000_000
+"""ns of simulated time between two of the checks that are not made after each step."""
+
+REPEAT_INTERVAL = 5 * NANOSECONDS
+"""ns of simulated time without a fault after which it is logged again as a new one."""
+
+_warnings: deque[str] = deque(maxlen=1000)
+
+_BAD_VALUE = re.compile(r'value in (QPOS|QVEL|QACC|CTRL) at \w+ (\d+)')
+_QUANTITY = {'QPOS': 'position', 'QVEL': 'velocity', 'QACC': 'acceleration', 'CTRL': 'command'}
+
 _DEEP = 0.005
-"""m; bodies that overlap by more are pushed apart with forces that nothing real has."""
+"""m; bodies that overlap by more are pushed apart with unphysical forces."""
 
 _TOO_DEEP = 1.0
-"""m; it was thrown there: an effect, no cause."""
+"""m; a deeper overlap is an effect of the fault, not its cause."""
 
 _ABSURD = 1e5
 """m/s² or rad/s²."""
 
 _LIGHT = 1e-6
-"""kg·m² or kg; what an actuator or a contact moves to any speed within a step."""
-
+"""kg·m² or kg; actuators and contacts accelerate less than this to any speed in one step."""
 
 _ROTOR = rotor_name('')
 
 _DOWN = np.array([0.0, 0.0, -1.0])
 _SINK = 0.1
-"""m; what stands on a floor is not deeper in it."""
+"""m; a robot that stands on a floor is not deeper in it."""
 _SKIP = 1e-6
-"""m; a ray goes on so far behind what it has hit."""
-_MOST_HITS = 100
+"""m; the distance behind a hit at which a ray continues."""
+_MAX_HITS = 100
+
+
+def collect_mujoco_warnings() -> None:
+    """Collect the warnings of MuJoCo, of all worlds in this process."""
+    mujoco.set_mju_user_warning(_warnings.append)
+
+
+class FaultMonitor:
+    """Checks the state of an engine after its steps and logs faults."""
+
+    def __init__(self, engine: Engine, log: Log) -> None:
+        self.on_fault: Callable[[], None] = lambda: None
+        """Called after a fault was logged."""
+        self._engine = engine
+        self._log = log
+        self.reset()
+
+    def reset(self) -> None:
+        """Start anew: time or robots were reset."""
+        _warnings.clear()
+        self._state_is_lost = False
+        self._last_seen: dict[str, int] = {}
+        self._capped = 0
+        self._next_slow_check = 0
+
+    def check(self, roots: Iterable[tuple[str, int]]) -> None:
+        """
+        Check the state after a step.
+
+        ``roots``: of each robot that moves freely its name, and the index of the height of its
+        root in ``qpos``.
+        """
+        while _warnings:
+            self._report_warning(_warnings.popleft())
+        if not self._state_is_lost:
+            self._check_speeds()
+            self._check_solver()
+        if self._engine.time >= self._next_slow_check:
+            self._next_slow_check = self._engine.time + SLOW_CHECK_INTERVAL
+            self._check_slowly(roots)
+
+    def _check_slowly(self, roots: Iterable[tuple[str, int]]) -> None:
+        data = self._engine.data
+        data.warning.number[:] = 0  # else MuJoCo warns of each kind once only
+        if self._state_is_lost:
+            # The fault may have left the world with the robot that was removed.
+            if np.isfinite(data.qpos).all() and data.qvel.dot(data.qvel) < HIGHEST_SPEED**2:
+                self.reset()
+            return
+        for name, index in roots:
+            height = float(data.qpos[index])
+            if height < FALL_HEIGHT and not has_ground(
+                self._engine.model, data, data.qpos[index - 2 : index + 1]
+            ):
+                self._report_fall(name, height)
+
+    # --- warnings of MuJoCo -------------------------------------------------------------------
+
+    def _report_warning(self, text: str) -> None:
+        if self._state_is_lost:
+            return  # what follows from the first bad value is not reported
+        bad = _BAD_VALUE.search(text)
+        if bad is None:
+            self._report(Severity.WARN, f'mujoco {text[:20]}', f'MuJoCo: {one_line(text)}')
+        elif bad[1] == 'CTRL':
+            name = name_of_actuator(self._engine.model, int(bad[2]))
+            value = float(self._engine.data.ctrl[int(bad[2])])
+            self._report(
+                Severity.ERROR,
+                f'command {name}',
+                f'{name}: the command is {value:g}{self._when}; MuJoCo takes all commands of the '
+                'world as 0 then. Command finite values',
+            )
+        else:
+            self._report_lost_state(bad[1], int(bad[2]))
+
+    def _report_lost_state(self, quantity: str, index: int) -> None:
+        self._state_is_lost = True
+        model, data = self._engine.model, self._engine.data
+        dof = dof_of_position(model, index) if quantity == 'QPOS' else index
+        name = name_of_dof(model, dof)
+        value = float(getattr(data, quantity.lower())[index])
+        self._report(
+            Severity.ERROR,
+            f'lost {name}',
+            f'{name}: the {_QUANTITY[quantity]} is not finite, or huge, '
+            f'({value:g}){self._when}; the state is lost until a reset. Likely: '
+            f'{likely_cause(model, data, dof)}',
+        )
+
+    # --- checks of the state ------------------------------------------------------------------
+
+    def _check_speeds(self) -> None:
+        speeds = self._engine.data.qvel
+        # A dot product is cheaper than a maximum; a NaN passes, and the next step warns of it.
+        if not speeds.dot(speeds) >= HIGHEST_SPEED**2:
+            return
+        dof = int(np.abs(speeds).argmax())
+        speed = float(speeds[dof])
+        if abs(speed) < HIGHEST_SPEED:
+            return
+        model = self._engine.model
+        name = name_of_dof(model, dof)
+        self._report(
+            Severity.ERROR,
+            f'speed {name}',
+            f'{name}: the velocity is {speed:.4g} {name.unit}{self._when}: the physics explodes '
+            f'there. Likely: {likely_cause(model, self._engine.data, dof, speed)}',
+        )
+
+    def _check_solver(self) -> None:
+        data = self._engine.data
+        cap = self._engine.model.opt.iterations
+        counts = data.solver_niter[: max(1, data.nisland)].tolist()
+        if max(counts) < cap:
+            self._capped = 0
+            return
+        self._capped += 1
+        if self._capped < CAPPED_CHECKS:
+            return
+        dofs = range(self._engine.model.nv)
+        if data.nisland:
+            islands = data.dof_island.tolist()
+            dofs = [dof for dof in dofs if islands[dof] >= 0 and counts[islands[dof]] >= cap]
+        robots = robots_of_dofs(self._engine.model, dofs)
+        names = ', '.join(f"'{name}'" for name in robots) or 'none'
+        self._report(
+            Severity.WARN,
+            f'solver {names}',
+            f'robot {names}: the solver stops at its cap of {cap} iterations, {self._capped} '
+            f'times in a row{self._when}, with {data.ncon} contacts in the world; motions are '
+            'less exact. Likely: bodies wedged between others, or actuators far stronger than the '
+            'masses they move. Free them, lower the gains, or raise <option iterations="…"/> in '
+            'the world',
+        )
+
+    def _report_fall(self, name: str, height: float) -> None:
+        model = self._engine.model
+        shapes = [
+            geom
+            for geom in range(model.ngeom)
+            if model.body(int(model.geom_bodyid[geom])).name.startswith(f'{name}/')
+            and (model.geom_contype[geom] or model.geom_conaffinity[geom])
+        ]
+        cause = (
+            'there is no ground where it is: spawn it above the ground, or drive on it'
+            if shapes
+            else 'none of its links has a <collision>: give it one'
+        )
+        self._report(
+            Severity.ERROR,
+            f'fall {name}',
+            f"robot '{name}' is below the ground: its root is at z = {height:.2f} m{self._when}. "
+            f'Likely: {cause}',
+        )
+
+    # --- reports ------------------------------------------------------------------------------
+
+    @property
+    def _when(self) -> str:
+        return f' at {self._engine.time / NANOSECONDS:.3f} s'
+
+    def _report(self, severity: Severity, fault: str, line: str) -> None:
+        """Log ``line``, unless ``fault`` has been there since it was last logged."""
+        now = self._engine.time
+        seen = self._last_seen.get(fault, -math.inf)
+        self._last_seen[fault] = now
+        if now - seen > REPEAT_INTERVAL:
+            self._log(severity, line)
+            self.on_fault()
 
 
 @dataclass(frozen=True, slots=True)
 class DofName:
-    """A degree of freedom of a robot."""
+    """The name of a degree of freedom, or of an actuator, in the words of the URDF."""
 
     robot: str
-    """Empty: it belongs to the world's own file."""
+    """Empty: it belongs to the file of the world."""
     part: str
-    """``joint '…'``, or ``link '…'`` of a robot's root, which moves freely."""
+    """``joint '…'``, or ``link '…'`` for the free joint of a robot's root."""
     unit: str
     """Of its velocity."""
 
@@ -82,8 +269,8 @@ def name_of_dof(model: mujoco.MjModel, dof: int) -> DofName:
 
 
 def dof_of_position(model: mujoco.MjModel, index: int) -> int:
-    """The first degree of freedom of the joint at an index into ``qpos``."""
-    joint = int((model.jnt_qposadr <= index).sum()) - 1  # the last that begins there or before
+    """Return the first degree of freedom of the joint at an index into ``qpos``."""
+    joint = int((model.jnt_qposadr <= index).sum()) - 1  # the last that starts there or before
     return int(model.jnt_dofadr[joint])
 
 
@@ -96,21 +283,21 @@ def name_of_actuator(model: mujoco.MjModel, actuator: int) -> DofName:
 
 
 def robots_of_dofs(model: mujoco.MjModel, dofs: Sequence[int]) -> list[str]:
-    """The robots to which degrees of freedom belong, each once, in order."""
+    """Return the robots to which degrees of freedom belong, each once, in order."""
     robots = dict.fromkeys(name_of_dof(model, dof).robot for dof in dofs)
     return [robot for robot in robots if robot]
 
 
 def _split(name: str) -> tuple[str, str]:
-    """Robot and part of a name in the world; what is of the world's own file has no robot."""
+    """Split a name in the model into robot and part; no robot: the file of the world."""
     robot, slash, part = name.partition('/')
     return (robot, part) if slash else ('', name)
 
 
-def has_ground(model: mujoco.MjModel, data: mujoco.MjData, place: np.ndarray) -> bool:
-    """Whether there is anything of the world itself below a place (m), or just above it."""
-    start, hit = place - _DOWN * _SINK, np.zeros(1, np.int32)
-    for _ in range(_MOST_HITS):
+def has_ground(model: mujoco.MjModel, data: mujoco.MjData, position: np.ndarray) -> bool:
+    """Return whether a geom of the world is below a position (m), or just above it."""
+    start, hit = position - _DOWN * _SINK, np.zeros(1, np.int32)
+    for _ in range(_MAX_HITS):
         distance = mujoco.mj_ray(model, data, start, _DOWN, None, 1, -1, hit)
         if hit[0] < 0:
             return False
@@ -124,7 +311,13 @@ def likely_cause(
     model: mujoco.MjModel, data: mujoco.MjData, dof: int, velocity: float = math.inf
 ) -> str:
     """
-    The best explanation of a huge velocity (or of what comes after it) at ``dof``, with a remedy.
+    Return the most likely cause of a huge velocity, or of a state lost by it, with a remedy.
+
+    Args:
+        model: Of the world.
+        data: Its present state.
+        dof: Index into ``qvel`` where it was found.
+        velocity: There; infinite if it is not known.
     """
     root = int(model.body_rootid[model.dof_bodyid[dof]])
     return (
@@ -140,7 +333,7 @@ def likely_cause(
 def _command_cause(
     model: mujoco.MjModel, data: mujoco.MjData, joint: int, velocity: float
 ) -> str | None:
-    """A command of the joint that is about as fast as it became."""
+    """A command to the joint that is about as large as its velocity."""
     for actuator in _actuators(model):
         command = float(data.ctrl[actuator])
         if int(model.actuator_trnid[actuator, 0]) == joint and abs(command) > abs(velocity) / 2.0:
@@ -152,25 +345,25 @@ def _command_cause(
 
 
 def _effort_cause(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> str | None:
-    """A motor of the robot whose root is the body ``root``, told to exert an absurd effort."""
+    """An absurd effort commanded to a motor of the robot whose root is the body ``root``."""
     for actuator in _actuators(model):
         joint = int(model.actuator_trnid[actuator, 0])
         is_its_own = model.body_rootid[model.jnt_bodyid[joint]] == root
         if not is_its_own or model.actuator_biastype[actuator] != mujoco.mjtBias.mjBIAS_NONE:
-            continue  # of another, or a servo
+            continue  # of another robot, or a servo
         effort = float(model.actuator_gainprm[actuator, 0] * data.ctrl[actuator])
         inertia = float(model.dof_M0[model.jnt_dofadr[joint]])
         if abs(effort) > _ABSURD * inertia:
-            where = name_of_dof(model, int(model.jnt_dofadr[joint])).part
+            part = name_of_dof(model, int(model.jnt_dofadr[joint])).part
             return (
-                f'{where} is driven with an effort of {effort:.4g}, on an inertia of '
+                f'{part} is driven with an effort of {effort:.4g}, on an inertia of '
                 f'{inertia:.2g}: command less, or give it a <limit effort="…"> in the URDF'
             )
     return None
 
 
 def _actuators(model: mujoco.MjModel) -> Iterator[int]:
-    """Those that drive a joint."""
+    """Yield the actuators that drive a joint."""
     joints = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
     return (index for index in range(model.nu) if joints[index])
 
@@ -201,192 +394,3 @@ def _overlap_cause(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> str
         f"'{one}' and '{other}' are {-deepest:.3f} m inside each other: put them apart, at the "
         'spawn or in the URDF'
     )
-
-
-FALL_HEIGHT = -0.1
-"""m; the root of a robot below this height, with nothing under it, has left the ground."""
-
-HIGHEST_SPEED = 2000.0
-"""m/s or rad/s; no part of a robot is so fast, a rotor of a drone included."""
-
-CAPPED_LOOKS = 5
-"""Looks in a row that find the solver at its cap until it is told: one is nothing."""
-
-LOOK_INTERVAL = 100_000_000
-"""ns of simulated time between two looks at what is not looked at after each step."""
-
-QUIET = 5 * NANOSECONDS
-"""ns of simulated time without a fault until it counts as a new one, and is told again."""
-
-_warnings: deque[str] = deque(maxlen=1000)
-
-_BAD_VALUE = re.compile(r'value in (QPOS|QVEL|QACC|CTRL) at \w+ (\d+)')
-_QUANTITY = {'QPOS': 'position', 'QVEL': 'velocity', 'QACC': 'acceleration', 'CTRL': 'command'}
-
-
-def collect_mujoco_warnings() -> None:
-    """Have MuJoCo's warnings collected, of all worlds in this process."""
-    mujoco.set_mju_user_warning(_warnings.append)
-
-
-class FaultMonitor:
-    """Watches an engine after its steps and tells what it sees to a log."""
-
-    def __init__(self, engine: Engine, log: Log) -> None:
-        self.on_fault: Callable[[], None] = lambda: None
-        """Called after a line was told."""
-        self._engine = engine
-        self._log = log
-        self.reset()
-
-    def reset(self) -> None:
-        """Forget what was told: time and robots are set back."""
-        _warnings.clear()
-        self._state_is_lost = False
-        self._last_seen: dict[str, int] = {}
-        self._capped = 0
-        self._next_look = 0
-
-    def check(self, roots: Iterable[tuple[str, int]]) -> None:
-        """
-        Look after a step; ``roots``: name of each floating robot and the index of its root's
-        height in ``qpos``.
-        """
-        while _warnings:
-            self._tell_warning(_warnings.popleft())
-        if not self._state_is_lost:
-            self._check_speeds()
-            self._check_solver()
-        if self._engine.time >= self._next_look:
-            self._next_look = self._engine.time + LOOK_INTERVAL
-            self._look(roots)
-
-    def _look(self, roots: Iterable[tuple[str, int]]) -> None:
-        data = self._engine.data
-        data.warning.number[:] = 0  # else MuJoCo says each of them once in its life
-        if self._state_is_lost:
-            # It may have gone with the robot that was taken out of the world.
-            if np.isfinite(data.qpos).all() and data.qvel.dot(data.qvel) < HIGHEST_SPEED**2:
-                self.reset()
-            return
-        for name, index in roots:
-            height = float(data.qpos[index])
-            if height < FALL_HEIGHT and not has_ground(
-                self._engine.model, data, data.qpos[index - 2 : index + 1]
-            ):
-                self._tell_fall(name, height)
-
-    # --- what MuJoCo says ---------------------------------------------------------------------
-
-    def _tell_warning(self, text: str) -> None:
-        if self._state_is_lost:
-            return  # The first bad value is the cause; what follows from it is not told.
-        bad = _BAD_VALUE.search(text)
-        if bad is None:
-            self._tell(Severity.WARN, f'mujoco {text[:20]}', f'MuJoCo: {one_line(text)}')
-        elif bad[1] == 'CTRL':
-            where = name_of_actuator(self._engine.model, int(bad[2]))
-            value = float(self._engine.data.ctrl[int(bad[2])])
-            self._tell(
-                Severity.ERROR,
-                f'command {where}',
-                f'{where}: the command is {value:g}{self._when}; MuJoCo takes all commands of the '
-                'world as 0 then. Command finite values',
-            )
-        else:
-            self._tell_loss(bad[1], int(bad[2]))
-
-    def _tell_loss(self, quantity: str, index: int) -> None:
-        self._state_is_lost = True
-        model, data = self._engine.model, self._engine.data
-        dof = dof_of_position(model, index) if quantity == 'QPOS' else index
-        where = name_of_dof(model, dof)
-        value = float(getattr(data, quantity.lower())[index])
-        self._tell(
-            Severity.ERROR,
-            f'lost {where}',
-            f'{where}: the {_QUANTITY[quantity]} is not finite, or huge, '
-            f'({value:g}){self._when}; the state is lost until a reset. Likely: '
-            f'{likely_cause(model, data, dof)}',
-        )
-
-    # --- what is seen in the state ------------------------------------------------------------
-
-    def _check_speeds(self) -> None:
-        speeds = self._engine.data.qvel
-        # One product instead of a maximum; a NaN passes, and the next step's warning names it.
-        if not speeds.dot(speeds) >= HIGHEST_SPEED**2:
-            return
-        dof = int(np.abs(speeds).argmax())
-        speed = float(speeds[dof])
-        if abs(speed) < HIGHEST_SPEED:
-            return
-        model = self._engine.model
-        where = name_of_dof(model, dof)
-        self._tell(
-            Severity.ERROR,
-            f'speed {where}',
-            f'{where}: the velocity is {speed:.4g} {where.unit}{self._when}: the physics explodes '
-            f'there. Likely: {likely_cause(model, self._engine.data, dof, speed)}',
-        )
-
-    def _check_solver(self) -> None:
-        data = self._engine.data
-        cap = self._engine.model.opt.iterations
-        counts = data.solver_niter[: max(1, data.nisland)].tolist()
-        if max(counts) < cap:
-            self._capped = 0
-            return
-        self._capped += 1
-        if self._capped < CAPPED_LOOKS:
-            return
-        dofs = range(self._engine.model.nv)
-        if data.nisland:
-            islands = data.dof_island.tolist()
-            dofs = [dof for dof in dofs if islands[dof] >= 0 and counts[islands[dof]] >= cap]
-        robots = robots_of_dofs(self._engine.model, dofs)
-        names = ', '.join(f"'{name}'" for name in robots) or 'none'
-        self._tell(
-            Severity.WARN,
-            f'solver {names}',
-            f'robot {names}: the solver stops at its cap of {cap} iterations, {self._capped} '
-            f'times in a row{self._when}, with {data.ncon} contacts in the world; motions are '
-            'less exact. Likely: bodies wedged between others, or actuators far stronger than the '
-            'masses they move. Free them, lower the gains, or raise <option iterations="…"/> in '
-            'the world',
-        )
-
-    def _tell_fall(self, name: str, height: float) -> None:
-        model = self._engine.model
-        shapes = [
-            geom
-            for geom in range(model.ngeom)
-            if model.body(int(model.geom_bodyid[geom])).name.startswith(f'{name}/')
-            and (model.geom_contype[geom] or model.geom_conaffinity[geom])
-        ]
-        cause = (
-            'there is no ground where it is: spawn it above the ground, or drive on it'
-            if shapes
-            else 'none of its links has a <collision>: give it one'
-        )
-        self._tell(
-            Severity.ERROR,
-            f'fall {name}',
-            f"robot '{name}' is below the ground: its root is at z = {height:.2f} m{self._when}. "
-            f'Likely: {cause}',
-        )
-
-    # --- telling ------------------------------------------------------------------------------
-
-    @property
-    def _when(self) -> str:
-        return f' at {self._engine.time / NANOSECONDS:.3f} s'
-
-    def _tell(self, severity: Severity, fault: str, line: str) -> None:
-        """Say ``line`` unless ``fault`` goes on since it was told."""
-        now = self._engine.time
-        seen = self._last_seen.get(fault, -math.inf)
-        self._last_seen[fault] = now
-        if now - seen > QUIET:
-            self._log(severity, line)
-            self.on_fault()
