@@ -1,37 +1,34 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-ros2_control's heart. Knows no ROS, no simulator, no clock; one thread, the owner, runs it all.
+ros2_control without ROS: no ROS, no simulator, no clock. One thread, the control thread, runs it.
 
-=========================== ======================================================================
-``contracts.py``            the page to read: Controller, HardwareComponent, Port, Log
-``world.py``                … what a simulated hardware component sees: World, JointGroup
-``interfaces.py``           the words: interface names, handles, lifecycle states
-``samples.py``              what goes through the ports of the shipped controllers
+============================ =====================================================================
+``contracts.py``             the page to read: Controller, HardwareComponent, Port, Log
+``world.py``                 … the simulated world of a hardware component: World, JointGroup
+``interfaces.py``            the terms: interface names, state and command interfaces, lifecycle
+``samples.py``               what the shipped controllers publish and subscribe to
 
-``owned_component.py``      one hardware component inside the manager: lifecycle, read, write
-``joint_limits.py``         the limits of a joint, from the URDF and its parameters
-``limits.py``               how a command is brought within them
-``hardware_components.py``  all components of a robot: first states, reads, writes, faults
-``resource_manager.py``     which component owns which interface; claims
-``loaded_controller.py``    one controller inside the manager: state, interfaces, when it is due
-``configuring.py``          its configuration, which may take its time on another thread
-``update_stride.py``        how often it is updated
-``chains.py``               which controllers command or read others; the order that follows
-``controller_list.py``      all controllers, in that order
-``switching.py``            from the request of a switch to a plan
-``switch_request.py``       … who comes, who goes, who changes its mode
-``switch_checks.py``        … and whether they may
-``switch_execution.py``     … and how it is done
-``faults.py``               what becomes of controllers that fail; fallbacks
-``manager_defaults.py``     what the parameters ``defaults.…`` decide
-``lifecycles.py``           load, configure, clean up, unload
-``controller_manager.py``   switch; read -> update -> write
-``foreign_errors.py``       what a stranger's controller or component raises, as one line
+``loaded_component.py``      a hardware component inside the manager: lifecycle, read, write
+``joint_limits.py``          the limits of joints, and how commands are kept within them
+``resource_manager.py``      all components of a robot, their interfaces, and the claims
 
-``snapshots.py``            what other threads may read of a manager
-``taking_snapshots.py``     … and how it is taken
+``loaded_controller.py``     a controller inside the manager: lifecycle, interfaces, update
+``chains.py``                which controllers command or read others; the order of updates
+``controller_list.py``       all controllers of a manager, in that order
+``switching.py``             switch_controller: request, checks, plan, execution
+``failure_handling.py``      controllers that fail are deactivated, fallbacks activated
+``controller_manager.py``    load, configure, switch; read → update → write
 
-``loop.py``                 the owner's loop; stepper, pacer, queue and publisher are its ports
-=========================== ======================================================================
+``plugin_errors.py``         exceptions of third-party controllers and components, as log lines
+``snapshot.py``              the state of a manager, for readers on other threads
+``statistics.py``            running mean and deviation of execution times and rates
+``introspection.py``         the values of a manager that are published, and their names
+``diagnostic_thresholds.py`` when ``/diagnostics`` shows a warning or an error: parameters
+``diagnostics.py``           the diagnostics of a manager
+
+``loop.py``                  the control loop: queued calls → managers → publish → step → pace
+
+``ros/``                     controller manager node, services, topics, client, spawner
+============================ =====================================================================
 """

@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Chains of controllers: who commands or reads whom, and what order follows from it.
+Chains of controllers: which one commands or reads which, and the resulting order of updates.
 
-A controller that commands a **reference** of another **precedes** it: it is updated before, so
-that its command arrives within the same tick. One that reads a **state** which another exports is
-updated after that one, unless it also (perhaps by way of others) commands it: that is feedback,
-and it reads the state of the tick before.
+A controller that commands a **reference** of another **precedes** it: it is updated first, so that
+its command arrives within the same tick. A controller that reads a **state** which another exports
+is updated after it, unless it also commands it, directly or through others: then it reads the
+state of the previous tick, as feedback.
 
-In both cases it **needs** the other, which has to be active first. A controller that would need
-itself closes a circle, and cannot be.
+In both cases it **needs** the other controller, which has to be activated first. A controller that
+would need itself is an error, a circular chain.
 """
 
 from collections.abc import Collection, Iterable, Mapping
@@ -21,7 +21,7 @@ from amr_description.errors import ControllerError
 
 @dataclass(frozen=True, slots=True)
 class ChainInterfaces:
-    """The interfaces, by their full names, by which one controller can be linked to others."""
+    """The full names of the interfaces that can link one controller to others."""
 
     commands: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
@@ -30,41 +30,42 @@ class ChainInterfaces:
 
 
 class Chains:
-    """The links between some controllers; every answer is in alphabetical or in update order."""
+    """The links between controllers; lists are in alphabetical order."""
 
-    def __init__(self, ends: Mapping[str, ChainInterfaces]) -> None:
-        """``ends``: of each controller, by its name. Raises ControllerError at a circle."""
-        commanded = {each: name for name in ends for each in ends[name].references}
-        exported = {each: name for name in ends for each in ends[name].exported_states}
-        self._commands = {name: _by_owner(ends[name].commands, commanded) for name in ends}
-        self._reads = {name: _by_owner(ends[name].states, exported) for name in ends}
-        self.activation_order = _sorted_by({name: self.needs(name) for name in ends})
-        """Whoever is needed comes first."""
+    def __init__(self, of: Mapping[str, ChainInterfaces]) -> None:
+        """``of``: the interfaces of each controller. Raises ControllerError: a circular chain."""
+        commanded = {each: name for name in of for each in of[name].references}
+        exported = {each: name for name in of for each in of[name].exported_states}
+        self._commands = {name: _by_owner(of[name].commands, commanded) for name in of}
+        self._reads = {name: _by_owner(of[name].states, exported) for name in of}
+        self.activation_order = _sorted_by({name: self.needs(name) for name in of})
+        """Controllers that others need come first."""
         self.update_order = _sorted_by(self._earlier())
         """Preceding controllers come first."""
 
     def commands(self, name: str) -> Mapping[str, tuple[str, ...]]:
-        """The controllers that it commands, each with those of its references."""
+        """Return the controllers that it commands, each with the references concerned."""
         return self._commands.get(name, {})
 
     def needs(self, name: str) -> set[str]:
-        """The controllers that must be active for it to be."""
+        """Return the controllers that must be active while it is."""
         return {*self._commands.get(name, ()), *self._reads.get(name, ())}
 
     def needed_by(self, name: str) -> list[str]:
-        """The controllers that can be active only while it is."""
+        """Return the controllers that can be active only while it is."""
         return [user for user in sorted(self._commands) if name in self.needs(user)]
 
     def commanded_by(self, name: str) -> list[str]:
-        """The controllers that command it."""
+        """Return the controllers that command it."""
         return [user for user in sorted(self._commands) if name in self._commands[user]]
 
     def affected_by(self, names: Iterable[str]) -> set[str]:
         """
-        These controllers and all that cannot go on without them.
+        Return these controllers and all that must be deactivated along with them.
 
-        Those are the ones that need them, and the ones that they command, which nobody would
-        command any more; and so on along the chain. Whose states they only read goes on.
+        Those are the controllers that need them and the ones that they command, which would be
+        left without commands; and so on along the chain. A controller of which they only read
+        states is not affected.
         """
         reached, ahead = set(), set(names)
         while ahead:
@@ -74,7 +75,7 @@ class Chains:
         return reached
 
     def _earlier(self) -> dict[str, set[str]]:
-        """Whom each controller is updated after."""
+        """Return, for each controller, those that are updated before it."""
         earlier = {name: set(self.commanded_by(name)) for name in self._commands}
         for reader in sorted(self._reads):
             for exporter in sorted(self._reads[reader]):
@@ -96,7 +97,7 @@ def _is_before(first: str, second: str, earlier: Mapping[str, Collection[str]]) 
 
 
 def _sorted_by(earlier: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return the names, each behind those before it, and by the alphabet where that leaves it."""
+    """Return the names, each after those that are earlier, otherwise in alphabetical order."""
     sorter = TopologicalSorter(earlier)
     try:
         sorter.prepare()

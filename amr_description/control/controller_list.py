@@ -10,10 +10,9 @@ from amr_description.control.loaded_controller import LoadedController
 
 class ControllerList:
     """
-    The loaded controllers by name; iterated over in the order of their updates.
+    The loaded controllers by name; iteration is in the order of their updates.
 
-    That order and the links between them stand in :attr:`chains`, which is made anew by
-    :meth:`link`.
+    That order, and the links between controllers, are found by :meth:`link`.
     """
 
     def __init__(self) -> None:
@@ -31,50 +30,52 @@ class ControllerList:
         return self._by_name[name]
 
     def get(self, name: str) -> LoadedController | None:
-        """Return the controller of that name, if there is one."""
+        """Return a controller by name; None: there is none."""
         return self._by_name.get(name)
 
     def add(self, loaded: LoadedController) -> None:
-        """Take one in; its name is new."""
+        """Add a controller, whose name is new."""
         self._by_name[loaded.name] = loaded
         self.link()
 
     def remove(self, name: str) -> None:
-        """Forget one."""
+        """Remove a controller."""
         del self._by_name[name]
         self.link()
 
     def link(self) -> None:
         """
-        Find the chains, after a controller's interfaces have changed.
+        Update the chains, after the interfaces of a controller have changed.
 
-        Raises ControllerError at a circle; nothing has then changed.
+        Raises ControllerError for a circular chain, changing nothing.
         """
-        self.chains = Chains({name: loaded.ends for name, loaded in self._by_name.items()})
+        self.chains = Chains(
+            {name: loaded.chain_interfaces for name, loaded in self._by_name.items()}
+        )
         self._ordered = tuple(self._by_name[name] for name in self.chains.update_order)
 
     @property
     def active(self) -> list[LoadedController]:
-        """Those that are updated, in that order."""
+        """The active controllers, in the order of their updates."""
         return [loaded for loaded in self._ordered if loaded.is_active]
 
     def activation_order(self, chosen: Collection[LoadedController]) -> list[LoadedController]:
-        """Those chosen: whoever is needed by another comes first."""
+        """Return the chosen controllers, each after those that it needs."""
         return [self[n] for n in self.chains.activation_order if self[n] in chosen]
 
     def needed(self, loaded: LoadedController) -> list[LoadedController]:
-        """The controllers that must be active for it to be."""
+        """Return the controllers that must be active while it is."""
         return [self[name] for name in sorted(self.chains.needs(loaded.name))]
 
     def needing(self, loaded: LoadedController) -> list[LoadedController]:
-        """The controllers that can be active only while it is."""
+        """Return the controllers that can be active only while it is."""
         return [self[name] for name in self.chains.needed_by(loaded.name)]
 
     def commanding(self, loaded: LoadedController) -> list[LoadedController]:
-        """The controllers that command it."""
+        """Return the controllers that command it."""
         return [self[name] for name in self.chains.commanded_by(loaded.name)]
 
     def active_chains_of(self, chosen: Iterable[LoadedController]) -> list[LoadedController]:
-        """Those chosen and all that cannot go on without them, as far as they are active."""
+        """Return the active ones of the chosen controllers and of all they affect."""
         names = self.chains.affected_by(loaded.name for loaded in chosen)
         return [loaded for loaded in self.active if loaded.name in names]

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""From where on diagnostics speak of a warning, and of an error: parameters of the manager."""
+"""The thresholds of ``/diagnostics``: parameters of the controller manager."""
 
 from dataclasses import dataclass
 
@@ -64,7 +64,7 @@ class Thresholds:
 
 @dataclass(frozen=True)
 class Diagnostics:
-    """From where on ``/diagnostics`` speaks of a warning, and of an error."""
+    """The thresholds of warnings and errors on ``/diagnostics``."""
 
     controller_manager: ManagerThresholds = group('controller_manager', ManagerThresholds)
     controllers: Thresholds = group('controllers', Thresholds)

@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What becomes of controllers that fail, or whose hardware does.
+Deactivates controllers that fail, or whose hardware fails, and activates their fallbacks.
 
-A controller goes down together with its chain: with those that need it, and with those that it
-commands, which would otherwise obey nobody.
+A controller is deactivated together with its chain: with those that need it, and with those that
+it commands, which would be left without commands.
 """
 
 from collections.abc import Callable, Collection, Sequence
@@ -15,12 +15,12 @@ from amr_description.control.controller_list import ControllerList
 from amr_description.control.loaded_controller import LoadedController
 from amr_description.control.plugin_errors import log_traceback, one_line
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.switching import names_of, Strictness, SwitchExecution, Switching
+from amr_description.control.switching import names_of, Strictness, SwitchExecution, SwitchPlanner
 from amr_description.errors import AmrError, ControllerError
 
 
 class FailureHandler:
-    """Takes controllers down, and starts their fallbacks."""
+    """Handles failures, on the control thread."""
 
     def __init__(
         self,
@@ -37,7 +37,18 @@ class FailureHandler:
     def call_guarded(
         self, doing: str, controller: LoadedController, method: Callable[..., None], *args: Any
     ) -> bool:
-        """Call a controller; the others must go on whatever it raises, which is logged."""
+        """
+        Call a method of a controller, and log whatever it raises.
+
+        Args:
+            doing: what the call is for, for the log: ``updating``.
+            controller: the one that is called.
+            method: its method.
+            args: of the method.
+
+        Returns:
+            False if it raised.
+        """
         try:
             method(*args)
         except AmrError as error:
@@ -57,10 +68,15 @@ class FailureHandler:
         self, failed: Sequence[LoadedController], doing: str, time: int
     ) -> None:
         """
-        Deactivate the chains of those that failed while ``doing`` something; start the fallbacks.
+        Deactivate the chains of controllers that failed, and activate the fallbacks.
 
-        Controllers that hold command interfaces which a fallback needs make way, with their
-        chains.
+        Controllers that have claimed command interfaces of a fallback are deactivated too, with
+        their chains.
+
+        Args:
+            failed: the controllers.
+            doing: what failed, for the log: ``update``.
+            time: present time, ns.
         """
         down = self._controllers.active_chains_of(failed)
         if not down:
@@ -70,27 +86,27 @@ class FailureHandler:
             f'Deactivating controllers : [ {names_of(down)} ] as their {doing} resulted in an '
             'error!',
         )
-        gone = {controller.name for controller in failed}
-        fallbacks = dict.fromkeys(name for c in failed for name in c.fallbacks if name not in gone)
-        in_the_way = [c for c in self._in_the_way_of(fallbacks) if c not in down]
-        if in_the_way:
+        excluded = {controller.name for controller in failed}
+        fallbacks = dict.fromkeys(n for c in failed for n in c.fallbacks if n not in excluded)
+        claiming = [c for c in self._claiming_commands_of(fallbacks) if c not in down]
+        if claiming:
             self._log(
                 Severity.ERROR,
-                f'Deactivating controllers : [ {names_of(in_the_way)} ] using the command '
+                f'Deactivating controllers : [ {names_of(claiming)} ] using the command '
                 'interfaces needed for the fallback controllers to activate',
             )
-        self._execution.drop([*down, *in_the_way], time)
+        self._execution.force_deactivate([*down, *claiming], time)
         if fallbacks:
-            self._start(fallbacks, time)
+            self._activate(fallbacks, time)
 
     def deactivate_orphans(self, components: Sequence[str], time: int) -> None:
-        """Deactivate the controllers whose interfaces have gone with these components."""
-        # A command and a state often have the same name: each kind is looked up by itself.
+        """Deactivate the controllers that used interfaces of these components, now gone."""
+        # A command and a state often have the same name: look each kind up by itself.
         known = self._resources.components
-        owned = [known[name] for name in components if name in known]
-        commands = {name for each in owned for name in each.commands}
+        lost = [known[name] for name in components if name in known]
+        commands = {name for each in lost for name in each.commands}
         commands -= self._resources.available_commands().keys()
-        states = {name for each in owned for name in each.states}
+        states = {name for each in lost for name in each.states}
         states -= self._resources.available_states().keys()
         orphans = self._controllers.active_chains_of(
             controller
@@ -104,9 +120,10 @@ class FailureHandler:
                 f'Deactivating controllers : [ {names_of(orphans)} ] as the hardware components '
                 f'[ {" ".join(components)} ] are no longer active',
             )
-        self._execution.drop(orphans, time)
+        self._execution.force_deactivate(orphans, time)
 
-    def _in_the_way_of(self, fallbacks: Collection[str]) -> list[LoadedController]:
+    def _claiming_commands_of(self, fallbacks: Collection[str]) -> list[LoadedController]:
+        """Return the active chains that have claimed command interfaces of the fallbacks."""
         commands = self._resources.available_commands()
         needed = {
             name
@@ -120,12 +137,12 @@ class FailureHandler:
             if each.name not in fallbacks and needed.intersection(each.required_commands)
         )
 
-    def _start(self, fallbacks: Collection[str], time: int) -> None:
+    def _activate(self, fallbacks: Collection[str], time: int) -> None:
         self._log(Severity.ERROR, f'Activating fallback controllers : [ {" ".join(fallbacks)} ]')
         active = {each.name for each in self._controllers.active}
-        starting = [name for name in fallbacks if name not in active]
-        switching = Switching(self._controllers, self._resources, Strictness.STRICT, self._log)
+        inactive = [name for name in fallbacks if name not in active]
+        planner = SwitchPlanner(self._controllers, self._resources, Strictness.STRICT, self._log)
         try:
-            self._execution.carry_out(switching.plan(starting, ()), Strictness.STRICT, time)
+            self._execution.carry_out(planner.plan(inactive, ()), Strictness.STRICT, time)
         except ControllerError as error:
             self._log(Severity.ERROR, f'Could not activate the fallback controllers: {error}')

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The numbers inside a manager that may be watched while it runs, and what they are called.
+The values inside a controller manager that are published for introspection.
 
-The names are those that controller_manager 4.x registers::
+Their names are those that controller_manager 4.x registers::
 
     state_interface.joint_wheel_front_left/position
     command_interface.joint_wheel_front_left/velocity
@@ -24,22 +24,23 @@ _NUMBERS = ('max', 'min', 'average', 'standard_deviation', 'sample_count', 'curr
 
 
 @dataclass(frozen=True, slots=True)
-class Registry:
-    """``read`` returns what ``names`` stand for, in that order; on the owner's thread."""
+class IntrospectionRegistry:
+    """Named values."""
 
     names: tuple[str, ...]
     read: Callable[[], list[float]]
+    """Returns the present values, in the order of ``names``; for the control thread."""
 
 
-def interfaces_of(manager: ControllerManager) -> Registry:
-    """Every interface of hardware and, once configured, of controllers; available or not."""
+def interfaces_of(manager: ControllerManager) -> IntrospectionRegistry:
+    """Return the interfaces of hardware and of configured controllers, available or not."""
     named = dict(_handles(manager))
     handles = tuple(named.values())
-    return Registry(tuple(named), lambda: [_number(handle) for handle in handles])
+    return IntrospectionRegistry(tuple(named), lambda: [_number(handle) for handle in handles])
 
 
 def _number(handle: Handle) -> float:
-    """Return what a cell holds; NaN where a stranger has written what is no number."""
+    """Return the value of an interface; NaN if a plugin has written what is not a number."""
     try:
         return float(handle.value)
     except (TypeError, ValueError, OverflowError):
@@ -47,16 +48,18 @@ def _number(handle: Handle) -> float:
 
 
 def _handles(manager: ControllerManager) -> Iterator[tuple[str, Handle]]:
-    for owned in manager.resources.components.values():
-        yield from ((f'state_interface.{name}', state) for name, state in owned.states.items())
-        yield from ((f'command_interface.{name}', each) for name, each in owned.commands.items())
+    for component in manager.resources.components.values():
+        yield from ((f'state_interface.{name}', state) for name, state in component.states.items())
+        yield from (
+            (f'command_interface.{name}', each) for name, each in component.commands.items()
+        )
     for loaded in manager.loaded:
         yield from ((f'state_interface.{each.name}', each) for each in loaded.exported_states)
         yield from ((f'command_interface.{each.name}', each) for each in loaded.references)
 
 
-def statistics_of(manager: ControllerManager) -> Registry:
-    """How long everything takes, and how regularly it runs."""
+def statistics_of(manager: ControllerManager) -> IntrospectionRegistry:
+    """Return execution times and rates of components and controllers."""
     named = dict(_statistics(manager))
     running = tuple(named.values())
     names = tuple(
@@ -65,14 +68,16 @@ def statistics_of(manager: ControllerManager) -> Registry:
         for quantity in _QUANTITIES
         for number in _NUMBERS
     )
-    return Registry(names, lambda: [number for each in running for number in _numbers(each)])
+    return IntrospectionRegistry(
+        names, lambda: [number for each in running for number in _numbers(each)]
+    )
 
 
 def _statistics(manager: ControllerManager) -> Iterator[tuple[str, RunningCycleStatistic]]:
-    for name, owned in manager.resources.components.items():
-        yield f'{name}.stats/read_cycle', owned.read_statistic
-        if not owned.is_sensor:
-            yield f'{name}.stats/write_cycle', owned.write_statistic
+    for name, component in manager.resources.components.items():
+        yield f'{name}.stats/read_cycle', component.read_statistic
+        if not component.is_sensor:
+            yield f'{name}.stats/write_cycle', component.write_statistic
     for loaded in manager.loaded:
         yield f'{loaded.name}.stats', loaded.statistic
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""One hardware component inside the manager: its state, its interfaces, and when it is due."""
+"""A hardware component inside the manager: its lifecycle state, interfaces, and its own rate."""
 
 from collections.abc import Iterable
 
@@ -12,8 +12,8 @@ from amr_description.control.statistics import RunningCycleStatistic, Stopwatch,
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import HardwareType
 
-# Neighbours are one transition apart; none leads away from the first.
-_LADDER = (
+# Neighbours are one transition apart; there is no way back from finalized.
+_STATES = (
     LifecycleState.FINALIZED,
     LifecycleState.UNCONFIGURED,
     LifecycleState.INACTIVE,
@@ -29,16 +29,22 @@ _TRANSITIONS = {
 
 
 class LoadedComponent:
-    """
-    A component with its lifecycle; the resource manager is the only one to move it.
-
-    ``stopwatch``: measures how long reading and writing it takes.
-    """
+    """A component with its lifecycle, which only the resource manager changes."""
 
     def __init__(
         self, component: HardwareComponent, log: Log, stopwatch: Stopwatch = zero_clock
     ) -> None:
-        """Raises HardwareError: it exports one name twice, or is a sensor with commands."""
+        """
+        Take a component.
+
+        Args:
+            component: unconfigured.
+            log: for its transitions and failures.
+            stopwatch: measures how long reading and writing it takes.
+
+        Raises:
+            HardwareError: it exports a name twice, or is a sensor with command interfaces.
+        """
         self.component = component
         self.info = component.info
         self.states = by_name(component.state_interfaces(), self.info.name)
@@ -63,7 +69,7 @@ class LoadedComponent:
 
     @property
     def is_available(self) -> bool:
-        """True once it is configured: its interfaces may be used, and it is read."""
+        """True while it is inactive or active: it is read, and its states can be used."""
         return self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
 
     # --- lifecycle ----------------------------------------------------------------------------
@@ -72,11 +78,11 @@ class LoadedComponent:
         """
         Go to ``target``, one transition after the other.
 
-        Raises HardwareError: there is no way, or a transition failed; it is then left in the
-        state that it reached.
+        Raises HardwareError: there is no way, or a transition failed, which leaves it in the state
+        that it has reached.
         """
         name = self.info.name
-        if target not in _LADDER:
+        if target not in _STATES:
             raise HardwareError(
                 f"Hardware component '{name}' cannot go from {self.state.label} to {target.label}"
             )
@@ -88,29 +94,29 @@ class LoadedComponent:
         while self.state is not target:
             following = self._next_towards(target)
             try:
-                self._take(following)
-            except Exception as error:  # a foreign component may raise anything
+                self._make_transition(following)
+            except Exception as error:  # a third-party component may raise anything
                 raise HardwareError(
                     f"Hardware component '{name}' failed on its way from {self.state.label} to "
                     f'{following.label}: {describe(error)}'
                 ) from error
 
     def bring_down(self, target: LifecycleState = LifecycleState.UNCONFIGURED) -> None:
-        """Stop its actuators, which nobody may command any more, and close it; never raises."""
-        while _LADDER.index(self.state) > _LADDER.index(target):
+        """Go down to ``target``, whatever its methods raise."""
+        while _STATES.index(self.state) > _STATES.index(target):
             following = self._next_towards(target)
             try:
-                self._take(following)
-            except Exception as error:  # it is given up all the same
+                self._make_transition(following)
+            except Exception as error:  # it counts as done all the same
                 self.report(f'transition to {following.label}', error)
                 self.state = following
 
     def _next_towards(self, target: LifecycleState) -> LifecycleState:
-        here = _LADDER.index(self.state)
-        return _LADDER[here + (1 if here < _LADDER.index(target) else -1)]
+        here = _STATES.index(self.state)
+        return _STATES[here + (1 if here < _STATES.index(target) else -1)]
 
-    def _take(self, following: LifecycleState) -> None:
-        """One transition, told in the words of ros2_control."""
+    def _make_transition(self, following: LifecycleState) -> None:
+        """Make one transition, logged as ros2_control does."""
         transition = _TRANSITIONS[self.state, following]
         self._log(Severity.INFO, f"'{transition}' hardware '{self.info.name}' ")
         getattr(self.component, transition)()
@@ -125,9 +131,14 @@ class LoadedComponent:
 
     def read(self, time: int, period: int) -> None:
         """
-        Read it if it is available and due; ``time`` and ``period`` of the manager's tick, ns.
+        Read it if it is available and due.
 
-        Raises what the component raises.
+        Args:
+            time: of the manager's tick, ns.
+            period: since the previous tick, ns.
+
+        Raises:
+            Exception: whatever the component raises.
         """
         if not self.is_available:
             return
@@ -142,7 +153,7 @@ class LoadedComponent:
         self.read_statistic.add(duration, None if last is None else time - last)
 
     def write(self, time: int, period: int) -> None:
-        """Write it if it is active, no mere sensor, and due; else as :meth:`read`."""
+        """Write it if it is active, not a sensor, and due; arguments as of :meth:`read`."""
         if self.state is not LifecycleState.ACTIVE or self.is_sensor:
             return
         last = self._last_write
@@ -157,10 +168,10 @@ class LoadedComponent:
 
     def _elapsed(self, last: int | None, time: int, period: int) -> int | None:
         """
-        Return the period to hand over, ns; ``None`` when it is not due.
+        Return the period to hand to the component, ns; None if it is not due.
 
-        With a rate of its own that is the true time since last time, the nominal one at the
-        first. It is due from 99 % of its period on, so that a tick a bit early counts.
+        With a rate of its own, that is the true time since the previous call, and the nominal
+        period at the first. It is due from 99 % of its period on, as a tick may come early.
         """
         rate = self.info.rw_rate
         if not rate:
@@ -171,17 +182,17 @@ class LoadedComponent:
         return elapsed if elapsed * rate >= 0.99 * NANOSECONDS else None
 
     def set_clock(self) -> None:
-        """The clock was set: what it was read and written at counts no more."""
+        """The clock jumped: forget when it was read and written."""
         self._last_read = self._last_write = None
 
     def reset(self, time: int) -> None:
-        """The world began anew at ``time``, ns. Raises what the component raises."""
+        """The simulation was reset to ``time``, ns. Raises whatever the component raises."""
         self.set_clock()
         if self.is_available:
             self.component.reset(time)
 
     def report(self, action: str, error: Exception) -> None:
-        """Log what the component raised."""
+        """Log an exception of the component."""
         self._log(
             Severity.ERROR,
             f"{action} of hardware component '{self.info.name}' failed: {describe(error)}",
@@ -190,7 +201,7 @@ class LoadedComponent:
 
 
 def by_name[H: Handle](handles: Iterable[H], owner: str) -> dict[str, H]:
-    """Raises HardwareError where the owner exports one name twice."""
+    """Index interfaces by name. Raises HardwareError: ``owner`` exports a name twice."""
     found: dict[str, H] = {}
     for handle in handles:
         if handle.name in found:

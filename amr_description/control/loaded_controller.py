@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""One controller inside the manager: its state, its interfaces and when it is due."""
+"""A controller inside the manager: its lifecycle state, its interfaces, and its update rate."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -20,60 +20,65 @@ from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
 from amr_description.errors import ControllerError
 
-type Watch = Callable[[LifecycleState, LifecycleState, LifecycleState | None], None]
-"""Told of a transition: its start, its goal, and at its end the state that was reached."""
+type TransitionCallback = Callable[[LifecycleState, LifecycleState, LifecycleState | None], None]
+"""Called as (start, goal, None) when a transition begins, (start, goal, reached) when it ends."""
 
 
 def ignore_transition(_: LifecycleState, __: LifecycleState, ___: LifecycleState | None) -> None:
-    """Watch nothing."""
+    """Do nothing: a :data:`TransitionCallback`."""
 
 
 class LoadedController:
-    """
-    A controller with its lifecycle; the manager is the only one to move it.
-
-    ``stride``: it is updated at every so manieth tick of the manager. ``fallbacks``: the names of
-    the controllers that are started when it fails. ``watch``: is told of every transition.
-    ``stopwatch``: measures its updates.
-    """
+    """A controller with its lifecycle, which only the manager changes."""
 
     def __init__(
         self,
         controller: Controller,
         type_name: str,
-        stride: int,
+        update_divisor: int,
         fallbacks: Iterable[str] = (),
-        watch: Watch = ignore_transition,
+        on_transition: TransitionCallback = ignore_transition,
         stopwatch: Stopwatch = zero_clock,
     ) -> None:
-        self._watch = watch
+        """
+        Take a controller.
+
+        Args:
+            controller: unconfigured.
+            type_name: as in ``controller_manager_msgs/msg/ControllerState``.
+            update_divisor: ticks of the manager for each of its updates.
+            fallbacks: names of the controllers to start if it fails.
+            on_transition: called for every transition.
+            stopwatch: measures its updates.
+        """
+        self._on_transition = on_transition
         self._stopwatch = stopwatch
         self.statistic = RunningCycleStatistic()
         """Of its updates since it was activated."""
         self.fallbacks = tuple(fallbacks)
         self.controller = controller
         self.type = type_name
-        self.stride = stride
+        self.update_divisor = update_divisor
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands: tuple[str, ...] = ()
         self.required_states: tuple[str, ...] = ()
         self.references: tuple[CommandInterface, ...] = ()
         self.exported_states: tuple[StateInterface, ...] = ()
-        self.ends = ChainInterfaces()
+        self.chain_interfaces = ChainInterfaces()
         """What links it to other controllers, once configured."""
         self.is_busy = False
-        """True while its ``configure`` may be running, on whatever thread."""
+        """True while its ``configure`` may be running on another thread."""
         self.has_failed = False
-        """True when its own ``activate`` raised."""
-        self._wishes = (NO_INTERFACES, NO_INTERFACES)
-        """Commands and states; asked once, as are the inputs: a stranger's answer may raise."""
+        """True: its own ``activate`` raised."""
+        # Requested once, as are the inputs: a third-party controller may raise.
+        self._command_request = self._state_request = NO_INTERFACES
         self._inputs: tuple[Input[Any], ...] = ()
         self._last_update: int | None = None
         self._ticks = 0
 
     @property
     def name(self) -> str:
-        """Its name, also that of its node."""
+        """Its name, and that of its node."""
         return self.controller.context.name
 
     @property
@@ -88,33 +93,34 @@ class LoadedController:
 
     @contextmanager
     def transition(self, goal: LifecycleState) -> Iterator[None]:
-        """Tell whoever watches that a transition begins and, either way, where it ended."""
+        """Report the start of a transition and, however the block ends, the state reached."""
         start = self.state
-        self._watch(start, goal, None)
+        self._on_transition(start, goal, None)
         try:
             yield
         finally:
-            self._watch(start, goal, self.state)
+            self._on_transition(start, goal, self.state)
 
-    def settle(self, resources: ResourceManager) -> None:
-        """Configured → inactive. Raises ControllerError; it is then cleaned up again."""
+    def become_inactive(self, resources: ResourceManager) -> None:
+        """Complete a ``configure``. Raises ControllerError; it is then cleaned up again."""
         try:
-            self._ask_for_interfaces(resources)
+            self._request_interfaces(resources)
         except Exception:
-            self.unsettle()
+            self.become_unconfigured()
             raise
         self.state = LifecycleState.INACTIVE
 
-    def _ask_for_interfaces(self, resources: ResourceManager) -> None:
+    def _request_interfaces(self, resources: ResourceManager) -> None:
         controller = self.controller
-        commands, states = controller.command_interfaces(), controller.state_interfaces()
-        self._wishes, self._inputs = (commands, states), tuple(controller.inputs())
+        self._command_request = controller.command_interfaces()
+        self._state_request = controller.state_interfaces()
+        self._inputs = tuple(controller.inputs())
         if controller.is_chainable:
             self.references = tuple(controller.references())
             self.exported_states = tuple(controller.exported_states())
-        self.ends = ChainInterfaces(
-            _listed(commands),
-            _listed(states),
+        self.chain_interfaces = ChainInterfaces(
+            _listed(self._command_request),
+            _listed(self._state_request),
             tuple(handle.name for handle in self.references),
             tuple(handle.name for handle in self.exported_states),
         )
@@ -122,29 +128,39 @@ class LoadedController:
         self.required_commands, self.required_states = self.wanted(*available)
         self._check_unique('command', self.required_commands)
         self._check_unique('state', self.required_states)
-        self._check_offer('reference', self.ends.references, available[0])
-        self._check_offer('exported state', self.ends.exported_states, available[1])
+        self._check_exported('reference', self.chain_interfaces.references, available[0])
+        self._check_exported('exported state', self.chain_interfaces.exported_states, available[1])
 
     def wanted(
         self, commands: Iterable[str], states: Iterable[str]
     ) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """
-        Which command and which state interfaces it wants when these are available.
+        Return the names of the command and of the state interfaces that it needs.
 
-        That makes a difference to a controller that wants all; its own are not among them.
+        Only a controller that requests all interfaces depends on which ones are available; those
+        that it exports itself are left out.
+
+        Args:
+            commands: names of the available command interfaces.
+            states: names of the available state interfaces.
         """
-        ends, names = self.ends, ResourceManager.names
-        wished_commands, wished_states = self._wishes
+        own, names = self.chain_interfaces, ResourceManager.names
         return (
-            names(wished_commands, (name for name in commands if name not in ends.references)),
-            names(wished_states, (name for name in states if name not in ends.exported_states)),
+            names(self._command_request, (n for n in commands if n not in own.references)),
+            names(self._state_request, (n for n in states if n not in own.exported_states)),
         )
 
     def activate(self, resources: ResourceManager, time: int, *, chained: bool = False) -> None:
         """
-        Inactive → active, and what it offers becomes available to others.
+        Inactive → active; its references and exported states become available.
 
-        Raises; all claims are then given back, and it stays inactive.
+        Args:
+            resources: lends the interfaces.
+            time: present time, ns.
+            chained: whether another controller commands its references.
+
+        Raises:
+            Exception: anything; its claims are then released, and it stays inactive.
         """
         self.has_failed = False
         with self.transition(LifecycleState.ACTIVE):
@@ -170,27 +186,29 @@ class LoadedController:
         self.statistic.reset()
         for port in self._inputs:
             port.open()
-        resources.offer(self.name, self.references, self.exported_states)
+        resources.add_exported(self.name, self.references, self.exported_states)
         self.state = LifecycleState.ACTIVE
 
     def update(self, time: int, nominal_period: int) -> None:
         """
-        Update it if it is due at this tick, and measure that.
+        Update it if it is due at this tick, and measure how long that takes.
 
-        ``nominal_period``: of the manager, ns.
+        Args:
+            time: of the tick, ns.
+            nominal_period: of the manager, ns.
         """
-        is_due = self._ticks % self.stride == 0
+        is_due = self._ticks % self.update_divisor == 0
         self._ticks += 1
         if not is_due:
             return
         last, self._last_update = self._last_update, time
-        period = nominal_period * self.stride if last is None else time - last
+        period = nominal_period * self.update_divisor if last is None else time - last
         begin = self._stopwatch()
         self.controller.update(time, period)
         self.statistic.add(self._stopwatch() - begin, None if last is None else period)
 
     def deactivate(self, resources: ResourceManager, time: int) -> None:
-        """Active → inactive: actuators safe, claims and offers taken back, inputs closed."""
+        """Active → inactive, even if its ``deactivate`` raises; ``time`` in ns."""
         with self.transition(LifecycleState.INACTIVE):
             self._deactivate(resources, time)
 
@@ -201,42 +219,43 @@ class LoadedController:
             self.controller.deactivate(time)
         finally:
             resources.release(self.name)
-            resources.withdraw(self.name)
+            resources.remove_exported(self.name)
             self.state = LifecycleState.INACTIVE
             self._set_chained_mode(False)
 
     def _set_chained_mode(self, chained: bool) -> None:
         if self.controller.is_chained != chained:
             self.controller.set_chained_mode(chained)
-            self.controller.is_chained = chained  # also where an override forgets to
+            self.controller.is_chained = chained  # in case an override forgets to
 
     def cleanup(self) -> None:
         """Inactive → unconfigured."""
         with self.transition(LifecycleState.UNCONFIGURED):
-            self.unsettle()
+            self.become_unconfigured()
 
     def finalize(self) -> None:
-        """Any state but active → finalized, the last one."""
+        """Unconfigured or inactive → finalized."""
         with self.transition(LifecycleState.FINALIZED):
             self.state = LifecycleState.FINALIZED
 
-    def unsettle(self) -> None:
-        """Unconfigured again, as part of another transition."""
+    def become_unconfigured(self) -> None:
+        """Clean up, as part of a transition."""
         self.state = LifecycleState.UNCONFIGURED
         self.required_commands = self.required_states = ()
         self.references = self.exported_states = ()
-        self.ends = ChainInterfaces()
-        self._wishes, self._inputs = (NO_INTERFACES, NO_INTERFACES), ()
+        self.chain_interfaces = ChainInterfaces()
+        self._command_request = self._state_request = NO_INTERFACES
+        self._inputs = ()
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:
-        """Time went back to ``time``, ns: what an inactive one remembers is wrong as well."""
+        """The simulation was reset to ``time``, ns."""
         self._last_update = None
         if self.is_configured:
             self.controller.reset(time)
 
     def set_clock(self, time: int) -> None:
-        """The clock was set to ``time``, ns."""
+        """The clock jumped to ``time``, ns."""
         self._last_update = None
         if self.is_configured:
             self.controller.set_clock(time)
@@ -249,8 +268,8 @@ class LoadedController:
                 f"make sure that the {kind} interfaces are unique : '{' '.join(twice)}'."
             )
 
-    def _check_offer(self, kind: str, names: Sequence[str], available: Collection[str]) -> None:
-        """What it offers must be its own, once, and nobody else's."""
+    def _check_exported(self, kind: str, names: Sequence[str], available: Collection[str]) -> None:
+        """Raise ControllerError unless the names are unique, new, and begin with its own name."""
         self._check_unique(kind, names)
         for name in names:
             if not name.startswith(f'{self.name}/'):

@@ -1,23 +1,23 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The owner's loop: the one thread that steps the world and ticks the managers.
+The control loop: the one thread that steps the world and ticks the controller managers.
 
-It sees the outside through ports: a stepper (a simulated world, or nothing), a pacer (the wall
-clock, or nothing), a queue of commands from other threads, and a publisher. With a stepper that
-is the wall clock itself, this same loop drives a real robot.
+It depends on four protocols: a stepper (the simulated world), a pacer (waits for the wall clock,
+or not), a queue of calls from other threads, and a publisher. With the system clock as the
+stepper, the same loop drives a real robot.
 
-One turn, at simulated time t::
+One cycle, at simulated time t::
 
-    drain the queue            # spawn, switch, pause, reset …; while paused: wait on it
+    run the queued calls         # spawn, switch, pause, reset …; while paused: wait for one
     set the clocks to t
-    tick the managers due at t # read, update, write
-    publish /clock, then what the controllers said at t
+    tick the managers due at t   # read, update, write
+    publish /clock, then the samples that controllers have sent at t
     step the world to the next instant at which something is due
-    pace                       # what the queue brings meanwhile is done at once
+    pace                         # calls that are queued meanwhile run at once
 
-While paused a stretch of time can be asked for (:meth:`Loop.step`): the same turns, not paced,
-and the last one ends where the stretch does.
+While paused, a period can be stepped (:meth:`Loop.step`): the same cycles, not paced, the last one
+cut short at the end of the period.
 """
 
 from collections.abc import Callable, Iterable
@@ -28,63 +28,64 @@ from amr_description.errors import SimulationError
 
 
 class Stepper(Protocol):
-    """The world that is advanced."""
+    """The world that is stepped."""
 
     @property
     def time(self) -> int:
         """Present time, ns."""
 
     def advance(self, period: int) -> None:
-        """Advance by ``period`` (ns), as nearly as its steps allow."""
+        """Advance by ``period`` (ns), as closely as its steps allow."""
 
 
 class Pacer(Protocol):
-    """Whatever holds the loop back."""
+    """Keeps the loop from running ahead of a clock."""
 
     def pace(self, time: int) -> bool:
         """
-        Wait until the instant ``time`` (ns) is due, not at all when it is over; return True.
+        Wait until the instant ``time`` (ns) is due; return at once if it is past.
 
-        False: it is not due yet, but a command has come.
+        Returns False if it is not due yet, but a call was queued.
         """
 
     def resume(self, time: int) -> None:
-        """Time begins, or goes on after a pause or a jump, at ``time`` (ns)."""
+        """Start, or go on after a pause or a jump, at ``time`` (ns)."""
 
 
 class Commands(Protocol):
-    """Calls that other threads ask the owner to make; a call never raises."""
+    """The queue of calls that other threads have the control thread make; a call never raises."""
 
     def take(self) -> Iterable[Callable[[], None]]:
-        """Return those that wait, oldest first."""
+        """Return the queued calls, oldest first."""
 
     def wait(self) -> None:
-        """Block until there is one, or until the clock should be heard again."""
+        """Block until a call is queued, or until ``/clock`` should be published again."""
 
 
 class Publisher(Protocol):
-    """What goes out of a turn."""
+    """Publishes the results of a cycle."""
 
     def set_clocks(self, time: int) -> None:
         """Set the clocks of the nodes in this process to ``time``, ns."""
 
     def publish(self, time: int) -> None:
-        """Publish ``/clock``, and then what was sent since the last call."""
+        """Publish ``/clock``, and then the samples sent since the last call."""
 
 
 class StepRequest(NamedTuple):
-    """Time that passes while paused."""
+    """A period to step while paused."""
 
     end: int
     """ns."""
     done: Callable[[int], None]
+    """Called with the missing part of the period, ns."""
 
 
 class Loop:
     """
-    See the module. ``managers`` is a list, one entry a robot; only commands may change it.
+    Runs the cycles, on the control thread; see the module.
 
-    ``clock_period``: ns, the longest time between two turns and so between two ``/clock``.
+    All methods but :meth:`run`, :meth:`run_once` and :meth:`tick` are for queued calls.
     """
 
     def __init__(
@@ -95,6 +96,7 @@ class Loop:
         publisher: Publisher,
         clock_period: int,
     ) -> None:
+        """``clock_period``: longest time between two cycles, and so between two ``/clock``, ns."""
         self._stepper = stepper
         self._pacer = pacer
         self._commands = commands
@@ -102,8 +104,9 @@ class Loop:
         self._clock_period = clock_period
         self._is_stopped = False
         self._is_running = True
-        self._stretch: StepRequest | None = None
+        self._step_request: StepRequest | None = None
         self.managers: list[ControllerManager] = []
+        """One for each robot; changed by queued calls only."""
 
     @property
     def time(self) -> int:
@@ -112,35 +115,35 @@ class Loop:
 
     @property
     def is_running(self) -> bool:
-        """False while paused, also during a :meth:`step`."""
+        """False while paused, even during a :meth:`step`."""
         return self._is_running
 
     @property
     def is_stepping(self) -> bool:
-        """True while a stretch of time passes that was asked for."""
-        return self._stretch is not None
+        """True during a :meth:`step`."""
+        return self._step_request is not None
 
     def run(self) -> None:
-        """Turn until :meth:`stop`."""
+        """Run cycles until :meth:`stop`."""
         self._pacer.resume(self.time)
         while not self._is_stopped:
             self.run_once()
 
     def run_once(self) -> None:
-        """Do one turn; while paused, only what the queue asks."""
+        """Run one cycle; while paused, only the queued calls."""
         self._run_calls()
         if self._is_stopped:
             return
-        if self._stretch is not None:
-            self._step(self._stretch)
+        if self._step_request is not None:
+            self._continue_step(self._step_request)
             return
         if not self._is_running:
-            self._show_time()
+            self._publish_time()
             self._commands.wait()
             return
         self.tick()
         self._stepper.advance(self._time_to_next_tick(self.time))
-        # In slow motion the next instant may be far off; nobody has to wait for it to be heard.
+        # In slow motion the next instant may be far off: queued calls do not wait for it.
         while not self._pacer.pace(self.time):
             self._run_calls()
             if self._is_stopped or not self._is_running:
@@ -156,82 +159,88 @@ class Loop:
         self._publisher.publish(time)
 
     def stop(self) -> None:
-        """End :meth:`run`; for commands."""
+        """End :meth:`run`."""
         self._is_stopped = True
-        self._give_up_stretch()
+        self._cancel_step()
 
     def pause(self) -> None:
-        """Let time stand still; for commands."""
+        """Stop time, and a step that is under way."""
         self._is_running = False
-        self._give_up_stretch()
+        self._cancel_step()
 
     def step(self, period: int, done: Callable[[int], None]) -> None:
         """
-        While paused, let ``period`` ns pass as fast as they can, and stand still again.
+        While paused, step a period as fast as possible.
 
-        Managers tick when they are due, at the beginning of the stretch too, but not at its end:
-        that tick is the next stretch's, and takes the commands that have come by then. ``done`` is
-        called at the end with what is missing of the period, ns: 0, unless a stop, a pause, a
-        resume or a jump came between. For commands. Raises SimulationError.
+        Managers tick when they are due, at the start of the period too, but not at its end: that
+        tick belongs to the next step, and uses the commands that have arrived by then.
+
+        Args:
+            period: ns.
+            done: called at the end with the missing part of the period, ns: 0 unless a stop, a
+                pause, a resume or a jump has cut it short.
+
+        Raises:
+            SimulationError: time is running, or another step is under way.
         """
         if self._is_running:
             raise SimulationError('time is running; it is stepped while it is paused')
-        if self._stretch is not None:
+        if self._step_request is not None:
             raise SimulationError(
-                f'{self._stretch.end - self.time} ns of another step are still to pass'
+                f'{self._step_request.end - self.time} ns of another step are still to pass'
             )
         if period <= 0:
             done(0)
             return
-        self._stretch = StepRequest(self.time + period, done)
+        self._step_request = StepRequest(self.time + period, done)
 
     def resume(self) -> None:
-        """Let time go on; for commands."""
-        self._give_up_stretch()
+        """Let time go on after a pause."""
+        self._cancel_step()
         if not self._is_running:
             self._is_running = True
             self._pacer.resume(self.time)
 
     def reset(self) -> None:
-        """Tell everybody that the stepper's world began anew; for commands."""
+        """Reset the managers, after the simulated world was reset."""
         self._jump(lambda manager, time: manager.reset(time))
 
     def set_clock(self) -> None:
-        """Tell everybody that the stepper's clock was set; for commands."""
+        """Have the managers follow a jump of the stepper's clock."""
         self._jump(lambda manager, time: manager.set_clock(time))
 
-    def _jump(self, tell: Callable[[ControllerManager, int], None]) -> None:
-        self._give_up_stretch()
+    def _jump(self, notify: Callable[[ControllerManager, int], None]) -> None:
+        self._cancel_step()
         time = self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
-            tell(manager, time)
+            notify(manager, time)
         self._pacer.resume(time)
 
-    def _step(self, stretch: StepRequest) -> None:
-        """Do one turn of a stretch of time."""
+    def _continue_step(self, request: StepRequest) -> None:
+        """Run one cycle of a step."""
         self.tick()
-        self._stepper.advance(min(self._time_to_next_tick(self.time), stretch.end - self.time))
-        if self.time >= stretch.end:
-            self._stretch = None
-            self._show_time()  # before whoever waits for the end hears of it
-            stretch.done(0)
+        self._stepper.advance(min(self._time_to_next_tick(self.time), request.end - self.time))
+        if self.time >= request.end:
+            self._step_request = None
+            self._publish_time()  # before anybody is told that the step is done
+            request.done(0)
 
-    def _give_up_stretch(self) -> None:
-        stretch, self._stretch = self._stretch, None
-        if stretch is not None:
-            stretch.done(stretch.end - self.time)
+    def _cancel_step(self) -> None:
+        request, self._step_request = self._step_request, None
+        if request is not None:
+            request.done(request.end - self.time)
 
-    def _show_time(self) -> None:
-        """Have the time known where nothing ticks."""
-        self._publisher.set_clocks(self.time)  # a command may have brought a new node
+    def _publish_time(self) -> None:
+        """Publish the time without a tick."""
+        self._publisher.set_clocks(self.time)  # a call may have added a node
         self._publisher.publish(self.time)
 
     def _run_calls(self) -> None:
-        for command in self._commands.take():
-            command()
+        for call in self._commands.take():
+            call()
 
     def _time_to_next_tick(self, time: int) -> int:
-        """Time to the next instant at which a manager or ``/clock`` is due, ns; above 0."""
+        """Return the time until a manager or ``/clock`` is due, ns; above 0."""
         next_clock = time - time % self._clock_period + self._clock_period
         return min([next_clock, *(manager.next_tick for manager in self.managers)]) - time

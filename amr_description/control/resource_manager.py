@@ -1,14 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Which hardware component owns which interface, and which controller has claimed it.
+The resource manager of one robot: its hardware components, their interfaces, and the claims.
 
-Where this departs from ros2_control 4.x: an infinite command (or, as this is Python, one that is
-no number) stops its joint, with an ERROR that names the controller. There infinity goes to the
-hardware, whose component refuses it and is brought down: one message with a speed of 1e308 m/s
-would end the robot.
+Every method runs on the control thread.
 
-The hardware components of one robot: made, brought from state to state, read and written.
+One difference from ros2_control 4.x: an infinite command (or, as this is Python, one that is not a
+number) stops its joint, with an ERROR that names the controller. There, infinity reaches the
+hardware component, which refuses it and is brought down: a single message with a speed of
+1e308 m/s would end the robot.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
     from amr_description.model.robot import Robot
 
 
-class HardwareComponents:
-    """All components of one robot, in the order of its description."""
+class ResourceManager:
+    """The hardware components of one robot, in the order of its description; see the module."""
 
     def __init__(
         self,
@@ -52,15 +52,28 @@ class HardwareComponents:
         stopwatch: Stopwatch = zero_clock,
     ) -> None:
         """
-        ``robot``: where the limits of the joints are from; else only from parameters.
-        ``stopwatch``: measures how long everything takes.
+        Start without components.
+
+        Args:
+            log: of the manager.
+            robot: its ``<limit>`` elements limit the joints; None: only their parameters do.
+            enforce_command_limits: keep commands within the limits of their joints.
+            stopwatch: measures how long everything takes.
         """
         self.log = log
         self.stopwatch = stopwatch
         self.components: dict[str, LoadedComponent] = {}
+        self.claims: dict[str, str] = {}
+        """Command interface → the controller that has claimed it."""
+        self.lends_commands_of_inactive = False
+        """True: controllers may command components that are inactive."""
         self._robot = robot
         self._enforces_limits = enforce_command_limits
         self._limiters: dict[str, list[JointLimiter]] = {}
+        self._references: dict[str, dict[str, CommandInterface]] = {}
+        self._exported_states: dict[str, dict[str, StateInterface]] = {}
+
+    # --- components ---------------------------------------------------------------------------
 
     def load(
         self,
@@ -70,57 +83,64 @@ class HardwareComponents:
         log: Log | None = None,
     ) -> None:
         """
-        Make a component of the class that ``find`` knows by the name of its plugin, and take it.
+        Create a component from its description, and add it.
 
-        ``log``: the component's own, where it has one. Raises HardwareError, or whatever the
-        constructor of a foreign component raises.
+        Args:
+            info: its ``<ros2_control>`` block.
+            find: returns the class of a plugin.
+            world: the simulated world; None on a real robot.
+            log: of the component; None: that of the manager.
+
+        Raises:
+            HardwareError: for an unknown plugin, or an interface that is there already.
+            Exception: whatever the constructor of the component raises.
         """
         self.log(Severity.INFO, f"Loading hardware '{info.name}' ")
-        make = find(info.plugin)
+        create = find(info.plugin)
         self.log(Severity.INFO, f"Loaded hardware '{info.name}' from plugin '{info.plugin}'")
         self.log(Severity.INFO, f"Initialize hardware '{info.name}' ")
-        self.add(make(info, log or self.log, world))
+        self.add(create(info, log or self.log, world))
         self.log(Severity.INFO, f"Successful initialization of hardware '{info.name}'")
 
     def add(self, component: HardwareComponent) -> None:
-        """Take a component and its interfaces. Raises HardwareError where a name is taken."""
-        owned = LoadedComponent(component, self.log, self.stopwatch)
-        name = owned.info.name
+        """Add a component. Raises HardwareError: one of its names is taken, or invalid."""
+        loaded = LoadedComponent(component, self.log, self.stopwatch)
+        name = loaded.info.name
         if name in self.components:
             raise HardwareError(f"Hardware component '{name}' is there twice")
         for other in self.components.values():
             twice = (
-                owned.states.keys() & other.states.keys()
-                | owned.commands.keys() & other.commands.keys()
+                loaded.states.keys() & other.states.keys()
+                | loaded.commands.keys() & other.commands.keys()
             )
             if twice:
                 raise HardwareError(
                     f"Interface '{min(twice)}' is exported by the hardware components "
                     f"'{other.info.name}' and '{name}'; one of them must leave it out"
                 )
-        if owned.info.is_async:
+        if loaded.info.is_async:
             self.log(
                 Severity.WARN,
                 f'Hardware component \'{name}\' has is_async="true": it is read and written in '
                 'the control loop all the same; its own thread must do what takes long',
             )
         if self._enforces_limits:
-            self._limiters[name] = limiters_of(owned, self._robot, self.log)
-        self.components[name] = owned
+            self._limiters[name] = limiters_of(loaded, self._robot, self.log)
+        self.components[name] = loaded
 
     def set_state(self, name: str, target: LifecycleState) -> None:
         """
-        Bring a component to ``target``, one transition after the other; finalized is final.
+        Bring a component to ``target``, one transition after the other.
 
-        Raises HardwareError: unknown component, no such way, or a transition failed; it is then
-        left in the state that it reached.
+        Raises HardwareError: it is unknown or finalized, or a transition failed, which leaves it
+        in the state that it has reached.
         """
-        owned = self.components.get(name)
-        if owned is None:
+        loaded = self.components.get(name)
+        if loaded is None:
             raise HardwareError(
                 f"Hardware component '{name}' does not exist. Known: {_listed(self.components)}"
             )
-        owned.go_to(target)
+        loaded.go_to(target)
 
     def start_components(
         self,
@@ -129,11 +149,16 @@ class HardwareComponents:
         shutdown_on_failure: bool = True,
     ) -> None:
         """
-        Bring the components to their first states: active, but for those that are named.
+        Bring the components to their initial states: active, unless they are named.
 
-        The arguments are the parameters ``hardware_components_initial_state.…``; a name that no
-        component has is warned of. Raises HardwareStartError where a component does not get there
-        and ``shutdown_on_failure``; without that it stays where it got to, which is logged.
+        Args:
+            unconfigured: names of those that stay unconfigured; unknown ones are warned of.
+            inactive: names of those that become inactive; likewise.
+            shutdown_on_failure: False: a component that fails stays in the state that it has
+                reached, which is logged.
+
+        Raises:
+            HardwareStartError: a component fails.
         """
         targets = dict.fromkeys(self.components, LifecycleState.ACTIVE)
         named = {LifecycleState.UNCONFIGURED: unconfigured, LifecycleState.INACTIVE: inactive}
@@ -167,48 +192,191 @@ class HardwareComponents:
 
     def shut_down(self) -> None:
         """Stop, close and finalize every component, as far as it still can."""
-        for owned in self.components.values():
-            owned.bring_down(LifecycleState.FINALIZED)
+        for loaded in self.components.values():
+            loaded.bring_down(LifecycleState.FINALIZED)
+
+    # --- interfaces ---------------------------------------------------------------------------
+
+    def available_commands(self) -> dict[str, CommandInterface]:
+        """
+        Return the command interfaces of active components and controllers, by name.
+
+        With ``lends_commands_of_inactive``, those of inactive components too.
+        """
+        lending = (
+            loaded
+            for loaded in self.components.values()
+            if loaded.state is LifecycleState.ACTIVE
+            or (self.lends_commands_of_inactive and loaded.is_available)
+        )
+        sources = chain((loaded.commands for loaded in lending), self._references.values())
+        return {name: handle for source in sources for name, handle in source.items()}
+
+    def available_states(self) -> dict[str, StateInterface]:
+        """Return the state interfaces of components, then those of active controllers."""
+        available = (loaded for loaded in self.components.values() if loaded.is_available)
+        sources = chain((loaded.states for loaded in available), self._exported_states.values())
+        return {name: handle for source in sources for name, handle in source.items()}
+
+    @staticmethod
+    def names(request: InterfaceRequest, available: Iterable[str]) -> tuple[str, ...]:
+        """Return the names of a request: all that are available, those listed, or none."""
+        if request.claim is Claim.ALL:
+            return tuple(available)
+        return request.names
+
+    def claim(self, controller: str, names: Sequence[str]) -> list[CommandInterface]:
+        """
+        Claim command interfaces for a controller.
+
+        Args:
+            controller: its name.
+            names: of the interfaces.
+
+        Returns:
+            The interfaces, in the same order.
+
+        Raises:
+            InterfaceError: one is not available, or claimed already; nothing is claimed.
+        """
+        available = self.available_commands()
+        for name in names:
+            if name not in available:
+                raise InterfaceError(f"the command interface '{name}' is not available")
+            holder = self.claims.get(name)
+            if holder is not None:
+                raise InterfaceError(f"the command interface '{name}' is claimed by '{holder}'")
+        self.claims.update(dict.fromkeys(names, controller))
+        return [available[name] for name in names]
+
+    def lend_states(self, names: Sequence[str]) -> list[StateInterface]:
+        """
+        Return state interfaces, in the order of ``names``; any number of controllers may read one.
+
+        Raises InterfaceError: one is not available.
+        """
+        available = self.available_states()
+        missing = [name for name in names if name not in available]
+        if missing:
+            raise InterfaceError(f"the state interface '{missing[0]}' is not available")
+        return [available[name] for name in names]
+
+    def release(self, controller: str) -> None:
+        """Release all claims of a controller."""
+        self.claims = {name: by for name, by in self.claims.items() if by != controller}
+
+    def add_exported(
+        self,
+        controller: str,
+        references: Iterable[CommandInterface],
+        states: Iterable[StateInterface],
+    ) -> None:
+        """Make the references and exported states of an active controller available to others."""
+        self._references[controller] = by_name(references, controller)
+        self._exported_states[controller] = by_name(states, controller)
+
+    def remove_exported(self, controller: str) -> None:
+        """Make the references and exported states of a controller unavailable."""
+        self._references.pop(controller, None)
+        self._exported_states.pop(controller, None)
+
+    # --- switching ----------------------------------------------------------------------------
+
+    def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """
+        Have the components check a switch, see :class:`HardwareComponent`.
+
+        Args:
+            start: command interfaces that are to be claimed.
+            stop: command interfaces that are to be released.
+
+        Raises:
+            HardwareError: a component refuses.
+        """
+        for loaded, begin, end in self._affected(start, stop):
+            try:
+                loaded.component.prepare_command_mode_switch(begin, end)
+            except Exception as error:  # a third-party component may raise anything
+                raise HardwareError(
+                    f"Hardware component '{loaded.info.name}' refuses the command mode: "
+                    f'{describe(error)}'
+                ) from error
+
+    def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """
+        Have the components carry out a switch; arguments as above.
+
+        Raises HardwareError: a component failed; those after it have not been called.
+        """
+        for loaded, begin, end in self._affected(start, stop):
+            try:
+                loaded.component.perform_command_mode_switch(begin, end)
+            except Exception as error:
+                raise HardwareError(
+                    f"Hardware component '{loaded.info.name}' failed to switch its command mode: "
+                    f'{describe(error)}'
+                ) from error
+
+    def _affected(
+        self, start: Sequence[str], stop: Sequence[str]
+    ) -> Iterator[tuple[LoadedComponent, list[str], list[str]]]:
+        """Yield the available components with some of these interfaces, each with its own."""
+        for loaded in self.components.values():
+            begin = [name for name in start if name in loaded.commands]
+            end = [name for name in stop if name in loaded.commands]
+            if loaded.is_available and (begin or end):
+                yield loaded, begin, end
+
+    # --- the control cycle --------------------------------------------------------------------
 
     def set_clock(self) -> None:
-        """The clock was set, forward or back, while all went on."""
-        for owned in self.components.values():
-            owned.set_clock()
+        """Follow a jump of the clock, while the robot went on."""
+        for loaded in self.components.values():
+            loaded.set_clock()
 
     def reset(self, time: int) -> list[str]:
-        """The world began anew at ``time``, ns; return the components that failed."""
+        """
+        Reset the components, after the simulation was reset to ``time``, ns.
+
+        Returns the names of those that failed and were brought down.
+        """
         for limiter in chain.from_iterable(self._limiters.values()):
             limiter.reset()
-        return self._each('reset', lambda owned: owned.reset(time))
+        return self._call_each('reset', lambda loaded: loaded.reset(time))
 
     def read(self, time: int, period: int) -> list[str]:
         """
-        Read every available component that is due; return the names of those that failed.
+        Read every available component that is due.
 
-        They are brought down, with their group.
+        Args:
+            time: of this tick, ns.
+            period: since the previous tick, ns.
+
+        Returns:
+            The names of those that failed and were brought down, along with their groups.
         """
-        return self._each('read', lambda owned: owned.read(time, period))
+        return self._call_each('read', lambda loaded: loaded.read(time, period))
 
     def write(self, time: int, period: int) -> list[str]:
         """
-        Write every active component that is due; return the names of those that are no longer
-        active.
+        Write every active component that is due; arguments as of :meth:`read`.
 
-        They are brought down, with their group; one that asked for it is only inactive.
+        Returns the names of those that are no longer active: brought down along with their groups,
+        or inactive if they asked for that.
         """
-        return self._each('write', lambda owned: owned.write(time, period))
+        return self._call_each('write', lambda loaded: loaded.write(time, period))
 
-    def _each(self, action: str, do: Callable[[LoadedComponent], None]) -> list[str]:
+    def _call_each(self, action: str, call: Callable[[LoadedComponent], None]) -> list[str]:
         lost: list[str] = []
-        for owned in self.components.values():
+        for loaded in self.components.values():
             try:
-                do(owned)
-            except Exception as error:  # a foreign component may raise anything; others go on
-                lost += self._lose(owned, action, error)
+                call(loaded)
+            except Exception as error:  # a third-party component may raise anything
+                lost += self._handle_failure(loaded, action, error)
         return lost
 
-    def _lose(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:
-        """Deactivate a component that asked for it; else bring it and its group down."""
+    def _handle_failure(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:
+        """Deactivate a component that asks for it, or bring it and its group down."""
         failed.report(action, error)
         name, group = failed.info.name, failed.info.group
         if action == 'write' and isinstance(error, HardwareDeactivationError):
@@ -227,140 +395,30 @@ class HardwareComponents:
                 lost.append(other.info.name)
         return lost
 
-
-def _listed(names: Iterable[str]) -> str:
-    return ', '.join(names) or 'none'
-
-
-class ResourceManager(HardwareComponents):
-    """The components of one robot, their interfaces and the claims on them."""
-
-    def __init__(
-        self,
-        log: Log,
-        robot: 'Robot | None' = None,
-        enforce_command_limits: bool = False,
-        stopwatch: Stopwatch = zero_clock,
-    ) -> None:
-        """See the base."""
-        super().__init__(log, robot, enforce_command_limits, stopwatch)
-        self.claims: dict[str, str] = {}
-        """Command interface → the controller that holds it."""
-        self.lends_commands_of_inactive = False
-        """True: controllers may command components that are not active (yet)."""
-        self._references: dict[str, dict[str, CommandInterface]] = {}
-        self._exported_states: dict[str, dict[str, StateInterface]] = {}
-
-    # --- interfaces ---------------------------------------------------------------------------
-
-    def available_commands(self) -> dict[str, CommandInterface]:
-        """
-        Every command interface of an active component or controller, by name.
-
-        With ``lends_commands_of_inactive`` those of inactive components too.
-        """
-        lending = (
-            owned
-            for owned in self.components.values()
-            if owned.state is LifecycleState.ACTIVE
-            or (self.lends_commands_of_inactive and owned.is_available)
-        )
-        sources = chain((owned.commands for owned in lending), self._references.values())
-        return {name: handle for source in sources for name, handle in source.items()}
-
-    def available_states(self) -> dict[str, StateInterface]:
-        """Every state interface that can be read, by name: components in their order first."""
-        available = (owned for owned in self.components.values() if owned.is_available)
-        sources = chain((owned.states for owned in available), self._exported_states.values())
-        return {name: handle for source in sources for name, handle in source.items()}
-
-    @staticmethod
-    def names(request: InterfaceRequest, available: Iterable[str]) -> tuple[str, ...]:
-        """Resolve a request to names: all that are available, those listed, or none."""
-        if request.claim is Claim.ALL:
-            return tuple(available)
-        return request.names
-
-    def claim(self, controller: str, names: Sequence[str]) -> list[CommandInterface]:
-        """Lend the command interfaces to a controller. Raises InterfaceError, claiming nothing."""
-        available = self.available_commands()
-        for name in names:
-            if name not in available:
-                raise InterfaceError(f"the command interface '{name}' is not available")
-            holder = self.claims.get(name)
-            if holder is not None:
-                raise InterfaceError(f"the command interface '{name}' is claimed by '{holder}'")
-        self.claims.update(dict.fromkeys(names, controller))
-        return [available[name] for name in names]
-
-    def lend_states(self, names: Sequence[str]) -> list[StateInterface]:
-        """Lend state interfaces, which any number may read. Raises InterfaceError."""
-        available = self.available_states()
-        missing = [name for name in names if name not in available]
-        if missing:
-            raise InterfaceError(f"the state interface '{missing[0]}' is not available")
-        return [available[name] for name in names]
-
-    def release(self, controller: str) -> None:
-        """Take all claims of a controller back."""
-        self.claims = {name: by for name, by in self.claims.items() if by != controller}
-
-    def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Ask each component about its commands that begin and end. Raises HardwareError."""
-        for owned, begin, end in self._concerned(start, stop):
-            try:
-                owned.component.prepare_command_mode_switch(begin, end)
-            except Exception as error:  # a foreign component may raise anything
-                raise HardwareError(
-                    f"Hardware component '{owned.info.name}' refuses the command mode: "
-                    f'{describe(error)}'
-                ) from error
-
-    def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Tell each component which of its commands begin and end now. Raises HardwareError."""
-        for owned, begin, end in self._concerned(start, stop):
-            try:
-                owned.component.perform_command_mode_switch(begin, end)
-            except Exception as error:
-                raise HardwareError(
-                    f"Hardware component '{owned.info.name}' failed to switch its command mode: "
-                    f'{describe(error)}'
-                ) from error
-
-    def _concerned(
-        self, start: Sequence[str], stop: Sequence[str]
-    ) -> Iterator[tuple[LoadedComponent, list[str], list[str]]]:
-        """The available components that own some of these, each with its own."""
-        for owned in self.components.values():
-            begin = [name for name in start if name in owned.commands]
-            end = [name for name in stop if name in owned.commands]
-            if owned.is_available and (begin or end):
-                yield owned, begin, end
-
     def enforce_limits(self, period: int) -> None:
         """
-        Bound what the controllers have written, for ``period`` ns; before every :meth:`write`.
+        Limit what controllers have written for the next ``period`` ns; before every :meth:`write`.
 
-        With ``enforce_command_limits`` commands are kept within the limits of their joints. In any
-        case an infinite one stops its joint, and so does what is no number at all: no component
-        is ever given one.
+        With ``enforce_command_limits``, commands are kept within the limits of their joints. In
+        any case a command that is infinite or not a number stops its joint: no component ever
+        gets one.
         """
-        for name, owned in self.components.items():
-            if not owned.is_available:
+        for name, loaded in self.components.items():
+            if not loaded.is_available:
                 continue
             try:
-                self._bound(name, owned, period)
+                self._limit(name, loaded, period)
             except (TypeError, OverflowError):
-                for command in owned.commands.values():
+                for command in loaded.commands.values():
                     if not _is_number(command.value):
                         self._stop(command)
-                self._bound(name, owned, period)
+                self._limit(name, loaded, period)
 
-    def _bound(self, name: str, owned: LoadedComponent, period: int) -> None:
-        """Raises TypeError or OverflowError where a command is no number."""
+    def _limit(self, name: str, loaded: LoadedComponent, period: int) -> None:
+        """Limit the commands of a component. Raises TypeError, OverflowError: not a number."""
         for limiter in self._limiters.get(name, ()):
             limiter.enforce(period / NANOSECONDS)
-        for command in owned.commands.values():
+        for command in loaded.commands.values():
             if math.isinf(command.value):
                 self._stop(command)
 
@@ -376,26 +434,13 @@ class ResourceManager(HardwareComponents):
         )
         command.value = still
 
-    # --- what controllers offer ---------------------------------------------------------------
 
-    def offer(
-        self,
-        controller: str,
-        references: Iterable[CommandInterface],
-        states: Iterable[StateInterface],
-    ) -> None:
-        """Make an active controller's references and exported states available to others."""
-        self._references[controller] = by_name(references, controller)
-        self._exported_states[controller] = by_name(states, controller)
-
-    def withdraw(self, controller: str) -> None:
-        """Take what a controller offered back."""
-        self._references.pop(controller, None)
-        self._exported_states.pop(controller, None)
+def _listed(names: Iterable[str]) -> str:
+    return ', '.join(names) or 'none'
 
 
 def _is_number(value: object) -> bool:
-    """Tell whether a stranger's controller has written what a component can read."""
+    """Return whether a command, which a third-party controller may have written, is a number."""
     try:
         math.isinf(value)
     except (TypeError, OverflowError):

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What goes through the ports of the controllers here: plain values, no ROS messages.
+The samples that the shipped controllers subscribe to and publish: plain values, no ROS messages.
 
 Stamps are integer nanoseconds; quaternions are (x, y, z, w), as everywhere in ROS.
 """

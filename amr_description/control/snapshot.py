@@ -1,9 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How a snapshot is taken of the controllers and the resources of a manager.
-
-What a controller manager is at one moment, for readers on other threads.
+The state of a controller manager at one instant, for readers on other threads.
 
 Fields follow ``controller_manager_msgs``: ControllerState, HardwareComponentState,
 HardwareInterface.
@@ -32,7 +30,7 @@ class InterfaceSnapshot:
 
 @dataclass(frozen=True, slots=True)
 class ControllerSnapshot:
-    """One controller; ``claimed`` only when active, ``required_…`` only once configured."""
+    """One controller; ``claimed`` is empty unless active, ``required_…`` unless configured."""
 
     name: str
     type: str
@@ -43,13 +41,13 @@ class ControllerSnapshot:
     required_states: tuple[str, ...]
     is_chainable: bool
     is_chained: bool = False
-    """True in chained mode: others command it, not its topics."""
+    """True in chained mode: another controller commands it, not its topics."""
     references: tuple[InterfaceSnapshot, ...] = ()
-    """What others may command of it, once configured; available while it is active."""
+    """What others may command, once it is configured; available while it is active."""
     exported_states: tuple[InterfaceSnapshot, ...] = ()
-    """What others may read of it, likewise."""
+    """What others may read, likewise."""
     chain_connections: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    """The controllers that it commands, each with the full names of those references."""
+    """The controllers that it commands, each with the full names of the references."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +59,7 @@ class ComponentSnapshot:
     plugin: str
     state: LifecycleState
     rate: int
-    """Reads and writes per s."""
+    """Of its reads and writes, Hz."""
     commands: tuple[InterfaceSnapshot, ...]
     states: tuple[InterfaceSnapshot, ...]
 
@@ -69,8 +67,7 @@ class ComponentSnapshot:
 @dataclass(frozen=True, slots=True)
 class ManagerSnapshot:
     """
-    All of one manager: controllers in the order of their updates, components in that of the
-    description.
+    A manager: controllers in the order of their updates, components in that of the description.
     """
 
     controllers: tuple[ControllerSnapshot, ...] = ()
@@ -83,7 +80,7 @@ class ManagerSnapshot:
 
     @property
     def commands(self) -> tuple[InterfaceSnapshot, ...]:
-        """Every command interface of hardware and, as references, of controllers, by name."""
+        """The command interfaces of hardware and the references of controllers, by name."""
         return _by_name(
             *(component.commands for component in self.components),
             *(controller.references for controller in self.controllers),
@@ -91,21 +88,24 @@ class ManagerSnapshot:
 
     @property
     def states(self) -> tuple[InterfaceSnapshot, ...]:
-        """Every state interface of hardware, and what controllers export, by name."""
+        """The state interfaces of hardware and those that controllers export, by name."""
         return _by_name(
             *(component.states for component in self.components),
             *(controller.exported_states for controller in self.controllers),
         )
 
 
-def _by_name(*groups: Iterable[InterfaceSnapshot]) -> tuple[InterfaceSnapshot, ...]:
-    return tuple(sorted(chain(*groups), key=lambda interface: interface.name))
-
-
 def take_snapshot(
     controllers: ControllerList, resources: ResourceManager, rate: int
 ) -> ManagerSnapshot:
-    """Copy what readers may know; on the owner's thread. ``rate``: of the manager, Hz."""
+    """
+    Take a snapshot; on the control thread.
+
+    Args:
+        controllers: of the manager.
+        resources: of the manager.
+        rate: of the manager, Hz.
+    """
     chains, claims = controllers.chains, resources.claims
     return ManagerSnapshot(
         controllers=tuple(
@@ -113,7 +113,7 @@ def take_snapshot(
             for loaded in controllers
         ),
         components=tuple(
-            _component(owned, claims, rate) for owned in resources.components.values()
+            _component(component, claims, rate) for component in resources.components.values()
         ),
     )
 
@@ -128,7 +128,7 @@ def _controller(
         name=loaded.name,
         type=loaded.type,
         state=loaded.state,
-        update_rate=rate // loaded.stride,
+        update_rate=rate // loaded.update_divisor,
         claimed=loaded.required_commands if loaded.is_active else (),
         required_commands=loaded.required_commands,
         required_states=loaded.required_states,
@@ -140,15 +140,15 @@ def _controller(
     )
 
 
-def _component(owned: LoadedComponent, claims: Container[str], rate: int) -> ComponentSnapshot:
+def _component(component: LoadedComponent, claims: Container[str], rate: int) -> ComponentSnapshot:
     return ComponentSnapshot(
-        name=owned.info.name,
-        type=owned.info.type,
-        plugin=owned.info.plugin,
-        state=owned.state,
-        rate=min(owned.info.rw_rate or rate, rate),
-        commands=_interfaces(owned.commands.values(), claims, owned.is_available),
-        states=_interfaces(owned.states.values(), (), owned.is_available),
+        name=component.info.name,
+        type=component.info.type,
+        plugin=component.info.plugin,
+        state=component.state,
+        rate=min(component.info.rw_rate or rate, rate),
+        commands=_interfaces(component.commands.values(), claims, component.is_available),
+        states=_interfaces(component.states.values(), (), component.is_available),
     )
 
 
@@ -159,3 +159,7 @@ def _interfaces(
         InterfaceSnapshot(handle.name, handle.data_type, is_available, handle.name in claims)
         for handle in handles
     )
+
+
+def _by_name(*groups: Iterable[InterfaceSnapshot]) -> tuple[InterfaceSnapshot, ...]:
+    return tuple(sorted(chain(*groups), key=lambda interface: interface.name))

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How long something takes and how regularly it runs: numbers that are kept as they come.
+Running statistics of execution times and rates.
 
-Nothing here knows the time: whoever measures is handed a :data:`Stopwatch`.
+Nothing here reads a clock: whoever measures is given a :data:`Stopwatch`.
 """
 
 from collections.abc import Callable
@@ -13,22 +13,22 @@ import math
 from amr_description.clock import NANOSECONDS
 
 type Stopwatch = Callable[[], int]
-"""Returns ns since some instant; it never goes back."""
+"""Returns a monotonic time, ns."""
 
 
 def zero_clock() -> int:
-    """A stopwatch for whoever does not ask how long anything takes: 0, always."""
+    """Return 0: a :data:`Stopwatch` that measures nothing."""
     return 0
 
 
 @dataclass(frozen=True, slots=True)
 class Statistic:
-    """What is known of the samples of one quantity, in its unit; all NaN while there is none."""
+    """The samples of one quantity, in its unit; all NaN without samples."""
 
     count: int = 0
     mean: float = math.nan
     standard_deviation: float = math.nan
-    """Of these samples (population): √(Σ(x − mean)² / count)."""
+    """Of the population: √(Σ(x − mean)² / count)."""
     minimum: float = math.nan
     maximum: float = math.nan
     latest: float = math.nan
@@ -36,10 +36,10 @@ class Statistic:
 
 class RunningStatistic:
     """
-    Takes samples one by one, in constant space.
+    Computes a :class:`Statistic` sample by sample, in constant space.
 
-    Welford's algorithm: unlike Σx² − (Σx)²/n it loses no digits where the samples are large and
-    close together, as rates are. (Welford, Technometrics 4(3), 1962; Knuth, TAOCP 2, 4.2.2.)
+    Welford's algorithm: unlike Σx² − (Σx)²/n it loses no digits if the samples are large and close
+    together, as rates are. (Welford, Technometrics 4(3), 1962; Knuth, TAOCP 2, 4.2.2.)
     """
 
     __slots__ = ('_count', '_mean', '_squares', '_minimum', '_maximum', '_latest')
@@ -48,7 +48,7 @@ class RunningStatistic:
         self.reset()
 
     def add(self, sample: float) -> None:
-        """Take in a sample, which is finite."""
+        """Add a sample, which is finite."""
         self._count = count = self._count + 1
         self._latest = sample
         deviation = sample - self._mean
@@ -70,7 +70,7 @@ class RunningStatistic:
         self._latest = math.nan
 
     def result(self) -> Statistic:
-        """Return what is known now."""
+        """Return the statistic of all samples so far."""
         if not self._count:
             return Statistic()
         return Statistic(
@@ -85,16 +85,16 @@ class RunningStatistic:
 
 @dataclass(frozen=True, slots=True)
 class CycleStatistic:
-    """Of something that runs again and again."""
+    """Of something that runs periodically."""
 
     execution_time: Statistic = Statistic()
-    """How long it took, µs."""
+    """µs."""
     periodicity: Statistic = Statistic()
-    """One over the time since it ran last, Hz."""
+    """One over the time since the previous run, Hz."""
 
 
 class RunningCycleStatistic:
-    """Takes one measurement a cycle; see :class:`CycleStatistic`."""
+    """Computes a :class:`CycleStatistic` cycle by cycle."""
 
     __slots__ = ('_execution_time', '_periodicity')
 
@@ -104,9 +104,11 @@ class RunningCycleStatistic:
 
     def add(self, duration: int, period: int | None) -> None:
         """
-        Take in a cycle that took ``duration``, ``period`` after the one before; ns.
+        Add a cycle.
 
-        ``period``: None for the first, which has none.
+        Args:
+            duration: its execution time, ns.
+            period: since the previous cycle, ns; None for the first.
         """
         self._execution_time.add(duration / 1000)
         if period is not None and period > 0:
@@ -118,5 +120,5 @@ class RunningCycleStatistic:
         self._periodicity.reset()
 
     def result(self) -> CycleStatistic:
-        """Return what is known now."""
+        """Return the statistic of all samples so far."""
         return CycleStatistic(self._execution_time.result(), self._periodicity.result())

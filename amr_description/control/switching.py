@@ -1,18 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-From the request of ``switch_controller`` to a plan of what is done.
+Switching controllers: a request is checked, becomes a plan, and the plan is carried out.
 
-Nothing is changed here; :mod:`amr_description.control.switching` carries the plan out.
+:class:`SwitchRequest` holds the controllers to activate and to deactivate, :class:`SwitchChecks`
+finds the reasons against it, and :class:`SwitchPlanner` makes a :class:`SwitchPlan` of the two;
+nothing has changed by then. :class:`SwitchExecution` carries the plan out. Third-party controllers
+and components may raise anything in the course of it: that is logged, and the others go on.
 
-The checks of ``switch_controller``, word for word as scripts grep for them.
-
-What one switch is about: who comes, who goes, and which mode that means for the others.
-
-Carrying out a switch that :mod:`amr_description.control.switching` has planned.
-
-A controller or a component of a stranger may raise anything at any point; what it raises is
-logged, and the others go on.
+Messages are those of ros2_control, to the letter, as scripts search for them. Everything runs on
+the control thread, between two ticks.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -27,29 +24,42 @@ from amr_description.control.plugin_errors import describe, log_traceback
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import ControllerError, HardwareError
 
+NOTHING_TO_SWITCH = (
+    'After checking the controllers, no controllers need to be activated or deactivated.'
+)
+
+
+class Strictness(enum.IntEnum):
+    """The constants of ``controller_manager_msgs/srv/SwitchController``."""
+
+    BEST_EFFORT = 1
+    STRICT = 2
+    AUTO = 3
+    FORCE_AUTO = 4
+
 
 @dataclass(slots=True)
 class SwitchRequest:
-    """The controllers there are, and those of them to activate and to deactivate, as asked."""
+    """The controllers to activate and to deactivate, out of all ``controllers``."""
 
     controllers: ControllerList
     entering: list[LoadedController] = field(default_factory=list)
     leaving: list[LoadedController] = field(default_factory=list)
 
     def will_be_active(self, controller: LoadedController) -> bool:
-        """Tell whether it stays active or becomes it."""
+        """Return whether a controller stays or becomes active."""
         stays = controller.is_active and controller not in self.leaving
         return stays or controller in self.entering
 
     def will_be_chained(self, controller: LoadedController) -> bool:
-        """Tell whether somebody will command it."""
+        """Return whether a controller will be commanded by another one."""
         return any(map(self.will_be_active, self.controllers.commanding(controller)))
 
     def add_mode_changes(self) -> frozenset[str]:
         """
-        Add to both lists whoever stays active but is commanded from now on, or no longer.
+        Add to both lists the active controllers that enter or leave chained mode.
 
-        A controller changes its mode only while it is inactive. Returns their names.
+        They have to be restarted, as the mode is changed only while inactive. Returns their names.
         """
         changing = [
             each
@@ -63,14 +73,14 @@ class SwitchRequest:
 
 
 class SwitchChecks:
-    """What speaks against a request, as it stands at the moment of each question."""
+    """Finds the reasons against a request, which may change between two calls."""
 
     def __init__(self, request: SwitchRequest, resources: ResourceManager) -> None:
         self._request = request
         self._resources = resources
 
     def objection_to_deactivation(self, controller: LoadedController) -> str:
-        """Say why it cannot be deactivated, or nothing."""
+        """Return why a controller cannot be deactivated; '': it can."""
         if not controller.is_active:
             return (
                 f"Controller with name '{controller.name}' can not be deactivated since it is not "
@@ -83,8 +93,8 @@ class SwitchChecks:
                     f"{refusal}preceding controller with name '{preceding.name}' is currently "
                     'active and will not be deactivated.'
                 )
-            comes_up = preceding in self._request.entering and not preceding.is_active
-            if comes_up and controller not in self._request.entering:
+            is_activated = preceding in self._request.entering and not preceding.is_active
+            if is_activated and controller not in self._request.entering:
                 return (
                     f"{refusal}preceding controller with name '{preceding.name}' is inactive and "
                     'will be activated.'
@@ -92,7 +102,7 @@ class SwitchChecks:
         return ''
 
     def objection_to_activation(self, controller: LoadedController) -> str:
-        """Say why it cannot be activated, or nothing; interfaces apart."""
+        """Return why a controller cannot be activated; '': it can, as far as its interfaces do."""
         return (
             self._objection_to_state(controller)
             or self._objection_by_following(controller)
@@ -137,7 +147,7 @@ class SwitchChecks:
         return ''
 
     def _objection_by_fallbacks(self, controller: LoadedController) -> str:
-        """A fallback that could not start now would be none."""
+        """Every fallback must be able to start right now."""
         refusal = f"Controller with name '{controller.name}' cannot be activated, as "
         fallbacks = [self._request.controllers.get(name) for name in controller.fallbacks]
         for name, fallback in zip(controller.fallbacks, fallbacks, strict=True):
@@ -146,11 +156,11 @@ class SwitchChecks:
                     f"{refusal}its fallback controller : '{name}' need to be configured and be in "
                     'inactive/active state!'
                 )
-        there = [each for each in fallbacks if each is not None]
+        loaded = [each for each in fallbacks if each is not None]
         commands, states = self._available(
-            [*self._request.entering, *there], self._request.leaving
+            [*self._request.entering, *loaded], self._request.leaving
         )
-        for fallback in there:
+        for fallback in loaded:
             wanted = fallback.wanted(commands, states)
             for kind, names, available in zip(
                 ('command', 'state'), wanted, (commands, states), strict=True
@@ -168,31 +178,29 @@ class SwitchChecks:
     def _available(
         self, entering: Iterable[LoadedController], leaving: Iterable[LoadedController]
     ) -> tuple[list[str], list[str]]:
-        """Command and state interfaces when these controllers have come and gone."""
+        """Return the command and state interfaces that are available after such a switch."""
         commands = dict.fromkeys(self._resources.available_commands())
         states = dict.fromkeys(self._resources.available_states())
         for controller in leaving:
-            for offered, there in (
-                (controller.ends.references, commands),
-                (controller.ends.exported_states, states),
-            ):
-                for name in offered:
-                    there.pop(name, None)
+            for name in controller.chain_interfaces.references:
+                commands.pop(name, None)
+            for name in controller.chain_interfaces.exported_states:
+                states.pop(name, None)
         for controller in entering:
-            commands.update(dict.fromkeys(controller.ends.references))
-            states.update(dict.fromkeys(controller.ends.exported_states))
+            commands.update(dict.fromkeys(controller.chain_interfaces.references))
+            states.update(dict.fromkeys(controller.chain_interfaces.exported_states))
         return list(commands), list(states)
 
     def check_interfaces(self) -> list[str]:
         """
-        Every interface must be there, and free or freed by this very request.
+        Check that every interface is available, and unclaimed or released by this request.
 
-        Returns the command interfaces. Raises ControllerError.
+        Returns the command interfaces that will be claimed. Raises ControllerError.
         """
         entering, leaving = self._request.entering, self._request.leaving
         commands, states = self._available(entering, leaving)
-        freed = {controller.name for controller in leaving}
-        promised: dict[str, None] = {}
+        releasing = {controller.name for controller in leaving}
+        claimed: dict[str, None] = {}
         for controller in entering:
             wanted_commands, wanted_states = controller.wanted(commands, states)
             refusal = f"Unable to activate controller '{controller.name}' since the "
@@ -203,60 +211,46 @@ class SwitchChecks:
                         f"{refusal}command interface '{name}' is not available."
                         f'{self._hint_at(name)}'
                     )
-                if holder is not None and holder not in freed:
+                if holder is not None and holder not in releasing:
                     raise ControllerError(
                         f"{refusal}command interface '{name}' is currently claimed by another "
                         'controller.'
                     )
-                if name in promised:
+                if name in claimed:
                     raise ControllerError(
                         f"{refusal}command interface '{name}' will be used by another controller "
                         'that is being activated.'
                     )
-            promised.update(dict.fromkeys(wanted_commands))
+            claimed.update(dict.fromkeys(wanted_commands))
             for name in wanted_states:
                 if name not in states:
                     raise ControllerError(f"{refusal}state interface '{name}' is not available.")
-        return list(promised)
+        return list(claimed)
 
     def _hint_at(self, command: str) -> str:
-        """Name the hardware component that has the command but does not lend it now."""
-        for name, owned in self._resources.components.items():
-            if command in owned.commands:
-                return f" Its hardware component '{name}' is {owned.state.label}, not active."
+        """Return which hardware component has a command that is not available; '': none."""
+        for name, component in self._resources.components.items():
+            if command in component.commands:
+                return f" Its hardware component '{name}' is {component.state.label}, not active."
         return ''
-
-
-NOTHING_TO_SWITCH = (
-    'After checking the controllers, no controllers need to be activated or deactivated.'
-)
-
-
-class Strictness(enum.IntEnum):
-    """The constants of ``controller_manager_msgs/srv/SwitchController``."""
-
-    BEST_EFFORT = 1
-    STRICT = 2
-    AUTO = 3
-    FORCE_AUTO = 4
 
 
 @dataclass(frozen=True, slots=True)
 class SwitchPlan:
-    """What is to be done, in this order: first deactivate, then activate."""
+    """A switch that has passed the checks: first deactivate, then activate."""
 
     deactivate: tuple[LoadedController, ...]
     activate: tuple[LoadedController, ...]
     chained: frozenset[str]
-    """Those to activate whose references somebody commands."""
+    """Names of those to activate in chained mode."""
     restarted: frozenset[str]
-    """Those in both lists only because that changes; the request did not name them."""
+    """Names of those in both lists only to enter or leave chained mode, without being named."""
     start: tuple[str, ...]
-    """The command interfaces that will be claimed."""
+    """Names of the command interfaces that will be claimed."""
 
 
-class Switching:
-    """Plans one switch."""
+class SwitchPlanner:
+    """Plans one switch, and changes nothing."""
 
     def __init__(
         self,
@@ -272,7 +266,16 @@ class Switching:
         self._log = log
 
     def plan(self, activate: Sequence[str], deactivate: Sequence[str]) -> SwitchPlan:
-        """Return what can be done. Raises ControllerError with the message of the response."""
+        """
+        Return what can be done: with BEST_EFFORT, controllers that fail a check are left out.
+
+        Args:
+            activate: names of controllers.
+            deactivate: names of controllers.
+
+        Raises:
+            ControllerError: with the message of the response.
+        """
         request = self._request
         request.leaving = self._known(deactivate, 'deactivate')
         request.entering = self._known(activate, 'activate')
@@ -311,20 +314,19 @@ class Switching:
         return known
 
     def _drop_invalid(self) -> None:
-        """Until nothing is objected to: what goes may have been the ground of something else."""
-        is_settled = False
-        while not is_settled:
-            is_settled = not (
-                self._drop(self._request.leaving, self._checks.objection_to_deactivation)
-                or self._drop(self._request.entering, self._checks.objection_to_activation)
-            )
+        """Remove invalid controllers until none is left: others may have needed each of them."""
+        request, checks = self._request, self._checks
+        while self._drop(request.leaving, checks.objection_to_deactivation) or self._drop(
+            request.entering, checks.objection_to_activation
+        ):
+            pass
 
     def _drop(
-        self, asked: list[LoadedController], objection_to: Callable[[LoadedController], str]
+        self, requested: list[LoadedController], objection_to: Callable[[LoadedController], str]
     ) -> bool:
-        """Take out what is objected to; tell whether anything was. Raises where that is strict."""
-        before = len(asked)
-        for controller in list(asked):
+        """Remove the invalid controllers; return whether there were any. STRICT: raise instead."""
+        before = len(requested)
+        for controller in list(requested):
             objection = objection_to(controller)
             if not objection:
                 continue
@@ -332,12 +334,12 @@ class Switching:
                 self._log(Severity.ERROR, objection)
                 raise ControllerError(objection)
             self._log(Severity.WARN, objection)
-            asked.remove(controller)
-        return len(asked) < before
+            requested.remove(controller)
+        return len(requested) < before
 
 
 class SwitchExecution:
-    """Moves controllers between inactive and active, and tells the hardware."""
+    """Activates and deactivates controllers, and switches the command modes of the hardware."""
 
     def __init__(self, controllers: ControllerList, resources: ResourceManager, log: Log) -> None:
         self._controllers = controllers
@@ -348,11 +350,16 @@ class SwitchExecution:
         """
         Deactivate, then activate.
 
-        Raises ControllerError when the hardware refuses (nothing has then changed), when it then
-        fails all the same (what was to be deactivated is), and when a controller cannot be
-        activated (it is unconfigured then, if it raised itself): STRICT then deactivates the
-        plan's others again. Those that the request did not name, and which only were to change
-        their mode, go on.
+        Args:
+            plan: of the switch.
+            strictness: STRICT: if a controller cannot be activated, the others of the plan are
+                deactivated again, except those that are merely restarted.
+            time: present time, ns.
+
+        Raises:
+            ControllerError: the hardware refuses, and nothing has changed; or it fails afterwards,
+                with the controllers deactivated; or a controller cannot be activated, and is then
+                unconfigured if it raised itself.
         """
         stop = [name for c in plan.deactivate for name in c.required_commands]
         self._prepare(plan.start, stop)
@@ -360,16 +367,16 @@ class SwitchExecution:
         try:
             self._perform(plan.start, stop)
         except ControllerError:
-            self._mend(time)
+            self._restore_chains(time)
             raise
         failed = [c for c in plan.activate if not self._activate(c, time, c.name in plan.chained)]
         if not failed:
             return
         if strictness is Strictness.STRICT:
             named = (c for c in reversed(plan.activate) if c.name not in plan.restarted)
-            self.drop([c for c in named if c.is_active], time)
+            self.force_deactivate([c for c in named if c.is_active], time)
         self._release_commands(failed)
-        self._mend(time)
+        self._restore_chains(time)
         self._clean_up(failed)
         raise ControllerError(
             'Failed switching controllers.... '
@@ -377,13 +384,13 @@ class SwitchExecution:
         )
 
     def _clean_up(self, controllers: Iterable[LoadedController]) -> None:
-        """Bring what raised in its own ``activate`` to unconfigured, as ros2_control does."""
+        """Unconfigure the controllers whose ``activate`` raised, as ros2_control does."""
         for controller in controllers:
             if not controller.has_failed:
                 continue
             try:
                 controller.cleanup()
-            except Exception as error:  # it is unconfigured all the same
+            except Exception as error:  # it is unconfigured nevertheless
                 self._log(
                     Severity.ERROR,
                     f"Failed to clean '{controller.name}' up: {describe(error)}",
@@ -391,27 +398,27 @@ class SwitchExecution:
                 log_traceback(self._log, error)
         self._controllers.link()
 
-    def drop(self, controllers: Sequence[LoadedController], time: int) -> None:
-        """Deactivate controllers that cannot go on; nobody is asked."""
+    def force_deactivate(self, controllers: Sequence[LoadedController], time: int) -> None:
+        """Deactivate controllers without any checks; ``time`` in ns."""
         if controllers:
             self._deactivate(controllers, time)
             self._release_commands(controllers)
 
-    def _mend(self, time: int) -> None:
+    def _restore_chains(self, time: int) -> None:
         """
-        Leave, after a failure, no controller active without those that it needs, and none in
-        chained mode without one that commands it.
+        After a failure, deactivate the controllers that lack one that they need, and restart those
+        in chained mode that nobody commands any more.
         """
         for c in self._controllers.activation_order(self._controllers.active):
             if not all(needed.is_active for needed in self._controllers.needed(c)):
-                self.drop([c], time)
+                self.force_deactivate([c], time)
         for c in self._controllers.active:
             is_commanded = any(each.is_active for each in self._controllers.commanding(c))
             if c.controller.is_chained and not is_commanded:
                 self._deactivate([c], time)
                 if not self._activate(c, time, chained=False):
                     self._release_commands([c])
-                    self._mend(time)
+                    self._restore_chains(time)
                     return
 
     def _prepare(self, start: Sequence[str], stop: Sequence[str]) -> None:
@@ -430,7 +437,7 @@ class SwitchExecution:
             raise ControllerError(f'Error while performing mode switch. {error}') from error
 
     def _release_commands(self, controllers: Iterable[LoadedController]) -> None:
-        """Tell the hardware that nobody commands these any more."""
+        """Switch the command modes of the hardware after an unplanned deactivation."""
         stop = [name for c in controllers for name in c.required_commands]
         try:
             self._resources.perform_command_mode_switch((), stop)
@@ -450,7 +457,7 @@ class SwitchExecution:
         for controller in controllers:
             try:
                 controller.deactivate(self._resources, time)
-            except Exception as error:  # it is inactive all the same, and its claims are free
+            except Exception as error:  # it is inactive nevertheless, and its claims released
                 self._log(
                     Severity.ERROR,
                     f"Failed to deactivate '{controller.name}' cleanly: {describe(error)}",
@@ -459,5 +466,5 @@ class SwitchExecution:
 
 
 def names_of(controllers: Iterable[LoadedController]) -> str:
-    """Return the names as the messages of ros2_control list them."""
+    """Return the names, listed as in messages of ros2_control."""
     return ' '.join(controller.name for controller in controllers)

@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a simulated hardware component sees of the world: its own robot, by the names of its URDF.
+The simulated world as a hardware component sees it: its own robot, by the names of its URDF.
 
-A part of the contracts (:mod:`amr_description.control.contracts`). One thread, the owner, calls
-everything. MuJoCo implements it in ``sim/``; a test's fake is forty lines.
+A part of the contracts (:mod:`amr_description.control.contracts`); used on the control thread.
+``sim/`` implements it with MuJoCo; a fake for tests takes forty lines.
 """
 
 from collections.abc import Sequence
@@ -17,44 +17,47 @@ if TYPE_CHECKING:
 
 
 class JointGroup(Protocol):
-    """
-    Some joints of one robot, in the order in which they were asked for; cheap to call in the tick.
-    """
+    """Some joints of one robot, in the requested order; cheap to call in every cycle."""
 
     def positions(self) -> list[float]:
-        """rad or m."""
+        """Return the positions, rad or m."""
 
     def velocities(self) -> list[float]:
-        """rad/s or m/s."""
+        """Return the velocities, rad/s or m/s."""
 
     def efforts(self) -> list[float]:
-        """The actuators' generalised force, N·m or N."""
+        """Return the generalised forces of the actuators, N·m or N."""
 
     def command(self, interface: str, values: Sequence[float]) -> None:
         """
-        Let the joints follow ``interface`` from now on, and no other: ``position`` (rad or m),
-        ``velocity`` (rad/s or m/s) or ``effort`` (N·m or N). One value a joint, kept until the
-        next call.
+        Let the joints follow one command interface, and no other, from now on.
 
-        A change of the interface does not kick the joints. Position and velocity are servos
-        within the velocity and effort limits of the URDF; an overloaded joint that has slipped is
-        brought back to its position by the next call. Raises SimulationError if a value is not
-        finite, or if a joint's ``<ros2_control>`` block declares no such command.
+        Changing the interface does not jerk the joints. Position and velocity servos keep the
+        velocity and effort limits of the URDF; an overloaded joint that has slipped is brought
+        back to its position by the next call.
+
+        Args:
+            interface: ``position`` (rad or m), ``velocity`` (rad/s or m/s) or ``effort`` (N·m or
+                N).
+            values: one for each joint, in force until the next call.
+
+        Raises:
+            SimulationError: a value is not finite, or the ``<ros2_control>`` block of a joint
+                declares no such command.
         """
 
     def hold(self) -> None:
         """
-        Bring the joints to a stop and keep them where they stop, within their effort limits; may
-        be called again at will.
+        Stop the joints and hold them where they stop, within their effort limits; may be repeated.
         """
 
     def release(self) -> None:
-        """Let the joints swing: no actuator exerts a force."""
+        """Let the joints move freely: no actuator exerts a force."""
 
 
 @dataclass(frozen=True, slots=True)
 class ImuReading:
-    """What an inertial measurement unit measures, in its own axes (REP 145)."""
+    """A measurement of an inertial measurement unit, in its own axes (REP 145)."""
 
     orientation: 'Quaternion'
     """x, y, z, w of the rotation from the unit's axes to the world's."""
@@ -65,11 +68,7 @@ class ImuReading:
 
 
 class World(Protocol):
-    """
-    What a simulated hardware component sees of the world: its own robot, by the names of its URDF.
-
-    It stays valid when other robots come and go.
-    """
+    """One robot in a simulated world; stays valid when other robots are added and removed."""
 
     @property
     def time(self) -> int:
@@ -77,29 +76,31 @@ class World(Protocol):
 
     @property
     def description(self) -> 'Robot':
-        """The robot, as its URDF has it."""
+        """The URDF of the robot."""
 
     @property
     def seed(self) -> Sequence[int]:
-        """Numbers from 0 on that no other robot has; the noise of its sensors follows."""
+        """The seed of its sensors' noise: numbers ≥ 0, different for every robot."""
 
     def joints(self, names: Sequence[str]) -> JointGroup:
-        """
-        These joints, in this order. Raises SimulationError naming what is missing and what there
-        is.
-        """
+        """Return these joints, in this order. Raises SimulationError: there is no such joint."""
 
     def pose(self, link: str) -> 'Transform':
-        """The transform from ``link`` to the world frame: the true pose of the link."""
+        """Return the transform from ``link`` to the world frame: the true pose of the link."""
 
     def velocity(self, link: str) -> 'tuple[Vector, Vector]':
         """
-        Linear (m/s) and angular (rad/s) velocity of the link's origin, both in the link's own
-        axes.
+        Return the linear (m/s) and angular (rad/s) velocity of a link's origin, in its own axes.
         """
 
-    def imu(self, link: str, place: 'Transform') -> ImuReading:
+    def imu(self, link: str, mount_pose: 'Transform') -> ImuReading:
         """
-        What an inertial measurement unit on ``link`` measures; ``place``: the transform from the
-        unit to the link. Raises SimulationError naming the links there are.
+        Return the measurement of an inertial measurement unit.
+
+        Args:
+            link: the link that it is mounted on.
+            mount_pose: the transform from the unit to the link.
+
+        Raises:
+            SimulationError: there is no such link.
         """

@@ -32,7 +32,7 @@ from std_msgs.msg import Header
 from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.diagnostics import HARDWARE_ID, Report, reports, take_measurements
-from amr_description.control.introspection import interfaces_of, Registry, statistics_of
+from amr_description.control.introspection import interfaces_of, IntrospectionRegistry, statistics_of
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
@@ -150,11 +150,11 @@ class RegistryTopics:
         self,
         node: Node,
         name: str,
-        registry_of: Callable[[ControllerManager], Registry],
+        registry_of: Callable[[ControllerManager], IntrospectionRegistry],
         outgoing: LoopPublisher,
     ) -> None:
         self._registry_of = registry_of
-        self._registry = Registry((), list)
+        self._registry = IntrospectionRegistry((), list)
         self._version = 0
         self._clock = node.get_clock()
         self._outgoing = outgoing

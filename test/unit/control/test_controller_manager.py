@@ -409,7 +409,7 @@ def test_every_transition_is_told_as_it_begins_and_as_it_ends():
     manager.load(
         controller,
         'a/Type',
-        watch=lambda start, goal, reached: told.append(
+        on_transition=lambda start, goal, reached: told.append(
             f'{start.label} > {goal.label}: {reached.label if reached else "..."}'
         ),
     )
@@ -541,7 +541,7 @@ def test_the_hardware_is_shut_down_whatever_watches_the_controllers():
     def watch(*_):
         raise RuntimeError('the context is gone')
 
-    manager.load(FakeController(), 'a/Type', watch=watch)
+    manager.load(FakeController(), 'a/Type', on_transition=watch)
     with pytest.raises(RuntimeError, match='the context is gone'):
         manager.shut_down(0)
     assert hardware.count('deactivate') == hardware.count('cleanup') == 1

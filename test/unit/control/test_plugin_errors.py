@@ -192,7 +192,7 @@ class UnspeakableError(Exception):
 @pytest.mark.parametrize(
     ('error', 'text'),
     [
-        (UnspeakableError(), 'it cannot be put in words'),
+        (UnspeakableError(), 'its text cannot be formatted'),
         (ValueError('port \udcff'), r'port \udcff'),
     ],
 )
