@@ -3,7 +3,7 @@
 """
 ``mujoco_sim``: the simulator, in Gazebo's place.
 
-It owns ``/clock``, takes robots in and runs their controller managers. It is asked by the services
+It publishes ``/clock``, spawns robots and runs their controller managers. Its services are those
 of ``simulation_interfaces``, below ``/mujoco_sim/``::
 
     ~/spawn_entity, ~/delete_entity …     sim/ros/spawn_services.py
@@ -12,7 +12,7 @@ of ``simulation_interfaces``, below ``/mujoco_sim/``::
                                           sim/ros/simulation_services.py
     ~/get_available_worlds …              sim/ros/simulation_services.py
 
-On ``~/world`` it tells its static surroundings, as markers (sim/ros/world_markers.py), and on
+It publishes its static surroundings as markers on ``~/world`` (sim/ros/world_markers.py), and on
 ``~/received`` which commands have arrived (control/ros/loop_publisher.py).
 """
 
@@ -24,7 +24,7 @@ from rclpy.node import Node
 
 from amr_description.ros.arguments import inherited, ros_arguments
 from amr_description.ros.parameters import declare
-from amr_description.ros.runtime import argument_errors, program, ros, spin
+from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.sim.ros import (
     entity_services,
     simulation_services,
@@ -52,8 +52,8 @@ class MujocoSim:
         self.node = Node('mujoco_sim')
         try:
             parameters = declare(self.node, SimulationParameters)
-            going_on = inherited(ros_arguments(args), with_parameters=False)
-            self.simulation = Simulation(self.node, executor, parameters, going_on)
+            passed_on = inherited(ros_arguments(args), with_parameters=False)
+            self.simulation = Simulation(self.node, executor, parameters, passed_on)
         except Exception:
             self.node.destroy_node()
             raise
@@ -80,29 +80,19 @@ class MujocoSim:
 
 
 def simulate(args: list[str] | None) -> int:
-    """Run until asked to stop; 1 when the owner's thread failed."""
+    """Run until asked to stop; return 1 when the control thread failed, else 0."""
     with ros(args) as stop:
         executor = SingleThreadedExecutor()
         with argument_errors():
             sim = MujocoSim(executor, sys.argv[1:] if args is None else args)
-        owner = sim.simulation.owner
+        simulation = sim.simulation
         executor.add_node(sim.node)
-        is_stopping = False
-
-        def end() -> None:
-            nonlocal is_stopping
-            is_stopping = True
-            executor.wake()
-
-        sim.simulation.on_quit = end
         try:
-            with stop.on_stop(end):
-                sim.simulation.start()
-                spin(executor, lambda: is_stopping or owner.failed)
+            serve(executor, stop, simulation.start, until=lambda: simulation.has_ended)
         finally:
             sim.close()
             executor.shutdown()
-    return 1 if owner.failed else 0
+    return 1 if simulation.loop_thread.failed else 0
 
 
 def main(args: list[str] | None = None) -> int:

@@ -3,12 +3,12 @@
 """
 ``ros2_control_node``: a controller manager by itself, for real or mock hardware.
 
-The loop is the simulator's, paced by the machine's clock, or with ``use_sim_time`` by the
+Its loop is that of the simulator, paced by the system clock, or with ``use_sim_time`` by the
 ``/clock`` of another process. The robot is what the topic ``robot_description`` says. Parameters
 beside those of the manager, as in controller_manager 4.x:
 
 ============================ ====================================================================
-``overruns.manage``          leave out cycles that were missed, instead of hurrying after (true)
+``overruns.manage``          leave out cycles that were missed, instead of catching up (true)
 ``thread_priority``          of the loop, by SCHED_FIFO, where Linux allows it (50)
 ``cpu_affinity``             cores that the loop may run on; none: all (an integer, or a list)
 ``lock_memory``              keep the process in RAM (false)
@@ -23,15 +23,20 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
-from amr_description.control.ros.controller_manager_node import ControllerManagerNode, NODE_NAME
+from amr_description.control.ros.controller_manager_node import (
+    ControllerManagerNode,
+    NODE_NAME,
+    PreparedManager,
+    RunningManager,
+)
 from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.loop_thread import CallQueue, LoopThread
+from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import SimTimePacer, SystemClockPacer
 from amr_description.control.ros.realtime import lock_memory, set_cpu_affinity, set_fifo_priority
 from amr_description.control.ros.robot_description import DescriptionSource
@@ -40,55 +45,59 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.log_thread import LogThread
-from amr_description.ros.runtime import argument_errors, program, ros, spin
+from amr_description.ros.messages import nanoseconds
+from amr_description.ros.qos import CLOCK
+from amr_description.ros.runtime import argument_errors, program, ros, serve
 
-_CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
-
-class StandAlone:
-    """One manager, its loop and what paces it."""
+class StandAloneManager:
+    """One controller manager, its loop and what paces it."""
 
     def __init__(self, executor: SingleThreadedExecutor, arguments: Sequence[str]) -> None:
         """``arguments``: ROS arguments of the process. Raises ParameterError."""
         self.failure: HardwareStartError | None = None
         """What ended the start, see ``shutdown_on_initial_state_failure``."""
         self._executor = executor
-        self._mailbox = CallQueue()
-        self.logs = LogThread()
-        self._outgoing = LoopPublisher(get_logger(NODE_NAME))
-        self.owner = LoopThread(self._mailbox, executor)
+        self._calls = CallQueue()
+        self.loop_thread = LoopThread(self._calls, executor)
+        self._context = LoopContext(
+            self.loop_thread, LoopPublisher(get_logger(NODE_NAME)), LogThread()
+        )
         try:
-            self._manager = ControllerManagerNode(
-                self.owner, self._outgoing, self.logs, namespace='/', arguments=arguments
+            self._manager_node = ControllerManagerNode(
+                self._context, namespace='/', arguments=arguments
             )
         except Exception:
-            self.logs.stop()
+            self._context.logs.stop()
             raise
-        self.node, self._log = self._manager.node, self._manager.log
+        self._latest: ControllerManagerNode | PreparedManager | RunningManager
+        """Has all nodes that were made so far."""
+        self._latest = self._manager_node
+        self.node, self._log = self._manager_node.node, self._manager_node.log
         try:
             self._read_options()
-            self._period = round(NANOSECONDS / self._manager.parameters.update_rate)
-            self.owner.loop = self._make_loop()
+            self._period = round(NANOSECONDS / self._manager_node.parameters.update_rate)
+            self.loop_thread.loop = self._make_loop()
         except Exception:
             self.close()
             raise
-        self.owner.on_start = self._ask_linux
+        self.loop_thread.on_start = self._set_scheduling
         executor.add_node(self.node)
 
     def start(self) -> None:
-        """Wait for a robot, and let time begin."""
+        """Wait for a robot description, and start the loop."""
         DescriptionSource(self.node, self._log, self._bring_up)
         self._log(
             Severity.INFO,
             f'Spawning {self.node.get_name()} RT thread with scheduler priority: {self._priority}',
         )
-        self.owner.start()
+        self.loop_thread.start()
 
     def close(self) -> None:
         """Stop the motors, then remove the nodes."""
-        self.owner.stop()
-        self._manager.destroy()
-        self.logs.stop()
+        self.loop_thread.stop()
+        self._latest.destroy()
+        self._context.logs.stop()
 
     def _read_options(self) -> None:
         self._manages_overruns = option(self.node, 'overruns.manage', True, bool)
@@ -98,64 +107,66 @@ class StandAlone:
         self._cores = [cores] if isinstance(cores, int) else cores
 
     def _make_loop(self) -> Loop:
-        rate = self._manager.parameters.update_rate
+        rate = self._manager_node.parameters.update_rate
         self._log(Severity.INFO, f'update rate is {rate} Hz')
         if self.node.get_parameter('use_sim_time').value:
-            clock = SimTimePacer(self._mailbox)
-        else:
-            self._log(
-                Severity.INFO,
-                'Using Steady (Monotonic) clock for triggering controller manager cycles.',
-            )
-            manages = self._manages_overruns
-            clock = SystemClockPacer(self._mailbox, self._log, rate, manages_overruns=manages)
-            self._log(
-                Severity.INFO, f'Overruns handling is : {"enabled" if manages else "disabled"}'
-            )
-        self._clock = clock
-        loop = Loop(clock, clock, self._mailbox, self._outgoing, self._period)
-        clock.on_step = loop.set_clock
-        if isinstance(clock, SimTimePacer):
-            clock.on_step = loop.reset
-            loop.pause()
-            clock.on_start = loop.resume
-            self.node.create_subscription(
-                Clock, '/clock', lambda m: clock.hear(_nanoseconds(m)), _CLOCK_QOS
-            )
+            return self._make_sim_time_loop()
+        self._log(
+            Severity.INFO,
+            'Using Steady (Monotonic) clock for triggering controller manager cycles.',
+        )
+        manages = self._manages_overruns
+        pacer = SystemClockPacer(self._calls, self._log, rate, manages_overruns=manages)
+        self._log(Severity.INFO, f'Overruns handling is : {"enabled" if manages else "disabled"}')
+        loop = self._loop_of(pacer)
+        pacer.on_time_jump = loop.set_clock
         return loop
 
+    def _make_sim_time_loop(self) -> Loop:
+        pacer = SimTimePacer(self._calls)
+        loop = self._loop_of(pacer)
+        loop.pause()
+        pacer.on_start = loop.resume
+        pacer.on_time_jump = loop.reset
+        self.node.create_subscription(
+            Clock, '/clock', lambda message: pacer.receive(nanoseconds(message.clock)), CLOCK
+        )
+        return loop
+
+    def _loop_of(self, pacer: SystemClockPacer | SimTimePacer) -> Loop:
+        self._pacer = pacer
+        return Loop(pacer, pacer, self._calls, self._context.publisher, self._period)
+
     async def _bring_up(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
-        self._manager.prepare(robot, hardware)
+        prepared = self._latest = self._manager_node.prepare(robot, hardware)
         try:
-            await self.owner.submit(self._take_manager)
+            manager = await self.loop_thread.submit(lambda: self._add_manager(prepared))
         except HardwareStartError as error:
             self.failure = error
             self._executor.wake()
             return
         except Exception:
-            self._manager.forget_hardware()
+            prepared.release()
+            self._latest = self._manager_node
             raise
-        self._manager.start()
+        self._latest = prepared.serve(manager)
 
-    def _take_manager(self) -> None:
-        """On the owner's thread; how long it takes is no overrun, as nothing ran before it."""
+    def _add_manager(self, prepared: PreparedManager) -> ControllerManager:
+        """On the control thread; how long it takes is no overrun, as nothing ran before it."""
         try:
-            manager = self._manager.bring_up(None, self._period)
+            manager = prepared.bring_up(None, self._period)
         finally:
-            self._clock.resume(0)
-        manager.begin(self._clock.time)
-        self.owner.loop.managers.append(manager)
+            self._pacer.resume(0)
+        manager.begin(self._pacer.time)
+        self.loop_thread.loop.managers.append(manager)
+        return manager
 
-    def _ask_linux(self) -> None:
-        """On the owner's thread, before its first turn."""
+    def _set_scheduling(self) -> None:
+        """On the control thread, before its first cycle."""
         set_fifo_priority(self._priority, self._log)
         set_cpu_affinity(self._cores, self._log)
         if self._locks_memory:
             lock_memory(self._log)
-
-
-def _nanoseconds(message: Clock) -> int:
-    return message.clock.sec * NANOSECONDS + message.clock.nanosec
 
 
 def option(node: Node, name: str, default: Any, *kinds: type) -> Any:
@@ -167,34 +178,36 @@ def option(node: Node, name: str, default: Any, *kinds: type) -> Any:
     return value
 
 
-def serve(args: list[str] | None) -> int:
-    """Run until asked to stop; 1 when the owner's thread failed. Raises HardwareStartError."""
+def control(args: list[str] | None) -> int:
+    """
+    Run until asked to stop; return 1 when the control thread failed, else 0.
+
+    Raises HardwareStartError.
+    """
     with ros(args) as stop:
         executor = SingleThreadedExecutor()
         with argument_errors():
-            robot = StandAlone(executor, ros_arguments(sys.argv[1:] if args is None else args))
-        is_stopping = False
-
-        def wake() -> None:
-            nonlocal is_stopping
-            is_stopping = True
-            executor.wake()
-
+            alone = StandAloneManager(
+                executor, ros_arguments(sys.argv[1:] if args is None else args)
+            )
         try:
-            with stop.on_stop(wake):
-                robot.start()
-                spin(executor, lambda: is_stopping or robot.owner.failed or robot.failure)
+            serve(
+                executor,
+                stop,
+                alone.start,
+                until=lambda: alone.loop_thread.failed or alone.failure,
+            )
         finally:
-            robot.close()
+            alone.close()
             executor.shutdown()
-        if robot.failure is not None:
-            raise robot.failure
-    return 1 if robot.owner.failed else 0
+        if alone.failure is not None:
+            raise alone.failure
+    return 1 if alone.loop_thread.failed else 0
 
 
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
-    return program(lambda: serve(args), stopped=0)
+    return program(lambda: control(args), stopped=0)
 
 
 if __name__ == '__main__':

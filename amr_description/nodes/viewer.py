@@ -41,7 +41,7 @@ from rclpy.node import Node
 
 from amr_description.parameters import parameter
 from amr_description.ros.parameters import declare
-from amr_description.ros.runtime import argument_errors, program, ros, spin
+from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.viewer.ros.backend import GraphBackend
 from amr_description.viewer.server import DEFAULT_HOST, Server, ServerSettings
 
@@ -77,20 +77,15 @@ def view(args: list[str] | None) -> None:
             with argument_errors():
                 server = _server(node, executor)
             executor.add_node(node)
-            is_stopping = False
 
-            def end() -> None:
-                nonlocal is_stopping
-                is_stopping = True
-                executor.wake()
-
-            with stop.on_stop(end):
+            def start() -> None:
                 server.start()
-                try:
-                    node.get_logger().info(f'The page is at {server.url}')
-                    spin(executor, lambda: is_stopping)
-                finally:
-                    server.stop()
+                node.get_logger().info(f'The page is at {server.url}')
+
+            try:
+                serve(executor, stop, start)
+            finally:
+                server.stop()
         finally:
             stop.leave()
             executor.shutdown()

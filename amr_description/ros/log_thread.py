@@ -11,10 +11,9 @@ import re
 import threading
 import time
 
-from rclpy.impl.rcutils_logger import RcutilsLogger
-
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.plugin_errors import describe, log_traceback
+from amr_description.ros.rclpy_internals import RcutilsLogger
 from amr_description.text import encodable, unwrap
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)

@@ -1,43 +1,50 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Stamps, poses, velocities and transforms to and from their ROS messages."""
+"""
+Stamps, poses, velocities and transforms to and from their ROS messages.
 
-from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Accel, Pose, Twist, Vector3
+``fill_…`` writes into a message that is there already. Times are in ns.
+"""
+
+from typing import TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform, Vector
 
+if TYPE_CHECKING:  # geometry_msgs takes its time to import, and many need stamps only
+    from builtin_interfaces.msg import Time
+    from geometry_msgs.msg import Accel, Pose, Twist, Vector3
 
-def nanoseconds(stamp: Time) -> int:
+
+def nanoseconds(stamp: 'Time') -> int:
     """Return a stamp as integer nanoseconds."""
     return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
-def fill_stamp(time: int, stamp: Time) -> None:
+def fill_stamp(time: int, stamp: 'Time') -> None:
     """Write integer nanoseconds into a stamp."""
     stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
 
 
-def fill_pose(transform: Transform, pose: Pose) -> None:
+def fill_pose(transform: Transform, pose: 'Pose') -> None:
     """Write a pose: the transform from the thing to its frame of reference."""
     position, orientation = pose.position, pose.orientation
     position.x, position.y, position.z = transform.translation
     orientation.x, orientation.y, orientation.z, orientation.w = transform.rotation
 
 
-def fill_velocity(linear: Vector, angular: Vector, twist: Twist | Accel) -> None:
+def fill_velocity(linear: Vector, angular: Vector, twist: 'Twist | Accel') -> None:
     """Write a velocity, m/s and rad/s, or an acceleration, m/s² and rad/s²."""
     twist.linear.x, twist.linear.y, twist.linear.z = linear
     twist.angular.x, twist.angular.y, twist.angular.z = angular
 
 
-def vector_of(vector: Vector3) -> Vector:
+def vector_of(vector: 'Vector3') -> Vector:
     """Read three numbers."""
     return (vector.x, vector.y, vector.z)
 
 
-def transform_of(pose: Pose) -> Transform:
+def transform_of(pose: 'Pose') -> Transform:
     """Read a pose as a transform; a quaternion of zeros, the default in YAML, is no rotation."""
     position, orientation = pose.position, pose.orientation
     rotation = (orientation.x, orientation.y, orientation.z, orientation.w)

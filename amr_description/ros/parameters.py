@@ -20,6 +20,10 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from amr_description.errors import ParameterError
 from amr_description.parameters import build, Spec, specs, Value
+from amr_description.ros.rclpy_internals import (
+    parameter_overrides,
+    replace_parameter_event_publisher,
+)
 
 _ARRAYS = {
     'string_array': Parameter.Type.STRING_ARRAY,
@@ -75,7 +79,7 @@ def declare_overrides(node: Node) -> None:
 
     rclpy does so itself when it is asked to, and ends with a ValueError at an empty list.
     """
-    for name, given in node._parameter_overrides.items():
+    for name, given in parameter_overrides(node).items():
         if given.type_ != Parameter.Type.NOT_SET and not node.has_parameter(name):
             node.declare_parameter(name, given.value)
 
@@ -116,8 +120,7 @@ def add_parameter_event_qos_overrides(node: Node) -> None:
         copy(qos_profile_parameter_events),
         qos_overriding_options=QoSOverridingOptions(PUBLISHER_POLICIES),
     )
-    node.destroy_publisher(node._parameter_event_publisher)
-    node._parameter_event_publisher = publisher
+    replace_parameter_event_publisher(node, publisher)
 
 
 def _declare(node: Node, spec: Spec) -> None:

@@ -38,20 +38,10 @@ an :class:`~amr_description.errors.AmrError`      one FATAL line    its ``exit_c
 wrong ROS arguments: ``-p``, ``-r``, names, ...   one FATAL line    1
 any other exception: a bug                        its traceback     1
 ================================================  ================  ===========================
-
-Work for a coroutine of the ROS thread that may take long: a thread of its own does it.
-
-The end of a node in a process that goes on.
-
-rclpy 7.1 forgets one thing: ``~/get_type_description``, which rcl makes for every node and of
-which rclpy has no more than the address. It would stay in the graph under the name of the node
-that is gone, with 0.1 MB, and answer beside that of the next node of the name.
 """
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-import ctypes
-from functools import cache
 from pathlib import Path
 import re
 import sys
@@ -62,7 +52,6 @@ import rclpy
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -70,6 +59,13 @@ from rclpy.task import Future
 
 from amr_description.errors import AmrError, ParameterError
 from amr_description.ros.discovery import use_quick_discovery, use_whole_graph
+from amr_description.ros.rclpy_internals import (
+    cancel_tasks,
+    destroy_type_description_service,
+    RCLError,
+    RCLInvalidROSArgsError,
+    UnknownROSArgsError,
+)
 from amr_description.ros.signals import StopRequested, StopRequests
 from amr_description.text import unwrap
 
@@ -161,9 +157,37 @@ def spin(executor: Executor, until: Callable[[], bool]) -> None:
             executor.spin_once(timeout_sec=_SPIN_TIMEOUT)
         except ExternalShutdownException:
             return
-        except rclpy_implementation.RCLError:
+        except RCLError:
             if executor.context.ok():  # otherwise: it was shut down while the wait was set up
                 raise
+
+
+def serve(
+    executor: Executor,
+    stop: StopRequests,
+    start: Callable[[], object],
+    *,
+    until: Callable[[], object] = lambda: False,
+) -> None:
+    """
+    Spin an executor until the program is asked to stop, or ``until()``.
+
+    Args:
+        executor: Its callbacks run in this thread.
+        stop: Yielded by :func:`ros`; requests are ignored afterwards.
+        start: Called first; a request to stop does not interrupt it.
+        until: Asked as by :func:`spin`.
+    """
+    is_stopping = False
+
+    def end() -> None:
+        nonlocal is_stopping
+        is_stopping = True
+        executor.wake()
+
+    with stop.on_stop(end):
+        start()
+        spin(executor, lambda: is_stopping or bool(until()))
 
 
 @contextmanager
@@ -222,8 +246,7 @@ class ExecutorThread:
         """
         self.ask_to_end()
         self._thread.join()
-        for task, *_ in self.executor._tasks:
-            task.cancel()  # the executor would keep them for ever
+        cancel_tasks(self.executor)  # it would keep them for ever
 
     def _run(self) -> None:
         try:
@@ -238,7 +261,7 @@ def argument_errors() -> Iterator[None]:
     """Turn what rclpy raises about ROS arguments, names and parameters into ParameterError."""
     try:
         yield
-    except rclpy_implementation.UnknownROSArgsError as error:
+    except UnknownROSArgsError as error:
         raise ParameterError(
             f'unknown ROS arguments {error}: between --ros-args and -- stand -r from:=to, '
             '-p name:=value, --params-file file and --log-level level'
@@ -246,8 +269,8 @@ def argument_errors() -> Iterator[None]:
     except UnicodeEncodeError as error:  # a word of the command line
         raise ParameterError(f'not valid UTF-8: {error.object!a}') from error
     except (
-        rclpy_implementation.RCLError,
-        rclpy_implementation.RCLInvalidROSArgsError,
+        RCLError,
+        RCLInvalidROSArgsError,
         ParameterException,
         NameValidationException,
     ) as error:
@@ -301,21 +324,10 @@ def run_in_thread(call: Callable[[], None], executor: Executor, name: str) -> Fu
 
 
 def destroy_node(node: Node) -> None:
-    """Remove a node with all that it has; on the thread of its executor, which has let it go."""
-    service = node._type_description_service._type_description_srv
-    fini = _service_fini()
-    if service is not None and fini is not None:
-        with node.handle, service.impl:
-            fini(service.impl.pointer, node.handle.pointer)  # a second time does nothing
+    """
+    Remove a node with all that it has, in a process that goes on.
+
+    On the thread of its executor, which has let it go.
+    """
+    destroy_type_description_service(node)
     node.destroy_node()
-
-
-@cache
-def _service_fini() -> Callable[[int, int], int] | None:
-    """``rcl_service_fini`` of the library that rclpy has loaded; None: it is not to be found."""
-    try:
-        fini = ctypes.CDLL('librcl.so').rcl_service_fini
-    except (OSError, AttributeError):
-        return None
-    fini.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
-    return fini

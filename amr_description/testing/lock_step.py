@@ -62,8 +62,10 @@ class LockStep:
         """Simulated time, ns."""
         self.timestep = 0
         """A physics step, ns; known after :meth:`measure`."""
-        topic = loop_publisher.TOPIC.replace('~', name)
-        node.create_subscription(KeyValue, topic, self._note_receipt, loop_publisher.QOS)
+        topic = loop_publisher.ACKNOWLEDGEMENT_TOPIC.replace('~', name)
+        node.create_subscription(
+            KeyValue, topic, self._note_receipt, loop_publisher.ACKNOWLEDGEMENT_QOS
+        )
 
     # --- services -----------------------------------------------------------------------------
 

@@ -15,7 +15,8 @@ from amr_description.control.loop import Loop
 from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.controller_manager_node import ControllerManagerNode
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
-from amr_description.control.ros.loop_thread import CallQueue, LoopThread, WallPacer
+from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
+from amr_description.control.ros.pacing import WallPacer
 from amr_description.model.hardware_info import HardwareInfo, HardwareType
 from amr_description.ros.log_thread import LogThread
 
@@ -75,16 +76,14 @@ class Host:
         self.node = Node('host')
         self.executor = SingleThreadedExecutor()
         self.logs = LogThread()
-        outgoing = ClockedLoopPublisher(self.node)
-        mailbox = CallQueue()
-        loop = Loop(Clockwork(), WallPacer(1.0, mailbox), mailbox, outgoing, PERIOD)
-        self.owner = LoopThread(mailbox, self.executor)
-        self.owner.loop = loop
+        publisher = ClockedLoopPublisher(self.node)
+        calls = CallQueue()
+        loop = Loop(Clockwork(), WallPacer(1.0, calls), calls, publisher, PERIOD)
+        self.loop_thread = LoopThread(calls, self.executor)
+        self.loop_thread.loop = loop
         try:
             self.manager_node = ControllerManagerNode(
-                self.owner,
-                outgoing,
-                self.logs,
+                LoopContext(self.loop_thread, publisher, self.logs),
                 namespace='/',
                 arguments=['--params-file', str(parameter_file)],
             )
@@ -92,24 +91,24 @@ class Host:
             self.logs.stop()
             raise
         info = HardwareInfo('hardware', HardwareType.SYSTEM, 'support.manager_host/HostHardware')
-        self.manager_node.prepare(None, [info])
-        loop.managers.append(self.manager_node.bring_up(None, PERIOD))
+        prepared = self.manager_node.prepare(None, [info])
+        loop.managers.append(prepared.bring_up(None, PERIOD))
         self.hardware = HostHardware.newest
         self.executor.add_node(self.node)
         self.executor.add_node(self.manager_node.node)
-        self.manager_node.start()
+        self.running = prepared.serve(loop.managers[0])
         self.thread = threading.Thread(target=self.executor.spin)
 
     def start(self):
-        self.owner.start()
+        self.loop_thread.start()
         self.thread.start()
         self.client = ManagerClient(self.client_node, 'controller_manager', timeout=20.0)
 
     def close(self):
-        self.owner.stop()
+        self.loop_thread.stop()
         self.executor.shutdown()
         self.thread.join()
-        self.manager_node.destroy()
+        self.running.destroy()
         self.node.destroy_node()
         self.client_node.destroy_node()
         self.logs.stop()

@@ -16,12 +16,12 @@ import time
 
 from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import GetParameters
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
+from amr_description.ros.rclpy_internals import NodeNameNonExistentError
 from amr_description.ros.service_calls import call, NoAnswerError, wait_until
 
 
@@ -241,7 +241,7 @@ class ManagerProbe:
     def _description(self) -> DescriptionObservation:
         """Look at the topic that the manager subscribes to; it may be remapped."""
         topic = f'{self._namespace}/{_DESCRIPTION}'
-        with suppress(rclpy_implementation.NodeNameNonExistentError):  # it has gone since
+        with suppress(NodeNameNonExistentError):  # it has gone since
             heard = self._node.get_subscriber_names_and_types_by_node(
                 self._name, self._namespace or '/'
             )

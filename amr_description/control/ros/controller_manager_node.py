@@ -3,13 +3,21 @@
 """
 The ``controller_manager`` node of one robot, over the pure manager of ``control``.
 
-Here is how it comes to life, and how it ends. Its services (``manager_services.py``), what they do
-(``manager_requests.py``) and its parameters (``manager_parameters.py``) stand apart.
+It comes to life in three steps, each an object that has what is allowed then; ``destroy()`` of the
+latest one removes all that the former ones made::
 
-What a controller manager tells of itself, from the moment its node is there.
+    ControllerManagerNode   node, parameters and status topics; no robot yet
+      .prepare(robot, …)    on the ROS thread
+    PreparedManager         … and the nodes of the hardware components
+      .bring_up(world, …)   on the control thread: starts the hardware
+      .serve(manager)       on the ROS thread
+    RunningManager          … and services, and the nodes of the controllers
+
+Whoever waits for the services so finds a manager whose hardware is ready.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from time import monotonic_ns
 
 from rclpy.node import Node
@@ -18,10 +26,9 @@ from rclpy.parameter import Parameter
 from amr_description.control.contracts import Log, Severity, World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.loop_thread import LoopThread
+from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.parameters import ManagerParameters
-from amr_description.control.ros.plugin_nodes import ComponentNode, ControllerNode
+from amr_description.control.ros.plugin_nodes import ComponentNode
 from amr_description.control.ros.requests import ManagerRequests
 from amr_description.control.ros.services import ManagerServices
 from amr_description.control.ros.status_topics import (
@@ -34,150 +41,108 @@ from amr_description.hardware import HARDWARE
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.arguments import inherited
-from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_parameter_event_qos_overrides
-
-
-class ManagerTopics:
-    """
-    ``~/activity``, ``/diagnostics``, ``~/introspection_data/…`` and ``~/statistics/…``; and what
-    is said of overruns.
-
-    Made on the ROS thread; the owner hands the manager over with :meth:`watch`.
-    """
-
-    def __init__(
-        self, node: Node, owner: LoopThread, outgoing: LoopPublisher, parameters: ManagerParameters
-    ) -> None:
-        self._node = node
-        self._owner = owner
-        self._parameters = parameters
-        self._manager: ControllerManager | None = None
-        self._may_overrun = False
-        self._warns_of_overruns = parameters.start.overruns.print_warnings
-        self._activity = ActivityTopic(node)
-        self._diagnostics = DiagnosticsTopic(node, owner, parameters)
-        self._introspection = Introspection(node, owner, outgoing)
-        node.add_post_set_parameters_callback(self._mind_parameters)
-
-    def expect_hardware(self) -> None:
-        """The description is known: from now on it is an error that there is no hardware."""
-        self._diagnostics.has_description = True
-
-    def watch(self, manager: ControllerManager, *, may_overrun: bool) -> None:
-        """
-        Tell of a manager from now on; on the owner's thread.
-
-        ``may_overrun``: it has only so much time for a cycle; a simulated world would wait.
-        """
-
-        def tell(snapshot: ManagerSnapshot) -> None:
-            if not self._node.context.ok():
-                return  # nobody can hear it, and the motors have to be stopped all the same
-            self._activity.tell(snapshot)
-            self._introspection.watch(manager)
-
-        self._manager, self._may_overrun = manager, may_overrun
-        self._apply()
-        manager.on_change = tell
-        tell(manager.snapshot)
-        self._diagnostics.manager = manager
-
-    def _mind_parameters(self, _: Sequence[Parameter]) -> None:
-        """One was set; on the ROS thread."""
-        now = self._parameters.now()  # not each second: it takes half a millisecond
-        self._diagnostics.thresholds = now.diagnostics
-        self._warns_of_overruns = now.overruns.print_warnings
-        if self._manager is not None:
-            self._owner.submit(self._apply)
-
-    def _apply(self) -> None:
-        self._manager.warns_of_overruns = self._may_overrun and self._warns_of_overruns
-
 
 NODE_NAME = 'controller_manager'
 
 
 class ControllerManagerNode:
-    """
-    Node, parameters and services of one manager.
-
-    ``arguments`` are ROS arguments (remaps, ``--params-file``) for the node and for every
-    controller that it loads. It has no robot at first: :meth:`prepare`, :meth:`bring_up` on the
-    owner's thread, :meth:`start`, which makes the services. Whoever waits for those finds a
-    manager whose hardware is ready.
-    """
+    """A manager without hardware: its node, parameters and status topics."""
 
     def __init__(
         self,
-        owner: LoopThread,
-        outgoing: LoopPublisher,
-        logs: LogThread,
+        context: LoopContext,
         *,
         name: str = NODE_NAME,
         namespace: str,
         arguments: Sequence[str],
     ) -> None:
-        """Make the node. Raises ParameterError: ``update_rate`` is not a positive integer."""
-        self._owner = owner
-        self._outgoing = outgoing
-        self._logs = logs
-        self._robot: Robot | None = None
-        self._hardware: Sequence[tuple[HardwareInfo, ComponentNode]] = ()
-        self._requests: ManagerRequests | None = None
-        self._arguments = arguments
-        self.node: Node = outgoing.make_node(
+        """
+        Make the node.
+
+        Args:
+            context: Of the process.
+            name: Of the node.
+            namespace: Of the node, its components and its controllers.
+            arguments: ROS arguments (remaps, ``--params-file``) for the node and for every
+                component and controller.
+
+        Raises:
+            ParameterError: A parameter is no good, as an ``update_rate`` of 0.
+        """
+        self.context = context
+        self.arguments = arguments
+        self.node: Node = context.publisher.make_node(
             name, namespace, arguments, allow_undeclared_parameters=True
         )
-        self.log: Log = logs.log_of(self.node.get_logger())
+        self.log: Log = context.logs.log_of(self.node.get_logger())
         try:
             add_parameter_event_qos_overrides(self.node)
             self.parameters = ManagerParameters(self.node, arguments)
-            self._topics = ManagerTopics(self.node, owner, outgoing, self.parameters)
+            self.topics = StatusTopics(self.node, context, self.parameters)
         except Exception:
             self.destroy()
             raise
 
-    def prepare(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
+    def prepare(self, robot: Robot | None, hardware: Sequence[HardwareInfo]) -> 'PreparedManager':
         """
-        Take over what it is to control, and make a node for each component; on the ROS thread.
+        Make a node for each hardware component; on the ROS thread.
 
-        May be called again after a failure.
+        Args:
+            robot: Handed to controllers; its joints' limits are enforced, if that is wanted.
+            hardware: What its ``<ros2_control>`` blocks say.
         """
-        self.forget_hardware()
-        self._topics.expect_hardware()
-        self._robot = robot
-        self._hardware = [
-            (
-                info,
-                ComponentNode(
-                    info.name,
-                    inherited(self._arguments),
-                    namespace=self.node.get_namespace(),
-                    outgoing=self._outgoing,
-                    logs=self._logs,
-                ),
+        self.topics.expect_hardware()
+        components: list[tuple[HardwareInfo, ComponentNode]] = []
+        for info in hardware:
+            node = ComponentNode(
+                info.name,
+                inherited(self.arguments),
+                namespace=self.node.get_namespace(),
+                context=self.context,
             )
-            for info in hardware
-        ]
+            components.append((info, node))
+        return PreparedManager(self, robot, components)
+
+    def destroy(self) -> None:
+        """Remove the node; on the ROS thread."""
+        self.context.publisher.destroy_node(self.node)
+
+
+@dataclass(frozen=True)
+class PreparedManager:
+    """A manager whose hardware is not up yet; it may be brought up once."""
+
+    manager_node: ControllerManagerNode
+    robot: Robot | None
+    components: Sequence[tuple[HardwareInfo, ComponentNode]]
 
     def bring_up(self, world: World | None, period: int) -> ControllerManager:
         """
-        Make components and manager and start the hardware; return it, for the owner's loop.
+        Make components and manager, and start the hardware; on the control thread.
 
-        On the owner's thread. ``world``: as components see it; ``period``: of the tick, ns. Raises
-        HardwareError, or what a foreign component raises; the hardware is then down again.
+        Args:
+            world: As simulated components see it; None: the hardware is real.
+            period: Between two cycles, ns.
+
+        Returns:
+            The manager, for the control loop.
+
+        Raises:
+            HardwareError: A component cannot be started; the others are shut down again.
+            Exception: Whatever a third party's component raises; likewise.
         """
-        enforce = self.parameters.start.enforce_command_limits
-        initial = self.parameters.start.hardware_components_initial_state
+        manager_node = self.manager_node
+        enforce = manager_node.parameters.start.enforce_command_limits
+        initial = manager_node.parameters.start.hardware_components_initial_state
         if not enforce:
-            self.log(
+            manager_node.log(
                 Severity.INFO,
                 'Enforcing command limits is disabled. Command limits from URDF will be ignored.',
             )
-        resources = ResourceManager(self.log, self._robot, enforce, monotonic_ns)
+        resources = ResourceManager(manager_node.log, self.robot, enforce, monotonic_ns)
         try:
-            for info, node in self._hardware:
+            for info, node in self.components:
                 resources.load(info, HARDWARE.find, world, node.log)
             resources.start_components(
                 initial.unconfigured,
@@ -187,56 +152,124 @@ class ControllerManagerNode:
         except Exception:
             resources.shut_down()
             raise
-        self.manager = ControllerManager(
+        manager = ControllerManager(
             resources,
-            self.parameters.update_rate,
-            self.log,
+            manager_node.parameters.update_rate,
+            manager_node.log,
             period,
-            self.parameters.defaults(),
+            manager_node.parameters.defaults(),
         )
         for name in resources.components:
-            self.log(Severity.INFO, f'Registering statistics for : {name}')
-        self._topics.watch(self.manager, may_overrun=world is None)
-        return self.manager
+            manager_node.log(Severity.INFO, f'Registering statistics for : {name}')
+        manager_node.topics.watch(manager, may_overrun=world is None)
+        return manager
 
-    def start(self) -> None:
-        """Make the services, once there is a manager, and its node has an executor."""
-        for _, component in self._hardware:
-            self.node.executor.add_node(component.node)
-        self.log(
+    def serve(self, manager: ControllerManager) -> 'RunningManager':
+        """
+        Make the services of a manager that was brought up here; on the ROS thread.
+
+        The manager's node must be in an executor, which serves the components' nodes too.
+        """
+        manager_node = self.manager_node
+        for _, component in self.components:
+            manager_node.node.executor.add_node(component.node)
+        manager_node.log(
             Severity.INFO,
             'Resource Manager has been successfully initialized. Starting Controller Manager '
             'services...',
         )
-        self._requests = ManagerRequests(
-            self.node,
-            self.log,
-            self.parameters,
-            self.manager,
-            robot=self._robot,
-            owner=self._owner,
-            outgoing=self._outgoing,
-            logs=self._logs,
+        requests = ManagerRequests(
+            manager_node.node,
+            manager_node.log,
+            manager_node.parameters,
+            manager,
+            robot=self.robot,
+            context=manager_node.context,
         )
-        ManagerServices(self._requests)
+        ManagerServices(requests)
+        return RunningManager(self, manager, requests)
 
-    def nodes(self) -> list[Node]:
-        """This node and those of its components and controllers."""
-        others = [*(node for _, node in self._hardware), *self._controllers()]
-        return [self.node, *(each.node for each in others)]
-
-    def forget_hardware(self) -> None:
-        """Remove the nodes of components that could not be brought up."""
-        for _, component in self._hardware:
+    def release(self) -> None:
+        """Remove the nodes of the components only: another description may be prepared."""
+        for _, component in self.components:
             component.destroy()
-        self._hardware = ()
 
     def destroy(self) -> None:
-        """Remove all nodes; the owner must have stopped, or dropped the manager, before."""
-        for controller in self._controllers():
-            controller.destroy()
-        self.forget_hardware()
-        self._outgoing.destroy_node(self.node)
+        """Remove all nodes; on the ROS thread."""
+        self.release()
+        self.manager_node.destroy()
 
-    def _controllers(self) -> list[ControllerNode]:
-        return list(self._requests.controllers.values()) if self._requests else []
+
+@dataclass(frozen=True)
+class RunningManager:
+    """A manager with hardware and services."""
+
+    prepared: PreparedManager
+    manager: ControllerManager
+    """For the control thread."""
+    requests: ManagerRequests
+
+    @property
+    def node(self) -> Node:
+        """The node ``controller_manager``."""
+        return self.prepared.manager_node.node
+
+    def destroy(self) -> None:
+        """Remove all nodes; the control thread must have stopped, or dropped, the manager."""
+        for controller in self.requests.controllers.values():
+            controller.destroy()
+        self.prepared.destroy()
+
+
+class StatusTopics:
+    """
+    What a manager publishes about itself, from the moment its node is there.
+
+    ``~/activity``, ``/diagnostics``, ``~/introspection_data/…`` and ``~/statistics/…``; it also
+    decides whether overruns are logged. Made on the ROS thread.
+    """
+
+    def __init__(self, node: Node, context: LoopContext, parameters: ManagerParameters) -> None:
+        self._node = node
+        self._loop_thread = context.loop_thread
+        self._parameters = parameters
+        self._manager: ControllerManager | None = None
+        self._may_overrun = False
+        self._warns_of_overruns = parameters.start.overruns.print_warnings
+        self._activity = ActivityTopic(node)
+        self._diagnostics = DiagnosticsTopic(node, context.loop_thread, parameters)
+        self._introspection = Introspection(node, context)
+        node.add_post_set_parameters_callback(self._on_parameters_set)
+
+    def expect_hardware(self) -> None:
+        """The description is known: from now on it is an error that there is no hardware."""
+        self._diagnostics.has_description = True
+
+    def watch(self, manager: ControllerManager, *, may_overrun: bool) -> None:
+        """
+        Publish the status of a manager from now on; on the control thread.
+
+        ``may_overrun``: its cycles have a deadline; a simulated world would wait.
+        """
+
+        def publish(snapshot: ManagerSnapshot) -> None:
+            if not self._node.context.ok():
+                return  # nothing can be published, and the motors have to be stopped all the same
+            self._activity.publish(snapshot)
+            self._introspection.watch(manager)
+
+        self._manager, self._may_overrun = manager, may_overrun
+        self._apply()
+        manager.on_change = publish
+        publish(manager.snapshot)
+        self._diagnostics.manager = manager
+
+    def _on_parameters_set(self, _: Sequence[Parameter]) -> None:
+        now = self._parameters.now()  # not each second: it takes half a millisecond
+        self._diagnostics.thresholds = now.diagnostics
+        self._warns_of_overruns = now.overruns.print_warnings
+        if self._manager is not None:
+            self._loop_thread.submit(self._apply)
+
+    def _apply(self) -> None:
+        self._manager.warns_of_overruns = self._may_overrun and self._warns_of_overruns

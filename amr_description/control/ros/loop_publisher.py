@@ -1,25 +1,24 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Receipts: who commands a simulation that stands still has to know when the command has arrived.
+What a cycle of the control loop publishes, at its end: ``/clock`` first, then the controllers.
 
-Between a topic and a service DDS keeps no order, so a step may overtake the command that it was
-meant for; and as controllers subscribe best effort, as in ros2_control, DDS acknowledges nothing.
-Above all, Fast DDS finds the endpoints of two participants in either direction by itself: of 60
-new publishers that had seen their subscriber, 29 lost their first message. So the simulator says
-on
+Nodes in the process that owns the time do not subscribe to ``/clock``: at 100 Hz that costs 14 %
+of a core for three nodes. :class:`ClockedLoopPublisher` sets their clocks at the beginning of the
+cycle instead.
+
+It also acknowledges commands. Whoever commands a paused simulation has to know when a command has
+arrived: DDS keeps no order between a topic and a service, so a step may overtake the command that
+it was meant for; and controllers subscribe best effort, as in ros2_control, so DDS acknowledges
+nothing. Above all, Fast DDS matches the endpoints of two participants in either direction by
+itself: of 60 new publishers that had seen their subscriber, 29 lost their first message. So the
+simulator publishes on
 
 ``~/received``  (``diagnostic_msgs/msg/KeyValue``, reliable)
     for every message that a controller has accepted: ``key``: the topic; ``value``: the
     publisher's own number of that message, from 1.
 
-Once that is heard, the next step acts on the command. Nothing is said while nobody listens.
-
-What leaves the owner's turn: what the controllers said at that instant; before it, where this
-process owns the time, ``/clock``.
-
-Nodes in the process that owns the time do not subscribe to ``/clock``: at 100 Hz that costs 14 %
-of a core for three nodes. Their clocks are set here, before anything is published.
+Once that has come, the next step acts on the command. Nothing is published without a subscriber.
 """
 
 from collections.abc import Callable, Sequence
@@ -30,7 +29,6 @@ from weakref import WeakKeyDictionary
 from diagnostic_msgs.msg import KeyValue
 from rclpy.clock import ROSClock
 from rclpy.exceptions import InvalidHandle
-from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
@@ -38,26 +36,13 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
-from amr_description.clock import NANOSECONDS
 from amr_description.control.plugin_errors import describe
+from amr_description.ros.messages import fill_stamp
+from amr_description.ros.rclpy_internals import RcutilsLogger, set_clock_by_hand
 from amr_description.ros.runtime import destroy_node
 
-TOPIC = '~/received'
-QOS = QoSProfile(depth=100)
-
-
-class CommandAcknowledgements:
-    """Says them, on the ROS thread."""
-
-    def __init__(self, node: Node) -> None:
-        """``node`` has the topic."""
-        self._publisher = node.create_publisher(KeyValue, TOPIC, QOS)
-
-    def confirm(self, topic: str, number: int) -> None:
-        """The message ``number`` of some publisher on ``topic`` is accepted."""
-        if self._publisher.get_subscription_count():
-            self._publisher.publish(KeyValue(key=topic, value=str(number)))
-
+ACKNOWLEDGEMENT_TOPIC = '~/received'
+ACKNOWLEDGEMENT_QOS = QoSProfile(depth=100)
 
 CLOCK_QOS = QoSProfile(depth=10)
 """Reliable, as ros_gz_bridge publishes it; time sources that subscribe best effort match too."""
@@ -65,9 +50,9 @@ CLOCK_QOS = QoSProfile(depth=10)
 
 class LoopPublisher:
     """
-    The ``Publisher`` port of the loop, and who sets the clocks of the nodes in this process.
+    The ``Publisher`` port of the loop; it also makes the nodes whose clocks the loop may set.
 
-    Here nobody does: they go by the machine, or by the ``/clock`` of another process where
+    Here it sets none: they go by the system clock, or by the ``/clock`` of another process where
     ``use_sim_time`` says so. :class:`ClockedLoopPublisher` is for the process that owns the time.
     """
 
@@ -75,10 +60,10 @@ class LoopPublisher:
 
     def __init__(self, logger: RcutilsLogger) -> None:
         self.reporters: list[Callable[[int], None]] = []
-        """Called at the end of a turn with its time, ns; what they send goes out with it."""
+        """Called at the end of a cycle with its time, ns; what they send goes out with it."""
         self._outbox: list[tuple[Callable[[Any, Any], None], Any, Any, Publisher]] = []
-        self._keeps: WeakKeyDictionary[Publisher, bool] = WeakKeyDictionary()
-        """Of topics that nobody listened to: whether they keep what is said for who comes."""
+        self._is_latched: WeakKeyDictionary[Publisher, bool] = WeakKeyDictionary()
+        """Of publishers that have been without a subscriber."""
         self._logger = logger
 
     def make_node(
@@ -87,8 +72,11 @@ class LoopPublisher:
         """
         Make a node beside the first one of the process, with a logger service.
 
-        ``arguments``: its ROS arguments, the global ones do not count. ``options``: further
-        keywords of :class:`rclpy.node.Node`.
+        Args:
+            name: Of the node.
+            namespace: Of the node.
+            arguments: Its ROS arguments; the global ones of the process do not count.
+            options: Further keywords of :class:`rclpy.node.Node`.
         """
         node = Node(
             name,
@@ -108,25 +96,33 @@ class LoopPublisher:
         destroy_node(node)
 
     def adopt(self, node: Node) -> None:
-        """Take in a node; on the thread that made it, after its constructor."""
+        """Take a node in; on the thread that made it, after its constructor."""
 
     def release(self, node: Node) -> None:
         """Let a node go, before it is destroyed."""
 
-    def confirm(self, topic: str, number: int) -> None:
+    def acknowledge(self, topic: str, number: int) -> None:
         """A controller accepted a publisher's message ``number``, from 1; on the ROS thread."""
 
     def send(
         self, fill: Callable[[Any, Any], None], sample: Any, message: Any, publisher: Publisher
     ) -> None:
-        """Publish ``sample`` at the end of this turn; ``message`` is filled and sent then."""
+        """
+        Publish a sample at the end of this cycle; on the control thread.
+
+        Args:
+            fill: Writes ``sample`` into ``message``; called only if somebody subscribes.
+            sample: What is published.
+            message: May be sent many times.
+            publisher: Of the topic.
+        """
         self._outbox.append((fill, sample, message, publisher))
 
     def set_clocks(self, time: int) -> None:
         """Set the clock of every node in this process to ``time``, ns."""
 
     def publish(self, time: int) -> None:
-        """Publish what waits; ``time``: of this turn, ns."""
+        """Publish what was sent since the last call; ``time``: of this cycle, ns."""
         for report in self.reporters:
             report(time)
         for fill, sample, message, publisher in self._outbox:
@@ -134,9 +130,9 @@ class LoopPublisher:
                 if self._is_wanted(publisher):
                     fill(sample, message)
                     publisher.publish(message)
-            except InvalidHandle:  # the topic went with a cleanup since it was said
+            except InvalidHandle:  # a cleanup has removed the topic since
                 continue
-            except Exception as error:  # a stranger's converter; the robot must go on
+            except Exception as error:  # a third party's converter; the robot must go on
                 self._logger.error(
                     f"Could not publish on '{publisher.topic_name}': {describe(error)}",
                     throttle_duration_sec=1.0,
@@ -144,40 +140,38 @@ class LoopPublisher:
         self._outbox.clear()
 
     def _is_wanted(self, publisher: Publisher) -> bool:
-        """Whether somebody listens, 1 µs, or may come later for what was said now."""
+        """Whether somebody subscribes, 1 µs, or may later get what is latched now."""
         if publisher.get_subscription_count():
             return True
-        keeps = self._keeps.get(publisher)
-        if keeps is None:
+        is_latched = self._is_latched.get(publisher)
+        if is_latched is None:
             durability = publisher.qos_profile.durability
-            keeps = self._keeps[publisher] = durability is not DurabilityPolicy.VOLATILE
-        return keeps
+            is_latched = durability is not DurabilityPolicy.VOLATILE
+            self._is_latched[publisher] = is_latched
+        return is_latched
 
 
 class ClockedLoopPublisher(LoopPublisher):
-    """Of the process that owns the time: ``/clock`` goes first, and every clock shows it."""
+    """That of the process that owns the time: it publishes ``/clock`` and sets all clocks."""
 
     _parameter_overrides = (Parameter('use_sim_time', value=True),)
 
     def __init__(self, node: Node) -> None:
-        """``node`` publishes ``/clock`` and lends its logger."""
+        """``node`` publishes ``/clock`` and ``~/received``, and lends its logger."""
         super().__init__(node.get_logger())
         self._clocks: list[ROSClock] = []
         self._changing_clocks = threading.Lock()
         self._message = Clock()
         self._publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
-        self._receipts = CommandAcknowledgements(node)
+        self._acknowledgements = CommandAcknowledgements(node)
 
     def adopt(self, node: Node) -> None:
         """
-        Set the node's clock from now on; it keeps saying ``use_sim_time: true``.
+        Set the node's clock from now on; its parameter ``use_sim_time`` stays true.
 
-        Call it on the thread that made the node, after its constructor.
+        On the thread that made the node, after its constructor.
         """
-        source = node._time_source
-        source.ros_time_is_active = True
-        node.destroy_subscription(source._clock_sub)
-        source._clock_sub = None
+        set_clock_by_hand(node)
         with self._changing_clocks:
             self._clocks = [*self._clocks, node.get_clock()]
 
@@ -186,9 +180,9 @@ class ClockedLoopPublisher(LoopPublisher):
         with self._changing_clocks:
             self._clocks = [clock for clock in self._clocks if clock is not node.get_clock()]
 
-    def confirm(self, topic: str, number: int) -> None:
-        """Say so, to whoever drives in lock-step."""
-        self._receipts.confirm(topic, number)
+    def acknowledge(self, topic: str, number: int) -> None:
+        """Publish that a controller accepted a publisher's message ``number``, from 1."""
+        self._acknowledgements.publish(topic, number)
 
     def set_clocks(self, time: int) -> None:
         """Set every clock to ``time``, ns."""
@@ -197,8 +191,22 @@ class ClockedLoopPublisher(LoopPublisher):
             clock.set_ros_time_override(now)
 
     def publish(self, time: int) -> None:
-        """Publish ``/clock``, and then what waits."""
-        clock = self._message.clock
-        clock.sec, clock.nanosec = divmod(time, NANOSECONDS)
+        """Publish ``/clock``, and then what was sent."""
+        fill_stamp(time, self._message.clock)
         self._publisher.publish(self._message)
         super().publish(time)
+
+
+class CommandAcknowledgements:
+    """Publishes ``~/received``; on the ROS thread."""
+
+    def __init__(self, node: Node) -> None:
+        """``node`` has the topic."""
+        self._publisher = node.create_publisher(
+            KeyValue, ACKNOWLEDGEMENT_TOPIC, ACKNOWLEDGEMENT_QOS
+        )
+
+    def publish(self, topic: str, number: int) -> None:
+        """Some publisher's message ``number`` on ``topic`` was accepted."""
+        if self._publisher.get_subscription_count():
+            self._publisher.publish(KeyValue(key=topic, value=str(number)))

@@ -1,143 +1,101 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The owner's thread, its queue and its pace: how the loop of ``control`` lives in a process.
+The control thread: it alone runs the :class:`~amr_description.control.loop.Loop` of a process.
 
-Other threads ask with :meth:`LoopThread.submit` and get an rclpy future; nothing else is shared.
+Other threads hand it calls with :meth:`LoopThread.submit`, to be made between two cycles, and get
+an rclpy future for the result; nothing else is shared. Times are in ns, timeouts in s.
 """
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 import gc
 import threading
-import time
 import traceback
 
 from rclpy.executors import Executor
 from rclpy.task import Future
 
-from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
-
-_HOPELESSLY_LATE = 0.1
-"""s: beyond it the pacer starts anew, instead of making good what was missed in a burst."""
-
-_SHARE = 0.005
-"""s: how long the owner keeps going, as fast as possible, before it yields."""
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.ros.log_thread import LogThread
 
 
 class CallQueue:
-    """The queue of commands; any thread puts, the owner takes (``Commands`` of the loop)."""
+    """Calls for the control thread (``Commands`` of the loop); any thread may put one."""
 
-    def __init__(self, patience: float | None = None) -> None:
-        """``patience``: the longest wait for something, s; None: no end."""
-        self._patience = patience
+    def __init__(self, timeout: float | None = None) -> None:
+        """``timeout``: the longest :meth:`wait`, s; None: without end."""
+        self._timeout = timeout
         self._calls: deque[Callable[[], None]] = deque()
         self._arrived = threading.Event()
 
     def put(self, call: Callable[[], None]) -> None:
-        """Queue a call, and wake the owner if it waits."""
+        """Queue a call, and wake the control thread if it waits."""
         self._calls.append(call)
         self._arrived.set()
 
     def wake(self) -> None:
-        """End a wait, though there is nothing to do."""
+        """End a wait without a call."""
         self._arrived.set()
 
     def take(self) -> Iterable[Callable[[], None]]:
-        """Return what has arrived; what a call puts while it runs waits for the next turn."""
-        self._arrived.clear()  # before the calls are taken: what comes in between wakes again
+        """Return the calls that wait; one that is put by a call is left for the next cycle."""
+        self._arrived.clear()  # before the calls are taken: one put in between wakes again
         return [self._calls.popleft() for _ in range(len(self._calls))]
 
     def wait(self, timeout: float | None = None) -> bool:
         """
-        Block until something arrives, at most ``timeout`` s; tell whether something has.
+        Block until a call arrives; return whether one has.
 
-        Without ``timeout``: as patient as it was made.
+        Args:
+            timeout: s; None: the queue's own.
         """
-        return self._arrived.wait(self._patience if timeout is None else timeout)
-
-
-class WallPacer:
-    """
-    Keeps simulated time at ``factor`` times the wall clock; 0: as fast as possible.
-
-    Deadlines are absolute, so that the error of one sleep does not add up. Being late costs
-    real-time factor, never results. A call that arrives in ``mailbox`` ends a sleep.
-    """
-
-    def __init__(self, factor: float, mailbox: CallQueue) -> None:
-        self.factor = factor
-        """The one it keeps to; :meth:`set_factor` sets it."""
-        self._mailbox = mailbox
-        self._wall_start = self._start = 0.0
-        self._yielded = 0.0
-
-    def set_factor(self, factor: float, time_now: int) -> None:
-        """Keep to another factor from now on, simulated time being ``time_now``, ns."""
-        self.factor = factor
-        self.resume(time_now)
-
-    def resume(self, time_now: int) -> None:
-        """Count from now on, simulated time being ``time_now``, ns."""
-        self._wall_start = time.monotonic()
-        self._start = time_now / NANOSECONDS
-
-    def pace(self, time_due: int) -> bool:
-        """Sleep until the instant ``time_due`` (ns) is due; False: a call came before."""
-        if self.factor == 0.0:
-            self._yield()
-            return True
-        due = self._wall_start + (time_due / NANOSECONDS - self._start) / self.factor
-        delay = due - time.monotonic()
-        if delay > 0.0:
-            return not self._mailbox.wait(delay)
-        if delay < -_HOPELESSLY_LATE:
-            self.resume(time_due)
-        return True
-
-    def _yield(self) -> None:
-        """Let the ROS thread have the interpreter's lock now and then; each time costs."""
-        now = time.monotonic()
-        if now - self._yielded > _SHARE:
-            time.sleep(0)
-            self._yielded = time.monotonic()
+        return self._arrived.wait(self._timeout if timeout is None else timeout)
 
 
 class LoopThread:
     """
     Runs the loop in a thread of its own; when it ends, every manager is shut down, motors first.
 
-    When the loop raises, that is a bug: the traceback is printed, ``failed`` is set and
-    ``on_failure`` is called, so that the process ends instead of standing still.
+    An exception out of the loop is a bug: its traceback is printed, ``failed`` is set and
+    ``on_failure`` is called, so that the process ends instead of leaving robots uncontrolled.
     """
 
     loop: Loop
-    """Set before :meth:`start`: what paces it may depend on parameters of a node that needs us."""
+    """Set before :meth:`start`: its pacer may depend on parameters of a node that needs us."""
 
-    def __init__(self, mailbox: CallQueue, executor: Executor) -> None:
+    def __init__(self, calls: CallQueue, executor: Executor) -> None:
+        """
+        Make the thread, which :meth:`start` starts.
+
+        Args:
+            calls: The queue that the loop takes its commands from.
+            executor: Serves the callbacks that await what they :meth:`submit`.
+        """
         self.failed = False
-        """What keeps the robots going has ended by a bug; so shall the process."""
+        """The loop has ended by a bug; so shall the process."""
         self.on_failure: Callable[[], None] = executor.wake
         self.on_start: Callable[[], None] = lambda: None
-        """Called in the owner's thread, before the first turn."""
-        self._mailbox = mailbox
+        """Called on the control thread, before the first cycle."""
+        self._calls = calls
         self._executor = executor
-        self._thread = threading.Thread(target=self._run, name='owner')
+        self._thread = threading.Thread(target=self._run, name='control_loop')
 
     def start(self) -> None:
-        """Begin to turn."""
+        """Start the thread."""
         self._thread.start()
 
     def stop(self) -> None:
-        """End the loop after the turn that it is in, if it has begun, and wait for that."""
+        """End the loop after the present cycle, if it was started, and join the thread."""
         if self._thread.ident is not None:
-            self._mailbox.put(self.loop.stop)
+            self._calls.put(self.loop.stop)
             self._thread.join()
 
     def fail(self) -> None:
-        """End the process instead of letting it stand still; from the thread that found a bug."""
+        """End the process because of a bug; called by the thread that found it."""
         self.failed = True
         self.on_failure()
 
@@ -145,10 +103,15 @@ class LoopThread:
         self, call: Callable[[], Result], executor: Executor | None = None
     ) -> Future:
         """
-        Have the owner make a call between two turns; await the result in an async callback.
+        Have the control thread make a call between two cycles.
 
-        What the call raises, the future raises. ``executor``: that of the callback; None: the one
-        that the owner was made with.
+        Args:
+            call: What it raises, the future raises.
+            executor: That of the async callback which awaits the future; None: the one that the
+                thread was made with.
+
+        Returns:
+            A future for what the call returns.
         """
         executor = executor or self._executor
         future = Future(executor=executor)
@@ -156,20 +119,24 @@ class LoopThread:
         def make() -> None:
             try:
                 result = call()
-            except Exception as error:  # belongs to whoever awaits it
+            except Exception as error:  # raised again where the future is awaited
                 future.set_exception(error)
             else:
                 future.set_result(result)
             executor.wake()  # a task that awaits is looked at only when the executor wakes
 
-        self._mailbox.put(make)
+        self._calls.put(make)
         return future
 
     async def step(self, period: int) -> int:
         """
-        Have ``period`` ns pass while paused; return what is missing of it in the end, ns.
+        While paused, let ``period`` ns pass; see :meth:`Loop.step`.
 
-        See :meth:`Loop.step`. Raises SimulationError.
+        Returns:
+            How much of the period has not passed in the end, ns.
+
+        Raises:
+            SimulationError: Time is running, or another step is not done.
         """
         ended = Future(executor=self._executor)
 
@@ -187,7 +154,7 @@ class LoopThread:
         try:
             self.on_start()
             self.loop.run()
-        except BaseException:  # sys.exit() in a stranger's class, too: nobody else would see it
+        except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             traceback.print_exc()
             self.fail()
         finally:
@@ -201,3 +168,12 @@ class LoopThread:
         except BaseException:
             traceback.print_exc()
             self.failed = True
+
+
+@dataclass(frozen=True)
+class LoopContext:
+    """What a process with a control loop lends to the nodes of its controller managers."""
+
+    loop_thread: LoopThread
+    publisher: LoopPublisher
+    logs: LogThread

@@ -1,14 +1,18 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The machine's own time as what the loop steps and is paced by: a robot without a simulator.
+What paces the control loop: the wall clock, the system clock, or another process's ``/clock``.
 
-Time is that of the system clock, as everybody's stamps are. Between two ticks it is measured by
-the monotonic clock, so that a step of the system clock (a robot without a battery for its clock
-finds NTP) never shows as a long or a negative period; it is noticed, said, and all begin anew.
+===================== ========= ==============================================================
+class                 is also   for
+===================== ========= ==============================================================
+``WallPacer``                   a simulated world, at so many times real time
+``SystemClockPacer``  Stepper   a real robot
+``SimTimePacer``      Stepper   a robot under ``use_sim_time`` that another process simulates
+===================== ========= ==============================================================
 
-Somebody else's ``/clock`` as what the loop steps and is paced by: ``use_sim_time`` without being
-the simulator.
+All are used on the control thread, but for :meth:`SimTimePacer.receive`. A call that arrives in
+their :class:`~amr_description.control.ros.loop_thread.CallQueue` ends a sleep. Times are in ns.
 """
 
 from collections.abc import Callable
@@ -22,29 +26,90 @@ from amr_description.control.ros.loop_thread import CallQueue
 CLOCK_STEP = 50_000_000
 """ns: how far the system clock may drift from the monotonic one before it counts as set anew."""
 
+_GIVE_UP_LAG = 0.1
+"""s: a :class:`WallPacer` that is later than this does not catch up, but counts from now on."""
+_YIELD_PERIOD = 0.005
+"""s: how long it runs as fast as possible before it lets other threads run."""
+
+
+class WallPacer:
+    """
+    Keeps simulated time at ``factor`` times the wall clock; 0: as fast as possible.
+
+    Deadlines are absolute, so that the error of one sleep does not add up. Being late costs
+    real-time factor, never results.
+    """
+
+    def __init__(self, factor: float, calls: CallQueue) -> None:
+        self.factor = factor
+        """The real-time factor; :meth:`set_factor` sets it."""
+        self._calls = calls
+        self._wall_start = self._start = 0.0
+        self._yielded = 0.0
+
+    def set_factor(self, factor: float, time_now: int) -> None:
+        """Keep to another factor from the simulated time ``time_now`` on."""
+        self.factor = factor
+        self.resume(time_now)
+
+    def resume(self, time_now: int) -> None:
+        """Count from the simulated time ``time_now`` on."""
+        self._wall_start = time.monotonic()
+        self._start = time_now / NANOSECONDS
+
+    def pace(self, time_due: int) -> bool:
+        """Sleep until the simulated time ``time_due`` is due; False: a call came before."""
+        if self.factor == 0.0:
+            self._yield()
+            return True
+        due = self._wall_start + (time_due / NANOSECONDS - self._start) / self.factor
+        delay = due - time.monotonic()
+        if delay > 0.0:
+            return not self._calls.wait(delay)
+        if delay < -_GIVE_UP_LAG:
+            self.resume(time_due)
+        return True
+
+    def _yield(self) -> None:
+        """Let the ROS thread have the interpreter's lock now and then; each time costs."""
+        now = time.monotonic()
+        if now - self._yielded > _YIELD_PERIOD:
+            time.sleep(0)
+            self._yielded = time.monotonic()
+
 
 class SystemClockPacer:
     """
-    ``Stepper`` and ``Pacer`` of the loop at once, for a manager at ``rate`` Hz.
+    ``Stepper`` and ``Pacer`` of a real robot: time is that of the system clock, as in all stamps.
+
+    Between two cycles it is measured by the monotonic clock. So a step of the system clock (a
+    robot without a battery for its clock finds NTP) never shows as a long or a negative period:
+    it is noticed and logged, and all managers begin anew at the new time.
 
     While it paces, :attr:`time` is the instant that is waited for; afterwards the true one.
     """
 
     def __init__(
-        self, mailbox: CallQueue, log: Log, rate: int, *, manages_overruns: bool = True
+        self, calls: CallQueue, log: Log, rate: int, *, manages_overruns: bool = True
     ) -> None:
         """
-        ``manages_overruns``: leave out the cycles that were missed; otherwise they are made good
-        in a burst.
+        Begin at the present time.
+
+        Args:
+            calls: A call that arrives ends a sleep.
+            log: Gets a line about each overrun, and each step of the system clock.
+            rate: Of the manager, Hz.
+            manages_overruns: Leave out the cycles that were missed; False: make up for them in a
+                burst.
         """
-        self._mailbox = mailbox
+        self._calls = calls
         self._log = log
         self._rate = rate
         self._period = round(NANOSECONDS / rate)
         self._slack = self._period // 10
         self._manages_overruns = manages_overruns
-        self.on_step: Callable[[], None] = lambda: None
-        """The system clock was set: a call for the owner, which begins anew."""
+        self.on_time_jump: Callable[[], None] = lambda: None
+        """The system clock was set: what the control thread is then to call."""
         self.resume(0)
 
     @property
@@ -58,17 +123,17 @@ class SystemClockPacer:
         self._now = self._read()
 
     def advance(self, period: int) -> None:
-        """Aim at the instant ``period`` (ns) from now."""
+        """Aim at the instant ``period`` ns from now."""
         self._now += period
 
     def pace(self, time_due: int) -> bool:
-        """Sleep until ``time_due`` (ns); False: not yet, or the clock was set."""
+        """Sleep until ``time_due``; False: not yet, or the system clock was set."""
         if abs(_offset() - self._offset) > CLOCK_STEP:
-            self._begin_anew()
+            self._restart()
             return False
         delay = time_due - self._read()
         if delay > 0:
-            if self._mailbox.wait(delay / NANOSECONDS):
+            if self._calls.wait(delay / NANOSECONDS):
                 return False
         elif -delay > self._slack and self._manages_overruns:
             self._skip(time_due, -delay)
@@ -91,19 +156,20 @@ class SystemClockPacer:
             throttle=1.0,
         )
 
-    def _begin_anew(self) -> None:
+    def _restart(self) -> None:
         step = (_offset() - self._offset) / NANOSECONDS
         self._log(
             Severity.WARN,
             f'The system clock was set by {step:+.3f} s: controllers begin anew at its time',
         )
-        self._mailbox.put(self.on_step)
+        self._calls.put(self.on_time_jump)
         self.resume(0)
 
 
 def _offset() -> int:
     """
-    ns from the monotonic to the system clock: of three readings the quickest.
+    Return the offset of the system clock from the monotonic one, ns: of three readings the
+    quickest.
 
     A thread that is held up between the two clocks would take that for a clock that was set.
     """
@@ -116,49 +182,49 @@ def _offset() -> int:
 
 
 class SimTimePacer:
-    """``Stepper`` and ``Pacer`` of the loop at once; :meth:`hear` is called by the ROS thread."""
+    """``Stepper`` and ``Pacer`` by ``/clock``, whose messages the ROS thread hands over."""
 
-    def __init__(self, mailbox: CallQueue) -> None:
-        self._mailbox = mailbox
-        self._heard: int | None = None
+    def __init__(self, calls: CallQueue) -> None:
+        self._calls = calls
+        self._received: int | None = None
         self._now = 0
         self.on_start: Callable[[], None] = lambda: None
-        """The first time was heard: a call for the owner."""
-        self.on_step: Callable[[], None] = lambda: None
-        """Time went back: a call for the owner, which begins anew."""
+        """The first message came: what the control thread is then to call."""
+        self.on_time_jump: Callable[[], None] = lambda: None
+        """Time went back: what the control thread is then to call."""
 
     @property
     def time(self) -> int:
-        """Simulated time, ns; while it paces, the instant that is waited for."""
+        """Simulated time; while it paces, the instant that is waited for."""
         return self._now
 
-    def hear(self, time_heard: int) -> None:
-        """Take a message of ``/clock``, ns, and wake the owner."""
-        last, self._heard = self._heard, time_heard
+    def receive(self, time_received: int) -> None:
+        """Take the time of a message, and wake the control thread; on the ROS thread."""
+        last, self._received = self._received, time_received
         if last is None:
-            self._mailbox.put(self.on_start)
-        elif time_heard < last:
-            self._mailbox.put(self._begin_anew)
+            self._calls.put(self.on_start)
+        elif time_received < last:
+            self._calls.put(self._restart)
         else:
-            self._mailbox.wake()
+            self._calls.wake()
 
     def resume(self, time_now: int) -> None:
-        """Go on from what was heard last."""
-        self._now = self._heard or 0
+        """Go on from the latest message; ``time_now`` is not needed."""
+        self._now = self._received or 0
 
     def advance(self, period: int) -> None:
-        """Aim at the instant ``period`` (ns) from now."""
+        """Aim at the instant ``period`` ns from now."""
         self._now += period
 
     def pace(self, time_due: int) -> bool:
-        """Wait until ``time_due`` (ns) was heard; False: not yet, but a call may have come."""
-        if self._heard is None or self._heard < time_due:
-            self._mailbox.wait()
+        """Wait until a message has ``time_due``; False: not yet, but a call may have come."""
+        if self._received is None or self._received < time_due:
+            self._calls.wait()
             return False
-        self._now = self._heard
+        self._now = self._received
         return True
 
-    def _begin_anew(self) -> None:
-        """For the owner: what it waited for comes when the old time is reached again."""
+    def _restart(self) -> None:
+        """Aim at the present time: what is waited for would come only with the old time."""
         self.resume(0)
-        self.on_step()
+        self.on_time_jump()

@@ -1,21 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A ROS node for a hardware component that knows no ROS: its logger, and the usual services.
+The ROS nodes of controllers and hardware components, which know no ROS themselves.
 
-``~/transition_event`` of a controller's node, as a lifecycle node of rclcpp publishes it.
-
-Every transition makes two messages, into the state in between and out of it::
-
-    unconfigured → configuring   (configure)
-    configuring → inactive       (transition_success)
-
-Beyond rcl, which leaves them empty, they say the transition itself and its time.
-
-A ROS node for a controller that knows no ROS: its parameters and its topics, from outside just
-as ros2_control has them.
-
-The ROS thread makes node, parameters and endpoints; the owner only sees finished objects.
+From outside they are just as in ros2_control: parameters, topics, a logger, and for a controller
+``~/transition_event``, as a lifecycle node of rclcpp publishes it. The ROS thread makes and
+removes everything here; the control thread calls :meth:`LoopPublisher.send`, by way of the ports,
+and :class:`TransitionEvents`.
 """
 
 from collections.abc import Callable, Sequence
@@ -39,11 +30,10 @@ from amr_description.control.contracts import (
 )
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.parameters import CommonParameters
 from amr_description.model.robot import Robot
 from amr_description.registry import resolve
-from amr_description.ros.log_thread import LogThread
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
@@ -54,107 +44,33 @@ from amr_description.ros.parameters import (
 
 
 class ComponentNode:
-    """``log`` is what the component says; ``node`` is named after it, in lower case."""
+    """The node of a hardware component, named after it: its logger and the usual services."""
 
     def __init__(
-        self,
-        name: str,
-        arguments: Sequence[str],
-        *,
-        namespace: str,
-        outgoing: LoopPublisher,
-        logs: LogThread,
+        self, name: str, arguments: Sequence[str], *, namespace: str, context: LoopContext
     ) -> None:
-        """``name``: of the ``<ros2_control>`` block; ``arguments``: ROS arguments."""
-        self._outgoing = outgoing
-        self.node: Node = outgoing.make_node(node_name(name), namespace, arguments)
+        """
+        Make the node.
+
+        Args:
+            name: Of the ``<ros2_control>`` block.
+            arguments: ROS arguments of the node.
+            namespace: Of the controller manager.
+            context: Of the process.
+        """
+        self._publisher = context.publisher
+        self.node: Node = context.publisher.make_node(node_name(name), namespace, arguments)
         add_parameter_event_qos_overrides(self.node)
-        self.log = logs.log_of(self.node.get_logger())
+        self.log = context.logs.log_of(self.node.get_logger())
+        """The component's own."""
 
     def destroy(self) -> None:
         """Remove the node."""
-        self._outgoing.destroy_node(self.node)
-
-
-def node_name(component: str) -> str:
-    """
-    Return a component's name as ROS allows it for a node: ``Amr-System 2`` is ``amr_system_2``.
-    """
-    name = re.sub(r'[^a-z0-9_]', '_', component.lower())
-    return f'_{name}' if name[:1].isdigit() else name or '_'
-
-
-_CONFIGURING = State(id=State.TRANSITION_STATE_CONFIGURING, label='configuring')
-_CLEANING_UP = State(id=State.TRANSITION_STATE_CLEANINGUP, label='cleaningup')
-_ACTIVATING = State(id=State.TRANSITION_STATE_ACTIVATING, label='activating')
-_DEACTIVATING = State(id=State.TRANSITION_STATE_DEACTIVATING, label='deactivating')
-_SHUTTING_DOWN = State(id=State.TRANSITION_STATE_SHUTTINGDOWN, label='shuttingdown')
-
-_UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = (
-    LifecycleState.UNCONFIGURED,
-    LifecycleState.INACTIVE,
-    LifecycleState.ACTIVE,
-    LifecycleState.FINALIZED,
-)
-_BEGUN = {
-    (_UNCONFIGURED, _INACTIVE): (Transition(id=1, label='configure'), _CONFIGURING),
-    (_INACTIVE, _UNCONFIGURED): (Transition(id=2, label='cleanup'), _CLEANING_UP),
-    (_INACTIVE, _ACTIVE): (Transition(id=3, label='activate'), _ACTIVATING),
-    (_ACTIVE, _INACTIVE): (Transition(id=4, label='deactivate'), _DEACTIVATING),
-    (_UNCONFIGURED, _FINALIZED): (Transition(id=5, label='shutdown'), _SHUTTING_DOWN),
-    (_INACTIVE, _FINALIZED): (Transition(id=6, label='shutdown'), _SHUTTING_DOWN),
-    (_ACTIVE, _FINALIZED): (Transition(id=7, label='shutdown'), _SHUTTING_DOWN),
-}
-"""(start, goal) → the transition, and the state in between."""
-
-
-class TransitionEvents:
-    """The topic of one node; called, on the owner's thread, as ``Watch`` of the manager is."""
-
-    def __init__(self, node: Node) -> None:
-        self._clock = node.get_clock()
-        self._context = node.context
-        self._publisher = node.create_publisher(
-            TransitionEvent, '~/transition_event', QoSProfile(depth=10)
-        )
-
-    def __call__(
-        self, start: LifecycleState, goal: LifecycleState, reached: LifecycleState | None
-    ) -> None:
-        """Publish that a transition has begun, or (``reached``) has ended."""
-        transition, between = _BEGUN[start, goal]
-        event = TransitionEvent(timestamp=self._clock.now().nanoseconds)
-        if reached is None:
-            event.transition = transition
-            event.start_state, event.goal_state = _state(start), between
-        else:
-            event.transition = _end_of(transition, succeeded=reached is goal)
-            event.start_state, event.goal_state = between, _state(reached)
-        # At once, not with the turn's outbox: the node may be gone by then. Where ROS was shut
-        # down first, nobody hears it any more, and the motors still have to be stopped.
-        if self._context.ok():
-            self._publisher.publish(event)
-
-
-def _state(state: LifecycleState) -> State:
-    return State(id=state, label=state.label)
-
-
-def _end_of(transition: Transition, *, succeeded: bool) -> Transition:
-    """Numbers as in ``lifecycle_msgs``: 10 to 50 for success, one more for failure."""
-    number = 10 * min(transition.id, Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)
-    if succeeded:
-        return Transition(id=number, label='transition_success')
-    return Transition(id=number + 1, label='transition_failure')
+        self._publisher.destroy_node(self.node)
 
 
 class ControllerNode:
-    """
-    One controller and its node.
-
-    ``controller`` is unconfigured at first. Everything here runs on the ROS thread, but for what
-    the owner calls: ``LoopPublisher.send``, by the ports, and ``watch``, which publishes transitions.
-    """
+    """One controller, unconfigured at first, and its node."""
 
     def __init__(
         self,
@@ -165,21 +81,31 @@ class ControllerNode:
         namespace: str,
         update_rate: int,
         robot: Robot | None,
-        outgoing: LoopPublisher,
-        logs: LogThread,
+        context: LoopContext,
     ) -> None:
         """
-        Make node and controller; ``arguments``: ROS arguments of the node.
+        Make node and controller.
 
-        Raises ParameterError, and whatever the constructor of a foreign controller raises.
+        Args:
+            name: Of the controller and its node.
+            controller_class: Called with a :class:`ControllerContext`.
+            arguments: ROS arguments of the node.
+            namespace: Of the controller manager.
+            update_rate: Of the controller manager, Hz.
+            robot: As its URDF says; handed to the controller.
+            context: Of the process.
+
+        Raises:
+            ParameterError: A parameter has another type, or is out of its bounds.
+            Exception: Whatever the constructor of a third party's controller raises.
         """
-        self._outgoing = outgoing
+        self._publisher = context.publisher
         self._endpoints: list[Publisher | Subscription] = []
-        self.node: Node = outgoing.make_node(name, namespace, arguments)
+        self.node: Node = context.publisher.make_node(name, namespace, arguments)
         try:
             self._table = controller_class.parameters_type
-            self.log = logs.log_of(self.node.get_logger())
-            self.watch = TransitionEvents(self.node)
+            self.log = context.logs.log_of(self.node.get_logger())
+            self.publish_transition = TransitionEvents(self.node)
             common = self._declare(update_rate)
             self.controller = controller_class(
                 ControllerContext(
@@ -207,7 +133,7 @@ class ControllerNode:
             self._endpoints.append(self._advertise(port))
 
     def disconnect(self) -> None:
-        """Remove the topics; the owner must have cleaned the controller up before."""
+        """Remove the topics; the control thread must have cleaned the controller up before."""
         for endpoint in self._endpoints:
             if isinstance(endpoint, Publisher):
                 self.node.destroy_publisher(endpoint)
@@ -218,7 +144,7 @@ class ControllerNode:
     def destroy(self) -> None:
         """Remove the node."""
         self.disconnect()
-        self._outgoing.destroy_node(self.node)
+        self._publisher.destroy_node(self.node)
 
     # --- parameters ---------------------------------------------------------------------------
 
@@ -239,18 +165,18 @@ class ControllerNode:
     def _subscribe(self, port: Input[Any]) -> Subscription:
         convert = _reader_of(port.port)
 
-        def receive(message: Any, about: Any) -> None:
+        def receive(message: Any, info: Any) -> None:
             try:
                 sample = convert(message)
-            except Exception as error:  # a stranger's converter; the robot must go on
+            except Exception as error:  # a third party's converter; the robot must go on
                 self.node.get_logger().error(
                     f"Cannot accept a message on '{port.port.name}': {describe(error)}",
                     throttle_duration_sec=1.0,
                 )
                 return
             if port.put(sample):
-                self._outgoing.confirm(
-                    subscription.topic_name, about['publication_sequence_number']
+                self._publisher.acknowledge(
+                    subscription.topic_name, info['publication_sequence_number']
                 )
             else:
                 self.node.get_logger().warning(
@@ -267,9 +193,100 @@ class ControllerNode:
         message_class = message_type(port.port.message)
         message = message_class()
         publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
-        send = self._outgoing.send
+        send = self._publisher.send
         port.sink = lambda sample: send(fill, sample, message, publisher)
         return publisher
+
+
+_CONFIGURING = State(id=State.TRANSITION_STATE_CONFIGURING, label='configuring')
+_CLEANING_UP = State(id=State.TRANSITION_STATE_CLEANINGUP, label='cleaningup')
+_ACTIVATING = State(id=State.TRANSITION_STATE_ACTIVATING, label='activating')
+_DEACTIVATING = State(id=State.TRANSITION_STATE_DEACTIVATING, label='deactivating')
+_SHUTTING_DOWN = State(id=State.TRANSITION_STATE_SHUTTINGDOWN, label='shuttingdown')
+
+_UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = (
+    LifecycleState.UNCONFIGURED,
+    LifecycleState.INACTIVE,
+    LifecycleState.ACTIVE,
+    LifecycleState.FINALIZED,
+)
+_BEGUN = {
+    (_UNCONFIGURED, _INACTIVE): (Transition(id=1, label='configure'), _CONFIGURING),
+    (_INACTIVE, _UNCONFIGURED): (Transition(id=2, label='cleanup'), _CLEANING_UP),
+    (_INACTIVE, _ACTIVE): (Transition(id=3, label='activate'), _ACTIVATING),
+    (_ACTIVE, _INACTIVE): (Transition(id=4, label='deactivate'), _DEACTIVATING),
+    (_UNCONFIGURED, _FINALIZED): (Transition(id=5, label='shutdown'), _SHUTTING_DOWN),
+    (_INACTIVE, _FINALIZED): (Transition(id=6, label='shutdown'), _SHUTTING_DOWN),
+    (_ACTIVE, _FINALIZED): (Transition(id=7, label='shutdown'), _SHUTTING_DOWN),
+}
+"""(start, goal) → the transition, and the state in between."""
+
+
+class TransitionEvents:
+    """
+    ``~/transition_event`` of one node; called on the control thread, as the manager's ``Watch``.
+
+    Every transition makes two messages, into the state in between and out of it::
+
+        unconfigured → configuring   (configure)
+        configuring → inactive       (transition_success)
+
+    Beyond rcl, which leaves them empty, they have the transition itself and its time.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._clock = node.get_clock()
+        self._context = node.context
+        self._publisher = node.create_publisher(
+            TransitionEvent, '~/transition_event', QoSProfile(depth=10)
+        )
+
+    def __call__(
+        self, start: LifecycleState, goal: LifecycleState, reached: LifecycleState | None
+    ) -> None:
+        """Publish that a transition has begun, or (``reached``) has ended."""
+        transition, between = _BEGUN[start, goal]
+        event = TransitionEvent(timestamp=self._clock.now().nanoseconds)
+        if reached is None:
+            event.transition = transition
+            event.start_state, event.goal_state = _state(start), between
+        else:
+            event.transition = _end_of(transition, succeeded=reached is goal)
+            event.start_state, event.goal_state = between, _state(reached)
+        # At once, not at the end of the cycle: the node may be gone by then. Where ROS was shut
+        # down first, nothing can be published, and the motors still have to be stopped.
+        if self._context.ok():
+            self._publisher.publish(event)
+
+
+def _state(state: LifecycleState) -> State:
+    return State(id=state, label=state.label)
+
+
+def _end_of(transition: Transition, *, succeeded: bool) -> Transition:
+    """Numbers as in ``lifecycle_msgs``: 10 to 50 for success, one more for failure."""
+    number = 10 * min(transition.id, Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)
+    if succeeded:
+        return Transition(id=number, label='transition_success')
+    return Transition(id=number + 1, label='transition_failure')
+
+
+def node_name(component: str) -> str:
+    """
+    Return a component's name as ROS allows it for a node: ``Amr-System 2`` is ``amr_system_2``.
+    """
+    name = re.sub(r'[^a-z0-9_]', '_', component.lower())
+    return f'_{name}' if name[:1].isdigit() else name or '_'
+
+
+def qos(wanted: Qos) -> QoSProfile:
+    """Return rclpy's profile; system defaults are left to the middleware."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST if wanted.depth else HistoryPolicy.SYSTEM_DEFAULT,
+        depth=wanted.depth,
+        reliability=ReliabilityPolicy[wanted.reliability.upper()],
+        durability=DurabilityPolicy[wanted.durability.upper()],
+    )
 
 
 def _reader_of(port: Port) -> Callable[[Any], Any]:
@@ -288,13 +305,3 @@ def _writer_of(port: Port) -> Callable[[Any, Any], None]:
     from amr_description.control.ros import converters
 
     return converters.writer_of(port)
-
-
-def qos(wanted: Qos) -> QoSProfile:
-    """Return rclpy's profile; system defaults are left to the middleware."""
-    return QoSProfile(
-        history=HistoryPolicy.KEEP_LAST if wanted.depth else HistoryPolicy.SYSTEM_DEFAULT,
-        depth=wanted.depth,
-        reliability=ReliabilityPolicy[wanted.reliability.upper()],
-        durability=DurabilityPolicy[wanted.durability.upper()],
-    )

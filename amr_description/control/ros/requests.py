@@ -1,12 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the services of a controller manager do: coroutines of the thread that serves its node.
+What the services of a controller manager do: coroutines on the thread that serves its node.
 
-Nodes and topics are made here, the rest is asked of the owner, whom a coroutine awaits: nothing
-here ever blocks the executor.
-
-What controllers are made of, imported anew: an edited controller without a restart.
+Nodes and topics are made here; the rest is submitted to the control thread and awaited, so that
+nothing here ever blocks the executor.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -20,15 +18,13 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.loop_thread import LoopThread
+from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.parameters import ControllerEntry, ManagerParameters
 from amr_description.control.ros.plugin_nodes import ControllerNode
 from amr_description.control.switching import Strictness
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError, ControllerError
 from amr_description.model.robot import Robot
-from amr_description.ros.log_thread import LogThread
 from amr_description.ros.runtime import argument_errors, run_in_thread
 
 
@@ -44,7 +40,7 @@ def reload_modules(names: Iterable[str]) -> None:
         try:
             if name in sys.modules:
                 importlib.reload(sys.modules[name])
-        except Exception as error:  # a stranger's module may raise anything
+        except Exception as error:  # a plugin may raise anything
             raise ControllerError(
                 f"Cannot reload controller library '{name}': {type(error).__name__}: {error}"
             ) from error
@@ -53,8 +49,6 @@ def reload_modules(names: Iterable[str]) -> None:
 class ManagerRequests:
     """
     Loads, configures, switches and unloads, for one manager; ``controllers`` by their names.
-
-    ``node``: of the manager, which is in an executor by now; ``robot``: handed to controllers.
     """
 
     def __init__(
@@ -65,23 +59,30 @@ class ManagerRequests:
         manager: ControllerManager,
         *,
         robot: Robot | None,
-        owner: LoopThread,
-        outgoing: LoopPublisher,
-        logs: LogThread,
+        context: LoopContext,
     ) -> None:
+        """
+        Begin without controllers.
+
+        Args:
+            node: Of the manager; it must be in an executor.
+            log: Of the manager.
+            parameters: Of the manager.
+            manager: Used on the control thread only, but for its snapshot.
+            robot: Handed to controllers.
+            context: Of the process.
+        """
         self.node = node
         self.log = log
         self.manager = manager
         self.controllers: dict[str, ControllerNode] = {}
         self._parameters = parameters
         self._robot = robot
-        self._owner = owner
-        self._outgoing = outgoing
-        self._logs = logs
+        self._context = context
         self._modules: set[str] = set()
 
     async def load(self, name: str) -> None:
-        """Make the controller and its node here, and let the owner take it in."""
+        """Make the controller and its node, and hand it to the manager. Raises ControllerError."""
         if name in self.controllers:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
@@ -89,20 +90,23 @@ class ManagerRequests:
         entry = self._parameters.entry_of(name)
         self.log(Severity.INFO, f"Loading controller : '{name}' of type '{entry.type}'")
         try:
-            bridge = self._make(name, entry)
+            controller_node = self._make(name, entry)
         except AmrError:
             raise
         except Exception as error:
             raise ControllerError(
                 f"Failed to load controller '{name}': {describe(error)}"
             ) from error
-        # Before the owner is asked: others may see the controller in the list at once.
-        self.controllers[name] = bridge
-        self.node.executor.add_node(bridge.node)
+        # Before the manager has it: others may see the controller in the list at once.
+        self.controllers[name] = controller_node
+        self.node.executor.add_node(controller_node.node)
         try:
             await self._ask(
                 lambda: self.manager.load(
-                    bridge.controller, entry.type, entry.fallback_controllers, bridge.watch
+                    controller_node.controller,
+                    entry.type,
+                    entry.fallback_controllers,
+                    controller_node.publish_transition,
                 )
             )
         except Exception:
@@ -113,16 +117,16 @@ class ManagerRequests:
         """
         Configure a controller and make its topics. Raises ControllerError, ParameterError.
 
-        What takes long, the controller's own part, neither the owner nor this thread waits for.
+        The controller's own part, which may take long, runs in a thread of its own.
         """
-        bridge = self.controllers.get(name)
-        if bridge is None:
+        controller_node = self.controllers.get(name)
+        if controller_node is None:
             raise ControllerError(
                 f"Could not configure controller with name '{name}' because no controller with "
                 'this name exists'
             )
         self.log(Severity.INFO, f"Configuring controller: '{name}'")
-        parameters = bridge.parameters()
+        parameters = controller_node.parameters()
         try:
             configuring = await self._ask(lambda: self.manager.begin_configure(name))
             await run_in_thread(
@@ -132,13 +136,13 @@ class ManagerRequests:
         except AmrError:
             states = {each.name: each.state for each in self.manager.snapshot.controllers}
             if states.get(name) is LifecycleState.UNCONFIGURED:
-                bridge.disconnect()
+                controller_node.disconnect()
             raise
-        if self.controllers.get(name) is not bridge:
+        if self.controllers.get(name) is not controller_node:
             return  # it was unloaded since
         try:
             with argument_errors():
-                bridge.connect()
+                controller_node.connect()
         except Exception as error:
             await self.cleanup(name)
             raise ControllerError(
@@ -166,7 +170,9 @@ class ManagerRequests:
             )
         if active:
             await self._ask(
-                lambda: self.manager.switch([], active, Strictness.STRICT, self._owner.loop.time)
+                lambda: self.manager.switch(
+                    [], active, Strictness.STRICT, self._context.loop_thread.loop.time
+                )
             )
         for name in list(self.controllers):
             await self.unload(name)
@@ -180,7 +186,7 @@ class ManagerRequests:
 
         def switch() -> str:
             self.manager.defaults = defaults
-            time = self._owner.loop.time
+            time = self._context.loop_thread.loop.time
             return self.manager.switch(activate, deactivate, strictness, time, timeout)
 
         try:
@@ -199,15 +205,17 @@ class ManagerRequests:
     async def set_component_state(self, name: str, state: LifecycleState) -> None:
         """Bring a hardware component to a state. Raises HardwareError."""
         await self._ask(
-            lambda: self.manager.set_component_state(name, state, self._owner.loop.time)
+            lambda: self.manager.set_component_state(
+                name, state, self._context.loop_thread.loop.time
+            )
         )
 
     def _ask[Result](self, call: Callable[[], Result]) -> Future:
-        """Have the owner make a call; see :meth:`LoopThread.submit`."""
-        return self._owner.submit(call, self.node.executor)
+        """Have the control thread make a call; see :meth:`LoopThread.submit`."""
+        return self._context.loop_thread.submit(call, self.node.executor)
 
     def _make(self, name: str, entry: ControllerEntry) -> ControllerNode:
-        """Make a controller and its node. Raises ControllerError, ParameterError, or foreign."""
+        """Make a controller and its node. Raises ControllerError, ParameterError, or anything."""
         try:
             controller_class = CONTROLLERS.find(entry.type)
         except ControllerError as error:
@@ -228,12 +236,11 @@ class ManagerRequests:
                 namespace=self.node.get_namespace(),
                 update_rate=self._parameters.update_rate,
                 robot=self._robot,
-                outgoing=self._outgoing,
-                logs=self._logs,
+                context=self._context,
             )
 
     def _forget(self, name: str) -> None:
         """Remove the node of a controller that the manager does not know, or no longer."""
-        bridge = self.controllers.pop(name)
-        self.node.executor.remove_node(bridge.node)
-        bridge.destroy()
+        controller_node = self.controllers.pop(name)
+        self.node.executor.remove_node(controller_node.node)
+        controller_node.destroy()

@@ -1,18 +1,20 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``/diagnostics`` of a controller manager, as diagnostic_updater publishes it.
+The topics on which a controller manager publishes its own status.
 
-The period is one of the machine's clock: a simulation that runs as fast as it can, or is paused,
-says once a second how it is, too.
+``/diagnostics``
+    as diagnostic_updater publishes it.
+``~/activity``
+    the states of all controllers and components, latched.
+``~/introspection_data/…``, ``~/statistics/…``
+    numbers: the values of interfaces, and how long cycles take. ``full`` has name and number
+    together, for people; ``names``, latched, and ``values`` are for programs (PlotJuggler,
+    rosbag2). They are read and published after every cycle, and only while somebody subscribes;
+    otherwise a cycle does nothing for them at all.
 
-``~/activity`` of a controller manager: states of all controllers and components, latched.
-
-``~/introspection_data/…`` and ``~/statistics/…`` of a controller manager: numbers to be watched.
-
-``full`` has name and number together, for people; ``names``, latched, and ``values`` are for
-programs (PlotJuggler, rosbag2). Numbers are read and published after every cycle, and only while
-somebody subscribes to them; otherwise a cycle does nothing for it at all.
+Timers go by the steady clock of the machine: a simulation that runs as fast as it can, or is
+paused, also publishes its diagnostics once a second.
 """
 
 from array import array
@@ -25,33 +27,42 @@ from pal_statistics_msgs.msg import Statistic, Statistics, StatisticsNames, Stat
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import Clock
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import QoSProfile
 from rclpy.time import ClockType
 from std_msgs.msg import Header
 
-from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.diagnostics import HARDWARE_ID, Report, reports, take_measurements
-from amr_description.control.introspection import interfaces_of, IntrospectionRegistry, statistics_of
+from amr_description.control.introspection import (
+    interfaces_of,
+    IntrospectionRegistry,
+    statistics_of,
+)
 from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.loop_thread import LoopThread
+from amr_description.control.ros.loop_thread import LoopContext, LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
+from amr_description.ros.messages import fill_stamp
+from amr_description.ros.qos import LATCHED
+
+_QUEUED = QoSProfile(depth=10)
+_SUBSCRIPTION_CHECK_PERIOD = 1.0
+"""s: how often it is looked up whether somebody subscribes to the numbers."""
 
 
 class DiagnosticsTopic:
-    """The topic and its timer; everything here runs on the ROS thread."""
+    """``/diagnostics`` and its timer; everything here runs on the ROS thread."""
 
-    def __init__(self, node: Node, owner: LoopThread, parameters: ManagerParameters) -> None:
-        """``parameters``: of which only those at the start count, but for the thresholds."""
+    def __init__(self, node: Node, loop_thread: LoopThread, parameters: ManagerParameters) -> None:
+        """``parameters``: those at the start count, but for :attr:`thresholds`."""
         self.manager: ControllerManager | None = None
         """Set once there is hardware."""
         self.has_description = False
-        """True once there should be."""
+        """True once there should be hardware."""
         self.thresholds = parameters.start.diagnostics
-        """As they are now."""
+        """As the parameters are now."""
         self._node = node
-        self._owner = owner
+        self._loop_thread = loop_thread
         self._update_rate = parameters.update_rate
         updater = parameters.start.diagnostic_updater
         name = node.get_fully_qualified_name() if updater.use_fqn else node.get_name()
@@ -59,19 +70,19 @@ class DiagnosticsTopic:
         self._publisher = node.create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=1)
         )
-        # A group of its own: while the owner is awaited, parameters go on being served.
+        # A group of its own: parameters go on being served while the control thread is awaited.
         node.create_timer(
             updater.period,
-            self._tell,
+            self._publish,
             callback_group=MutuallyExclusiveCallbackGroup(),
             clock=Clock(clock_type=ClockType.STEADY_TIME),
         )
 
-    async def _tell(self) -> None:
+    async def _publish(self) -> None:
         manager = self.manager
         measured = None
         if manager is not None:
-            measured = await self._owner.submit(
+            measured = await self._loop_thread.submit(
                 lambda: take_measurements(manager), self._node.executor
             )
         found = reports(
@@ -97,28 +108,25 @@ def _status(name: str, report: Report) -> DiagnosticStatus:
     )
 
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
 class ActivityTopic:
-    """Told, on the owner's thread, of every new snapshot; publishes when a state has changed."""
+    """``~/activity``: published when a state has changed; on the control thread."""
 
     def __init__(self, node: Node) -> None:
         self._clock = node.get_clock()
-        self._publisher = node.create_publisher(ControllerManagerActivity, '~/activity', _LATCHED)
-        self._said: ControllerManagerActivity | None = None
+        self._publisher = node.create_publisher(ControllerManagerActivity, '~/activity', LATCHED)
+        self._last: ControllerManagerActivity | None = None
 
-    def tell(self, snapshot: ManagerSnapshot) -> None:
-        """Publish at once, not with the turn's outbox: after the last turn, there is none."""
+    def publish(self, snapshot: ManagerSnapshot) -> None:
+        """Publish at once, not at the end of the cycle: after the last cycle there is none."""
         controllers, components = _states(snapshot.controllers), _states(snapshot.components)
-        said = self._said
-        if said and (said.controllers, said.hardware_components) == (controllers, components):
+        last = self._last
+        if last and (last.controllers, last.hardware_components) == (controllers, components):
             return
-        self._said = ControllerManagerActivity(
+        self._last = ControllerManagerActivity(
             controllers=controllers, hardware_components=components
         )
-        self._said.header.stamp = self._clock.now().to_msg()
-        self._publisher.publish(self._said)
+        self._last.header.stamp = self._clock.now().to_msg()
+        self._publisher.publish(self._last)
 
 
 def _states(
@@ -132,10 +140,6 @@ def _states(
     return states
 
 
-_QUEUED = QoSProfile(depth=10)
-_ATTENTION = 1.0  # s of the machine's clock, between two looks at who subscribes
-
-
 class _Sample(NamedTuple):
     time: int
     names: tuple[str, ...]
@@ -144,35 +148,35 @@ class _Sample(NamedTuple):
 
 
 class RegistryTopics:
-    """``full``, ``names`` and ``values`` of one registry; made on the ROS thread."""
+    """``full``, ``names`` and ``values`` of one registry of numbers; made on the ROS thread."""
 
     def __init__(
         self,
         node: Node,
         name: str,
         registry_of: Callable[[ControllerManager], IntrospectionRegistry],
-        outgoing: LoopPublisher,
+        loop_publisher: LoopPublisher,
     ) -> None:
         self._registry_of = registry_of
         self._registry = IntrospectionRegistry((), list)
         self._version = 0
         self._clock = node.get_clock()
-        self._outgoing = outgoing
-        self._names = node.create_publisher(StatisticsNames, f'{name}/names', _LATCHED)
+        self._loop_publisher = loop_publisher
+        self._names = node.create_publisher(StatisticsNames, f'{name}/names', LATCHED)
         self._full = node.create_publisher(Statistics, f'{name}/full', _QUEUED)
         self._values = node.create_publisher(StatisticsValues, f'{name}/values', _QUEUED)
         self._full_message, self._values_message = Statistics(), StatisticsValues()
-        self._listed: tuple[str, ...] = ()
+        self._full_names: tuple[str, ...] = ()
         self._wants_full = self._wants_values = False
 
-    def look(self) -> bool:
-        """See who subscribes; return whether anybody does. On the ROS thread."""
+    def check_subscriptions(self) -> bool:
+        """Look up who subscribes; return whether anybody does. On the ROS thread."""
         self._wants_full = self._full.get_subscription_count() > 0
         self._wants_values = self._values.get_subscription_count() > 0
         return self._wants_full or self._wants_values
 
     def change(self, manager: ControllerManager) -> None:
-        """Something about the manager has changed; on the owner's thread, as all that follows."""
+        """Take up a manager, or a change of it; on the control thread, as all that follows."""
         before, self._registry = self._registry, self._registry_of(manager)
         if self._registry.names != before.names:
             self._version += 1
@@ -185,49 +189,53 @@ class RegistryTopics:
             )
 
     def send(self, time: int) -> None:
-        """Read the numbers as they are at ``time``, ns, and publish them after this turn."""
+        """Read the numbers as they are at ``time``, ns, and publish them with this cycle."""
         names, read = self._registry.names, self._registry.read
         sample = _Sample(time, names, self._version, read())
         if self._wants_full:
-            self._outgoing.send(self._fill_full, sample, self._full_message, self._full)
+            self._loop_publisher.send(self._fill_full, sample, self._full_message, self._full)
         if self._wants_values:
-            self._outgoing.send(_fill_values, sample, self._values_message, self._values)
+            self._loop_publisher.send(_fill_values, sample, self._values_message, self._values)
 
     def _fill_full(self, sample: _Sample, message: Statistics) -> None:
-        _set_stamp(message.header, sample.time)
-        if sample.names is not self._listed:
+        fill_stamp(sample.time, message.header.stamp)
+        if sample.names is not self._full_names:
             message.statistics = [Statistic(name=name) for name in sample.names]
-            self._listed = sample.names
+            self._full_names = sample.names
         for statistic, value in zip(message.statistics, sample.values, strict=True):
             statistic.value = value
 
 
 class Introspection:
-    """Both registries of a manager, and who is interested in them."""
+    """Both registries of a manager; their numbers are read while somebody subscribes."""
 
-    def __init__(self, node: Node, owner: LoopThread, outgoing: LoopPublisher) -> None:
-        self._owner = owner
+    def __init__(self, node: Node, context: LoopContext) -> None:
+        self._loop_thread = context.loop_thread
         self._manager: ControllerManager | None = None
         self._topics = (
-            RegistryTopics(node, '~/introspection_data', interfaces_of, outgoing),
-            RegistryTopics(node, '~/statistics', statistics_of, outgoing),
+            RegistryTopics(node, '~/introspection_data', interfaces_of, context.publisher),
+            RegistryTopics(node, '~/statistics', statistics_of, context.publisher),
         )
         self._wanted: list[RegistryTopics] = []
-        node.create_timer(_ATTENTION, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        node.create_timer(
+            _SUBSCRIPTION_CHECK_PERIOD,
+            self._check_subscriptions,
+            clock=Clock(clock_type=ClockType.STEADY_TIME),
+        )
 
     def watch(self, manager: ControllerManager) -> None:
-        """Take up a manager, or a change of it; on the owner's thread."""
+        """Take up a manager, or a change of it; on the control thread."""
         self._manager = manager
         for each in self._topics:
             each.change(manager)
 
-    def _look(self) -> None:
-        wanted = [each for each in self._topics if each.look()]
+    def _check_subscriptions(self) -> None:
+        wanted = [each for each in self._topics if each.check_subscriptions()]
         if self._manager is not None and wanted != self._wanted:
             self._wanted = wanted
-            self._owner.submit(lambda: self._listen_to(wanted))
+            self._loop_thread.submit(lambda: self._publish_each_cycle(wanted))
 
-    def _listen_to(self, wanted: list[RegistryTopics]) -> None:
+    def _publish_each_cycle(self, wanted: list[RegistryTopics]) -> None:
         def send(time: int) -> None:
             for each in wanted:
                 each.send(time)
@@ -236,10 +244,6 @@ class Introspection:
 
 
 def _fill_values(sample: _Sample, message: StatisticsValues) -> None:
-    _set_stamp(message.header, sample.time)
+    fill_stamp(sample.time, message.header.stamp)
     message.values = array('d', sample.values)
     message.names_version = sample.version
-
-
-def _set_stamp(header: Header, time: int) -> None:
-    header.stamp.sec, header.stamp.nanosec = divmod(time, NANOSECONDS)

@@ -17,10 +17,14 @@ from rclpy.executors import Executor
 from amr_description.ament_index import package_share
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.controller_manager_node import ControllerManagerNode
-from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.loop_thread import LoopThread
+from amr_description.control.ros.controller_manager_node import (
+    ControllerManagerNode,
+    PreparedManager,
+    RunningManager,
+)
+from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.controllers.drive_files import drive_warnings
 from amr_description.errors import RequestError, SpawnError
@@ -30,7 +34,6 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameter_files import read_parameter_file
-from amr_description.ros.log_thread import LogThread
 from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_thread
 from amr_description.sim.engine import physics_stepping, steps_in
 from amr_description.sim.robot_spec import WORLD_LINK
@@ -64,7 +67,7 @@ class Entity:
 
     name: str
     info: EntityRecord
-    manager: ControllerManagerNode | None
+    manager: RunningManager | None
     """Of a robot that asks for control."""
     thread: ExecutorThread | None
     """Serves the manager, its components and controllers."""
@@ -72,7 +75,7 @@ class Entity:
 
 class EntityManager:
     """
-    All robots. The coroutines run on the ROS thread and await the owner.
+    All robots. The coroutines run on the ROS thread and await the control thread.
 
     ``controllers``: path of the managers' parameter file, or empty; ``ros_args`` go on to every
     manager and controller.
@@ -80,29 +83,26 @@ class EntityManager:
 
     def __init__(
         self,
-        owner: LoopThread,
+        context: LoopContext,
         world: MujocoWorld,
-        outgoing: LoopPublisher,
         ground_truth: GroundTruth,
         *,
         executor: Executor,
-        logs: LogThread,
         log: Log,
         controllers: str,
         ros_args: Sequence[str],
     ) -> None:
-        self._owner = owner
+        self._context = context
+        self._loop_thread = context.loop_thread
         self._world = world
-        self._outgoing = outgoing
         self._ground_truth = ground_truth
         self._executor = executor
-        self._logs = logs
         self._log = log
         self._controllers = controllers
         self._ros_args = ros_args
         self._entities: dict[str, Entity] = {}
         self._namespaces: set[str] = set()
-        """Those that have a controller manager; the owner's."""
+        """Those that have a controller manager; for the control thread."""
 
     @property
     def entities(self) -> Iterable[Entity]:
@@ -136,23 +136,24 @@ class EntityManager:
         of a foreign component raises; nothing is then left of the robot.
         """
         hardware = hardware_of(robot)
-        node = self._manager_node(robot, hardware, namespace) if hardware else None
+        prepared = self._prepare(robot, hardware, namespace) if hardware else None
 
-        def insert() -> str:
+        def insert() -> tuple[str, ControllerManager | None]:
             given = free_name(name, self._world.names) if allow_renaming else name
             check_name(given, self._world.names)
-            self._insert(given, robot, pose, node)
-            return given
+            return given, self._insert(given, robot, pose, prepared)
 
         try:
-            given = await self._owner.submit(insert)
+            given, manager = await self._loop_thread.submit(insert)
         except Exception:
-            if node is not None:
-                node.destroy()
+            if prepared is not None:
+                prepared.destroy()
             raise
-        thread = self._serve(node, robot, given) if node is not None else None
+        running = thread = None
+        if prepared is not None:
+            running, thread = self._serve(prepared, manager, given)
         self._ground_truth.add(given, namespace)
-        self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), node, thread)
+        self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
         return given
 
     async def remove(self, name: str) -> None:
@@ -166,7 +167,7 @@ class EntityManager:
         self._ground_truth.remove(name)
         if entity.thread is not None:
             await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
-        await self._owner.submit(lambda: self._take_out(entity))
+        await self._loop_thread.submit(lambda: self._take_out(entity))
         _destroy(entity)
 
     async def remove_all(self) -> int:
@@ -178,7 +179,7 @@ class EntityManager:
         return count
 
     def destroy(self) -> None:
-        """Remove all nodes; the owner has stopped."""
+        """Remove all nodes; the control thread has stopped."""
         threads = [each.thread for each in self._entities.values() if each.thread is not None]
         for thread in threads:
             thread.ask_to_end()  # all at once: each may have a callback to finish
@@ -187,51 +188,56 @@ class EntityManager:
         for entity in self._entities.values():
             _destroy(entity)
 
-    def _serve(self, node: ControllerManagerNode, robot: Robot, name: str) -> ExecutorThread:
-        """Make the services of a robot's manager, in a thread that serves them."""
-        thread = ExecutorThread(name, self._owner.fail)
-        thread.executor.add_node(node.node)
-        DescriptionSource(node.node, node.log, robot=robot)
-        node.start()
+    def _serve(
+        self, prepared: PreparedManager, manager: ControllerManager, name: str
+    ) -> tuple[RunningManager, ExecutorThread]:
+        """Make the services of a robot's manager, and a thread that serves them."""
+        thread = ExecutorThread(name, self._loop_thread.fail)
+        node, log = prepared.manager_node.node, prepared.manager_node.log
+        thread.executor.add_node(node)
+        DescriptionSource(node, log, robot=prepared.robot)
+        running = prepared.serve(manager)
         thread.start()
-        return thread
+        return running, thread
 
-    # --- on the owner's thread ----------------------------------------------------------------
+    # --- on the control thread ----------------------------------------------------------------
 
     def _insert(
         self,
         name: str,
         robot: Robot,
         pose: Transform,
-        node: ControllerManagerNode | None,
-    ) -> None:
+        prepared: PreparedManager | None,
+    ) -> ControllerManager | None:
         """In one go: robot, components, all of them active, manager."""
-        loop, world = self._owner.loop, self._world
-        if node is not None:
-            self._check_namespace(node.node.get_namespace())
-            if not loop.managers:
-                period = _period_of(node.parameters.update_rate)
-                world.timestep = physics_stepping(period, world.longest_step).step
+        loop, world = self._loop_thread.loop, self._world
+        if prepared is None:
+            world.spawn(name, robot, pose)
+            return None
+        namespace = prepared.manager_node.node.get_namespace()
+        rate = prepared.manager_node.parameters.update_rate
+        self._check_namespace(namespace)
+        if not loop.managers:
+            world.timestep = physics_stepping(_period_of(rate), world.longest_step).step
         view = world.spawn(name, robot, pose)
-        if node is None:
-            return
         try:
-            manager = node.bring_up(view, self._period(node.parameters.update_rate))
+            manager = prepared.bring_up(view, self._period(rate))
         except Exception:
             world.remove(name)
             raise
         manager.begin(loop.time)
         loop.managers.append(manager)
-        self._namespaces.add(node.node.get_namespace())
+        self._namespaces.add(namespace)
+        return manager
 
     def _take_out(self, entity: Entity) -> None:
         """The robot and its manager, motors first; the others tick on."""
-        node, loop = entity.manager, self._owner.loop
-        if node is not None:
-            loop.managers.remove(node.manager)
-            self._namespaces.discard(node.node.get_namespace())
+        running, loop = entity.manager, self._loop_thread.loop
+        if running is not None:
+            loop.managers.remove(running.manager)
+            self._namespaces.discard(running.node.get_namespace())
             try:
-                node.manager.shut_down(loop.time)
+                running.manager.shut_down(loop.time)
             except Exception as error:  # a stranger's class; it has to go all the same
                 self._log(
                     Severity.ERROR,
@@ -262,23 +268,20 @@ class EntityManager:
 
     # --- the manager's node -------------------------------------------------------------------
 
-    def _manager_node(
+    def _prepare(
         self, robot: Robot, hardware: Sequence[HardwareInfo], namespace: str
-    ) -> ControllerManagerNode:
+    ) -> PreparedManager:
         host = ros2_control_host_of(robot)
         rules = [word for rule in host.remappings for word in ('-r', rule)]
         arguments = [*self._ros_args, *rules, *self._parameter_files(robot)]
         with argument_errors():
             node = ControllerManagerNode(
-                self._owner,
-                self._outgoing,
-                self._logs,
+                self._context,
                 name=host.controller_manager_name,
                 namespace=namespace,
                 arguments=arguments,
             )
-        node.prepare(robot, hardware)
-        return node
+        return node.prepare(robot, hardware)
 
     def _parameter_files(self, robot: Robot) -> Sequence[str]:
         """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""
@@ -296,7 +299,7 @@ class EntityManager:
 
 
 def _destroy(entity: Entity) -> None:
-    """Remove the nodes of a robot that its thread serves no longer, and the owner neither."""
+    """Remove the nodes of a robot that no thread uses any more."""
     if entity.manager is not None:
         entity.manager.destroy()
     if entity.thread is not None:

@@ -131,7 +131,7 @@ class EntityServices:
         self._simulation = simulation
         self._robots = simulation.robots
         self._world = simulation.world
-        self._owner = simulation.owner
+        self._loop_thread = simulation.loop_thread
         create_services(
             node,
             simulation.log,
@@ -188,7 +188,7 @@ class EntityServices:
                 Result.RESULT_OPERATION_FAILED,
             )
         world = self._world
-        await self._owner.submit(
+        await self._loop_thread.submit(
             lambda: set_state(world.engine, world.robot(name), pose, linear, angular)
         )
 
@@ -222,7 +222,7 @@ class EntityServices:
             robot = world.robot(name)
             return bounds_of(world.engine, robot, pose_of(robot))
 
-        box = await self._owner.submit(look)
+        box = await self._loop_thread.submit(look)
         if box is not None:
             response.bounds.type = Bounds.TYPE_BOX
             response.bounds.points = [_vector3(box.upper), _vector3(box.lower)]
@@ -246,7 +246,7 @@ class EntityServices:
                 )
             ]
 
-        return await self._owner.submit(look)
+        return await self._loop_thread.submit(look)
 
     async def _states(self, names: Collection[str]) -> dict[str, EntityState]:
         """The states at one instant, of those that are still there."""
@@ -255,10 +255,10 @@ class EntityServices:
         def look() -> dict[str, EntityState]:
             return {name: self._state(name) for name in names if name in world.names}
 
-        return await self._owner.submit(look)
+        return await self._loop_thread.submit(look)
 
     def _state(self, name: str) -> EntityState:
-        """On the owner's thread."""
+        """On the control thread."""
         robot = self._world.robot(name)
         motion = motion_of(self._world.engine, robot)
         state = EntityState()

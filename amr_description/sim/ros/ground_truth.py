@@ -70,23 +70,23 @@ class LinkMotion:
 class GroundTruth:
     """
     Of all robots of a world. :meth:`add` and :meth:`remove` on the ROS thread, :meth:`report` on
-    the owner's.
+    the control thread.
     """
 
     def __init__(
-        self, node: Node, outgoing: LoopPublisher, world: MujocoWorld, rate: float
+        self, node: Node, loop_publisher: LoopPublisher, world: MujocoWorld, rate: float
     ) -> None:
         """
         ``node`` has the topics; ``rate``: Hz of simulated time, but no more often than the loop
         turns; 0: never.
         """
         self._node = node
-        self._outgoing = outgoing
+        self._loop_publisher = loop_publisher
         self._world = world
         self._period = round(NANOSECONDS / rate) if rate else 0
         self._latest = self._interval = -1
         self._robots: dict[str, _RobotTruth] = {}
-        outgoing.reporters.append(self.report)
+        loop_publisher.reporters.append(self.report)
 
     def add(self, name: str, namespace: str) -> None:
         """Tell of the robot ``name`` of the world, from now on, in its namespace."""
@@ -115,7 +115,7 @@ class GroundTruth:
         present = self._world.names
         for name, truth in self._robots.items():
             if name in present:
-                truth.report(time, self._outgoing.send)
+                truth.report(time, self._loop_publisher.send)
 
 
 class _RobotTruth:

@@ -55,7 +55,7 @@ class _Window:
 
 class LoopProfiler:
     """
-    Everything on the owner's thread.
+    Everything on the control thread.
 
     ``factor``: tells the real-time factor that is asked for, 0 for none. ``clock`` and
     ``processor``: ns of the wall clock, and of the processor that this thread had.

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The simulation in a process: the world, its owner, its robots, and its time.
+The simulation in a process: the world, its control thread, its robots, and its time.
 
 ========  ===========================================================================
 state     what it is, in the words of ``simulation_interfaces/msg/SimulationState``
@@ -15,7 +15,7 @@ QUITTING  the process ends
 ========  ===========================================================================
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 import enum
 
@@ -26,7 +26,8 @@ from rclpy.parameter import Parameter
 from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
-from amr_description.control.ros.loop_thread import CallQueue, LoopThread, WallPacer
+from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
+from amr_description.control.ros.pacing import WallPacer
 from amr_description.parameters import group, parameter
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
@@ -111,7 +112,7 @@ class Simulation:
     """
     World, loop and robots; ``node`` publishes ``/clock`` and lends its logger and parameters.
 
-    The coroutines run on the ROS thread and await the owner.
+    The coroutines run on the ROS thread and await the control thread.
     """
 
     def __init__(
@@ -126,42 +127,39 @@ class Simulation:
         """As they were at the start."""
         self._node = node
         self._is_stopped = self._is_quitting = False
-        self.on_quit: Callable[[], None] = executor.wake
-        """Ends the process; called when QUITTING is asked for."""
+        self._executor = executor
         self.logs = LogThread()
         try:
             self.log = self.logs.log_of(node.get_logger())
-            outgoing = ClockedLoopPublisher(node)
-            outgoing.adopt(node)
+            publisher = ClockedLoopPublisher(node)
+            publisher.adopt(node)
             self.world = MujocoWorld(
                 parameters.world,
                 settings=parameters.physics,
                 seed=parameters.seed,
                 log=self.log,
             )
-            ground_truth = GroundTruth(node, outgoing, self.world, parameters.ground_truth_rate)
-            mailbox = CallQueue(CLOCK_REMINDER)
-            self._pacer = WallPacer(parameters.real_time_factor, mailbox)
+            ground_truth = GroundTruth(node, publisher, self.world, parameters.ground_truth_rate)
+            calls = CallQueue(CLOCK_REMINDER)
+            self._pacer = WallPacer(parameters.real_time_factor, calls)
             watch = LoopProfiler(self.log, lambda: self._pacer.factor)
-            self.owner = LoopThread(mailbox, executor)
-            self.owner.loop = Loop(
+            self.loop_thread = LoopThread(calls, executor)
+            self.loop_thread.loop = Loop(
                 watch.stepper(WorldStepper(self.world)),
                 watch.pacer(self._pacer),
-                mailbox,
-                watch.publisher(outgoing),
+                calls,
+                watch.publisher(publisher),
                 CLOCK_PERIOD,
             )
             self._pauses_on_fault = parameters.on_fault == 'pause'
-            self.world.faults.on_fault = lambda: mailbox.put(self._on_fault)
+            self.world.faults.on_fault = lambda: calls.put(self._on_fault)
             if parameters.paused:
-                self.owner.loop.pause()
+                self.loop_thread.loop.pause()
             self.robots = EntityManager(
-                self.owner,
+                LoopContext(self.loop_thread, publisher, self.logs),
                 self.world,
-                outgoing,
                 ground_truth,
                 executor=executor,
-                logs=self.logs,
                 log=self.log,
                 controllers=parameters.controllers,
                 ros_args=ros_args,
@@ -173,12 +171,12 @@ class Simulation:
         node.add_post_set_parameters_callback(self._on_parameters_set)
 
     def start(self) -> None:
-        """Let the owner's thread run; time begins, unless it is paused."""
-        self.owner.start()
+        """Let the control thread run; time begins, unless it is paused."""
+        self.loop_thread.start()
 
     def close(self) -> None:
         """Let time end; then remove the robots' nodes."""
-        self.owner.stop()
+        self.loop_thread.stop()
         self.robots.destroy()
         self.logs.stop()
 
@@ -187,23 +185,28 @@ class Simulation:
         """What it is doing."""
         if self._is_quitting:
             return SimulationState.QUITTING
-        if self.owner.loop.is_running:
+        if self.loop_thread.loop.is_running:
             return SimulationState.PLAYING
         return SimulationState.STOPPED if self._is_stopped else SimulationState.PAUSED
 
+    @property
+    def has_ended(self) -> bool:
+        """Whether the process shall end: by QUITTING, or by a bug."""
+        return self._is_quitting or self.loop_thread.failed
+
     async def play(self) -> None:
         """Let time go on."""
-        await self.owner.submit(self.owner.loop.resume)
+        await self.loop_thread.submit(self.loop_thread.loop.resume)
         self._is_stopped = False
 
     async def pause(self) -> None:
         """Let time stand still."""
-        await self.owner.submit(self.owner.loop.pause)
+        await self.loop_thread.submit(self.loop_thread.loop.pause)
         self._is_stopped = False
 
     async def stop(self) -> None:
         """Let time stand still, and everything be as at the start."""
-        await self.owner.submit(self.owner.loop.pause)
+        await self.loop_thread.submit(self.loop_thread.loop.pause)
         await self.robots.remove_all()
         await self.reset()
         self._is_stopped = True
@@ -212,7 +215,7 @@ class Simulation:
         """Stop, and end the process."""
         await self.stop()
         self._is_quitting = True
-        self.on_quit()
+        self._executor.wake()
 
     async def step(self, count: int) -> int:
         """
@@ -222,7 +225,7 @@ class Simulation:
         SimulationError: it is not paused, or stepping already.
         """
         step = self.world.timestep
-        return -(-await self.owner.step(count * step) // step)
+        return -(-await self.loop_thread.step(count * step) // step)
 
     async def reset(self, *, time: bool = True, state: bool = True) -> None:
         """
@@ -233,7 +236,7 @@ class Simulation:
         """
 
         def reset() -> None:
-            world, loop = self.world, self.owner.loop
+            world, loop = self.world, self.loop_thread.loop
             now = world.time
             if state:
                 world.reset()
@@ -243,20 +246,22 @@ class Simulation:
             else:
                 loop.set_clock()
 
-        await self.owner.submit(reset)
+        await self.loop_thread.submit(reset)
 
     def _on_parameters_set(self, _: Sequence[Parameter]) -> None:
         """One was set: the factor, or what a fault does, as no other can be."""
         now = values(self._node, SimulationParameters)
         self._pauses_on_fault = now.on_fault == 'pause'
         if now.real_time_factor != self._pacer.factor:
-            loop = self.owner.loop
-            self.owner.submit(lambda: self._pacer.set_factor(now.real_time_factor, loop.time))
+            loop = self.loop_thread.loop
+            self.loop_thread.submit(
+                lambda: self._pacer.set_factor(now.real_time_factor, loop.time)
+            )
 
     def _on_fault(self) -> None:
-        """Between two turns, after a fault was told; on the owner's thread."""
+        """Between two turns, after a fault was told; on the control thread."""
         if self._pauses_on_fault:
-            self.owner.loop.pause()
+            self.loop_thread.loop.pause()
             self.log(
                 Severity.WARN,
                 'paused, as on_fault says; ~/set_simulation_state lets time go on, '

@@ -8,7 +8,7 @@ from geometry_msgs.msg import TwistStamped
 import pytest
 from support.ros_processes import ROOT
 
-from amr_description.control.ros.loop_publisher import QOS
+from amr_description.control.ros.loop_publisher import ACKNOWLEDGEMENT_QOS
 from amr_description.ros.service_calls import call
 
 pytest_plugins = ['amr_description.testing.fixtures']
@@ -23,7 +23,7 @@ class Client:
         self.sim = sim
         self.heard = []
         subscription = sim.node.create_subscription(
-            KeyValue, '/mujoco_sim/received', self._hear, QOS
+            KeyValue, '/mujoco_sim/received', self._hear, ACKNOWLEDGEMENT_QOS
         )
         self.publisher = sim.node.create_publisher(TwistStamped, CMD_VEL, 1)
         self.published = 0

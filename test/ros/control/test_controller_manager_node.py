@@ -77,7 +77,7 @@ def test_nodes_say_sim_time_but_do_not_subscribe_to_the_clock(host):
     host.activate('diff_drive_controller')
     assert host.client_node.get_publishers_info_by_topic('/clock')
     assert host.client_node.get_subscriptions_info_by_topic('/clock') == []
-    controllers = [n for n in host.manager_node.nodes() if n.get_name() == 'diff_drive_controller']
+    controllers = [host.running.requests.controllers['diff_drive_controller'].node]
     for node in (host.manager_node.node, *controllers):
         assert node.get_parameter('use_sim_time').value is True
         before = node.get_clock().now().nanoseconds
@@ -89,7 +89,7 @@ def test_nodes_say_sim_time_but_do_not_subscribe_to_the_clock(host):
             timeout=5.0,
         )
         after = node.get_clock().now().nanoseconds
-        assert before < after <= host.owner.loop.time
+        assert before < after <= host.loop_thread.loop.time
         assert after % PERIOD == 0
 
 
@@ -159,13 +159,13 @@ def test_options_of_a_controller_hold_with_and_without_ros_args(host):
     ):
         host.client.set_parameters(name, {'node_options_args': words})
         assert host.client.load(name)
-    rates = [each.update_rate for each in host.manager_node.manager.snapshot.controllers]
+    rates = [each.update_rate for each in host.running.manager.snapshot.controllers]
     assert rates == [50, 50]
 
 
 def test_a_parameter_is_checked_when_set_and_counts_at_the_next_configure(host):
     host.activate('diff_drive_controller')
-    node = next(n for n in host.manager_node.nodes() if n.get_name() == 'diff_drive_controller')
+    node = host.running.requests.controllers['diff_drive_controller'].node
     (refused,) = node.set_parameters([Parameter('wheel_radius', value=-0.1)])
     assert not refused.successful
     assert refused.reason == "parameter 'wheel_radius' must be greater than 0, found -0.1 m"
@@ -237,18 +237,18 @@ def test_types_interfaces_and_components_are_listed(host):
     assert (component.name, component.state.label) == ('hardware', 'active')
 
 
-def test_a_failing_turn_of_the_loop_ends_the_owner_with_the_motors_stopped(host, monkeypatch):
+def test_a_failing_cycle_of_the_loop_ends_the_process_with_the_motors_stopped(host, monkeypatch):
     host.activate('diff_drive_controller')
 
     def break_down():
         raise RuntimeError('a bug in the loop')
 
     told = threading.Event()
-    host.owner.on_failure = told.set
-    monkeypatch.setattr(host.owner.loop, 'tick', break_down)
+    host.loop_thread.on_failure = told.set
+    monkeypatch.setattr(host.loop_thread.loop, 'tick', break_down)
     assert told.wait(5.0)
-    host.owner.stop()
-    assert host.owner.failed
+    host.loop_thread.stop()
+    assert host.loop_thread.failed
     assert set(host.hardware.written.values()) == {0.0}
     assert host.hardware.count('deactivate') == 1
 
@@ -267,7 +267,7 @@ def test_converters_that_fail_end_nothing(host, capfd):
 
     lines = []
     assert wait_until(host.client_node, complained, lambda: None, every=1.0, timeout=5.0)
-    assert not host.owner.failed
+    assert not host.loop_thread.failed
     assert host.client.states() == {'babbler': 'active'}
 
 
@@ -285,29 +285,29 @@ def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
     def break_down(*_):
         raise ZeroDivisionError('a stranger')
 
-    monkeypatch.setattr(host.manager_node.manager, 'switch', break_down)
+    monkeypatch.setattr(host.running.manager, 'switch', break_down)
     assert host.client.switch(activate=['any']) == 'ZeroDivisionError: a stranger'
 
 
 def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
     node = Node('speaker')
-    outgoing = LoopPublisher(node.get_logger())
+    loop_publisher = LoopPublisher(node.get_logger())
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     gone, there = (node.create_publisher(String, name, latched) for name in ('gone', 'there'))
     filled = []
     for publisher in (gone, there):
         name = publisher.topic_name
-        outgoing.send(lambda sample, _: filled.append(sample), name, String(), publisher)
+        loop_publisher.send(lambda sample, _: filled.append(sample), name, String(), publisher)
     node.destroy_publisher(gone)
-    outgoing.publish(0)
+    loop_publisher.publish(0)
     assert filled == ['/there']
     node.destroy_node()
 
 
-def test_an_owner_that_was_never_started_stops_at_once(ros):
-    owner = LoopThread(CallQueue(), SingleThreadedExecutor())
-    owner.stop()
-    assert not owner.failed
+def test_a_control_thread_that_was_never_started_stops_at_once(ros):
+    thread = LoopThread(CallQueue(), SingleThreadedExecutor())
+    thread.stop()
+    assert not thread.failed
 
 
 @pytest.mark.parametrize(

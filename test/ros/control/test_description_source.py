@@ -18,7 +18,7 @@ from amr_description.bringup.stacks.hardware import swap_hardware
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareError
 from amr_description.model.urdf import parse
-from amr_description.nodes.ros2_control_node import StandAlone
+from amr_description.nodes.ros2_control_node import StandAloneManager
 from amr_description.ros.service_calls import wait_until
 
 URDF = ROOT / 'urdf' / 'amr.urdf'
@@ -109,7 +109,7 @@ def test_a_spawned_robot_is_only_contradicted_by_another_description(wire):
 def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothing(capfd):
     with ros_in_this_process():
         executor = SingleThreadedExecutor()
-        robot = StandAlone(executor, [])
+        robot = StandAloneManager(executor, [])
         thread = threading.Thread(target=executor.spin)
         onlooker = Node('onlooker')
         qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -18,7 +18,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 @pytest.fixture
 def node():
     rclpy.init(args=[])
-    node = Node('test_outgoing')
+    node = Node('test_loop_publisher')
     yield node
     node.destroy_node()
     rclpy.try_shutdown()
@@ -28,30 +28,30 @@ def fill(sample, message):
     message.data = sample
 
 
-def say(outgoing, publisher, sample):
+def say(loop_publisher, publisher, sample):
     """Say it at the end of a turn; return what was made of it."""
     message = String(data='nothing')
-    outgoing.send(fill, sample, message, publisher)
-    outgoing.publish(0)
+    loop_publisher.send(fill, sample, message, publisher)
+    loop_publisher.publish(0)
     return message.data
 
 
 def test_what_nobody_hears_is_not_even_made_a_message_of(node):
-    outgoing = LoopPublisher(node.get_logger())
+    loop_publisher = LoopPublisher(node.get_logger())
     publisher = node.create_publisher(String, 'said', 1)
-    assert say(outgoing, publisher, 'first') == 'nothing'
+    assert say(loop_publisher, publisher, 'first') == 'nothing'
     heard = []
     node.create_subscription(String, 'said', lambda message: heard.append(message.data), 1)
     wait_until(node, lambda: publisher.get_subscription_count() or None, timeout=PATIENCE)
-    assert say(outgoing, publisher, 'second') == 'second'
+    assert say(loop_publisher, publisher, 'second') == 'second'
     wait_until(node, lambda: heard or None, timeout=PATIENCE)
     assert heard == ['second']
 
 
 def test_what_is_kept_for_who_comes_later_is_said(node):
-    outgoing = LoopPublisher(node.get_logger())
+    loop_publisher = LoopPublisher(node.get_logger())
     publisher = node.create_publisher(String, 'kept', LATCHED)
-    assert say(outgoing, publisher, 'first') == 'first'
+    assert say(loop_publisher, publisher, 'first') == 'first'
     heard = []
     node.create_subscription(String, 'kept', lambda message: heard.append(message.data), LATCHED)
     wait_until(node, lambda: heard or None, timeout=PATIENCE)

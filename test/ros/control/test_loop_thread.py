@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The owner's queue and its pace."""
+"""The control thread, its queue and its pace."""
 
 import threading
 import time
@@ -9,12 +9,13 @@ from types import SimpleNamespace
 import pytest
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.ros import loop_thread
-from amr_description.control.ros.loop_thread import CallQueue, LoopThread, WallPacer
+from amr_description.control.ros import pacing
+from amr_description.control.ros.loop_thread import CallQueue, LoopThread
+from amr_description.control.ros.pacing import WallPacer
 
 
 class WallClock:
-    """``time`` and an empty mailbox as the pacer uses them, without waiting."""
+    """``time`` and an empty queue as the pacer uses them, without waiting."""
 
     def __init__(self):
         self.now = 100.0
@@ -31,7 +32,7 @@ class WallClock:
 
 def paced(monkeypatch, factor):
     clock = WallClock()
-    monkeypatch.setattr(loop_thread, 'time', clock)
+    monkeypatch.setattr(pacing, 'time', clock)
     pacer = WallPacer(factor, clock)
     pacer.resume(0)
     return clock, pacer
@@ -58,7 +59,7 @@ def test_waiting_ends_with_a_call_and_only_with_a_call():
     assert arrived == [2]
 
 
-def test_a_call_that_was_taken_already_does_not_keep_the_owner_awake():
+def test_a_call_that_was_taken_already_does_not_keep_the_control_thread_awake():
     box = CallQueue()
     box.put(1)
     box._calls.clear()  # taken by a turn that had cleared the event before the put set it

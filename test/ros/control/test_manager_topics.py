@@ -58,9 +58,9 @@ def latest(host, heard, condition):
     return await_(host, lambda: next((each for each in reversed(heard) if condition(each)), None))
 
 
-def owners(host, call):
-    """Have the owner make a call; return its result."""
-    future = host.owner.submit(call)
+def on_control_thread(host, call):
+    """Have the control thread make a call; return its result."""
+    future = host.loop_thread.submit(call)
     await_(host, future.done)
     return future.result()
 
@@ -91,21 +91,21 @@ def test_activity_is_told_to_whoever_comes_late_and_at_every_change(host):
     assert said == [(1, 'unconfigured'), (2, 'inactive'), (3, 'active')]
     stamps = [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in h]
     assert stamps == sorted(stamps)
-    assert 0 < stamps[0] <= stamps[-1] <= host.owner.loop.time
+    assert 0 < stamps[0] <= stamps[-1] <= host.loop_thread.loop.time
 
 
 def test_activity_is_told_while_time_stands_still(host):
-    owners(host, host.owner.loop.pause)
+    on_control_thread(host, host.loop_thread.loop.pause)
     try:
         with listening(
             host, ControllerManagerActivity, '/controller_manager/activity', LATCHED
         ) as h:
             host.activate('joint_state_broadcaster')
             found = latest(host, h, lambda m: [c.state.label for c in m.controllers] == ['active'])
-            time = host.owner.loop.time
+            time = host.loop_thread.loop.time
             assert found.header.stamp.sec * 10**9 + found.header.stamp.nanosec == time
     finally:
-        owners(host, host.owner.loop.resume)
+        on_control_thread(host, host.loop_thread.loop.resume)
 
 
 # --- diagnostics ---------------------------------------------------------------------------------
@@ -135,14 +135,14 @@ def test_diagnostics_have_a_status_for_each_task(host):
 
 
 def test_diagnostics_go_on_while_time_stands_still(host):
-    owners(host, host.owner.loop.pause)
+    on_control_thread(host, host.loop_thread.loop.pause)
     try:
         with listening(host, DiagnosticArray, '/diagnostics') as heard:
             first = latest(host, heard, lambda _: True)
             later = await_(host, lambda: next((m for m in heard if m is not first), None))
         assert later.header.stamp == first.header.stamp
     finally:
-        owners(host, host.owner.loop.resume)
+        on_control_thread(host, host.loop_thread.loop.resume)
 
 
 def test_thresholds_count_from_when_they_are_set(host):
@@ -170,7 +170,7 @@ def test_a_manager_without_a_robot_says_so_by_its_full_name_if_asked_to(host):
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
-        DiagnosticsTopic(node, host.owner, ManagerParameters(node, []))
+        DiagnosticsTopic(node, host.loop_thread, ManagerParameters(node, []))
         with listening(host, DiagnosticArray, '/diagnostics') as heard:
 
             def status():
@@ -244,7 +244,7 @@ def test_values_are_in_the_order_of_their_names_and_full_has_both(host):
     assert value_of[f'state_interface.{WHEELS[0]}/position'] == 0.0
     assert [statistic.name for statistic in complete.statistics] == named.names
     stamps = [m.header.stamp.sec * 10**9 + m.header.stamp.nanosec for m in values]
-    assert all(stamp % host.owner.loop.managers[0].period == 0 for stamp in stamps)
+    assert all(stamp % host.loop_thread.loop.managers[0].period == 0 for stamp in stamps)
 
 
 def test_statistics_of_controllers_and_components_are_told(host):
@@ -267,7 +267,7 @@ def test_statistics_of_controllers_and_components_are_told(host):
 
 
 def test_without_listeners_a_tick_does_nothing_for_them(host):
-    manager = host.manager_node.manager
+    manager = host.running.manager
     await_(host, lambda: manager.on_tick is None)
     with listening(host, StatisticsValues, '/controller_manager/statistics/values') as heard:
         latest(host, heard, lambda _: True)
@@ -279,7 +279,7 @@ def test_without_listeners_a_tick_does_nothing_for_them(host):
 
 
 def test_overruns_are_warned_of_as_the_parameter_says(host):
-    manager, node = host.manager_node.manager, host.manager_node.node
+    manager, node = host.running.manager, host.manager_node.node
     assert not manager.warns_of_overruns  # this one has simulated time
     for warns in (True, False):
         node.set_parameters([Parameter('overruns.print_warnings', value=warns)])

@@ -13,7 +13,7 @@ EPOCH = 1_700_000_000_000_000_000
 
 
 class Machine:
-    """``time`` and the mailbox as the clock uses them, without waiting."""
+    """``time`` and the queue as the clock uses them, without waiting."""
 
     def __init__(self):
         self.monotonic = 5_000 * MS
@@ -115,7 +115,7 @@ def test_a_clock_that_is_set_is_followed_at_once(machine, step):
     machine.offset += step * 1_000_000_000
     clock.advance(PERIOD)
     assert not clock.pace(clock.time)
-    assert machine.calls == [clock.on_step]
+    assert machine.calls == [clock.on_time_jump]
     assert clock.time == machine.time_ns()
     assert log.texts() == [
         f'The system clock was set by {step:+.3f} s: controllers begin anew at its time'

@@ -33,8 +33,8 @@ class Host:
     def __init__(self, rate):
         self.node = Node('host')
         self.world = MujocoWorld('empty')
-        self.outgoing = ClockedLoopPublisher(self.node)
-        self.truth = GroundTruth(self.node, self.outgoing, self.world, rate)
+        self.loop_publisher = ClockedLoopPublisher(self.node)
+        self.truth = GroundTruth(self.node, self.loop_publisher, self.world, rate)
 
     def spawn(self, name, namespace, pose=None, urdf=AMR):
         self.world.spawn(name, urdf, pose or Transform())
@@ -42,7 +42,7 @@ class Host:
 
     def turn(self, count=1):
         for _ in range(count):
-            self.outgoing.publish(self.world.time)
+            self.loop_publisher.publish(self.world.time)
             self.world.step(TURN // self.world.timestep)
 
     @contextmanager
@@ -132,7 +132,7 @@ def test_while_time_stands_still_each_reminder_tells_the_present_instant(host):
     host.world.step(1)
     with host.heard(Odometry, '/ground_truth/odom') as messages:
         for _ in range(3):
-            host.outgoing.publish(host.world.time)
+            host.loop_publisher.publish(host.world.time)
         host.wait(lambda: len(messages) == 3)
     assert {nanoseconds(each.header.stamp) for each in messages} == {22_000_000}
 

@@ -75,7 +75,7 @@ def test_requests_of_four_clients_while_driving(tmp_path, record_property):
         answers = [client.communicate() for client in clients]
         last = written[-1]
         states = host.client.states()
-        claims = dict(host.manager_node.manager.resources.claims)
+        claims = dict(host.running.manager.resources.claims)
         node.destroy_node()
     assert [out for out, _ in answers] == [f'{REQUESTS} answers\n'] * CLIENTS, answers
     assert {states[name] for name in DRIVING} == {'active'}

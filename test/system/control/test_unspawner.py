@@ -51,7 +51,7 @@ def test_one_that_is_not_loaded_is_told_and_keeps_no_other_loaded(host):
 
 def test_a_refused_deactivation_ends_it_with_the_reason(host, monkeypatch):
     host.activate(JOINTS, DRIVE)
-    switch = host.manager_node.manager.switch
+    switch = host.running.manager.switch
 
     def refuse(activate, deactivate, *more):
         if DRIVE in deactivate:
@@ -59,7 +59,7 @@ def test_a_refused_deactivation_ends_it_with_the_reason(host, monkeypatch):
         return switch(activate, deactivate, *more)
 
     with monkeypatch.context() as patch:
-        patch.setattr(host.manager_node.manager, 'switch', refuse)
+        patch.setattr(host.running.manager, 'switch', refuse)
         ended = run('unspawner', DRIVE)
     assert ended.returncode == 1
     assert said(ended) == [f"Failed to deactivate controllers : ['{DRIVE}']: it is needed"]

@@ -1,0 +1,111 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What this package needs of rclpy although rclpy keeps it private; nothing else uses such members.
+
+Written for rclpy 7.1.6. ``test_rclpy_internals.py`` holds each one, and names that version when
+another rclpy breaks it.
+"""
+
+from collections.abc import Callable, Mapping
+import ctypes
+from functools import cache
+from typing import Any
+
+from rclpy.executors import Executor
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.impl.rcutils_logger import RcutilsLogger
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
+
+__all__ = [
+    'cancel_tasks',
+    'destroy_type_description_service',
+    'NodeNameNonExistentError',
+    'parameter_overrides',
+    'RCLError',
+    'RCLInvalidROSArgsError',
+    'RcutilsLogger',
+    'replace_parameter_event_publisher',
+    'set_clock_by_hand',
+    'take_message',
+    'UnknownROSArgsError',
+]
+
+NodeNameNonExistentError = _rclpy.NodeNameNonExistentError
+RCLError = _rclpy.RCLError
+RCLInvalidROSArgsError = _rclpy.RCLInvalidROSArgsError
+UnknownROSArgsError = _rclpy.UnknownROSArgsError
+
+
+def set_clock_by_hand(node: Node) -> None:
+    """
+    Let ``node.get_clock().set_ros_time_override()`` alone set the node's clock, not ``/clock``.
+
+    For a node whose ``use_sim_time`` is true; on the thread that made it.
+    """
+    source = node._time_source
+    source.ros_time_is_active = True
+    node.destroy_subscription(source._clock_sub)
+    source._clock_sub = None
+
+
+def parameter_overrides(node: Node) -> Mapping[str, Parameter]:
+    """Return the parameters that a node was given, by files and arguments, declared or not."""
+    return node._parameter_overrides
+
+
+def replace_parameter_event_publisher(node: Node, publisher: Publisher) -> None:
+    """Have a node publish its parameter events with another publisher."""
+    node.destroy_publisher(node._parameter_event_publisher)
+    node._parameter_event_publisher = publisher
+
+
+def cancel_tasks(executor: Executor) -> None:
+    """Cancel the coroutines of callbacks that still await something, for an executor at rest."""
+    for task, *_ in executor._tasks:
+        task.cancel()
+
+
+def take_message(subscription: Subscription) -> Any | None:
+    """
+    Take the next message of a subscription that no executor serves.
+
+    Returns:
+        The message, or its bytes for a raw subscription; None: none has come.
+
+    Raises:
+        InvalidHandle: The subscription was destroyed.
+    """
+    handle = subscription.handle
+    with handle:
+        taken = handle.take_message(subscription.msg_type, subscription.raw)
+    return None if taken is None else taken[0]
+
+
+def destroy_type_description_service(node: Node) -> None:
+    """
+    Remove ``~/get_type_description``, which ``Node.destroy_node()`` forgets.
+
+    rcl makes it for every node, and rclpy has no more of it than its address. It would stay in
+    the graph under the name of the node that is gone, with 0.1 MB, and answer beside that of the
+    next node of that name.
+    """
+    service = node._type_description_service._type_description_srv
+    fini = _service_fini()
+    if service is not None and fini is not None:
+        with node.handle, service.impl:
+            fini(service.impl.pointer, node.handle.pointer)  # a second time does nothing
+
+
+@cache
+def _service_fini() -> Callable[[int, int], int] | None:
+    """``rcl_service_fini`` of the library that rclpy has loaded; None: it is not to be found."""
+    try:
+        fini = ctypes.CDLL('librcl.so').rcl_service_fini
+    except (OSError, AttributeError):
+        return None
+    fini.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
+    return fini
