@@ -105,8 +105,8 @@ def test_another_factor_counts_from_now_on(monkeypatch):
     assert clock.now == pytest.approx(before + 0.1)
 
 
-def test_an_impatient_queue_ends_a_wait_with_nothing():
-    assert CallQueue(patience=0.001).wait() is False
+def test_a_queue_with_a_timeout_ends_a_wait_with_nothing():
+    assert CallQueue(timeout=0.001).wait() is False
 
 
 def test_a_call_ends_the_sleep_of_slow_motion():
