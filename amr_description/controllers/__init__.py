@@ -1,10 +1,24 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The controllers, by the type that a YAML file names.
+The controllers, by their type.
 
-A new one is a file here and a line in the table; one of another package needs neither, its type
-is ``my_package.my_module/MyClass``.
+A new controller is a module here and an entry in :data:`CONTROLLERS`. One of another package needs
+neither: its type is ``my_package.my_module/MyClass``.
+
+================================= ================================================================
+``diff_drive_controller.py``      a twist → wheel speeds; wheel states → odometry
+``diff_drive_parameters.py``      … its parameters
+``command_reception.py``          … which velocity command is in force
+``rate_limiter.py``               … limits of velocity, acceleration and jerk
+``odometry.py``                   … the pose, from wheels or commands
+``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
+``joint_state_broadcaster.py``    joint states → ``/joint_states``
+``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
+
+``drive_files.py``                the differential drives of parameter files, for ``check_urdf``
+``drive_calibration.py``          multipliers of a differential drive from runs of known motion
+================================= ================================================================
 """
 
 from amr_description.errors import ControllerError

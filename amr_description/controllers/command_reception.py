@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Which velocity command is in force: stamps are checked on arrival, and age at every update.
+The velocity command in force: stamps are checked on arrival, ages at every update.
 
-A command is as old as its stamp says. One that is too old on arrival is dropped; one that becomes
-too old while it is in force is replaced by rest.
+The age of a command is that of its stamp. A command that is too old on arrival is dropped; one
+that becomes too old while in force is replaced by zero velocity.
 """
 
 from collections.abc import Iterable
@@ -16,8 +16,8 @@ from amr_description.control.samples import TwistSample
 
 FOREIGN_CLOCK = 60 * NANOSECONDS
 """
-ns: a command stamped further ahead than this was stamped by another clock (a wall clock and a
-simulation's are decades apart). Below it a stamp ahead extends the hold, as in ros2_control.
+ns: a stamp further ahead than this is of another clock (system time and simulated time are decades
+apart). Below it, a stamp ahead keeps the command in force for longer, as in ros2_control.
 """
 
 _AT_REST = (0.0, 0.0)
@@ -27,24 +27,24 @@ class CommandReception:
     """The commands of one controller; all times in ns."""
 
     def __init__(self, timeout: int, log: Log) -> None:
-        """``timeout``: the age at which a command ends; 0: never."""
+        """``timeout``: the age at which a command expires; 0: never."""
         self._timeout = timeout
         self._log = log
-        self._going_back = TimeJumpFilter()
+        self._jumps = TimeJumpFilter()
         self.forget(0)
 
     def forget(self, time: int) -> None:
-        """Have no command; the time-out counts from ``time``, which may have gone back."""
-        self._going_back.observe(time)
+        """Drop the command; the timeout starts at ``time``, which may have gone back."""
+        self._jumps.observe(time)
         self._stamp = time
         self._twist: tuple[float, float] | None = None
         self._is_driving = False
 
     def receive(self, samples: Iterable[TwistSample], now: int) -> None:
-        """Take what arrived, oldest first, when the sender's clock could read ``now``."""
+        """Take commands, oldest first; ``now``: the time that the sender's clock can show."""
         for sample in samples:
-            if self._going_back.is_stale(sample.stamp):
-                continue  # it would hold until its own time is reached again
+            if self._jumps.is_stale(sample.stamp):
+                continue  # it would stay in force until its own time is reached again
             stamp = self._trusted_stamp(sample.stamp, now)
             if self._timeout and now - stamp >= self._timeout:
                 self._refuse(stamp, now)
@@ -53,17 +53,17 @@ class CommandReception:
                 self._twist = (sample.linear, sample.angular)
 
     def receive_unstamped(self, samples: Iterable[TwistSample], now: int) -> None:
-        """Take what arrived without a stamp; it is as old as if stamped ``now``."""
+        """Take commands without a stamp, as if stamped ``now``."""
         for sample in samples:
             self._stamp = now
             self._twist = (sample.linear, sample.angular)
 
     def in_force(self, time: int) -> tuple[float, float] | None:
         """
-        Return the twist (m/s, rad/s) to drive at ``time``: the newest command, or rest once it
-        has timed out. ``None``: nothing new, what was in force stays.
+        Return the twist (m/s, rad/s) to drive at ``time``: the latest command, or zero once it has
+        timed out. None: no command since :meth:`forget`, or an invalid one.
         """
-        self._going_back.observe(time)
+        self._jumps.observe(time)
         if self._timeout and time - self._stamp > self._timeout:
             if self._is_driving:
                 self._log(Severity.WARN, 'Velocity command timed out. Braking.', throttle=1.0)

@@ -1,32 +1,30 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-diff_drive_controller/DiffDriveController: a commanded twist to wheel speeds, and odometry back.
+diff_drive_controller/DiffDriveController: a commanded twist to wheel speeds, and odometry.
 
 Inverse kinematics of a differential drive, separation s and radius r (with their multipliers)::
 
     left  = (v − ω·s/2) / r_left        right = (v + ω·s/2) / r_right        rad/s
 
-Where this departs from diff_drive_controller 4.x:
+Differences from diff_drive_controller 4.x:
 
-- odometry begins with the first command in force after activation, not at time and position zero,
-  so neither an encoder that does not start at zero nor a late start makes the pose jump;
-- when time goes back, odometry and its publication begin anew instead of falling silent;
-- a stamp that is a minute ahead or more
-  (:data:`~amr_description.controllers.command_reception.FOREIGN_CLOCK`) is of another clock: it
-  counts as now, so that the time-out still brakes when that publisher dies;
-- "Braking." is said when a command times out, not every second of rest;
-- an infinite wheel reading is an error as NaN is, instead of making the pose NaN for good;
-- commands on topics that arrive in chained mode, where they count for nothing, are warned of.
+- odometry starts with the first command in force after activation, not at time and position zero,
+  so that neither an encoder that does not start at zero nor a late start makes the pose jump;
+- when time goes back, odometry and its publication start over instead of stopping;
+- a stamp a minute or more ahead
+  (:data:`~amr_description.controllers.command_reception.FOREIGN_CLOCK`) belongs to another clock:
+  it counts as now, so that the timeout still brakes when that publisher dies;
+- "Braking." is logged when a command times out, not for every second at rest;
+- an infinite wheel state is an error as NaN is, instead of making the pose NaN for good;
+- commands on topics that arrive in chained mode, where they are ignored, are warned of.
 
-What it has beyond diff_drive_controller, off unless asked for:
+Additions, off by default:
 
 - ``enable_cmd_vel_unstamped``: plain ``geometry_msgs/msg/Twist`` on ``~/cmd_vel_unstamped``,
-  beside the stamped ones; of two that arrive within one period the unstamped one counts;
-- ``preserve_curvature``: a limited command keeps to its arc, see
+  besides the stamped ones; of two that arrive within one period, the unstamped one counts;
+- ``preserve_curvature``: a limited command keeps its arc, see
   :mod:`amr_description.controllers.rate_limiter`.
-
-When a controller publishes, if less often than it updates.
 """
 
 from collections.abc import Sequence
@@ -57,41 +55,13 @@ from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelS
 from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
 from amr_description.errors import ControllerError
 
-
-class PublishGate:
-    """
-    Lets the first update through, and then every update that lies beyond the period.
-
-    The comparison is strict and the next instant is counted from the one before, as in
-    diff_drive_controller 4.x: at 100 Hz with a period of 20 ms the updates 0, 3, 5, 7, … pass.
-    """
-
-    def __init__(self, period: int) -> None:
-        """``period``: ns."""
-        self._period = period
-        self._previous: int | None = None
-
-    def passes(self, time: int) -> bool:
-        """Tell whether the update at ``time`` (ns) publishes."""
-        if self._previous is None:
-            self._previous = time
-            return True
-        if self._previous + self._period < time:
-            self._previous += self._period
-            return True
-        return False
-
-    def reset(self) -> None:
-        """Let the next update through."""
-        self._previous = None
-
-
 _STAMPED = 'geometry_msgs/msg/TwistStamped'
+
 _UNSTAMPED = 'geometry_msgs/msg/Twist'
 
 
 class DiffDriveController(Controller):
-    """Drives any number of wheels a side; see the module for the formulas and departures."""
+    """Drives any number of wheels on each side; see the module."""
 
     parameters_type = DiffDriveParameters
     is_chainable = True
@@ -105,7 +75,7 @@ class DiffDriveController(Controller):
     # --- transitions -------------------------------------------------------------------------
 
     def configure(self, parameters: DiffDriveParameters) -> None:
-        """Check what one parameter alone cannot show, and set the pose to the origin."""
+        """Check the parameters against each other, and set the pose to the origin."""
         left, right = len(parameters.left_wheel_names), len(parameters.right_wheel_names)
         if left != right:
             raise ControllerError(
@@ -133,33 +103,33 @@ class DiffDriveController(Controller):
         self._make_ports(parameters)
 
     def command_interfaces(self) -> InterfaceRequest:
-        """One velocity command a wheel: the left side, then the right."""
+        """Return the velocity command of every wheel: the left side, then the right."""
         return self._wheel_interfaces(VELOCITY)
 
     def state_interfaces(self) -> InterfaceRequest:
-        """One position (or velocity) a wheel, in the same order; none in open loop."""
+        """Return the position (or velocity) of every wheel, likewise; none in open loop."""
         if self._parameters.open_loop:
             return NO_INTERFACES
         return self._wheel_interfaces(POSITION if self._parameters.position_feedback else VELOCITY)
 
     def references(self) -> tuple[CommandInterface, ...]:
-        """``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
+        """Return ``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
         return self._references
 
     def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """``~/cmd_vel`` and, when asked for, ``~/cmd_vel_unstamped``."""
+        """Return ``~/cmd_vel`` and, if enabled, ``~/cmd_vel_unstamped``."""
         optional = (self._unstamped,) if self._parameters.enable_cmd_vel_unstamped else ()
         return (self._command, *optional)
 
     def outputs(self) -> tuple[Output, ...]:
-        """``~/odom``, ``/tf`` and, when asked for, ``~/cmd_vel_out``."""
+        """Return ``~/odom``, ``/tf`` and, if enabled, ``~/cmd_vel_out``."""
         optional = (self._command_out,) if self._parameters.publish_limited_velocity else ()
         return (self._odom, self._transform, *optional)
 
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
-        """Take the wheels; nothing is written before a command, or the time-out, is there."""
+        """Take the wheels; nothing is written before the first command, or the timeout."""
         _require('command', self.command_interfaces(), commands)
         _require('state', self.state_interfaces(), states)
         self._take_wheels(commands, states)
@@ -170,7 +140,7 @@ class DiffDriveController(Controller):
         self._reckoning.hold(time)
 
     def deactivate(self, time: int) -> None:
-        """Stop every wheel; the pose stays. The time-out counts from now, as the original's."""
+        """Stop every wheel; the pose stays. The timeout starts now, as in the original."""
         self._is_fresh = False
         self._reception.forget(time)
         self._left.drive(0.0)
@@ -179,7 +149,7 @@ class DiffDriveController(Controller):
         self._take_wheels((), ())
 
     def reset(self, time: int) -> None:
-        """Begin anew at the origin: simulated time went back, and the robot with it."""
+        """Start over at the origin: the simulation was reset, and the robot with it."""
         self._reckoning.reset(time)
         self._gate.reset()
         self._limiter.forget()
@@ -189,7 +159,7 @@ class DiffDriveController(Controller):
         self._set_references(0.0, 0.0)
 
     def set_clock(self, time: int) -> None:
-        """Keep pose and speed; the time-out counts from now on."""
+        """Keep pose and speed; the timeout starts now."""
         self._reckoning.set_clock(time)
         self._gate.reset()
         for port in self.inputs():
@@ -199,8 +169,8 @@ class DiffDriveController(Controller):
     # --- the cycle ---------------------------------------------------------------------------
 
     def update(self, time: int, period: int) -> None:
-        """Command, limits, odometry, publication, wheels: in this order."""
-        self._hear(time, period)
+        """Receive a command, limit it, update odometry, publish, drive the wheels."""
+        self._update_references(time, period)
         linear, angular = (reference.value for reference in self._references)
         if not (math.isfinite(linear) and math.isfinite(angular)):
             self._reckoning.hold(time)
@@ -212,12 +182,12 @@ class DiffDriveController(Controller):
         self._left.drive(linear - turn)
         self._right.drive(linear + turn)
 
-    def _hear(self, time: int, period: int) -> None:
-        """Let the references follow the topics, or in chained mode the preceding controller."""
+    def _update_references(self, time: int, period: int) -> None:
+        """Take the command of the topics; in chained mode the preceding controller sets it."""
         if self.is_chained:
             self._ignore_topics()
             return
-        # What waits was sent after the previous update, whose time the sender's clock still read.
+        # Queued messages were sent after the previous update: the sender's clock showed its time.
         now = time - period
         self._reception.receive(self._command.drain(), now)
         self._reception.receive_unstamped(self._unstamped.drain(), now)
@@ -306,6 +276,35 @@ class DiffDriveController(Controller):
         self._command_out: Output[TwistSample] = Output(
             Port('~/cmd_vel_out', _STAMPED, sample=TwistSample)
         )
+
+
+class PublishGate:
+    """
+    Decides which updates publish, if fewer than all.
+
+    The first one does, and then each one that is later than the period. The comparison is strict
+    and the period counts from the previous due time, as in diff_drive_controller 4.x: at 100 Hz
+    with a period of 20 ms the updates 0, 3, 5, 7, … publish.
+    """
+
+    def __init__(self, period: int) -> None:
+        """``period``: ns."""
+        self._period = period
+        self._previous: int | None = None
+
+    def passes(self, time: int) -> bool:
+        """Return whether the update at ``time`` (ns) publishes."""
+        if self._previous is None:
+            self._previous = time
+            return True
+        if self._previous + self._period < time:
+            self._previous += self._period
+            return True
+        return False
+
+    def reset(self) -> None:
+        """Have the next update publish."""
+        self._previous = None
 
 
 def _require(kind: str, request: InterfaceRequest, handles: Sequence[Handle]) -> None:

@@ -51,7 +51,7 @@ class SpeedLimits:
         return tuple(name for name in switches if not getattr(self, name))
 
     def limiter(self) -> RateLimiter:
-        """Make the limiter. Raises ParameterError when a lower limit is above its upper one."""
+        """Return the limiter. Raises ParameterError: a lower limit is above its upper one."""
         limits: dict[str, float] = {}
         if self.has_velocity_limits:
             limits |= {'min_value': self.min_velocity, 'max_value': self.max_velocity}
@@ -133,9 +133,9 @@ class DiffDriveParameters:
 
     def frame_ids(self, namespace: str) -> tuple[str, str]:
         """
-        Return the ids of the odometry and the base frame, with the prefix that is asked for.
+        Return the ids of the odometry and the base frame, with their prefix.
 
-        The prefix is ``tf_frame_prefix``, or the node's namespace where that is empty; it ends
+        The prefix is ``tf_frame_prefix`` or, if that is empty, the namespace of the node; it ends
         with one slash and begins with none.
         """
         prefix = ''

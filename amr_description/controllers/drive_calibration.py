@@ -1,20 +1,20 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The multipliers of a differential drive from runs whose true motion is known.
+The multipliers of a differential drive, from runs whose true motion is known.
 
-Odometry has, from the turning angles of the wheels times ``wheel_radius`` (l and r, m)::
+Odometry computes, from the wheels' angles times ``wheel_radius`` (l and r, m)::
 
     distance = (m_l l + m_r r) / 2        turn = (m_r r - m_l l) / (m_s separation)
 
-with the multipliers m_l, m_r (radii) and m_s (separation). Wheels roll where they go straight and
-scrub where they turn, so each kind of run is asked only what it knows. With the true distance d
-and turn t of a run, and the effective separation s = m_s separation:
+with the multipliers m_l, m_r (radii) and m_s (separation). Wheels roll on straight runs and scrub
+in turns, so each kind of run determines only some of them. With the true distance d and turn t of
+a run, and the effective separation s = m_s separation:
 
 - straight runs: m_l l = d - s t / 2 and m_r r = d + s t / 2, least squares in m of travel;
 - turns: (m_r r - m_l l) / s = t, least squares in rad.
 
-The three are solved together, as a drift of the straight runs (t) tells radii only if s is known.
+The three are solved together: the turn t of a straight run depends on the radii and on s.
 """
 
 from collections.abc import Sequence
@@ -24,12 +24,12 @@ import math
 from amr_description.errors import CalibrationError
 
 _SMALL_TURN = 1e-6
-"""rad; a shorter arc is a line."""
+"""rad: below it an arc is a line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """A differential drive as diff_drive_controller has it in its parameters."""
+    """A differential drive, by the parameters of diff_drive_controller."""
 
     separation: float
     """m, wheel_separation."""
@@ -47,10 +47,10 @@ class Geometry:
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """How far the point midway between the wheels went along its path, and turned."""
+    """The motion of the point midway between the wheels along its path."""
 
     distance: float
-    """m, backward negative."""
+    """m, negative backwards."""
     turn: float
     """rad, counter-clockwise, not wrapped."""
 
@@ -61,14 +61,22 @@ class Run:
 
     name: str
     left: float
-    """m: turning of the left wheels (rad) times wheel_radius."""
+    """m: angle of the left wheels (rad) times wheel_radius."""
     right: float
-    """m, the same on the right."""
+    """m, likewise."""
     truth: Travel
 
     @classmethod
     def from_odometry(cls, name: str, odometry: Travel, truth: Travel, used: Geometry) -> 'Run':
-        """Undo what odometry made of the wheels' turning with the geometry ``used``."""
+        """
+        Compute the wheels' angles from odometry.
+
+        Args:
+            name: of the run.
+            odometry: what the controller has computed.
+            truth: the true motion.
+            used: the parameters of the controller.
+        """
         half = odometry.turn * used.effective_separation / 2.0
         return cls(
             name,
@@ -78,7 +86,7 @@ class Run:
         )
 
     def odometry(self, geometry: Geometry) -> Travel:
-        """What odometry says of the run with some geometry."""
+        """Return what odometry computes with other parameters."""
         left = geometry.left_multiplier * self.left
         right = geometry.right_multiplier * self.right
         return Travel((left + right) / 2.0, (right - left) / geometry.effective_separation)
@@ -93,10 +101,9 @@ class Path:
 
     def add(self, x: float, y: float, heading: float) -> None:
         """
-        Go on to a pose, along an arc of less than half a turn.
+        Add a pose, reached along an arc of less than half a turn.
 
-        The arc's length is chord * (turn / 2) / sin(turn / 2): exact for any arc, however few
-        poses there are.
+        The length of the arc is chord * (turn / 2) / sin(turn / 2), exact for any arc.
         """
         x0, y0, heading0 = self._pose
         turn = math.remainder(heading - heading0, 2.0 * math.pi)
@@ -109,15 +116,21 @@ class Path:
 
     @property
     def travel(self) -> Travel:
-        """From the first pose to the last."""
+        """The motion from the first pose to the last."""
         return Travel(self.distance, self.turn)
 
 
 def fit(straight: Sequence[Run], turning: Sequence[Run], separation: float) -> Geometry:
     """
-    Fit the three multipliers; ``separation``: m, as in the parameters.
+    Fit the three multipliers.
 
-    Raises CalibrationError where the runs do not tell them.
+    Args:
+        straight: straight runs.
+        turning: turns in place.
+        separation: ``wheel_separation``, m.
+
+    Raises:
+        CalibrationError: the runs do not determine them.
     """
     # m_l = left - s left_drift and m_r = right + s right_drift.
     left, left_drift = _side('left', [run.left for run in straight], straight)
@@ -138,14 +151,14 @@ def fit(straight: Sequence[Run], turning: Sequence[Run], separation: float) -> G
 
 
 def yaw_error(run: Run, geometry: Geometry) -> float:
-    """|turn by odometry / true turn - 1|; NaN for a run that does not turn."""
+    """Return |turn by odometry / true turn - 1|; NaN for a run that does not turn."""
     if abs(run.truth.turn) < math.radians(30.0):
         return math.nan
     return abs(run.odometry(geometry).turn / run.truth.turn - 1.0)
 
 
 def _side(name: str, travel: Sequence[float], runs: Sequence[Run]) -> tuple[float, float]:
-    """Least squares of true distance, and of half the true turn, over a side's travel."""
+    """Fit the true distance, and half the true turn, to the travel of a side (least squares)."""
     square = math.sumprod(travel, travel)
     if not square:
         raise CalibrationError(f'the wheels on the {name} did not turn in any straight run')

@@ -54,11 +54,14 @@ class _Section:
 
 def read_drives(*paths: str) -> tuple[DriveSettings, ...]:
     """
-    Return the settings of every diff_drive_controller of some parameter files, read one over the
-    other, with the files that ``params_file`` of a controller names.
+    Return the settings of every diff_drive_controller of some parameter files.
 
-    ParameterError when a file cannot be read, none names such a controller, or one holds a value
-    that the controller would refuse.
+    Later files override earlier ones; the files that ``params_file`` of a controller names are
+    read too.
+
+    Raises:
+        ParameterError: a file cannot be read, none names such a controller, or the controller
+            would reject a value.
     """
     found = [each for path in paths for each in _read(path)]
     found += [each for path in _further_files(found) for each in _read(path)]
@@ -73,10 +76,14 @@ def read_drives(*paths: str) -> tuple[DriveSettings, ...]:
 
 def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     """
-    Return in what the differential drives of parameter files are mistaken about a sound robot.
+    Return the warnings on the differential drives of parameter files for a sound robot.
 
-    What keeps a controller from running is not told here: the manager does, when it is loaded.
-    Nor is a drive for the wheels of another robot.
+    Errors that keep a controller from running are left to the manager, which finds them when it
+    loads the controller. Drives with wheels of another robot are skipped.
+
+    Args:
+        robot: the robot.
+        paths: of the parameter files.
     """
     try:
         drives = read_drives(*paths)

@@ -1,22 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-forward_command_controller: numbers from a topic, put to command interfaces as they are.
+forward_command_controller: values from a topic, written to command interfaces unchanged.
 
 ``ForwardCommandController`` commands one interface of several joints,
-``MultiInterfaceForwardCommandController`` several interfaces of one joint. Both hear
-``~/commands`` (std_msgs/Float64MultiArray): one number for each interface, in its unit, in force
-until the next; nothing is written before the first.
+``MultiInterfaceForwardCommandController`` several interfaces of one joint. Both subscribe to
+``~/commands`` (std_msgs/Float64MultiArray): one value for each interface, in its unit, in force
+until the next message; nothing is written before the first.
 
-Where this departs from forward_command_controller 4.x:
+position_controllers/JointGroupPositionController, velocity_controllers/… and effort_controllers/…
+are a ForwardCommandController of one given interface: ``joints`` is their only parameter.
 
-- a command of the wrong size is said to be so, and dropped; it does not end the controller;
-- on deactivation what would go on moving by itself (velocity, acceleration, effort) is set to
-  zero, and any other interface to NaN, no command; the original leaves the last command in force;
-- when time goes back, the command is forgotten in the same way.
+Differences from forward_command_controller 4.x:
 
-position_controllers/JointGroupPositionController, velocity_controllers/… and effort_controllers/…:
-the ForwardCommandController with its interface given, so that ``joints`` is all they need.
+- a command of the wrong size is logged and dropped; it does not end the controller;
+- on deactivation, velocity, acceleration and effort commands, which would keep the joint moving,
+  are set to zero, and all others to NaN (no command); the original leaves the last command;
+- when time goes back, the command is dropped in the same way.
 """
 
 from abc import abstractmethod
@@ -60,17 +60,17 @@ class MultiInterfaceParameters:
 
 
 class ForwardControllersBase(Controller):
-    """What both have in common: all but the names of the interfaces."""
+    """All of a forward command controller but the names of its interfaces."""
 
     def __init__(self, context: ControllerContext) -> None:
         super().__init__(context)
         self._handles: tuple[CommandInterface, ...] = ()
         self._in_force: tuple[float, ...] = ()
-        """One number a handle; empty before the first command."""
+        """One value for each interface; empty before the first command."""
 
     @abstractmethod
     def interface_names(self, parameters: Any) -> tuple[str, ...]:
-        """``<joint>/<interface>``, in the order of a command. Raises ControllerError."""
+        """Return ``<joint>/<interface>`` in the order of a command. Raises ControllerError."""
 
     def configure(self, parameters: Any) -> None:
         """Take over the names."""
@@ -84,17 +84,17 @@ class ForwardControllersBase(Controller):
         self.log(Severity.INFO, 'configure successful')
 
     def command_interfaces(self) -> InterfaceRequest:
-        """One for each number of a command."""
+        """Return the interfaces, in the order of a command."""
         return self._request
 
     def inputs(self) -> tuple[Input[CommandsSample], ...]:
-        """``~/commands``."""
+        """Return ``~/commands``."""
         return (self._commands,)
 
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
-        """Take the handles; what they hold stays until the first command."""
+        """Take the interfaces; their values stay until the first command."""
         wanted = len(self._request.names)
         if len(commands) != wanted:
             raise ControllerError(f'Expected {wanted} command interfaces, got {len(commands)}')
@@ -109,29 +109,29 @@ class ForwardControllersBase(Controller):
         self.log(Severity.INFO, 'activate successful')
 
     def update(self, time: int, period: int) -> None:
-        """Write the newest good command, at every update anew."""
+        """Write the latest valid command, at every update."""
         for sample in self._commands.drain():
-            if self._is_good(sample.values):
+            if self._is_valid(sample.values):
                 self._in_force = sample.values
         if self._in_force:
             for handle, value in zip(self._handles, self._in_force, strict=True):
                 handle.value = value
 
     def deactivate(self, time: int) -> None:
-        """Leave nothing moving by itself."""
+        """Stop what would keep moving."""
         self._forget_command()
         self._handles = ()
 
     def reset(self, time: int) -> None:
-        """Wait for a new command: simulated time went back."""
+        """Wait for a new command: the simulation was reset."""
         self._commands.drain()
         self._forget_command()
 
     def set_clock(self, time: int) -> None:
-        """A command has no stamp: it stays in force."""
+        """Do nothing: a command has no stamp, and stays in force."""
 
-    def _is_good(self, values: tuple[float, ...]) -> bool:
-        """Tell whether to forward ``values``, and say so if not."""
+    def _is_valid(self, values: tuple[float, ...]) -> bool:
+        """Return whether to forward ``values``; log why not."""
         if not all(map(math.isfinite, values)):
             self.log(Severity.WARN, 'Non-finite value received. Dropping message', throttle=1.0)
             return False
@@ -158,7 +158,7 @@ class ForwardCommandController(ForwardControllersBase):
     parameters_type = ForwardCommandParameters
 
     def interface_names(self, parameters: ForwardCommandParameters) -> tuple[str, ...]:
-        """joints × interface_name."""
+        """Return joints × interface_name."""
         if not parameters.joints:
             raise ControllerError("'joints' parameter was empty")
         if not parameters.interface_name:
@@ -172,7 +172,7 @@ class MultiInterfaceForwardCommandController(ForwardControllersBase):
     parameters_type = MultiInterfaceParameters
 
     def interface_names(self, parameters: MultiInterfaceParameters) -> tuple[str, ...]:
-        """joint × interface_names."""
+        """Return joint × interface_names."""
         if not parameters.joint:
             raise ControllerError("'joint' parameter is empty")
         if not parameters.interface_names:

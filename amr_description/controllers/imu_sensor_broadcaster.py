@@ -1,11 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-imu_sensor_broadcaster/IMUSensorBroadcaster: what an inertial measurement unit reads, as ``~/imu``.
+imu_sensor_broadcaster/IMUSensorBroadcaster: publishes an inertial measurement unit as ``~/imu``.
 
-The sensor is one of the ``<ros2_control>`` block with the ten state interfaces of
-:data:`~amr_description.control.interfaces.IMU_INTERFACES`. Covariances are not measured: they are
-parameters.
+The sensor is one of the ``<ros2_control>`` block, with the ten state interfaces of
+:data:`~amr_description.control.interfaces.IMU_INTERFACES`. Covariances are parameters.
 """
 
 from collections.abc import Sequence
@@ -43,12 +42,12 @@ class ImuParameters:
 
 
 class IMUSensorBroadcaster(Controller):
-    """Publishes the sensor's readings at every update."""
+    """Publishes the states of the sensor at every update."""
 
     parameters_type = ImuParameters
 
     def configure(self, parameters: ImuParameters) -> None:
-        """Take over names and covariances."""
+        """Take over the names and the covariances."""
         self._request = InterfaceRequest.individual(
             f'{parameters.sensor_name}/{interface}' for interface in IMU_INTERFACES
         )
@@ -63,28 +62,28 @@ class IMUSensorBroadcaster(Controller):
         )
 
     def state_interfaces(self) -> InterfaceRequest:
-        """The ten of the sensor."""
+        """Return the ten of the sensor."""
         return self._request
 
     def outputs(self) -> tuple[Output[ImuSample], ...]:
-        """``~/imu``."""
+        """Return ``~/imu``."""
         return (self._imu,)
 
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
-        """Take the gauges."""
+        """Take the interfaces. Raises ControllerError: some are missing."""
         if len(states) != len(IMU_INTERFACES):
             raise ControllerError(
                 f'Expected {len(IMU_INTERFACES)} state interfaces, got {len(states)}'
             )
-        self._gauges = tuple(states)
+        self._states = tuple(states)
 
     def update(self, time: int, period: int) -> None:
-        """Publish what the sensor reads now."""
-        values = tuple([gauge.value for gauge in self._gauges])
+        """Publish the present states."""
+        values = tuple([state.value for state in self._states])
         self._imu.send(ImuSample(time, values[:4], values[4:7], values[7:], self._constants))
 
     def deactivate(self, time: int) -> None:
-        """Give the gauges back."""
-        self._gauges = ()
+        """Drop the interfaces."""
+        self._states = ()

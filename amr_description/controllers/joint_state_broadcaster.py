@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-joint_state_broadcaster/JointStateBroadcaster: what the gauges read, as ``/joint_states`` and, with
-all that no JointState can carry, as ``/dynamic_joint_states``.
+joint_state_broadcaster/JointStateBroadcaster: publishes state interfaces as ``/joint_states`` and,
+with those that no JointState can carry, as ``/dynamic_joint_states``.
 
-It commands nothing. Names come in the order of ``joints``, else alphabetically from the URDF, as
-joint_state_broadcaster 4.x gives them; an interface that a joint lacks is NaN.
+It commands nothing. Joints are in the order of ``joints``, or else of the URDF, alphabetically, as
+in joint_state_broadcaster 4.x; an interface that a joint lacks is NaN.
 """
 
 from collections.abc import Mapping, Sequence
@@ -33,12 +33,12 @@ from amr_description.parameters import group, parameter
 _FIELDS = (POSITION, VELOCITY, EFFORT)
 
 type _Row = dict[str, StateInterface]
-"""The gauges of one joint, sensor or GPIO, by the names under which they are published."""
+"""The states of one joint, sensor or GPIO, by the names under which they are published."""
 
 
 @dataclass(frozen=True)
 class InterfaceMap:
-    """Which interface fills which field of JointState."""
+    """Which interface fills each field of JointState."""
 
     position: str = parameter(POSITION, 'Interface that fills position', read_only=True)
     velocity: str = parameter(VELOCITY, 'Interface that fills velocity', read_only=True)
@@ -74,7 +74,7 @@ class BroadcasterParameters:
 
 
 class JointStateBroadcaster(Controller):
-    """Publishes all state interfaces, or the chosen ones, at every update."""
+    """Publishes all state interfaces, or the selected ones, at every update."""
 
     parameters_type = BroadcasterParameters
 
@@ -84,13 +84,13 @@ class JointStateBroadcaster(Controller):
         self._columns: tuple[tuple[StateInterface, ...], ...] = ()
 
     def configure(self, parameters: BroadcasterParameters) -> None:
-        """Decide the topics and the interfaces."""
+        """Determine the topics and the interfaces."""
         self._parameters = parameters
-        self._is_choosing = bool(parameters.joints and parameters.interfaces)
+        self._is_selecting = bool(parameters.joints and parameters.interfaces)
         self.log(
             Severity.INFO,
             "Publishing state interfaces defined in 'joints' and 'interfaces' parameters."
-            if self._is_choosing
+            if self._is_selecting
             else "'joints' or 'interfaces' parameter is empty. All available state interfaces "
             'will be published',
         )
@@ -110,8 +110,8 @@ class JointStateBroadcaster(Controller):
         )
 
     def state_interfaces(self) -> InterfaceRequest:
-        """All there are, or joints × interfaces."""
-        if not self._is_choosing:
+        """Return all, or joints × interfaces."""
+        if not self._is_selecting:
             return ALL_INTERFACES
         return InterfaceRequest.individual(
             f'{joint}/{interface}'
@@ -120,7 +120,7 @@ class JointStateBroadcaster(Controller):
         )
 
     def outputs(self) -> tuple[Output[Any], ...]:
-        """``joint_states`` and, unless it is switched off, ``dynamic_joint_states``."""
+        """Return ``joint_states`` and, unless disabled, ``dynamic_joint_states``."""
         if self._parameters.publish_dynamic_joint_states:
             return self._joint_states, self._dynamic_joint_states
         return (self._joint_states,)
@@ -128,34 +128,34 @@ class JointStateBroadcaster(Controller):
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
-        """Take the gauges. Raises ControllerError when there is none."""
+        """Take the interfaces. Raises ControllerError: there is none."""
         if not states:
             raise ControllerError('No state interfaces found to publish.')
-        gauges = self._gauges(states)
-        joints = self._joints(gauges)
+        rows = self._rows_of(states)
+        joints = self._joints(rows)
         for extra in self._parameters.extra_joints:
-            if extra not in gauges:
-                gauges[extra] = {field: StateInterface(extra, field, 0.0) for field in _FIELDS}
+            if extra not in rows:
+                rows[extra] = {field: StateInterface(extra, field, 0.0) for field in _FIELDS}
                 joints.append(extra)
-        if not gauges:
+        if not rows:
             raise ControllerError(
                 'Error initializing joint data. JointStateBroadcaster will not run: '
                 'no state interface is a double'
             )
-        missing = StateInterface('', '')  # reads NaN
+        missing = StateInterface('', '')  # NaN
         self._names = tuple(joints)
         self._columns = tuple(
-            tuple(gauges[joint].get(field, missing) for joint in joints) for field in _FIELDS
+            tuple(rows[joint].get(field, missing) for joint in joints) for field in _FIELDS
         )
         self._layout = DynamicLayout(
-            self._parameters.frame_id, tuple(gauges), tuple(tuple(row) for row in gauges.values())
+            self._parameters.frame_id, tuple(rows), tuple(tuple(row) for row in rows.values())
         )
-        self._rows = tuple(tuple(row.values()) for row in gauges.values())
+        self._rows = tuple(tuple(row.values()) for row in rows.values())
 
     def update(self, time: int, period: int) -> None:
-        """Publish every gauge as it reads now."""
+        """Publish the present states."""
         position, velocity, effort = [
-            tuple([gauge.value for gauge in column]) for column in self._columns
+            tuple([state.value for state in column]) for column in self._columns
         ]
         self._joint_states.send(
             JointStateSample(
@@ -163,19 +163,23 @@ class JointStateBroadcaster(Controller):
             )
         )
         if self._parameters.publish_dynamic_joint_states:
-            values = tuple([tuple([gauge.value for gauge in row]) for row in self._rows])
+            values = tuple([tuple([state.value for state in row]) for row in self._rows])
             self._dynamic_joint_states.send(DynamicJointStateSample(time, values, self._layout))
 
     def deactivate(self, time: int) -> None:
-        """Give the gauges back."""
+        """Drop the interfaces."""
         self._rows = self._columns = ()
 
     def _mapping(self, parameters: BroadcasterParameters) -> dict[str, str]:
-        """Interface → the name to publish it under; one that is chosen beats what maps to it."""
+        """
+        Return the name under which to publish each interface.
+
+        An interface that is selected by ``interfaces`` takes precedence over one mapped to it.
+        """
         published_as: dict[str, str] = {}
         for field in _FIELDS:
             interface = getattr(parameters.map_interface_to_joint_state, field)
-            if interface != field and self._is_choosing and field in parameters.interfaces:
+            if interface != field and self._is_selecting and field in parameters.interfaces:
                 self.log(
                     Severity.WARN,
                     f"Mapping from '{interface}' to interface '{field}' will not be done, because "
@@ -185,9 +189,9 @@ class JointStateBroadcaster(Controller):
             published_as[interface] = field
         return published_as
 
-    def _gauges(self, states: Sequence[StateInterface]) -> dict[str, _Row]:
-        """Sort by joint, sensor or GPIO, in the order of ``states``."""
-        gauges: dict[str, _Row] = {}
+    def _rows_of(self, states: Sequence[StateInterface]) -> dict[str, _Row]:
+        """Group the states by joint, sensor or GPIO, in their order."""
+        rows: dict[str, _Row] = {}
         for state in states:
             if state.data_type != 'double':
                 self.log(
@@ -196,17 +200,17 @@ class JointStateBroadcaster(Controller):
                     'joint_states cannot carry; it is left out',
                 )
                 continue
-            row = gauges.setdefault(state.prefix, {})
+            row = rows.setdefault(state.prefix, {})
             name = self._published_as.get(state.interface, state.interface)
             is_mapped = name != state.interface
             if is_mapped or name not in row:
                 row[name] = state
-        return gauges
+        return rows
 
-    def _joints(self, gauges: Mapping[str, _Row]) -> list[str]:
-        """Return what JointState can tell of, in its order."""
-        joints = [name for name, row in gauges.items() if not row.keys().isdisjoint(_FIELDS)]
-        if self._is_choosing:
+    def _joints(self, rows: Mapping[str, _Row]) -> list[str]:
+        """Return the names of a JointState, in its order."""
+        joints = [name for name, row in rows.items() if not row.keys().isdisjoint(_FIELDS)]
+        if self._is_selecting:
             return [joint for joint in self._parameters.joints if joint in joints]
         if not self._parameters.use_urdf_to_filter:
             return joints

@@ -1,17 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Planar odometry of a differential drive, from wheel travel or from commands.
+Planar odometry of a differential drive, from its wheels or from commands.
 
-Maths as in diff_drive_controller 4.x: exact arcs, and their second-order (midpoint)
-approximation where the turn is too small to divide by.
-
-From which motion, and over which time, a differential drive's odometry is integrated.
-
-Three sources: wheel positions (the difference to the update before), wheel velocities (times the
-period), and in open loop the limited command.
-
-The wheels of one side of a differential drive, which turn as one.
+:class:`DeadReckoning` has three sources of motion: wheel positions (the difference to the previous
+update), wheel velocities (times the period) and, in open loop, the limited command. It feeds
+:class:`Odometry`, with the maths of diff_drive_controller 4.x: exact arcs, and their second-order
+(midpoint) approximation if the turn is too small to divide by.
 """
 
 from collections import deque
@@ -24,21 +19,28 @@ from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.errors import ControllerError
 
 _SMALL_TURN = 1e-6
-"""rad: below it the arc's radius is ill-conditioned."""
+"""rad: below it the radius of the arc is ill-conditioned."""
+
+_LEAST_STEP = 100_000
+"""ns: an update sooner after the previous one is skipped."""
+
+_GREATEST = sys.float_info.max
 
 
 class Odometry:
     """
     Integrates the pose (x, y in m, heading in rad, not wrapped), and estimates the twist.
 
-    The pose is that of the point midway between the wheels in the frame where it began.
+    The pose is that of the point midway between the wheels, in the frame where it started.
     """
 
     def __init__(self, wheel_separation: float, window: int) -> None:
         """
-        Begin at the origin.
+        Start at the origin.
 
-        ``wheel_separation``: effective, m. ``window``: samples in the rolling mean of the twist.
+        Args:
+            wheel_separation: effective, m.
+            window: number of samples in the rolling mean of the twist.
         """
         self._separation = wheel_separation
         self._linears: deque[float] = deque(maxlen=window)
@@ -54,10 +56,10 @@ class Odometry:
 
     def update_from_travel(self, left: float, right: float, dt: float) -> None:
         """
-        Take the travel of both sides (m) in ``dt`` (s, positive).
+        Integrate the travel of both sides (m) in ``dt`` (s, positive).
 
-        distance = (left + right) / 2, turn = (right − left) / separation; the twist is the
-        rolling mean of both over ``dt``.
+        distance = (left + right) / 2, turn = (right − left) / separation; the twist is the rolling
+        mean of both divided by ``dt``.
         """
         distance = (left + right) * 0.5
         turn = (right - left) / self._separation
@@ -68,7 +70,7 @@ class Odometry:
         self.angular = sum(self._angulars) / len(self._angulars)
 
     def update_open_loop(self, linear: float, angular: float, dt: float) -> None:
-        """Take a commanded twist (m/s, rad/s) that held for ``dt`` (s)."""
+        """Integrate a commanded twist (m/s, rad/s) over ``dt`` (s)."""
         self._integrate(linear * dt, angular * dt)
         self.linear = linear
         self.angular = angular
@@ -86,11 +88,8 @@ class Odometry:
             self.y -= radius * (math.cos(self.heading) - math.cos(before))
 
 
-_GREATEST = sys.float_info.max
-
-
 class WheelSide:
-    """Any number of wheels with one radius, m; without ``states`` they are driven blindly."""
+    """The wheels of one side: any number, of one radius (m); no ``states`` in open loop."""
 
     def __init__(
         self,
@@ -104,19 +103,19 @@ class WheelSide:
 
     def drive(self, speed: float) -> None:
         """
-        Command the speed of the side over the ground, m/s: speed / radius on every wheel.
+        Command the speed of the side over the ground, m/s: speed / radius for every wheel.
 
-        A quotient beyond all numbers becomes the greatest one: no wheel is told infinity.
+        A quotient that overflows becomes the greatest number: no wheel is commanded infinity.
         """
-        turning = min(max(speed / self._radius, -_GREATEST), _GREATEST)
+        velocity = min(max(speed / self._radius, -_GREATEST), _GREATEST)
         for wheel in self._commands:
-            wheel.value = turning
+            wheel.value = velocity
 
     def travel(self) -> float:
         """
-        Return mean reading · radius: m since the wheels' zero from positions, m/s from velocities.
+        Return mean state · radius: m since the wheels' zero for positions, m/s for velocities.
 
-        Raises ControllerError when a reading is not a finite number.
+        Raises ControllerError: a state is not finite.
         """
         total = 0.0
         for index, state in enumerate(self._states):
@@ -127,10 +126,6 @@ class WheelSide:
                 )
             total += state.value
         return total / len(self._states) * self._radius
-
-
-_LEAST_STEP = 100_000
-"""ns: an update that comes sooner after the one before is left out."""
 
 
 class DeadReckoning:
@@ -145,16 +140,15 @@ class DeadReckoning:
 
     def hold(self, time: int) -> None:
         """
-        Let time run on to ``time`` without motion.
+        Let time go on to ``time`` without motion.
 
-        Only wheel positions, once there are some to compare with, will tell what moved meanwhile,
-        and over which time.
+        With wheel positions to compare with, the next update covers this time and its motion.
         """
         if self._last_travel is None:
             self._last_time = time
 
     def reset(self, time: int) -> None:
-        """Go to the origin; wheels and time begin from where they are."""
+        """Go to the origin; wheels and time start from where they are."""
         self.odometry.reset()
         self._last_travel = None
         self._last_time = time
@@ -169,8 +163,15 @@ class DeadReckoning:
         """
         Integrate up to ``time``.
 
-        ``twist``: the limited command, m/s and rad/s. ``period``: since the previous update.
-        Raises ControllerError when a wheel's reading is not finite.
+        Args:
+            left: the wheels on the left.
+            right: the wheels on the right.
+            twist: the limited command, m/s and rad/s.
+            time: of this update, ns.
+            period: since the previous update, ns.
+
+        Raises:
+            ControllerError: a wheel state is not finite.
         """
         travel = (0.0, 0.0) if self._is_open_loop else (left.travel(), right.travel())
         if self._has_positions and self._last_travel is None:

@@ -3,18 +3,17 @@
 """
 Limits of a velocity and of its first and second derivative (``RateLimiter`` of control_toolbox).
 
-Speeding up and slowing down have limits of their own, and so have driving forward and in reverse::
+Speeding up and slowing down have separate limits, and so have driving forward and in reverse::
 
             max_acceleration_reverse        max_acceleration
       reverse  ◄──────────────────── 0 ────────────────────►  forward
                ────────────────────►   ◄────────────────────
             max_deceleration_reverse        max_deceleration
 
-The limits of a planar twist: each component by itself, or both by one factor.
-
-By itself, as diff_drive_controller does it, a robot told to drive an arc starts on another one
-when one component reaches its speed later than the other. With one factor it keeps to the arc, as
-far as the limits allow: they are never exceeded for its sake.
+:class:`TwistLimiter` limits the two components of a planar twist separately, or by one factor. If
+separately, as in diff_drive_controller, a robot that is commanded an arc starts on a different one
+while one component lags behind the other. With one factor it keeps the arc, as far as the limits
+allow.
 """
 
 from dataclasses import dataclass
@@ -24,15 +23,23 @@ from amr_description.errors import ParameterError
 
 _NAN = math.nan
 
+_AT_REST = (0.0, 0.0)
+
+_ROUNDING = 1e-9
+
+
+type Twist = tuple[float, float]
+"""m/s along x, rad/s about z."""
+
 
 @dataclass(frozen=True)
 class RateLimiter:
     """
-    Limits a command, given the two commands before it.
+    Limits a command, given the two previous ones.
 
-    Units are those of the command per s (acceleration) and per s² (jerk). A kind of limit whose
-    maximum is NaN is off; a minimum that is NaN is the negative of its maximum. Raises
-    ParameterError when a minimum is above its maximum.
+    Units are those of the command, per s (acceleration) and per s² (jerk). A limit whose maximum
+    is NaN is off; a minimum that is NaN is the negative of its maximum. Raises ParameterError: a
+    minimum is above its maximum.
     """
 
     min_value: float = _NAN
@@ -49,7 +56,7 @@ class RateLimiter:
     max_jerk: float = _NAN
 
     def __post_init__(self) -> None:
-        """Fill in what is NaN, and check the order."""
+        """Replace NaN by the defaults, and check the order."""
         self._default('min_value', -self.max_value)
         self._default('max_acceleration_reverse', -self.max_acceleration)
         self._default('max_deceleration', self.max_acceleration_reverse)
@@ -68,23 +75,28 @@ class RateLimiter:
 
     def limit(self, value: float, previous: float, before_previous: float, dt: float) -> float:
         """
-        Return the command nearest to ``value`` that keeps the limits.
+        Return the command closest to ``value`` within the limits.
 
-        ``previous`` and ``before_previous``: the last two commands, as limited. ``dt``: time
-        between them, s. Jerk is limited first, then acceleration, then the value.
+        Jerk is limited first, then acceleration, then the value.
+
+        Args:
+            value: the command.
+            previous: the previous command, as limited.
+            before_previous: the command before that, as limited.
+            dt: time between two commands, s.
         """
         value = self.limit_jerk(value, previous, before_previous, dt)
         value = self.limit_acceleration(value, previous, dt)
         return self.limit_value(value)
 
     def limit_value(self, value: float) -> float:
-        """Clamp the value itself."""
+        """Limit the value itself."""
         if math.isnan(self.max_value):
             return value
         return _clamp(value, self.min_value, self.max_value)
 
     def limit_acceleration(self, value: float, previous: float, dt: float) -> float:
-        """Clamp the change since ``previous``; its sign decides which limits hold."""
+        """Limit the change since ``previous``, whose sign decides which limits apply."""
         if math.isnan(self.max_acceleration):
             return value
         low = self.max_acceleration_reverse if previous <= 0.0 else self.max_deceleration
@@ -94,7 +106,7 @@ class RateLimiter:
     def limit_jerk(
         self, value: float, previous: float, before_previous: float, dt: float
     ) -> float:
-        """Clamp the change of the change, but only while the command gains on ``previous``."""
+        """Limit the change of the change, but only while the change grows."""
         if math.isnan(self.max_jerk):
             return value
         change = value - previous
@@ -110,39 +122,31 @@ class RateLimiter:
             object.__setattr__(self, name, value)
 
 
-def _clamp(value: float, low: float, high: float) -> float:
-    return min(max(value, low), high)
-
-
-def _invalid(kind: str, low: float, high: float) -> str:
-    return f'Invalid {kind} limits: the lower is {low:g}, above the upper, {high:g}'
-
-
-type Twist = tuple[float, float]
-"""m/s along x, rad/s about z."""
-
-_AT_REST = (0.0, 0.0)
-_ROUNDING = 1e-9
-
-
 class TwistLimiter:
     """Limits one twist after the other."""
 
     def __init__(
         self, linear: RateLimiter, angular: RateLimiter, *, keeps_curvature: bool = False
     ) -> None:
-        """Begin at rest."""
+        """
+        Start at rest.
+
+        Args:
+            linear: limits along x.
+            angular: limits about z.
+            keeps_curvature: limit both components by one factor.
+        """
         self._linear = linear
         self._angular = angular
         self._keeps_curvature = keeps_curvature
         self.forget()
 
     def forget(self) -> None:
-        """Begin at rest: the twists before count no more."""
+        """Start at rest, without previous twists."""
         self._last = self._before_last = _AT_REST
 
     def limit(self, twist: Twist, dt: float) -> Twist:
-        """Return the twist to drive; ``dt``: since the one before, s."""
+        """Return the limited twist; ``dt``: since the previous one, s."""
         limited = self._limit_each(twist, dt)
         if self._keeps_curvature and limited != twist:
             limited = self._limit_each(self._scaled(twist, limited), dt)
@@ -158,11 +162,11 @@ class TwistLimiter:
 
     def _scaled(self, twist: Twist, limited: Twist) -> Twist:
         """
-        Scale the command by what is left of its more limited component, between 0 and 1.
+        Scale the command by the remaining fraction of its more limited component, 0 to 1.
 
-        Where none falls short of the command, and one is still faster, that one decides instead,
-        as far as the other does not gain on the twist before. Rest has no curvature: on the way
-        there it is that of the motion.
+        If neither component falls short of the command and one is still faster, that one decides
+        instead, as far as the other does not exceed the previous twist. Zero has no curvature: on
+        the way there, that of the previous twist is kept.
         """
         if twist == _AT_REST:
             kept = [a / b for a, b in zip(limited, self._last, strict=True) if b]
@@ -176,3 +180,11 @@ class TwistLimiter:
 
 def _times(twist: Twist, factor: float) -> Twist:
     return factor * twist[0], factor * twist[1]
+
+
+def _clamp(value: float, low: float, high: float) -> float:
+    return min(max(value, low), high)
+
+
+def _invalid(kind: str, low: float, high: float) -> str:
+    return f'Invalid {kind} limits: the lower is {low:g}, above the upper, {high:g}'
