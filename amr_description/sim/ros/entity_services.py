@@ -129,7 +129,7 @@ class EntityServices:
 
     def __init__(self, node: Node, simulation: Simulation) -> None:
         self._simulation = simulation
-        self._robots = simulation.robots
+        self._entities = simulation.entities
         self._world = simulation.world
         self._loop_thread = simulation.loop_thread
         create_services(
@@ -160,17 +160,17 @@ class EntityServices:
     async def _get_entity_state(
         self, request: GetEntityState.Request, response: GetEntityState.Response
     ) -> None:
-        name = self._robots.find(request.entity).name
+        name = self._entities.find(request.entity).name
         found = list((await self._states([name])).values())
         if not found:
-            self._robots.find(name)  # it went meanwhile, which this tells
+            self._entities.find(name)  # it went meanwhile, which this tells
         response.state = found[0]
 
     async def _set_entity_state(
         self, request: SetEntityState.Request, response: SetEntityState.Response
     ) -> None:
         """At once; the stamp and the acceleration count for nothing."""
-        name, state = self._robots.find(request.entity).name, request.state
+        name, state = self._entities.find(request.entity).name, request.state
         frame = state.header.frame_id
         if frame not in ('', WORLD_FRAME):
             raise RequestError(
@@ -195,14 +195,14 @@ class EntityServices:
     async def _get_entity_info(
         self, request: GetEntityInfo.Request, response: GetEntityInfo.Response
     ) -> None:
-        info = self._robots.find(request.entity).info
+        info = self._entities.find(request.entity).info
         response.info = EntityInfo(description=info.description, tags=info.tags)
         response.info.category.category = info.category
 
     async def _set_entity_info(
         self, request: SetEntityInfo.Request, _: SetEntityInfo.Response
     ) -> None:
-        entity, info = self._robots.find(request.entity), request.info
+        entity, info = self._entities.find(request.entity), request.info
         known = {int(category): category for category in Category}
         category = info.category.category
         if category not in known:
@@ -216,7 +216,7 @@ class EntityServices:
     async def _get_entity_bounds(
         self, request: GetEntityBounds.Request, response: GetEntityBounds.Response
     ) -> None:
-        name, world = self._robots.find(request.entity).name, self._world
+        name, world = self._entities.find(request.entity).name, self._world
 
         def look() -> BoundingBox | None:
             robot = world.robot(name)
@@ -230,7 +230,7 @@ class EntityServices:
     async def _chosen(self, filters: EntityFilters) -> list[str]:
         """The names of the entities that meet all filters. Raises RequestError."""
         check_bounds(filters.bounds)
-        entities: Collection[Entity] = chosen(self._robots.entities, filters)
+        entities: Collection[Entity] = chosen(self._entities.entities, filters)
         names = [entity.name for entity in entities]
         if filters.bounds.type == Bounds.TYPE_EMPTY:
             return names

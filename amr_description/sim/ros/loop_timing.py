@@ -1,10 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Says when the simulation cannot keep real time, and which stage of the loop takes the time.
+Warns when the simulation cannot keep real time, and names the stage of the loop that is slow.
 
-It stands between the loop and its ports and adds up the wall time spent in each; that costs four
-readings of a clock a turn. Results do not depend on it: being late costs real-time factor only.
+:class:`LoopProfiler` stands between the loop and its stepper, pacer and publisher and adds up the
+wall time spent in each, at the cost of six clock readings a cycle. Results do not depend on it:
+being late costs real-time factor only.
 """
 
 from collections.abc import Callable
@@ -13,25 +14,26 @@ import time
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.loop import Pacer, Publisher, Stepper
+from amr_description.control.loop import Publisher, Stepper
+from amr_description.control.ros.loop_thread import WallPacer
 
 WINDOW = NANOSECONDS
 """ns of the wall clock over which the factor is taken."""
 
 SLOW_WINDOWS = 2
-"""In a row, until it is told; one may be that of a robot that was spawned."""
+"""Slow windows in a row before it is logged; the spawning of a robot makes one slow."""
 
-LEAST_SHARE = 0.95
-"""Of the real-time factor that is asked for."""
+MIN_FACTOR_SHARE = 0.95
+"""Share of the requested real-time factor below which a window is slow."""
 
-MOST_IDLE = 0.05
-"""Of the wall time: who sleeps more has caught up, whatever the mean says."""
+MAX_IDLE_SHARE = 0.05
+"""Share of the wall time; a loop that sleeps more has caught up, whatever the mean says."""
 
-LEAST_PROCESSOR = 0.6
-"""Of the wall time: a loop in a hurry that has the processor for less of it is kept from it."""
+MIN_PROCESSOR_SHARE = 0.6
+"""Share of the wall time; a late loop that runs for less of it is kept from the processor."""
 
 THROTTLE = 10.0
-"""s of the wall clock between two lines."""
+"""s of the wall clock between two warnings."""
 
 PHYSICS, CONTROLLERS, PUBLISHING = 'physics', 'controllers and hardware', 'publishing'
 
@@ -45,7 +47,7 @@ _REMEDIES = {
 @dataclass(slots=True)
 class _Window:
     wall: int
-    """Readings at its beginning, ns."""
+    """Clock readings at its beginning, ns."""
     processor: int
     simulated: int
     factor: float
@@ -55,79 +57,110 @@ class _Window:
 
 class LoopProfiler:
     """
-    Everything on the control thread.
+    Stepper, pacer and publisher of a loop: each call is timed and passed on.
 
-    ``factor``: tells the real-time factor that is asked for, 0 for none. ``clock`` and
-    ``processor``: ns of the wall clock, and of the processor that this thread had.
+    All calls are made on the control thread.
     """
 
     def __init__(
         self,
         log: Log,
-        factor: Callable[[], float],
+        stepper: Stepper,
+        pacer: WallPacer,
+        publisher: Publisher,
+        *,
         clock: Callable[[], int] = time.monotonic_ns,
         processor: Callable[[], int] = time.thread_time_ns,
     ) -> None:
+        """
+        Wrap the ports of a loop.
+
+        Args:
+            log: Gets the warnings.
+            stepper: Advances the world.
+            pacer: Keeps the loop to its ``factor``; 0: as fast as possible.
+            publisher: Publishes at the end of a cycle.
+            clock: Wall clock, ns.
+            processor: Processor time of the calling thread, ns.
+        """
         self._log = log
-        self._factor = factor
+        self._stepper = stepper
+        self._pacer = pacer
+        self._publisher = publisher
         self._clock = clock
         self._processor = processor
         self._window: _Window | None = None
-        self._slow = 0
+        self._slow_windows = 0
+        self.set_clocks = publisher.set_clocks
 
-    def stepper(self, stepper: Stepper) -> Stepper:
-        """A port like ``stepper`` that is watched."""
-        return _WatchedStepper(stepper, self)
+    # --- stepper ------------------------------------------------------------------------------
 
-    def pacer(self, pacer: Pacer) -> Pacer:
-        """A port like ``pacer`` that is watched."""
-        return _WatchedPacer(pacer, self)
+    @property
+    def time(self) -> int:
+        """Simulated time, ns."""
+        return self._stepper.time
 
-    def publisher(self, publisher: Publisher) -> Publisher:
-        """A port like ``publisher`` that is watched."""
-        return _WatchedPublisher(publisher, self)
+    def advance(self, period: int) -> None:
+        """Advance the world by ``period``, ns."""
+        start = self._clock()
+        self._stepper.advance(period)
+        self._add(PHYSICS, start)
 
-    def begin(self, simulated: int) -> None:
-        """Time begins, or goes on after a pause or a jump, at ``simulated`` ns."""
-        self._slow = 0
-        self._open(simulated, self._clock())
+    # --- publisher ----------------------------------------------------------------------------
 
-    def spend(self, stage: str, since: int) -> None:
-        """Count the wall time from ``since`` (ns) to now as that of ``stage``."""
+    def publish(self, time: int) -> None:
+        """Publish at ``time``, ns."""
+        start = self._clock()
+        self._publisher.publish(time)
+        self._add(PUBLISHING, start)
+
+    # --- pacer --------------------------------------------------------------------------------
+
+    def resume(self, time: int) -> None:
+        """Begin at ``time`` (ns), or go on after a pause or a jump."""
+        self._slow_windows = 0
+        self._open_window(time, self._clock())
+        self._pacer.resume(time)
+
+    def pace(self, time: int) -> bool:
+        """Wait until ``time`` (ns) is due; False: a call has come before."""
+        start = self._clock()
+        is_due = self._pacer.pace(time)
+        self._end_cycle(time, start)
+        return is_due
+
+    # --- windows ------------------------------------------------------------------------------
+
+    def _add(self, stage: str, start: int) -> None:
         if self._window is not None:
-            self._window.spent[stage] += self._clock() - since
+            self._window.spent[stage] += self._clock() - start
 
-    def end_turn(self, simulated: int, since: int) -> None:
-        """The turn up to ``simulated`` ns is over, and the pacer was idle from ``since`` on."""
+    def _end_cycle(self, simulated: int, idle_since: int) -> None:
         window, now = self._window, self._clock()
         if window is None:
             return
-        window.idle += now - since
+        window.idle += now - idle_since
         if now - window.wall < WINDOW:
             return
         if self._is_slow(window, simulated, now):
-            self._slow += 1
-            if self._slow >= SLOW_WINDOWS:
-                self._tell(window, simulated, now)
+            self._slow_windows += 1
+            if self._slow_windows >= SLOW_WINDOWS:
+                self._warn(window, simulated, now)
         else:
-            self._slow = 0
-        self._open(simulated, now)
+            self._slow_windows = 0
+        self._open_window(simulated, now)
 
-    def now(self) -> int:
-        """The wall clock, ns."""
-        return self._clock()
-
-    def _open(self, simulated: int, now: int) -> None:
-        self._window = _Window(now, self._processor(), simulated, self._factor())
+    def _open_window(self, simulated: int, now: int) -> None:
+        self._window = _Window(now, self._processor(), simulated, self._pacer.factor)
 
     def _is_slow(self, window: _Window, simulated: int, now: int) -> bool:
         wall = now - window.wall
-        if window.factor == 0.0 or window.factor != self._factor():
+        if window.factor == 0.0 or window.factor != self._pacer.factor:
             return False
-        is_late = simulated - window.simulated < LEAST_SHARE * window.factor * wall
-        return is_late and window.idle < MOST_IDLE * wall
+        is_late = simulated - window.simulated < MIN_FACTOR_SHARE * window.factor * wall
+        return is_late and window.idle < MAX_IDLE_SHARE * wall
 
-    def _tell(self, window: _Window, simulated: int, now: int) -> None:
+    def _warn(self, window: _Window, simulated: int, now: int) -> None:
         wall, passed = now - window.wall, simulated - window.simulated
         rest = wall - window.idle - sum(window.spent.values())
         spent = window.spent | {CONTROLLERS: rest}
@@ -135,7 +168,7 @@ class LoopProfiler:
         parts = ', '.join(f'{stage} {spent[stage] / wall:.0%}' for stage in order)
         processor = (self._processor() - window.processor) / wall
         cause = f'Most goes to {order[0]}: {_REMEDIES[order[0]]} would do'
-        if processor < LEAST_PROCESSOR:
+        if processor < MIN_PROCESSOR_SHARE:
             cause = (
                 f'The loop has the processor for {processor:.0%} of the time only: other '
                 'programs, or the callbacks of this one, take it; end some, or ask for a lower '
@@ -147,46 +180,3 @@ class LoopProfiler:
             f'the time goes to {parts}. {cause}. Results are right all the same',
             throttle=THROTTLE,
         )
-
-
-class _WatchedStepper:
-    def __init__(self, stepper: Stepper, watch: LoopProfiler) -> None:
-        self._stepper = stepper
-        self._watch = watch
-
-    @property
-    def time(self) -> int:
-        return self._stepper.time
-
-    def advance(self, period: int) -> None:
-        since = self._watch.now()
-        self._stepper.advance(period)
-        self._watch.spend(PHYSICS, since)
-
-
-class _WatchedPublisher:
-    def __init__(self, publisher: Publisher, watch: LoopProfiler) -> None:
-        self.set_clocks = publisher.set_clocks
-        self._publisher = publisher
-        self._watch = watch
-
-    def publish(self, time: int) -> None:
-        since = self._watch.now()
-        self._publisher.publish(time)
-        self._watch.spend(PUBLISHING, since)
-
-
-class _WatchedPacer:
-    def __init__(self, pacer: Pacer, watch: LoopProfiler) -> None:
-        self._pacer = pacer
-        self._watch = watch
-
-    def resume(self, time: int) -> None:
-        self._watch.begin(time)
-        self._pacer.resume(time)
-
-    def pace(self, time: int) -> bool:
-        since = self._watch.now()
-        is_due = self._pacer.pace(time)
-        self._watch.end_turn(time, since)
-        return is_due

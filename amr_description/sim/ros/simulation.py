@@ -1,16 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The simulation in a process: the world, its control thread, its robots, and its time.
+The simulation in a process: the world, the control thread, the robots, and the state.
+
+The states are those of ``simulation_interfaces/msg/SimulationState``:
 
 ========  ===========================================================================
-state     what it is, in the words of ``simulation_interfaces/msg/SimulationState``
-========  ===========================================================================
-PLAYING   time goes on
-PAUSED    time stands still, but for steps that are asked for; everything else works:
+PLAYING   time passes
+PAUSED    time passes only in steps that are requested; everything else works:
           services, spawners, parameters
-STOPPED   as PAUSED, and everything is at its beginning: time 0, no spawned robots;
-          to be played, or paused, to be stepped
+STOPPED   as PAUSED, at time 0 and without the spawned robots; it can be played or
+          paused, and stepped once it is paused
 QUITTING  the process ends
 ========  ===========================================================================
 """
@@ -40,8 +40,8 @@ from amr_description.sim.world_file import WorldSettings
 CLOCK_PERIOD = 10_000_000
 """ns: the longest time between two messages on ``/clock``."""
 
-CLOCK_REMINDER = 0.1
-"""s of the wall clock between two messages on ``/clock`` while time stands still."""
+PAUSED_CLOCK_PERIOD = 0.1
+"""s of the wall clock between two messages on ``/clock`` while paused."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class SimulationParameters:
 
 
 class SimulationState(enum.IntEnum):
-    """See the module; the numbers are those of the message."""
+    """See the module. The numbers are those of the message."""
 
     STOPPED = 0
     PLAYING = 1
@@ -92,25 +92,9 @@ class SimulationState(enum.IntEnum):
     LOADING_WORLD = 5
 
 
-class WorldStepper:
-    """The ``Stepper`` port of the loop over a MuJoCo world."""
-
-    def __init__(self, world: MujocoWorld) -> None:
-        self._world = world
-
-    @property
-    def time(self) -> int:
-        """Simulated time, ns."""
-        return self._world.time
-
-    def advance(self, period: int) -> None:
-        """Step the physics by ``period`` (ns), rounded to its steps, by one at least."""
-        self._world.step(max(1, round(period / self._world.timestep)))
-
-
 class Simulation:
     """
-    World, loop and robots; ``node`` publishes ``/clock`` and lends its logger and parameters.
+    World, control loop and robots.
 
     The coroutines run on the ROS thread and await the control thread.
     """
@@ -122,9 +106,20 @@ class Simulation:
         parameters: SimulationParameters,
         ros_args: Sequence[str],
     ) -> None:
-        """``ros_args`` go on to every manager and controller. Raises SimulationError."""
+        """
+        Load the world; time begins with :meth:`start`.
+
+        Args:
+            node: Publishes ``/clock``; has the parameters and the logger.
+            executor: Of the ROS thread.
+            parameters: Of ``node``, at the start.
+            ros_args: ROS arguments for every controller manager and controller.
+
+        Raises:
+            SimulationError: There is no such world, or MuJoCo rejects it.
+        """
         self.parameters = parameters
-        """As they were at the start."""
+        """At the start."""
         self._node = node
         self._is_stopped = self._is_quitting = False
         self._executor = executor
@@ -140,22 +135,16 @@ class Simulation:
                 log=self.log,
             )
             ground_truth = GroundTruth(node, publisher, self.world, parameters.ground_truth_rate)
-            calls = CallQueue(CLOCK_REMINDER)
+            calls = CallQueue(PAUSED_CLOCK_PERIOD)
             self._pacer = WallPacer(parameters.real_time_factor, calls)
-            watch = LoopProfiler(self.log, lambda: self._pacer.factor)
+            profiler = LoopProfiler(self.log, self.world, self._pacer, publisher)
             self.loop_thread = LoopThread(calls, executor)
-            self.loop_thread.loop = Loop(
-                watch.stepper(WorldStepper(self.world)),
-                watch.pacer(self._pacer),
-                calls,
-                watch.publisher(publisher),
-                CLOCK_PERIOD,
-            )
+            self.loop_thread.loop = Loop(profiler, profiler, calls, profiler, CLOCK_PERIOD)
             self._pauses_on_fault = parameters.on_fault == 'pause'
             self.world.faults.on_fault = lambda: calls.put(self._on_fault)
             if parameters.paused:
                 self.loop_thread.loop.pause()
-            self.robots = EntityManager(
+            self.entities = EntityManager(
                 LoopContext(self.loop_thread, publisher, self.logs),
                 self.world,
                 ground_truth,
@@ -171,18 +160,18 @@ class Simulation:
         node.add_post_set_parameters_callback(self._on_parameters_set)
 
     def start(self) -> None:
-        """Let the control thread run; time begins, unless it is paused."""
+        """Start the control thread; time begins to pass, unless paused."""
         self.loop_thread.start()
 
     def close(self) -> None:
-        """Let time end; then remove the robots' nodes."""
+        """Stop the control thread; then destroy the robots' nodes."""
         self.loop_thread.stop()
-        self.robots.destroy()
+        self.entities.destroy()
         self.logs.stop()
 
     @property
     def state(self) -> SimulationState:
-        """What it is doing."""
+        """The present state."""
         if self._is_quitting:
             return SimulationState.QUITTING
         if self.loop_thread.loop.is_running:
@@ -195,19 +184,19 @@ class Simulation:
         return self._is_quitting or self.loop_thread.failed
 
     async def play(self) -> None:
-        """Let time go on."""
+        """Let time pass."""
         await self.loop_thread.submit(self.loop_thread.loop.resume)
         self._is_stopped = False
 
     async def pause(self) -> None:
-        """Let time stand still."""
+        """Stop time."""
         await self.loop_thread.submit(self.loop_thread.loop.pause)
         self._is_stopped = False
 
     async def stop(self) -> None:
-        """Let time stand still, and everything be as at the start."""
+        """Stop time, remove all robots and reset."""
         await self.loop_thread.submit(self.loop_thread.loop.pause)
-        await self.robots.remove_all()
+        await self.entities.remove_all()
         await self.reset()
         self._is_stopped = True
 
@@ -219,20 +208,21 @@ class Simulation:
 
     async def step(self, count: int) -> int:
         """
-        While paused, make ``count`` physics steps; return how many were not made.
+        Make ``count`` physics steps while paused; return how many were not made.
 
-        Less than all are made when somebody lets time go on, or resets it, meanwhile. Raises
-        SimulationError: it is not paused, or stepping already.
+        Steps are left out when the simulation is played, paused or reset meanwhile. Raises
+        SimulationError: it is not paused, or is already stepping.
         """
         step = self.world.timestep
         return -(-await self.loop_thread.step(count * step) // step)
 
     async def reset(self, *, time: bool = True, state: bool = True) -> None:
         """
-        Begin anew; what runs goes on running, what is active stays active.
+        Reset; the simulation stays playing or paused, active controllers stay active.
 
-        ``time``: let it be 0. ``state``: put every robot to where it was spawned, at rest, its
-        odometry to zero.
+        Args:
+            time: Set the time to 0.
+            state: Put every robot where it was spawned, at rest, with odometry at zero.
         """
 
         def reset() -> None:
@@ -249,7 +239,7 @@ class Simulation:
         await self.loop_thread.submit(reset)
 
     def _on_parameters_set(self, _: Sequence[Parameter]) -> None:
-        """One was set: the factor, or what a fault does, as no other can be."""
+        """Apply ``real_time_factor`` and ``on_fault``; the others are read-only."""
         now = values(self._node, SimulationParameters)
         self._pauses_on_fault = now.on_fault == 'pause'
         if now.real_time_factor != self._pacer.factor:
@@ -259,7 +249,7 @@ class Simulation:
             )
 
     def _on_fault(self) -> None:
-        """Between two turns, after a fault was told; on the control thread."""
+        """Pause after a fault, if ``on_fault`` says so; called between two cycles."""
         if self._pauses_on_fault:
             self.loop_thread.loop.pause()
             self.log(

@@ -162,7 +162,7 @@ class SimulationServices:
                 Result.RESULT_FEATURE_UNSUPPORTED,
             )
         if scope & _SPAWNED:
-            count = await self._simulation.robots.remove_all()
+            count = await self._simulation.entities.remove_all()
             self._simulation.log(
                 Severity.INFO,
                 f'Reset: {count} robots are removed; scope TIME + STATE (3) would keep them',

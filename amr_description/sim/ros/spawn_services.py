@@ -105,7 +105,7 @@ class SpawnServices:
     async def _delete_entity(
         self, request: DeleteEntity.Request, _: DeleteEntity.Response
     ) -> None:
-        await self._simulation.robots.remove(request.entity)
+        await self._simulation.entities.remove(request.entity)
         self._simulation.log(Severity.INFO, f"Removed '{request.entity}'")
 
     async def _get_spawnables(
@@ -134,7 +134,7 @@ class SpawnServices:
         robot = read_description(text, source, self._simulation.log)
         _check_frame(request.initial_pose)
         namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
-        name = await self._simulation.robots.spawn(
+        name = await self._simulation.entities.spawn(
             request.name or robot.name,
             robot,
             transform_of(request.initial_pose.pose),

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A loop that cannot keep real time says so, with the stage that takes it; by a clock of ours."""
+"""A loop that cannot keep real time warns, and names the slow stage; by a fake clock."""
 
 from fixtures.sim.driving import Lines
 import pytest
@@ -9,11 +9,11 @@ from amr_description.control.loop import Loop
 from amr_description.sim.ros.loop_timing import LoopProfiler
 
 MILLISECOND = 1_000_000
-TURN = 10 * MILLISECOND
+PERIOD = 10 * MILLISECOND
 
 
 class Machine:
-    """A clock, and the ports of a loop whose stages take as many ms as they are told."""
+    """A clock, and the ports of a loop whose stages take given numbers of ms."""
 
     def __init__(self, factor=1.0, physics=1, controllers=1, publishing=1, kept_from=0):
         self.wall = self.processor = self.time = 0
@@ -24,10 +24,15 @@ class Machine:
         self.kept_from = kept_from
         self.start = 0, 0
         self.log = Lines()
-        watch = LoopProfiler(
-            self.log, lambda: self.factor, lambda: self.wall, lambda: self.processor
+        profiler = LoopProfiler(
+            self.log,
+            self,
+            self,
+            self,
+            clock=lambda: self.wall,
+            processor=lambda: self.processor,
         )
-        self.loop = Loop(watch.stepper(self), watch.pacer(self), self, watch.publisher(self), TURN)
+        self.loop = Loop(profiler, profiler, self, profiler, PERIOD)
 
     def work(self, stage):
         spent = self.costs[stage] * MILLISECOND
@@ -57,7 +62,7 @@ class Machine:
         return True
 
     def run(self, seconds):
-        """Turn for so many simulated seconds."""
+        """Run for so many simulated seconds."""
         for _ in range(round(seconds * 100)):
             self.loop.run_once()
 
@@ -69,7 +74,7 @@ def running(**costs):
 
 
 @pytest.mark.parametrize('factor', [0.5, 1.0, 3.0])
-def test_who_keeps_real_time_says_nothing(factor):
+def test_a_loop_that_keeps_real_time_logs_nothing(factor):
     machine = running(factor=factor)
     machine.run(20)
     assert machine.log.lines == []
@@ -104,7 +109,7 @@ def test_a_loop_that_is_kept_from_the_processor_blames_the_others():
     assert 'has the processor for 14% of the time only: other programs' in machine.log.text
 
 
-def test_one_hold_up_is_not_told_nor_what_was_caught_up():
+def test_a_single_delay_that_is_caught_up_is_not_logged():
     machine = running()
     for _ in range(5):
         machine.run(2)
