@@ -34,7 +34,7 @@ from amr_description.tf2_ros.broadcaster import StaticTransformBroadcaster
 from amr_description.tf2_ros.buffer import transform_message
 from amr_description.tf2_ros.buffer_core import is_unit
 from amr_description.tf2_ros.time_cache import StampedTransform
-from amr_description.tf2_ros.tools import say, tool, words_of
+from amr_description.tf2_ros.tools import arguments_of, print_now, run_tool
 
 USAGE = """\
 usage: static_transform_publisher [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW]
@@ -199,10 +199,10 @@ class StaticTransformPublisher(Node):
 
 def publish(args: list[str] | None) -> int:
     """Publish, and stay until Ctrl-C; return the exit code."""
-    words = words_of(args)
+    words = arguments_of(args)
     asks_for_help = not {'-h', '--help'}.isdisjoint(words)
     if asks_for_help or not words:
-        say(USAGE)
+        print_now(USAGE)
         return 0 if asks_for_help else ArgumentsError.exit_code
     logger = get_logger('static_transform_publisher')
     try:
@@ -215,7 +215,7 @@ def publish(args: list[str] | None) -> int:
 
 def main(args: list[str] | None = None) -> int:
     """Publish, and stay until Ctrl-C."""
-    return tool(lambda: publish(args))
+    return run_tool(lambda: publish(args))
 
 
 def _quoted(values: Sequence[float]) -> str:

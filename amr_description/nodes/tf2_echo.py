@@ -29,7 +29,13 @@ from amr_description.errors import TransformException, UsageError
 from amr_description.model.frames import rpy_from_quaternion
 from amr_description.tf2_ros.buffer import stamped_transform
 from amr_description.tf2_ros.time_cache import LATEST, seconds, StampedTransform
-from amr_description.tf2_ros.tools import listening, say, tool, wait_for_transform, words_of
+from amr_description.tf2_ros.tools import (
+    arguments_of,
+    listening,
+    print_now,
+    run_tool,
+    wait_for_transform,
+)
 
 USAGE = """\
 Usage: tf2_echo source_frame target_frame [options]
@@ -106,11 +112,11 @@ def text_of(stamped: StampedTransform, precision: int = 3) -> str:
 
 def echo(args: list[str] | None) -> int:
     """Print until Ctrl-C; return the exit code."""
-    words = words_of(args)
+    words = arguments_of(args)
     asks_for_help = not {'-h', '--help'}.isdisjoint(words)
     request = None if asks_for_help else parse(words)
     if request is None:
-        say(USAGE)
+        print_now(USAGE)
         return 0 if asks_for_help else 1
     when = Time(nanoseconds=request.time)
     with listening('tf2_echo', args) as (node, buffer, _):
@@ -121,10 +127,10 @@ def echo(args: list[str] | None) -> int:
                 transform = stamped_transform(
                     buffer.lookup_transform(request.source, request.target, when)
                 )
-                say(text_of(transform, request.precision))
+                print_now(text_of(transform, request.precision))
             except TransformException as error:
                 now = seconds(node.get_clock().now().nanoseconds)
-                say(
+                print_now(
                     f'Failure at {now}\nException thrown:{error}\n'
                     f'The current list of frames is:\n{buffer.all_frames_as_string()}'
                 )
@@ -136,7 +142,7 @@ def echo(args: list[str] | None) -> int:
 
 def main(args: list[str] | None = None) -> int:
     """Print until Ctrl-C."""
-    return tool(lambda: echo(args))
+    return run_tool(lambda: echo(args))
 
 
 def _stamp(stamp: int) -> str:

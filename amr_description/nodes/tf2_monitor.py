@@ -19,14 +19,21 @@ from rclpy.node import Node
 from tf2_msgs.msg import TFMessage
 
 from amr_description.errors import TransformException
-from amr_description.tf2_ros.buffer import Buffer, nanoseconds
+from amr_description.ros.messages import nanoseconds
+from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.listener import (
     DEFAULT_STATIC_TF_TOPIC,
     DEFAULT_TF_TOPIC,
     TransformListener,
 )
 from amr_description.tf2_ros.statistics import TransformStatistics
-from amr_description.tf2_ros.tools import listening, say, tool, wait_for_transform, words_of
+from amr_description.tf2_ros.tools import (
+    arguments_of,
+    listening,
+    print_now,
+    run_tool,
+    wait_for_transform,
+)
 
 USAGE = """\
 TF_Monitor: usage: tf2_monitor [framea frameb]
@@ -56,14 +63,14 @@ class MonitoringListener(TransformListener):
         self._note(DEFAULT_STATIC_TF_TOPIC, data, static=True)
         super().static_callback(data)
 
-    def note_way(self, way: tuple[str, str]) -> None:
+    def add_chain_delay(self, way: tuple[str, str]) -> None:
         """Take note how late the way between two frames is just now, if there is one."""
         try:
             latest = self.buffer.get_latest_common_time(*way)
         except TransformException:
             return
         with self._lock:
-            self._statistics.note_way(latest.nanoseconds, self._now())
+            self._statistics.add_chain_delay(latest.nanoseconds, self._now())
 
     def report(self, chain: list[str] | None) -> str:
         """Write what was heard so far."""
@@ -74,7 +81,7 @@ class MonitoringListener(TransformListener):
     def _note(self, topic: str, data: TFMessage, *, static: bool) -> None:
         heard = [(one.child_frame_id, nanoseconds(one.header.stamp)) for one in data.transforms]
         with self._lock:
-            self._statistics.hear(topic, heard, self._now(), static=static)
+            self._statistics.add_message(topic, heard, self._now(), static=static)
 
     def _now(self) -> int:
         return self.node.get_clock().now().nanoseconds
@@ -82,26 +89,26 @@ class MonitoringListener(TransformListener):
 
 def monitor(args: list[str] | None) -> int:
     """Print until Ctrl-C; return the exit code."""
-    frames = words_of(args)
+    frames = arguments_of(args)
     asks_for_help = not {'-h', '--help'}.isdisjoint(frames)
     if asks_for_help or len(frames) not in (0, 2):
-        say(USAGE)
+        print_now(USAGE)
         return 0 if asks_for_help else 1
     with listening('tf2_monitor_main', args, MonitoringListener) as (node, buffer, listener):
         if frames:
             wait_for_transform(node, buffer, *frames)
-        say(f'Gathering data on {" -> ".join(frames) or "all frames"} for 10 seconds...')
+        print_now(f'Gathering data on {" -> ".join(frames) or "all frames"} for 10 seconds...')
         while True:
             for _ in range(_SAMPLES):
                 if frames:
-                    listener.note_way((frames[0], frames[1]))
+                    listener.add_chain_delay((frames[0], frames[1]))
                 threading.Event().wait(_SAMPLE_TIME)
-            say(_report(buffer, listener, frames))
+            print_now(_report(buffer, listener, frames))
 
 
 def main(args: list[str] | None = None) -> int:
     """Print until Ctrl-C."""
-    return tool(lambda: monitor(args))
+    return run_tool(lambda: monitor(args))
 
 
 def _report(buffer: Buffer, listener: MonitoringListener, frames: list[str]) -> str:

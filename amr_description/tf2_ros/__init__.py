@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``tf2_ros`` by another name, for nodes in Python where the original is not installed.
+``tf2_ros`` in Python, for nodes that run where the original is not installed.
 
-Such a node changes its import, nothing else::
+Such a node changes only its import::
 
     import amr_description.tf2_ros as tf2_ros
 
@@ -17,6 +17,19 @@ Such a node changes its import, nothing else::
 
 Left out are the buffer as an action server with its client, and the conversion of points and
 poses that tf2_geometry_msgs registers (``Buffer.transform``).
+
+===================  =============================================================================
+module               what it holds
+===================  =============================================================================
+``time_cache.py``    the poses of one frame over the last seconds, interpolated; no ROS
+``frame_graph.py``   the trees of frames, and their descriptions as text; no ROS
+``buffer_core.py``   what is known of all frames: lookups and their errors; no ROS
+``buffer.py``        ``Buffer``: the core with the interface of tf2_ros, for threads
+``listener.py``      ``TransformListener``: from topics into a buffer
+``broadcaster.py``   ``TransformBroadcaster``, ``StaticTransformBroadcaster``
+``statistics.py``    rates and delays, for ``tf2_monitor``; no ROS
+``tools.py``         what the command-line programs of tf2 share
+===================  =============================================================================
 """
 
 from amr_description.errors import (

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Send transforms: ``tf2_ros``' Python interface."""
+"""Publishers of transforms, with the interface of ``tf2_ros``."""
 
 from collections.abc import Iterable
 
@@ -12,9 +12,11 @@ from tf2_msgs.msg import TFMessage
 
 class TransformBroadcaster:
     """
-    Sends transforms that change, on ``/tf``.
+    Publishes transforms that change, on ``/tf``.
 
-    :param qos: A profile, or a depth.
+    Args:
+        node: whose publisher it is.
+        qos: a profile, or a depth.
     """
 
     def __init__(self, node: Node, qos: QoSProfile | int = 100) -> None:
@@ -23,19 +25,21 @@ class TransformBroadcaster:
     def sendTransform(  # noqa: N802 - the name is tf2's
         self, transform: TransformStamped | Iterable[TransformStamped]
     ) -> None:
-        """Send one transform, or several."""
-        self.pub_tf.publish(TFMessage(transforms=_listed(transform)))
+        """Publish one transform, or several."""
+        self.pub_tf.publish(TFMessage(transforms=_as_list(transform)))
 
 
 class StaticTransformBroadcaster:
     """
-    Sends transforms that do not change, on ``/tf_static``, for those who come later, too.
+    Publishes transforms that do not change, on ``/tf_static``, also to later subscribers.
 
-    They get the last message only. It carries all that was sent through this object, as from
-    tf2_ros in C++; from tf2_ros in Python it carries what was sent last, and they never hear of
-    the rest.
+    Later subscribers get the last message only. It holds all transforms that this object has
+    sent, as in the C++ tf2_ros; in the Python tf2_ros it holds those of the last call, and the
+    others are lost to them.
 
-    :param qos: A profile, or a depth; None: reliable, transient local, depth 1.
+    Args:
+        node: whose publisher it is.
+        qos: a profile, or a depth; None: reliable, transient local, depth 1.
     """
 
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
@@ -48,10 +52,10 @@ class StaticTransformBroadcaster:
     def sendTransform(  # noqa: N802
         self, transform: TransformStamped | Iterable[TransformStamped]
     ) -> None:
-        """Send one transform, or several; one of the same child replaces the former."""
-        self._sent |= {one.child_frame_id: one for one in _listed(transform)}
+        """Publish one transform, or several; each replaces the former one of its child."""
+        self._sent |= {one.child_frame_id: one for one in _as_list(transform)}
         self.pub_tf.publish(TFMessage(transforms=list(self._sent.values())))
 
 
-def _listed(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:
+def _as_list(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:
     return [transform] if isinstance(transform, TransformStamped) else list(transform)

@@ -1,14 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Transforms ↔ ROS messages.
+``Buffer``: :class:`~amr_description.tf2_ros.buffer_core.BufferCore` with the interface of tf2_ros.
 
-``Buffer``: :class:`~amr_description.tf2_ros.buffer_core.BufferCore` behind the interface
-of ``tf2_ros``, for any number of threads.
-
-Better than the original where that hurts its users: waiting ends the moment the transform is
-there (the original looks every 20 ms); a static transform sent by two, or a frame with two
-parents, is told with the names of the nodes; errors say what is missing (see the model).
+Any number of threads may use it. Three things differ from the original: waiting ends as soon as
+the transform is known (the original polls every 20 ms); when two nodes publish a frame, a warning
+names them; errors say what is missing (see :mod:`~amr_description.tf2_ros.buffer_core`).
 """
 
 from collections.abc import Callable, Mapping
@@ -29,58 +26,30 @@ from tf2_msgs.srv import FrameGraph
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
 from amr_description.errors import TransformException
 from amr_description.model.frames import Transform
-from amr_description.tf2_ros.buffer_core import BufferCore, CACHE_TIME, Remark
+from amr_description.ros.messages import fill_stamp, nanoseconds
+from amr_description.tf2_ros.buffer_core import BufferCore, CACHE_TIME, InputWarning
 from amr_description.tf2_ros.frame_graph import FrameRecord, frames_as_string, frames_as_yaml
 from amr_description.tf2_ros.time_cache import StampedTransform
 
-
-def stamped_transform(message: TransformStamped) -> StampedTransform:
-    """Read a message; ``frame_id`` is the parent."""
-    place, turn = message.transform.translation, message.transform.rotation
-    return StampedTransform(
-        message.header.frame_id,
-        message.child_frame_id,
-        nanoseconds(message.header.stamp),
-        Transform((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w)),
-    )
-
-
-def transform_message(stamped: StampedTransform) -> TransformStamped:
-    """Make a message."""
-    message = TransformStamped()
-    stamp = message.header.stamp
-    stamp.sec, stamp.nanosec = divmod(stamped.time, NANOSECONDS)
-    message.header.frame_id = stamped.parent
-    message.child_frame_id = stamped.child
-    place, turn = message.transform.translation, message.transform.rotation
-    place.x, place.y, place.z = stamped.transform.translation
-    turn.x, turn.y, turn.z, turn.w = stamped.transform.rotation
-    return message
-
-
-def nanoseconds(time: Time | TimeMessage) -> int:
-    """Return a time of rclpy, or a stamp, in ns."""
-    return time.nanoseconds if isinstance(time, Time) else time.sec * NANOSECONDS + time.nanosec
-
-
-_SLICE = 0.5  # s: how soon a wait sees that ROS was shut down
-_QUIET = 5.0  # s between two remarks about one matter
+_SLICE = 0.5  # s: how soon a wait notices that ROS was shut down
+_QUIET = 5.0  # s between two warnings with one key
 
 type _Lookup = Callable[[BufferCore], TransformStamped]
 
 
 class Buffer:
     """
-    What is known of transforms. A transform that is looked up is the pose of the source frame in
-    the target frame; ``Time()`` asks for the latest.
+    The transforms between frames over the last seconds.
 
-    :param cache_time: How long the past is kept; None: 10 s.
-    :param node: Offers the service ``tf2_frames`` (the frames as YAML), logs, and its clock's
-        jumps back clear the buffer.
-    :param clock: A clock to watch without all that.
+    A transform that is looked up is the pose of the source frame in the target frame; ``Time()``
+    asks for the latest. The lookups raise a subclass of
+    :class:`~amr_description.errors.TransformException`.
 
-    The lookups raise TransformException: Lookup-, Connectivity-, Extrapolation- or
-    InvalidArgumentException of :mod:`amr_description.errors`.
+    Args:
+        cache_time: how long transforms are kept; None: 10 s.
+        node: provides the service ``tf2_frames`` (the frames as YAML), the logger, and the clock
+            whose jumps back clear the buffer.
+        clock: only the clock, where no ``node`` is given.
     """
 
     def __init__(
@@ -93,15 +62,15 @@ class Buffer:
         self._core = BufferCore(CACHE_TIME if cache_time is None else cache_time.nanoseconds)
         self._changed = threading.Condition()  # its lock guards all that is below
         self._awaited: list[tuple[_Lookup, Future]] = []
-        self._said: dict[tuple[str, str], float] = {}
+        self._warned: dict[tuple[str, str], float] = {}
         self._logger = node.get_logger() if node else get_logger('tf2_buffer')
         self.publishers: Callable[[], Mapping[str, list[str]]] = dict
-        """Topic -> the nodes that publish there; a listener knows."""
+        """Topic -> the nodes that publish it; set by a listener."""
         if node is not None:
-            self.srv = node.create_service(FrameGraph, 'tf2_frames', self._answer)
+            self.srv = node.create_service(FrameGraph, 'tf2_frames', self._on_tf2_frames)
             clock = node.get_clock()
         self._clock = clock
-        self._going_back = TimeJumpFilter()
+        self._time_jumps = TimeJumpFilter()
         self._jumps = clock and clock.create_jump_callback(
             JumpThreshold(
                 min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
@@ -110,11 +79,11 @@ class Buffer:
         )
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Take a moving transform; one that cannot be used is ignored, and told."""
+        """Add a moving transform; one that cannot be used is ignored with a warning."""
         self._insert(transform, authority, static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform that is good for all times."""
+        """Add a transform that is valid at all times."""
         self._insert(transform, authority, static=True)
 
     def lookup_transform(
@@ -124,7 +93,7 @@ class Buffer:
         time: Time | TimeMessage,
         timeout: Duration = Duration(),  # noqa: B008 - never changed
     ) -> TransformStamped:
-        """Return the pose of ``source_frame`` in ``target_frame``, waiting for it if need be."""
+        """Return the pose of ``source_frame`` in ``target_frame``, waiting up to ``timeout``."""
         return self._wait(_simple(target_frame, source_frame, time), timeout)
 
     def lookup_transform_full(
@@ -136,7 +105,7 @@ class Buffer:
         fixed_frame: str,
         timeout: Duration = Duration(),  # noqa: B008
     ) -> TransformStamped:
-        """Return where ``source_frame`` was then, in ``target_frame`` at another time."""
+        """Return the pose of ``source_frame`` at one time in ``target_frame`` at another."""
         times = (target_time, source_time)
         return self._wait(_full(target_frame, source_frame, fixed_frame, *times), timeout)
 
@@ -148,11 +117,11 @@ class Buffer:
         timeout: Duration = Duration(),  # noqa: B008
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Tell whether it can be looked up, after ``timeout``; in a tuple also why not."""
-        self._until(_simple(target_frame, source_frame, time), timeout)
+        """Return whether it can be looked up within ``timeout``; in a tuple also why not."""
+        self._wait_until(_simple(target_frame, source_frame, time), timeout)
         with self._changed:
-            why_not = self._core.obstacle(target_frame, source_frame, nanoseconds(time))
-        return (not why_not, why_not) if return_debug_tuple else not why_not
+            reason = self._core.explain_failure(target_frame, source_frame, _nanoseconds(time))
+        return (not reason, reason) if return_debug_tuple else not reason
 
     def can_transform_full(
         self,
@@ -164,14 +133,14 @@ class Buffer:
         timeout: Duration = Duration(),  # noqa: B008
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Tell whether :meth:`lookup_transform_full` would do, after ``timeout``."""
+        """Return whether :meth:`lookup_transform_full` can succeed within ``timeout``."""
         times = (target_time, source_time)
-        why_not = ''
+        reason = ''
         try:
             self._wait(_full(target_frame, source_frame, fixed_frame, *times), timeout)
         except TransformException as error:
-            why_not = str(error)
-        return (not why_not, why_not) if return_debug_tuple else not why_not
+            reason = str(error)
+        return (not reason, reason) if return_debug_tuple else not reason
 
     def wait_for_transform_async(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage
@@ -180,7 +149,7 @@ class Buffer:
         future = Future()
         with self._changed:
             self._awaited.append((_simple(target_frame, source_frame, time), future))
-        self._serve_awaited()
+        self._complete_futures()
         return future
 
     async def lookup_transform_async(
@@ -190,17 +159,17 @@ class Buffer:
         return await self.wait_for_transform_async(target_frame, source_frame, time)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """Return the latest time that is known of all transforms between two frames."""
+        """Return the latest time at which all transforms between two frames are known."""
         with self._changed:
             return Time(nanoseconds=self._core.latest_common_time(target_frame, source_frame))
 
     def chain(self, target_frame: str, source_frame: str) -> list[str]:
-        """Return the frames on the way from the target to the source, both included."""
+        """Return the frames between the target and the source, both included."""
         with self._changed:
             return self._core.chain(target_frame, source_frame)
 
     def records(self) -> list[FrameRecord]:
-        """Return what is known of each frame that has a parent."""
+        """Return how each frame that has a parent is published."""
         with self._changed:
             return self._core.records()
 
@@ -213,42 +182,43 @@ class Buffer:
         return frames_as_string(self.records())
 
     def clear(self) -> None:
-        """Forget all moving transforms."""
+        """Drop all moving transforms; static ones stay."""
         with self._changed:
             self._core.clear()
 
     def _insert(self, transform: TransformStamped, authority: str, *, static: bool) -> None:
-        if not static and self._is_of_before(transform):
+        if not static and self._is_stale(transform):
             return
         with self._changed:
-            remark = self._core.set_transform(
+            warning = self._core.set_transform(
                 stamped_transform(transform), authority, static=static
             )
             self._changed.notify_all()
-            due = remark is not None and self._is_due(remark)
+            due = warning is not None and self._is_due(warning)
         if due:
-            self._say(remark)
+            self._warn(warning)
         if self._awaited:
-            self._serve_awaited()
+            self._complete_futures()
 
-    def _is_of_before(self, transform: TransformStamped) -> bool:
+    def _is_stale(self, transform: TransformStamped) -> bool:
         """
-        Whether it was on its way when time went back: taken as the newest that is known, it would
-        keep out, as too old, all that comes since.
+        Return whether a transform was sent before time jumped back.
+
+        It would become the latest of its frame, so that all that follow were too old.
         """
-        if not self._going_back.is_recent:
+        if not self._time_jumps.is_recent:
             return False
-        self._going_back.observe(self._clock.now().nanoseconds)
-        return self._going_back.is_stale(nanoseconds(transform.header.stamp))
+        self._time_jumps.observe(self._clock.now().nanoseconds)
+        return self._time_jumps.is_stale(nanoseconds(transform.header.stamp))
 
     def _wait(self, lookup: _Lookup, timeout: Duration) -> TransformStamped:
-        self._until(lookup, timeout)
+        self._wait_until(lookup, timeout)
         with self._changed:
             return lookup(self._core)
 
-    def _until(self, lookup: _Lookup, timeout: Duration) -> None:
-        """Wait until a lookup does not fail, but no longer than ``timeout``."""
-        deadline = clocks.monotonic() + timeout.nanoseconds * 1e-9
+    def _wait_until(self, lookup: _Lookup, timeout: Duration) -> None:
+        """Wait until a lookup succeeds, but no longer than ``timeout``."""
+        deadline = clocks.monotonic() + timeout.nanoseconds / NANOSECONDS
         with self._changed:
             while (rest := deadline - clocks.monotonic()) > 0.0 and rclpy.ok():
                 try:
@@ -257,8 +227,8 @@ class Buffer:
                 except TransformException:
                     self._changed.wait(min(rest, _SLICE))
 
-    def _serve_awaited(self) -> None:
-        """Complete the futures whose time has come; not under the lock, as somebody listens."""
+    def _complete_futures(self) -> None:
+        """Complete the futures that can be, outside of the lock: their callbacks may look up."""
         found: list[tuple[Future, TransformStamped]] = []
         with self._changed:
             waiting = []
@@ -272,20 +242,20 @@ class Buffer:
         for future, transform in found:
             future.set_result(transform)
 
-    def _is_due(self, remark: Remark) -> bool:
+    def _is_due(self, warning: InputWarning) -> bool:
         now = clocks.monotonic()
-        if now - self._said.get(remark.matter, -_QUIET) < _QUIET:
+        if now - self._warned.get(warning.key, -_QUIET) < _QUIET:
             return False
-        self._said[remark.matter] = now
+        self._warned[warning.key] = now
         return True
 
-    def _say(self, remark: Remark) -> None:
+    def _warn(self, warning: InputWarning) -> None:
         nodes = '; '.join(
             f'{topic} is published by {", ".join(names)}'
             for topic, names in self.publishers().items()
             if names
         )
-        self._logger.warning(f'{remark.text}. {nodes[:1].upper()}{nodes[1:]}'.rstrip(' .'))
+        self._logger.warning(f'{warning.text}. {nodes[:1].upper()}{nodes[1:]}'.rstrip(' .'))
 
     def _on_jump(self, jump: TimeJump) -> None:
         if self.records():
@@ -293,19 +263,45 @@ class Buffer:
             self._logger.warning(f'Detected {what}. Clearing tf buffer.')
         self.clear()
         now, step = self._clock.now().nanoseconds, jump.delta.nanoseconds
-        self._going_back.observe(now - step)
-        self._going_back.observe(now)
+        self._time_jumps.observe(now - step)
+        self._time_jumps.observe(now)
 
-    def _answer(
+    def _on_tf2_frames(
         self, _request: FrameGraph.Request, response: FrameGraph.Response
     ) -> FrameGraph.Response:
         response.frame_yaml = self.all_frames_as_yaml()
         return response
 
 
+def stamped_transform(message: TransformStamped) -> StampedTransform:
+    """Return what a message says; its ``frame_id`` is the parent."""
+    translation, rotation = message.transform.translation, message.transform.rotation
+    return StampedTransform(
+        message.header.frame_id,
+        message.child_frame_id,
+        nanoseconds(message.header.stamp),
+        Transform(
+            (translation.x, translation.y, translation.z),
+            (rotation.x, rotation.y, rotation.z, rotation.w),
+        ),
+    )
+
+
+def transform_message(stamped: StampedTransform) -> TransformStamped:
+    """Return the message of a transform."""
+    message = TransformStamped()
+    fill_stamp(stamped.time, message.header.stamp)
+    message.header.frame_id = stamped.parent
+    message.child_frame_id = stamped.child
+    translation, rotation = message.transform.translation, message.transform.rotation
+    translation.x, translation.y, translation.z = stamped.transform.translation
+    rotation.x, rotation.y, rotation.z, rotation.w = stamped.transform.rotation
+    return message
+
+
 def _simple(target: str, source: str, time: Time | TimeMessage) -> _Lookup:
-    when = nanoseconds(time)
-    return lambda core: transform_message(core.lookup(target, source, when))
+    when = _nanoseconds(time)
+    return lambda core: transform_message(core.lookup_transform(target, source, when))
 
 
 def _full(
@@ -315,7 +311,11 @@ def _full(
     target_time: Time | TimeMessage,
     source_time: Time | TimeMessage,
 ) -> _Lookup:
-    at_target, at_source = nanoseconds(target_time), nanoseconds(source_time)
+    at_target, at_source = _nanoseconds(target_time), _nanoseconds(source_time)
     return lambda core: transform_message(
-        core.lookup_full(target, at_target, source, at_source, fixed)
+        core.lookup_transform_full(target, at_target, source, at_source, fixed)
     )
+
+
+def _nanoseconds(time: Time | TimeMessage) -> int:
+    return time.nanoseconds if isinstance(time, Time) else nanoseconds(time)

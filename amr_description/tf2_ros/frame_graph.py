@@ -1,16 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a transform buffer knows, as text: tf2's list and YAML, a tree, a graph for Graphviz.
+The trees of frames that a transform buffer walks, and their descriptions as text.
 
-YAML and list are what tf2's ``allFramesAsYAML`` and ``allFramesAsString`` return, number by
-number, as other tools read them. The others leave out what tf2 makes up for a static frame: a
-rate of 10000 Hz, a first and a last time of 0.
+A frame has one parent at a time; one without a parent is a root. Between the frames of two roots
+nothing can be looked up. Publishers may make a loop, so every walk expects one.
 
-Which frame is in which: the trees that a transform buffer walks.
-
-A frame has one parent at a time. One without a parent is a root; where there are two, nothing is
-known between their trees. Nothing keeps publishers from making a loop, so a walk must expect one.
+:func:`frames_as_yaml` and :func:`frames_as_string` return what tf2's ``allFramesAsYAML`` and
+``allFramesAsString`` do, number by number, as other tools read them. :func:`as_tree`,
+:func:`as_dot` and :func:`facts` leave out what tf2 makes up for a static frame: a rate of
+10000 Hz, a first and a last time of 0.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,11 +27,12 @@ from amr_description.tf2_ros.time_cache import (
 )
 
 _SHOWN = 8  # names of a tree, in an error
+_SHORTEST = 100_000  # ns: tf2 takes the length of a buffer to be at least this
 
 
 @dataclass(frozen=True, slots=True)
 class FrameRecord:
-    """What is known of a frame that has a parent; times in ns, both 0 for a static frame."""
+    """How a frame that has a parent is published; times in ns, both 0 for a static frame."""
 
     name: str
     parent: str
@@ -47,7 +47,8 @@ class FrameTree:
     """
     All frames and their poses in their parents.
 
-    :param cache_time: How long the past of a frame is kept before its latest pose, ns.
+    Args:
+        cache_time: how long poses of a frame are kept before its latest one, ns.
     """
 
     def __init__(self, cache_time: int) -> None:
@@ -62,15 +63,15 @@ class FrameTree:
         return list(self._names)
 
     def __contains__(self, name: str) -> bool:
-        """Tell whether a frame of that name has come up, with a parent or as one."""
+        """Return whether a frame of that name has come up, with a parent or as one."""
         return name in self._names
 
     def get(self, name: str) -> Frame | None:
-        """Return the poses of a frame in its parent; None: it has no parent."""
+        """Return the poses of a frame in its parent; None if it has no parent."""
         return self._frames.get(name)
 
     def records(self) -> list[FrameRecord]:
-        """Tell of all frames that have a parent, in the order in which they came up."""
+        """Return all frames that have a parent, in the order in which they came up."""
         return [
             FrameRecord(
                 name,
@@ -86,26 +87,27 @@ class FrameTree:
         ]
 
     def insert(self, stamped: StampedTransform, authority: str, *, static: bool) -> bool:
-        """Take a pose; False: it is older than what is kept, and ignored."""
+        """Add a pose; return False if it is older than what is kept and therefore ignored."""
         sample = TransformStorage(stamped.time, stamped.parent, stamped.transform)
         frame = self._frames.get(stamped.child)
         if isinstance(frame, TimeCache) and not static:
-            if not frame.insert(sample):
+            if not frame.insert_data(sample):
                 return False
         else:
-            made = StaticCache(sample) if static else TimeCache(sample, self._cache_time)
-            self._frames[stamped.child] = made
+            self._frames[stamped.child] = (
+                StaticCache(sample) if static else TimeCache(sample, self._cache_time)
+            )
         self._authorities[stamped.child] = authority
         self._names.setdefault(stamped.parent)
         self._names.setdefault(stamped.child)
         return True
 
-    def forget_moving(self) -> None:
-        """Forget where moving frames were, but not that they exist."""
+    def clear_moving(self) -> None:
+        """Drop the poses of moving frames, but not their names."""
         self._frames = {name: frame for name, frame in self._frames.items() if frame.is_static}
 
     def lineage(self, name: str) -> Iterator[str]:
-        """Yield a frame and its present ancestors, the root last; of a loop each frame once."""
+        """Yield a frame and its ancestors, the root last; each frame of a loop once."""
         seen: set[str] = set()
         while name not in seen:
             seen.add(name)
@@ -113,12 +115,13 @@ class FrameTree:
             frame = self._frames.get(name)
             name = frame.latest.parent if frame else name
 
-    def ways(self, target: str, source: str) -> tuple[list[str], list[str]]:
+    def branches(self, target: str, source: str) -> tuple[list[str], list[str]]:
         """
-        Return the frames from either up to, and with, the first that they share.
+        Return the frames from each of two up to their first common ancestor, which is included.
 
-        :raises LookupException: There is a loop.
-        :raises ConnectivityException: They share none.
+        Raises:
+            LookupException: there is a loop.
+            ConnectivityException: they have no common ancestor.
         """
         up = list(self.lineage(source))
         down: list[str] = []
@@ -133,7 +136,7 @@ class FrameTree:
         raise self.unconnected(target, source)
 
     def root_of(self, name: str) -> str:
-        """Return the root of the frame's tree; of a loop, its alphabetically first frame."""
+        """Return the root of the frame's tree; for a loop, its alphabetically first frame."""
         lineage = list(self.lineage(name))
         frame = self._frames.get(lineage[-1])
         return min(lineage[lineage.index(frame.latest.parent) :]) if frame else lineage[-1]
@@ -149,7 +152,7 @@ class FrameTree:
     def unconnected(self, target: str, source: str) -> ConnectivityException:
         """Return the error of two frames in different trees."""
         trees = ', and '.join(
-            f"'{root}' with {listed(members) or 'nothing below it'}"
+            f"'{root}' with {shortened(members) or 'nothing below it'}"
             for root, members in self.trees().items()
         )
         # The missing space after 'tree.' is tf2's: people search for the sentence as it is.
@@ -160,22 +163,19 @@ class FrameTree:
         )
 
 
-def loop_error(way: Sequence[str], again: str) -> LookupException:
-    """Return the error of a way, from child to parent, that comes to one of its frames again."""
-    loop = [*way[way.index(again) :], again]
+def loop_error(chain: Sequence[str], again: str) -> LookupException:
+    """Return the error of a chain, from child to parent, that reaches one of its frames again."""
+    loop = [*chain[chain.index(again) :], again]
     return LookupException(
         f'The tf tree is invalid because it contains a loop: {" is in ".join(loop)}'
     )
 
 
-def listed(names: Sequence[str]) -> str:
-    """Write names, the first few of many."""
+def shortened(names: Sequence[str]) -> str:
+    """Return names separated by commas, the first few of many."""
     more = len(names) - _SHOWN
     shown = ', '.join(names[:_SHOWN])
     return f'{shown} and {more} more' if more > 0 else shown
-
-
-_SHORTEST = 100_000  # ns: of this length tf2 takes a memory to be at least
 
 
 def frames_as_string(records: Sequence[FrameRecord]) -> str:
@@ -185,12 +185,12 @@ def frames_as_string(records: Sequence[FrameRecord]) -> str:
 
 
 def frames_as_yaml(records: Sequence[FrameRecord], now: int = 0) -> str:
-    """Return a YAML mapping of frames; with ``now`` (ns, 0: unknown) also how old they are."""
+    """Return a YAML mapping of frames; with ``now`` (ns, 0: unknown) also their delay."""
     return ''.join(_yaml(record, now) for record in records) or '[]'
 
 
 def facts(record: FrameRecord) -> list[str]:
-    """Return what there is to say about how a frame is published, a line each."""
+    """Return how a frame is published, as lines of text."""
     lines = [f'Broadcaster: {record.authority}']
     if record.is_static:
         return [*lines, 'Static']
@@ -211,9 +211,9 @@ def average_rate(record: FrameRecord) -> float:
 
 def tree_order(records: Sequence[FrameRecord]) -> list[tuple[str, FrameRecord | None, int]]:
     """
-    Return (frame, its record, depth) of all, each one before those below it; roots have none.
+    Return (frame, its record, depth) of all frames, parents before children; roots have no record.
 
-    Children stand in alphabetical order. A loop is cut open above its first frame.
+    Children are in alphabetical order. A loop is cut above its alphabetically first frame.
     """
     children: dict[str, list[str]] = {}
     for record in records:
@@ -235,7 +235,7 @@ def tree_order(records: Sequence[FrameRecord]) -> list[tuple[str, FrameRecord | 
 
 
 def label(name: str, record: FrameRecord | None, depth: int) -> str:
-    """Name a frame in :func:`tree_order`, and tell where a loop was cut."""
+    """Return the name of a frame of :func:`tree_order`, with a note where a loop was cut."""
     is_cut = record is not None and depth == 0
     return f'{name} (in a loop, below {record.parent})' if is_cut else name
 
@@ -246,7 +246,7 @@ def as_tree(records: Sequence[FrameRecord]) -> str:
 
 
 def as_dot(records: Sequence[FrameRecord], recorded: int) -> str:
-    """Return the graph in Graphviz's language; ``recorded``: when, ns."""
+    """Return the graph in the DOT language of Graphviz; ``recorded``: the time of it, ns."""
     if not records:
         return 'digraph G { "No tf data received" }\n'
     end = r'\n'
@@ -292,13 +292,13 @@ def _branches(records: Sequence[FrameRecord]) -> Iterator[str]:
 
 
 def _strokes(order: Sequence[tuple[str, FrameRecord | None, int]]) -> list[str]:
-    """The lines in front of each name: down to its younger siblings, and those of its parents."""
+    """Return the box-drawing lines in front of each name."""
     strokes = []
-    going_on: set[int] = set()  # depths at which a sibling follows; read from the end
+    open_depths: set[int] = set()  # those at which a sibling follows, read from the end
     for _, _, depth in reversed(order):
-        end = '├── ' if depth in going_on else '└── '
-        going_on = {other for other in going_on if other < depth} | {depth}
-        above = ('│   ' if level in going_on else '    ' for level in range(1, depth))
+        end = '├── ' if depth in open_depths else '└── '
+        open_depths = {other for other in open_depths if other < depth} | {depth}
+        above = ('│   ' if level in open_depths else '    ' for level in range(1, depth))
         strokes.append(''.join(above) + end if depth else '')
     return strokes[::-1]
 

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Listen to ``/tf`` and ``/tf_static``; how to use it stands in ``tf2_ros.py``.
+``TransformListener``: puts what ``/tf`` and ``/tf_static`` publish into a buffer.
 
 ========== =============== =================================================
 topic      type            QoS
@@ -10,7 +10,7 @@ topic      type            QoS
 /tf_static TFMessage       reliable, transient local, depth 100
 ========== =============== =================================================
 
-100 messages of five transforms a second cost 7.5 % of a core.
+100 messages a second of five transforms each take 7.5 % of a core.
 """
 
 import threading
@@ -28,21 +28,25 @@ from amr_description.tf2_ros.buffer_core import DEFAULT_AUTHORITY
 
 DEFAULT_TF_TOPIC = '/tf'
 DEFAULT_STATIC_TF_TOPIC = '/tf_static'
-# What rcl calls the node of a publisher that was found a moment before its node was.
+# The node name that rcl reports for a publisher that was discovered before its node.
 _NOT_KNOWN_YET = '_NODE_NAME_UNKNOWN_'
 
 
 class TransformListener:
     """
-    Puts what is published into a buffer, from construction to :meth:`unregister`.
+    Subscribes from construction to :meth:`unregister`.
 
-    :param buffer: Takes the transforms: :class:`Buffer`, or whatever has its ``set_transform…``.
-    :param node: Hears them when it is spun; None: a node of its own, which needs ``spin_thread``.
-    :param spin_thread: Spin the node in a thread. Needed where a callback of the node waits for a
-        transform, and nobody else could hear it meanwhile.
-    :param qos: A profile or a depth for ``tf_topic``.
-    :param static_qos: The same for ``tf_static_topic``.
-    :param static_only: Do not listen to ``tf_topic``.
+    Args:
+        buffer: gets the transforms: a :class:`Buffer`, or an object with its ``set_transform`` and
+            ``set_transform_static``.
+        node: subscribes, and must be spun; None: a node of its own, which needs ``spin_thread``.
+        spin_thread: spin the node in a thread, as is needed where a callback of the node waits
+            for a transform.
+        qos: a profile or a depth for ``tf_topic``.
+        static_qos: the same for ``tf_static_topic``.
+        tf_topic: the topic of moving transforms.
+        tf_static_topic: the topic of static transforms.
+        static_only: do not subscribe to ``tf_topic``.
     """
 
     def __init__(
@@ -60,7 +64,7 @@ class TransformListener:
         self.buffer = buffer
         self.node = node or _own_node(id(self))
         self._topics = [tf_static_topic] if static_only else [tf_topic, tf_static_topic]
-        # A callback that waits for a transform must not keep it from being heard.
+        # A callback that waits for a transform must not keep it from being received.
         group = ReentrantCallbackGroup()
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._subscriptions = [
@@ -84,7 +88,7 @@ class TransformListener:
             )
         if isinstance(buffer, Buffer):
             buffer.publishers = self.publishers
-        self._ended = threading.Event()
+        self._stopped = threading.Event()
         self._executor: SingleThreadedExecutor | None = None
         if spin_thread:
             self._executor = SingleThreadedExecutor(context=self.node.context)
@@ -94,12 +98,12 @@ class TransformListener:
             self._thread.start()
 
     def callback(self, data: TFMessage) -> None:
-        """Take moving transforms."""
+        """Put the moving transforms of a message into the buffer."""
         for transform in data.transforms:
             self.buffer.set_transform(transform, DEFAULT_AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
-        """Take static transforms."""
+        """Put the static transforms of a message into the buffer."""
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, DEFAULT_AUTHORITY)
 
@@ -108,8 +112,8 @@ class TransformListener:
         return {topic: publishers_of(self.node, topic) for topic in self._topics}
 
     def unregister(self) -> None:
-        """Listen no more."""
-        self._ended.set()
+        """Stop listening."""
+        self._stopped.set()
         if self._executor is not None:
             self._executor.wake()
             self._thread.join()
@@ -121,7 +125,7 @@ class TransformListener:
     def _spin(self, executor: SingleThreadedExecutor) -> None:
         executor.add_node(self.node)
         try:
-            spin(executor, self._ended.is_set)
+            spin(executor, self._stopped.is_set)
         finally:
             executor.remove_node(self.node)
             executor.shutdown()

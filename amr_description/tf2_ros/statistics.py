@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How often transforms come and how late they are: the numbers of ``tf2_monitor``.
+How often transforms arrive, and with which delay: the numbers of ``tf2_monitor``.
 
-This module imports no rclpy. Times are integer nanoseconds.
+Times are integer nanoseconds.
 """
 
 from collections import deque
@@ -14,36 +14,36 @@ from amr_description.clock import NANOSECONDS
 UNKNOWN = '<no authority available>'
 """What tf2_monitor prints for a publisher that it does not know."""
 
-_NAMED = 3  # nodes
+_NAMED = 3  # nodes of a topic
 _REMEMBERED = 1000  # messages, as in tf2
-_OTHER_CLOCK = 1e8  # s: three years late is not late, it is another clock
+_OTHER_CLOCK = 1e8  # s: a delay of three years means another clock
 
 
-class Delays:
-    """When something came and how old it was, over its last 1000 times."""
+class DelayStatistics:
+    """The arrival times and delays of the last 1000 messages of one kind."""
 
     def __init__(self) -> None:
         self._arrivals: deque[int] = deque(maxlen=_REMEMBERED)
         self._delays: deque[float] = deque(maxlen=_REMEMBERED)
 
     def add(self, now: int, delay: float) -> None:
-        """Take note that something ``delay`` s old came at ``now``, ns."""
+        """Record a message that arrived at ``now``, ns, with a delay in s."""
         self._arrivals.append(now)
         self._delays.append(delay)
 
     @property
     def average(self) -> float:
-        """The average delay, s."""
+        """The average delay, s; 0 without a message."""
         return sum(self._delays) / len(self._delays) if self._delays else 0.0
 
     @property
     def maximum(self) -> float:
-        """The longest delay, s; not below 0: a stamp of the future is not late."""
+        """The longest delay, s; not below 0, which stamps of the future would give."""
         return max((*self._delays, 0.0))
 
     @property
     def frequency(self) -> float:
-        """How often it came, Hz; 0 when it came but once."""
+        """The average frequency, Hz; 0 if there was only one message."""
         if len(self._arrivals) < 2 or self._arrivals[-1] == self._arrivals[0]:
             return 0.0
         return (len(self._arrivals) - 1) * NANOSECONDS / (self._arrivals[-1] - self._arrivals[0])
@@ -51,43 +51,45 @@ class Delays:
 
 class TransformStatistics:
     """
-    All that was heard, by frame and by topic. What is static is never late and has no rate.
+    The delays of all transforms, by frame and by topic; static ones have no delay and no rate.
 
-    The original tells a static transform to be as late as its listener, and counts the average of
-    a chain up from 0 over minutes.
+    In the original a static transform is as late as its listener was started, and the average of
+    a chain climbs from 0 for minutes.
     """
 
     def __init__(self) -> None:
-        self._frames: dict[str, Delays] = {}
+        self._frames: dict[str, DelayStatistics] = {}
         self._topic_of: dict[str, str] = {}
-        self._topics: dict[str, Delays] = {}
-        self._way = Delays()
+        self._topics: dict[str, DelayStatistics] = {}
+        self._chain = DelayStatistics()
 
-    def hear(
+    def add_message(
         self, topic: str, transforms: Iterable[tuple[str, int]], now: int, *, static: bool
     ) -> None:
-        """Take note of a message: the child and the stamp of each transform."""
+        """Record a message by the child and the stamp of each of its transforms."""
         delays = []
-        arrival = 0 if static else now  # what is said once, has no rate
+        arrival = 0 if static else now  # what is published once has no rate
         for child, stamp in transforms:
             delay = 0.0 if static else (now - stamp) / NANOSECONDS
             delays.append(delay)
-            self._frames.setdefault(child, Delays()).add(arrival, delay)
+            self._frames.setdefault(child, DelayStatistics()).add(arrival, delay)
             self._topic_of[child] = topic
         average = sum(delays) / max(1, len(delays))
-        self._topics.setdefault(topic, Delays()).add(arrival, average)
+        self._topics.setdefault(topic, DelayStatistics()).add(arrival, average)
 
-    def note_way(self, stamp: int, now: int) -> None:
-        """Take note of the latest common time of the chain that is watched; 0: all is static."""
-        self._way.add(now, (now - stamp) / NANOSECONDS if stamp else 0.0)
+    def add_chain_delay(self, stamp: int, now: int) -> None:
+        """Record the latest common time of the monitored chain; 0: all of it is static."""
+        self._chain.add(now, (now - stamp) / NANOSECONDS if stamp else 0.0)
 
     def report(
         self, publishers: Mapping[str, Sequence[str]], chain: Sequence[str] | None = None
     ) -> str:
         """
-        Write it all as tf2_monitor does, with the names of the nodes that publish each topic.
+        Return the lines that tf2_monitor prints.
 
-        ``chain``: from the one watched frame to the other; None: all frames.
+        Args:
+            publishers: the full names of the nodes that publish each topic.
+            chain: the frames from the one monitored frame to the other; None: all frames.
         """
         lines = ['', '', '']
         if chain is None:
@@ -96,7 +98,7 @@ class TransformStatistics:
             lines += [
                 f'RESULTS: for {chain[0]} to {chain[-1]}',
                 f'Chain is: {" -> ".join(chain)}',
-                f'Net delay     avg = {self._way.average:g}: max = {self._way.maximum:g}',
+                f'Net delay     avg = {self._chain.average:g}: max = {self._chain.maximum:g}',
             ]
         frames = sorted(self._frames if chain is None else self._frames.keys() & {*chain})
         lines += ['', 'Frames:', *(self._frame_line(name, publishers) for name in frames)]
@@ -124,6 +126,6 @@ class TransformStatistics:
 
 
 def broadcaster(nodes: Sequence[str]) -> str:
-    """Name who published something on a topic: one of its nodes; no message tells which."""
+    """Return the nodes that may have published on a topic; messages do not say which did."""
     more = len(nodes) - _NAMED
     return ' or '.join([*nodes[:_NAMED], *([f'{more} more'] if more > 0 else [])]) or UNKNOWN

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Where one frame was in its parent over the last seconds: the memory below a transform buffer.
+The poses of one frame in its parent over the last seconds, as in tf2's ``TimeCache``.
 
-Times are integer nanoseconds since the epoch of whichever clock stamps the transforms. As in tf2,
+Times are integer nanoseconds since the epoch of the clock that stamps the transforms. As in tf2,
 time 0 asks for the latest.
 """
 
@@ -13,16 +13,25 @@ from dataclasses import dataclass
 from amr_description.errors import ExtrapolationException
 from amr_description.model.frames import Transform
 
-"""ns."""
 LATEST = 0
-"""The time that stands for the latest."""
+"""ns: the time that stands for the latest."""
 
 _RESTART = 3  # refused samples in a row, each later than the one before
 
 
 @dataclass(frozen=True, slots=True)
+class StampedTransform:
+    """The pose of ``child`` in ``parent`` (``transform_child_to_parent``) at ``time``, ns."""
+
+    parent: str
+    child: str
+    time: int
+    transform: Transform
+
+
+@dataclass(frozen=True, slots=True)
 class TransformStorage:
-    """The pose of a frame in ``parent`` (``transform_child_to_parent``) at ``time``, ns."""
+    """What a cache keeps of a :class:`StampedTransform`: all but the name of its frame."""
 
     time: int
     parent: str
@@ -30,7 +39,7 @@ class TransformStorage:
 
 
 class StaticCache:
-    """A frame that does not move: its pose is good for every time."""
+    """The pose of a frame that does not move; it is valid at every time."""
 
     is_static = True
 
@@ -41,7 +50,7 @@ class StaticCache:
     def __len__(self) -> int:
         return 1
 
-    def at(self, time: int) -> TransformStorage:
+    def get_data(self, time: int) -> TransformStorage:
         """Return the pose, whatever the time."""
         return self.latest
 
@@ -79,32 +88,34 @@ class TimeCache:
         """The time of the oldest pose that is kept, ns."""
         return self._times[0]
 
-    def insert(self, sample: TransformStorage) -> bool:
+    def insert_data(self, sample: TransformStorage) -> bool:
         """
-        Take a sample; False: it is older than what is kept, and ignored.
+        Add a sample; return False if it is older than what is kept and therefore ignored.
 
-        When nothing but old ones come, each later than the one before, time itself went back (a
-        simulator or a recording began anew): the third of them ends the former life.
+        When only old samples arrive, each later than the one before, time itself jumped back (a
+        simulator or a recording was started again): the third of them replaces all that is kept.
         """
         if sample.time < self.latest_time - self._duration:
             return self._is_restart(sample)
         self._refused = []
-        place = bisect_left(self._times, sample.time)
-        if place < len(self._times) and self._times[place] == sample.time:
-            self._samples[place] = sample
+        index = bisect_left(self._times, sample.time)
+        if index < len(self._times) and self._times[index] == sample.time:
+            self._samples[index] = sample
             return True
-        self._samples.insert(place, sample)
-        self._times.insert(place, sample.time)
+        self._samples.insert(index, sample)
+        self._times.insert(index, sample.time)
         kept = bisect_left(self._times, self.latest_time - self._duration)
         del self._samples[:kept], self._times[:kept]
         return True
 
-    def at(self, time: int) -> TransformStorage:
+    def get_data(self, time: int) -> TransformStorage:
         """
         Return the pose at ``time``, interpolated between its neighbours.
 
-        Between samples of two parents the frame is still where the earlier one says. Raises
-        ExtrapolationException, in tf2's words.
+        Between samples with different parents the earlier one is valid.
+
+        Raises:
+            ExtrapolationException: the time is outside of what is kept; the text is tf2's.
         """
         if time == LATEST or time == self.latest_time:
             return self.latest
@@ -157,13 +168,3 @@ def seconds(time: int) -> str:
     """Write a time of ns in s with six digits, as tf2 displays it."""
     micros = (abs(time) + 500) // 1000
     return f'{"-" if time < 0 else ""}{micros // 1_000_000}.{micros % 1_000_000:06d}'
-
-
-@dataclass(frozen=True, slots=True)
-class StampedTransform:
-    """The pose of ``child`` in ``parent`` (``transform_child_to_parent``) at ``time``, ns."""
-
-    parent: str
-    child: str
-    time: int
-    transform: Transform

@@ -1,10 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the programs of tf2 have in common: they listen, and print for whom it may concern."""
+"""What the command-line programs of tf2 share: a listener that runs, and how they print."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-import os
 import signal
 import sys
 from typing import Any
@@ -14,13 +13,14 @@ from rclpy.node import Node
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 
+from amr_description import streams
 from amr_description.ros.runtime import argument_errors, program, ros, spinning
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.listener import TransformListener
 
 
-def words_of(args: list[str] | None) -> list[str]:
-    """Return the words of a command line without ROS arguments; None: that of the process."""
+def arguments_of(args: list[str] | None) -> list[str]:
+    """Return the arguments of a program without those for ROS; None: those of the process."""
     return remove_ros_args(args)[0 if args is not None else 1 :]
 
 
@@ -32,45 +32,49 @@ def listening[Listener: TransformListener](
     **options: Any,
 ) -> Iterator[tuple[Node, Buffer, Listener]]:
     """
-    Run a node that listens to transforms, in a thread, while inside.
+    Run a node with a listener in a thread while inside.
 
-    :param listener: Makes the listener of a buffer, a node and ``options``.
+    Args:
+        name: of the node.
+        args: the command line, with its ROS arguments; None: that of the process.
+        listener: called with a buffer, the node and ``options``.
+        options: further arguments of ``listener``.
     """
     with ros(args):
         with argument_errors():
             node = Node(name)
             buffer = Buffer(clock=node.get_clock())
-            ears = listener(buffer, node, **options)
+            running = listener(buffer, node, **options)
         with spinning(node):
-            yield node, buffer, ears
+            yield node, buffer, running
 
 
 def wait_for_transform(
     node: Node, buffer: Buffer, source: str, target: str, time: Time | None = None
 ) -> None:
-    """Wait until a transform can be looked up; say now, and every second, why it cannot."""
-    way = (source, target, time or Time())
-    patience = Duration()
-    while not (found := buffer.can_transform(*way, patience, return_debug_tuple=True))[0]:
+    """Wait until a transform can be looked up; log at once, and every second, why it cannot."""
+    lookup = (source, target, time or Time())
+    timeout = Duration()
+    while not (found := buffer.can_transform(*lookup, timeout, return_debug_tuple=True))[0]:
         node.get_logger().info(f'Waiting for transform {source} ->  {target}: {found[1]}')
-        patience = Duration(seconds=1)
+        timeout = Duration(seconds=1)
 
 
-def tool(body: Callable[[], int | None]) -> int:
-    """Run a tool that prints; return its exit code: 0 after Ctrl-C, its normal end."""
+def run_tool(body: Callable[[], int | None]) -> int:
+    """Run a program that prints; return its exit code: 0 after Ctrl-C, its normal end."""
 
     def printing() -> int | None:
         if hasattr(sys.stdout, 'reconfigure'):  # names of frames come from the network
             sys.stdout.reconfigure(errors='backslashreplace')
         try:
             return body()
-        except BrokenPipeError:  # | head has seen enough
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        except BrokenPipeError:  # | head has read enough
+            streams.abandon_stdout()
             return 128 + signal.SIGPIPE
 
     return program(printing, stopped=0)
 
 
-def say(text: str) -> None:
-    """Print lines, at once."""
+def print_now(text: str) -> None:
+    """Print text and flush it."""
     print(text, flush=True)

@@ -30,7 +30,7 @@ from amr_description.tf2_ros.listener import (
     TransformListener,
 )
 from amr_description.tf2_ros.statistics import broadcaster
-from amr_description.tf2_ros.tools import listening, say, tool, words_of
+from amr_description.tf2_ros.tools import arguments_of, listening, print_now, run_tool
 
 
 def parser() -> ArgumentParser:
@@ -56,7 +56,7 @@ def parser() -> ArgumentParser:
 
 def view(args: list[str] | None) -> None:
     """Listen, then write the files. Raises UsageError: they cannot be written."""
-    options = parser().parse_args(words_of(args))
+    options = parser().parse_args(arguments_of(args))
     name = options.output or time.strftime('frames_%Y-%m-%d_%H.%M.%S')
     _require_folder(Path(name))
     topics = {'tf_topic': options.tf_topic, 'tf_static_topic': options.tf_static_topic}
@@ -70,7 +70,7 @@ def view(args: list[str] | None) -> None:
         if not records:
             logger.warning(f'No tf data received: is {" or ".join(topics.values())} published?')
         logger.info(f'Exporting graph in {name}.pdf file...')
-    say(as_tree(records))
+    print_now(as_tree(records))
     write(name, records, now)
 
 
@@ -87,7 +87,7 @@ def write(name: str, records: list[FrameRecord], recorded: int) -> None:
 
 def main(args: list[str] | None = None) -> int:
     """Draw the frames."""
-    return tool(lambda: view(args))
+    return run_tool(lambda: view(args))
 
 
 def _require_folder(name: Path) -> None:

@@ -5,13 +5,13 @@
 import pytest
 
 from amr_description.clock import NANOSECONDS
-from amr_description.tf2_ros.statistics import Delays, TransformStatistics
+from amr_description.tf2_ros.statistics import DelayStatistics, TransformStatistics
 
 NOW = 1_000 * NANOSECONDS
 
 
 def test_delays_are_of_the_last_thousand():
-    delays = Delays()
+    delays = DelayStatistics()
     assert (delays.average, delays.maximum, delays.frequency) == (0.0, 0.0, 0.0)
     delays.add(NOW, 100.0)
     assert delays.frequency == 0.0
@@ -22,7 +22,7 @@ def test_delays_are_of_the_last_thousand():
 
 
 def test_a_stamp_of_the_future_is_not_late():
-    delays = Delays()
+    delays = DelayStatistics()
     delays.add(NOW, -1.0)
     assert (delays.average, delays.maximum) == (-1.0, 0.0)
 
@@ -31,11 +31,11 @@ def test_a_stamp_of_the_future_is_not_late():
 def statistics():
     """odom -> base at 10 Hz, 0.25 s late, and a laser on it, said 1000 s ago."""
     made = TransformStatistics()
-    made.hear('/tf_static', [('laser', 0)], NOW, static=True)
+    made.add_message('/tf_static', [('laser', 0)], NOW, static=True)
     for tick in range(11):
         now = NOW + tick * NANOSECONDS // 10
-        made.hear('/tf', [('base', now - NANOSECONDS // 4)], now, static=False)
-        made.note_way(now - NANOSECONDS // 2, now)
+        made.add_message('/tf', [('base', now - NANOSECONDS // 4)], now, static=False)
+        made.add_chain_delay(now - NANOSECONDS // 2, now)
     return made
 
 
@@ -74,11 +74,13 @@ def test_a_chain_is_reported_with_its_frames_and_its_delay(statistics):
 
 def test_a_static_chain_is_not_late():
     statistics = TransformStatistics()
-    statistics.note_way(0, NOW)
+    statistics.add_chain_delay(0, NOW)
     assert 'avg = 0: max = 0' in statistics.report({}, ['base', 'laser'])
 
 
 def test_another_clock_is_told():
     statistics = TransformStatistics()
-    statistics.hear('/tf', [('base', 5 * NANOSECONDS)], 1_700_000_000 * NANOSECONDS, static=False)
+    statistics.add_message(
+        '/tf', [('base', 5 * NANOSECONDS)], 1_700_000_000 * NANOSECONDS, static=False
+    )
     assert statistics.report({}).endswith('add --ros-args -p use_sim_time:=true')

@@ -291,8 +291,8 @@ def test_view_frames_does_not_listen_for_what_it_may_not_write(monkeypatch, tmp_
 
 def test_names_that_the_terminal_cannot_show_are_spelt_out():
     code = (
-        'from amr_description.tf2_ros.tools import say, tool\n'
-        'raise SystemExit(tool(lambda: say("las\\xe9r")))'
+        'from amr_description.tf2_ros.tools import print_now, run_tool\n'
+        'raise SystemExit(run_tool(lambda: print_now("las\\xe9r")))'
     )
     done = subprocess.run(
         (sys.executable, '-c', code),

@@ -66,7 +66,7 @@ frames_of_a_tree = st.tuples(*[st.integers(0, 100)] * 3)
 def test_a_lookup_is_the_product_of_the_poses(tree, chosen):
     buffer, poses = tree
     target, source = (number % len(poses) for number in chosen[:2])
-    found = buffer.lookup(f'f{target}', f'f{source}')
+    found = buffer.lookup_transform(f'f{target}', f'f{source}')
     same(found.transform, poses[target].inverse() @ poses[source])
 
 
@@ -75,11 +75,13 @@ def test_lookups_form_a_groupoid(tree, chosen):
     """There and back is nothing; by way of a third is the direct way."""
     buffer, poses = tree
     a, b, c = (f'f{number % len(poses)}' for number in chosen)
-    back_and_forth = buffer.lookup(a, b).transform @ buffer.lookup(b, a).transform
+    back_and_forth = (
+        buffer.lookup_transform(a, b).transform @ buffer.lookup_transform(b, a).transform
+    )
     same(back_and_forth, Transform())
     same(
-        buffer.lookup(a, b).transform @ buffer.lookup(b, c).transform,
-        buffer.lookup(a, c).transform,
+        buffer.lookup_transform(a, b).transform @ buffer.lookup_transform(b, c).transform,
+        buffer.lookup_transform(a, c).transform,
     )
 
 
@@ -108,7 +110,7 @@ def test_at_a_time_between_a_chain_is_the_product_of_its_parts(start, end, passe
     buffer = buffer_of(*base, *arm)
     time = NANOSECONDS + passed
     ratio = passed / NANOSECONDS
-    whole = buffer.lookup('odom', 'hand', time)
+    whole = buffer.lookup_transform('odom', 'hand', time)
     assert (whole.time, whole.parent, whole.child) == (time, 'odom', 'hand')
     same(whole.transform, start.interpolate(end, ratio) @ end.interpolate(start, ratio))
 
@@ -132,7 +134,7 @@ def test_a_robot_stands_as_forward_kinematics_says(path, seed):
             same(pose, joint_transform(joint, positions[joint.name]))
     root = robot.roots[0].name
     for link in robot.links:
-        same(buffer.lookup(root, link.name).transform, poses[link.name])
+        same(buffer.lookup_transform(root, link.name).transform, poses[link.name])
 
 
 def test_the_latest_is_the_latest_that_all_on_the_way_know():
@@ -144,9 +146,9 @@ def test_the_latest_is_the_latest_that_all_on_the_way_know():
         static=[at_x('hand', 'camera', 0.5)],
     )
     assert buffer.latest_common_time('odom', 'camera') == 2 * NANOSECONDS
-    found = buffer.lookup('odom', 'camera')
+    found = buffer.lookup_transform('odom', 'camera')
     assert (found.time, found.transform.translation) == (2 * NANOSECONDS, (6.5, 0.0, 0.0))
-    assert buffer.lookup('hand', 'camera').time == 0
+    assert buffer.lookup_transform('hand', 'camera').time == 0
 
 
 def test_what_lies_above_the_meeting_of_the_ways_does_not_matter():
@@ -157,7 +159,7 @@ def test_what_lies_above_the_meeting_of_the_ways_does_not_matter():
         at_x('base', 'left', 1.0, 9 * NANOSECONDS),
         at_x('base', 'right', -1.0, 9 * NANOSECONDS),
     )
-    found = buffer.lookup('left', 'right', 9 * NANOSECONDS)
+    found = buffer.lookup_transform('left', 'right', 9 * NANOSECONDS)
     assert found.transform.translation == (-2.0, 0.0, 0.0)
 
 
@@ -169,20 +171,22 @@ def test_the_full_lookup_goes_through_a_frame_that_stands_still():
         StampedTransform('odom', 'base', 2 * NANOSECONDS, left),
         static=[at_x('base', 'laser', 0.5)],
     )
-    found = buffer.lookup_full('base', 2 * NANOSECONDS, 'laser', 1 * NANOSECONDS, 'odom')
+    found = buffer.lookup_transform_full('base', 2 * NANOSECONDS, 'laser', 1 * NANOSECONDS, 'odom')
     ball_in_laser = (0.5, 0.0, 0.0)
     assert found.transform.apply(ball_in_laser) == pytest.approx((0.0, -1.0, 0.0), abs=1e-12)
     assert (found.parent, found.child, found.time) == ('base', 'laser', 2 * NANOSECONDS)
     with pytest.raises(LookupException, match='"world" passed to .* argument fixed_frame does'):
-        buffer.lookup_full('base', 0, 'laser', 0, 'world')
+        buffer.lookup_transform_full('base', 0, 'laser', 0, 'world')
 
 
 def test_a_frame_in_itself_is_nowhere_else():
     buffer = buffer_of(at_x('odom', 'base', 1.0, 5))
-    assert buffer.lookup('base', 'base') == StampedTransform('base', 'base', 5, Transform())
-    assert buffer.lookup('base', 'base', 3).time == 3
-    assert buffer.lookup('odom', 'odom').time == 0
-    assert buffer.obstacle('unheard_of', 'unheard_of') == ''
+    assert buffer.lookup_transform('base', 'base') == StampedTransform(
+        'base', 'base', 5, Transform()
+    )
+    assert buffer.lookup_transform('base', 'base', 3).time == 3
+    assert buffer.lookup_transform('odom', 'odom').time == 0
+    assert buffer.explain_failure('unheard_of', 'unheard_of') == ''
 
 
 def test_a_thing_that_is_taken_has_a_new_parent_from_then_on():
@@ -194,24 +198,28 @@ def test_a_thing_that_is_taken_has_a_new_parent_from_then_on():
         at_x('table', 'cup', 0.5, 1 * NANOSECONDS),
         at_x('hand', 'cup', 0.0, 3 * NANOSECONDS),
     )
-    assert buffer.lookup('world', 'cup', 2 * NANOSECONDS).transform.translation == (1.5, 0.0, 0.0)
-    assert buffer.lookup('world', 'cup').transform.translation == (9.0, 0.0, 0.0)
+    assert buffer.lookup_transform('world', 'cup', 2 * NANOSECONDS).transform.translation == (
+        1.5,
+        0.0,
+        0.0,
+    )
+    assert buffer.lookup_transform('world', 'cup').transform.translation == (9.0, 0.0, 0.0)
 
 
 def test_a_static_transform_replaces_a_moving_one_and_the_other_way_round():
     buffer = buffer_of(at_x('odom', 'base', 1.0, 5))
     buffer.set_transform(at_x('odom', 'base', 2.0), static=True)
-    assert buffer.lookup('odom', 'base', 77).transform.translation == (2.0, 0.0, 0.0)
+    assert buffer.lookup_transform('odom', 'base', 77).transform.translation == (2.0, 0.0, 0.0)
     buffer.set_transform(at_x('odom', 'base', 3.0, 6))
     with pytest.raises(ExtrapolationException, match='at time 0.000000, but only time 0.000000'):
-        buffer.lookup('odom', 'base', 77)
+        buffer.lookup_transform('odom', 'base', 77)
 
 
 def test_clearing_forgets_what_moves_and_keeps_what_is_static():
     buffer = buffer_of(at_x('odom', 'base', 1.0, 5), static=[at_x('base', 'laser', 1.0)])
     buffer.clear()
-    assert buffer.lookup('base', 'laser').transform.translation == (1.0, 0.0, 0.0)
-    assert 'not part of the same tree' in buffer.obstacle('odom', 'base')
+    assert buffer.lookup_transform('base', 'laser').transform.translation == (1.0, 0.0, 0.0)
+    assert 'not part of the same tree' in buffer.explain_failure('odom', 'base')
     assert buffer.set_transform(at_x('odom', 'base', 1.0, 1)) is None
 
 
@@ -222,16 +230,16 @@ def test_what_is_missing_is_told_in_the_words_of_tf2():
         match='^"base_lnik" passed to lookupTransform argument source_frame does not exist. '
         "Did you mean 'base_link'\\?$",
     ):
-        buffer.lookup('odom', 'base_lnik')
+        buffer.lookup_transform('odom', 'base_lnik')
     with pytest.raises(
         LookupException, match='"map" passed .* exist. Known are: odom, base_link$'
     ):
-        buffer.lookup('map', 'odom')
-    assert buffer.obstacle('map', 'odom') == (
+        buffer.lookup_transform('map', 'odom')
+    assert buffer.explain_failure('map', 'odom') == (
         'Invalid frame ID "map" passed to canTransform argument target_frame - '
         'frame does not exist. Known are: odom, base_link'
     )
-    assert BufferCore().obstacle('a', 'b').endswith('does not exist. Known are: none yet')
+    assert BufferCore().explain_failure('a', 'b').endswith('does not exist. Known are: none yet')
 
 
 @pytest.mark.parametrize(
@@ -244,8 +252,8 @@ def test_a_name_that_cannot_be_is_told_in_the_words_of_tf2(name, said):
         match=f'^Invalid argument "{name}" passed to lookupTransform argument target_frame - in '
         f'tf2 frame_ids {said}$',
     ):
-        buffer.lookup(name, 'base')
-    assert buffer.obstacle('base', name) == (
+        buffer.lookup_transform(name, 'base')
+    assert buffer.explain_failure('base', name) == (
         f'Invalid frame ID "{name}" passed to canTransform argument source_frame - in tf2 '
         f'frame_ids {said}'
     )
@@ -264,7 +272,7 @@ def test_trees_without_a_common_root_are_named():
     )
     for time in (0, 5):
         with pytest.raises(ConnectivityException, match=text):
-            buffer.lookup('odom', 'camera', time)
+            buffer.lookup_transform('odom', 'camera', time)
     assert buffer.trees()['map'] == ['camera']
 
 
@@ -282,7 +290,7 @@ def test_the_transform_that_is_late_is_named():
     )
     for target, source in (('map', 'base'), ('base', 'map')):
         with pytest.raises(ExtrapolationException, match=said.format(source, target)):
-            buffer.lookup(target, source, 2 * NANOSECONDS + NANOSECONDS // 2)
+            buffer.lookup_transform(target, source, 2 * NANOSECONDS + NANOSECONDS // 2)
 
 
 @pytest.mark.parametrize('time', [0, NANOSECONDS])
@@ -295,7 +303,7 @@ def test_a_loop_is_named_and_does_not_hang(time):
     )
     for target, source in (('a', 'camera'), ('camera', 'a')):
         with pytest.raises(LookupException, match='contains a loop: b is in c is in b$'):
-            buffer.lookup(target, source, time)
+            buffer.lookup_transform(target, source, time)
     assert buffer.trees() == {'b': ['a', 'c'], 'map': ['camera']}
 
 

@@ -9,7 +9,7 @@ import pytest
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import InvalidArgumentException
 from amr_description.model.frames import quaternion_from_yaw, Transform
-from amr_description.tf2_ros.buffer_core import checked, ParentWatch
+from amr_description.tf2_ros.buffer_core import ParentConflictDetector, validated
 from amr_description.tf2_ros.time_cache import StampedTransform
 
 UP = (0.0, 0.0, 0.0, 1.0)
@@ -37,22 +37,24 @@ def stamped(parent='odom', child='base', place=(0.0, 0.0, 0.0), turn=UP, time=0)
 )
 def test_what_is_of_no_use_is_refused_in_the_words_of_tf2(fault, said):
     with pytest.raises(InvalidArgumentException, match=said):
-        checked(stamped(**fault), 'me')
+        validated(stamped(**fault), 'me')
 
 
 def test_a_slash_before_a_name_is_dropped():
-    taken = checked(stamped('/odom', '/base'), 'me')
+    taken = validated(stamped('/odom', '/base'), 'me')
     assert (taken.parent, taken.child) == ('odom', 'base')
 
 
 def test_a_quaternion_of_about_length_one_is_made_so():
     turn = tuple(1.004 * part for part in quaternion_from_yaw(1.0))
-    assert math.hypot(*checked(stamped(turn=turn), 'me').transform.rotation) == pytest.approx(1.0)
+    assert math.hypot(*validated(stamped(turn=turn), 'me').transform.rotation) == pytest.approx(
+        1.0
+    )
 
 
 def warnings(*sides, step=NANOSECONDS // 10):
     """What is said as (parent, authority, static) follow one another every 0.1 s."""
-    watch = ParentWatch(10 * NANOSECONDS)
+    watch = ParentConflictDetector(10 * NANOSECONDS)
     said = []
     for index, (parent, authority, static) in enumerate(sides):
         message = stamped(parent, time=index * step)
