@@ -40,7 +40,6 @@ FEATURES = (
     *simulation_services.FEATURES,
     *spawn_services.FEATURES,
     *entity_services.FEATURES,
-    *simulation_services.WORLD_FEATURES,
 )
 
 
@@ -62,7 +61,7 @@ class MujocoSim:
         WorldServices(self.node, self.simulation)
         publish_world(self.node, self.simulation.world)
         self._services = SimulationServices(
-            self.node, self.simulation, FEATURES, spawn_services.FORMATS
+            self.node, self.simulation, FEATURES, spawn_services.SPAWN_FORMATS
         )
         factor = parameters.real_time_factor
         self.node.get_logger().info(

@@ -1,3 +1,20 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS face of the simulator."""
+"""
+The simulator over ROS: the services of ``simulation_interfaces``, robots, and topics.
+
+===========================  =====================================================================
+``simulation.py``            the simulation in a process: world, control thread, robots, state
+``entities.py``              robots are spawned and removed, each with its controller manager
+``loop_timing.py``           warns when real time is not kept, with the slow stage of the loop
+
+``service_replies.py``       services from handlers that raise
+``simulation_services.py``   state, steps, reset, world
+``spawn_services.py``        spawn, delete, list spawnables
+``entity_services.py``       states, info and bounds of entities; filters
+``posix_regex.py``           the regular expressions of these filters
+
+``ground_truth.py``          ``ground_truth/odom`` and ``ground_truth/wheels`` of every robot
+``world_markers.py``         ``~/world``: the static geometry as markers
+===========================  =====================================================================
+"""

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The robots of the simulated world: how they come, each with its controller manager, and go.
+The entities of the simulated world: robots are spawned and removed, with controller managers.
 
 A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of its own, in its
 namespace.
@@ -43,7 +43,7 @@ from amr_description.sim.world import MujocoWorld
 
 
 class Category(enum.IntEnum):
-    """What kind of thing an entity is, as in ``simulation_interfaces/msg/EntityCategory``."""
+    """The kind of an entity, as in ``simulation_interfaces/msg/EntityCategory``."""
 
     OBJECT = 0
     ROBOT = 1
@@ -54,7 +54,7 @@ class Category(enum.IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class EntityRecord:
-    """What is told of an entity; anybody may change it."""
+    """What ``simulation_interfaces/msg/EntityInfo`` says of an entity; clients may set it."""
 
     category: Category
     description: str = ''
@@ -63,22 +63,21 @@ class EntityRecord:
 
 @dataclass(slots=True)
 class Entity:
-    """A robot in the world, its spawning done."""
+    """A robot in the world, completely spawned."""
 
     name: str
     info: EntityRecord
     manager: RunningManager | None
-    """Of a robot that asks for control."""
+    """None: its URDF has no ``<ros2_control>`` block."""
     thread: ExecutorThread | None
-    """Serves the manager, its components and controllers."""
+    """Runs the callbacks of the manager, its components and controllers."""
 
 
 class EntityManager:
     """
-    All robots. The coroutines run on the ROS thread and await the control thread.
+    Spawns and removes entities.
 
-    ``controllers``: path of the managers' parameter file, or empty; ``ros_args`` go on to every
-    manager and controller.
+    The coroutines run on the ROS thread and await the control thread.
     """
 
     def __init__(
@@ -92,6 +91,18 @@ class EntityManager:
         controllers: str,
         ros_args: Sequence[str],
     ) -> None:
+        """
+        Manage the entities of a world that has none yet.
+
+        Args:
+            context: Of the control loop.
+            world: The simulated world.
+            ground_truth: Gets every entity.
+            executor: Of the ROS thread.
+            log: Of the simulator.
+            controllers: Path of the managers' parameter file, or empty.
+            ros_args: ROS arguments for every manager and controller.
+        """
         self._context = context
         self._loop_thread = context.loop_thread
         self._world = world
@@ -102,15 +113,15 @@ class EntityManager:
         self._ros_args = ros_args
         self._entities: dict[str, Entity] = {}
         self._namespaces: set[str] = set()
-        """Those that have a controller manager; for the control thread."""
+        """The namespaces that have a controller manager; used on the control thread only."""
 
     @property
     def entities(self) -> Iterable[Entity]:
-        """All of them, in the order of their coming."""
+        """All entities, in the order in which they were spawned."""
         return tuple(self._entities.values())
 
     def find(self, name: str) -> Entity:
-        """The entity of that name. Raises RequestError that names those there are."""
+        """Return an entity by name. Raises RequestError, which lists the names that exist."""
         try:
             return self._entities[name]
         except KeyError:
@@ -129,11 +140,21 @@ class EntityManager:
         allow_renaming: bool = False,
     ) -> str:
         """
-        Put a robot into the world and, if it asks for control, start its controller manager.
+        Put a robot into the world and start its controller manager, if it has hardware.
 
-        Return its name: another than ``name`` where that is taken and ``allow_renaming``. Raises
-        SpawnError, DescriptionError, HardwareError, ParameterError, or whatever the constructor
-        of a foreign component raises; nothing is then left of the robot.
+        Args:
+            name: Of the entity.
+            robot: Its description.
+            pose: Transform from its root link to the world.
+            namespace: Of the controller manager, absolute.
+            allow_renaming: Use another name if this one is taken.
+
+        Returns:
+            The name of the entity.
+
+        Raises:
+            SpawnError, DescriptionError, HardwareError, ParameterError: or whatever the
+                constructor of a third-party component raises; nothing is left of the robot then.
         """
         hardware = hardware_of(robot)
         prepared = self._prepare(robot, hardware, namespace) if hardware else None
@@ -158,20 +179,20 @@ class EntityManager:
 
     async def remove(self, name: str) -> None:
         """
-        Stop a robot's controller manager, take it out of the world, and free its names.
+        Stop a robot's controller manager and remove the robot, so that its names are free again.
 
-        Raises RequestError: there is none, or it is just being removed.
+        Raises RequestError: there is no such entity, or it is already being removed.
         """
         self.find(name)
         entity = self._entities.pop(name)
         self._ground_truth.remove(name)
         if entity.thread is not None:
             await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
-        await self._loop_thread.submit(lambda: self._take_out(entity))
+        await self._loop_thread.submit(lambda: self._detach(entity))
         _destroy(entity)
 
     async def remove_all(self) -> int:
-        """Remove every robot; return how many."""
+        """Remove all robots; return how many."""
         count = 0
         while self._entities:
             await self.remove(next(iter(self._entities)))
@@ -179,7 +200,7 @@ class EntityManager:
         return count
 
     def destroy(self) -> None:
-        """Remove all nodes; the control thread has stopped."""
+        """Destroy all nodes, after the control thread has stopped."""
         threads = [each.thread for each in self._entities.values() if each.thread is not None]
         for thread in threads:
             thread.ask_to_end()  # all at once: each may have a callback to finish
@@ -191,7 +212,7 @@ class EntityManager:
     def _serve(
         self, prepared: PreparedManager, manager: ControllerManager, name: str
     ) -> tuple[RunningManager, ExecutorThread]:
-        """Make the services of a robot's manager, and a thread that serves them."""
+        """Create the services of a robot's manager, and the thread that runs their callbacks."""
         thread = ExecutorThread(name, self._loop_thread.fail)
         node, log = prepared.manager_node.node, prepared.manager_node.log
         thread.executor.add_node(node)
@@ -209,7 +230,7 @@ class EntityManager:
         pose: Transform,
         prepared: PreparedManager | None,
     ) -> ControllerManager | None:
-        """In one go: robot, components, all of them active, manager."""
+        """Add robot, components (all of them active) and manager, between two cycles."""
         loop, world = self._loop_thread.loop, self._world
         if prepared is None:
             world.spawn(name, robot, pose)
@@ -230,15 +251,17 @@ class EntityManager:
         self._namespaces.add(namespace)
         return manager
 
-    def _take_out(self, entity: Entity) -> None:
-        """The robot and its manager, motors first; the others tick on."""
+    def _detach(self, entity: Entity) -> None:
+        """Shut a robot's manager down, motors first, and remove the robot from the world."""
         running, loop = entity.manager, self._loop_thread.loop
         if running is not None:
             loop.managers.remove(running.manager)
             self._namespaces.discard(running.node.get_namespace())
             try:
                 running.manager.shut_down(loop.time)
-            except Exception as error:  # a stranger's class; it has to go all the same
+            except (
+                Exception
+            ) as error:  # of a third-party plugin; the robot is removed all the same
                 self._log(
                     Severity.ERROR,
                     f"'{entity.name}' is removed, though it raised: {describe(error)}",
@@ -246,7 +269,7 @@ class EntityManager:
         self._world.remove(entity.name)
 
     def _check_namespace(self, namespace: str) -> None:
-        """Refuse a second controller manager of one name: nobody could tell the two apart."""
+        """Raise SpawnError: a second controller manager would have the same name."""
         if namespace in self._namespaces:
             raise SpawnError(
                 f"the namespace '{namespace}' has a controller manager already; give the robot "
@@ -255,7 +278,7 @@ class EntityManager:
             )
 
     def _period(self, rate: int) -> int:
-        """The tick of a manager at ``rate`` Hz in whole physics steps, ns; said if it differs."""
+        """Return the period of a manager at ``rate`` Hz in whole physics steps, ns."""
         asked = _period_of(rate)
         period = steps_in(asked, self._world.timestep).period
         if period != asked:
@@ -284,7 +307,7 @@ class EntityManager:
         return node.prepare(robot, hardware)
 
     def _parameter_files(self, robot: Robot) -> Sequence[str]:
-        """``--params-file`` arguments: the parameter, the URDF's own, or the shipped file."""
+        """Return ``--params-file`` arguments: of the parameter, else the URDF, else shipped."""
         paths = [self._controllers] if self._controllers else []
         if not paths:
             hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
@@ -292,7 +315,7 @@ class EntityManager:
         if not paths:
             paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
         for path in paths:
-            read_parameter_file(Path(path))  # rcl would not say where it is wrong
+            read_parameter_file(Path(path))  # its errors have a line number, rcl's have none
         for finding in drive_warnings(robot, paths):
             self._log(Severity.WARN, finding.text)
         return [argument for path in paths for argument in ('--params-file', path)]
@@ -307,7 +330,7 @@ def _destroy(entity: Entity) -> None:
 
 
 def _category_of(robot: Robot) -> Category:
-    """What a robot is until it is told otherwise."""
+    """Return the category of a robot until a client sets another."""
     if hardware_of(robot):
         return Category.ROBOT
     moves = any(joint.has_position for joint in robot.joints)

@@ -1,14 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The services of ``simulation_interfaces`` about entities: which there are, where, what, how big.
+The services of ``simulation_interfaces`` for entities: list, state, info and bounds.
 
-Entities are robots. A state is that of the root link in the frame ``world``, at one instant for
-all of an answer; bounds are a box around all shapes as they stand now, in the frame of the root
-link. A ``filter`` is found anywhere in a name, as ``grep -E`` finds it; filters by bounds may be
-boxes and spheres, and take the box of an entity for the entity.
+Entities are robots. A state is that of the root link in the frame ``world``; all states of a
+response are of one instant. Bounds are a box around all geoms as they are now, in the frame of the
+root link.
 
-Which entities a ``simulation_interfaces/msg/EntityFilters`` means.
+Of ``simulation_interfaces/msg/EntityFilters``, ``filter`` may match any part of a name, as with
+``grep -E``; filters by bounds are boxes or spheres, and are compared with the box of an entity.
 """
 
 from collections.abc import Collection, Iterable
@@ -52,65 +52,6 @@ from amr_description.sim.ros.service_replies import create_services
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import checked_pose
 
-
-def chosen(entities: Iterable[Entity], filters: EntityFilters) -> list[Entity]:
-    """
-    Those that meet name, categories and tags; bounds are another matter.
-
-    Raises RequestError: the name is no regular expression.
-    """
-    categories = [each.category for each in filters.categories]
-    try:
-        with PosixRegex(filters.filter) as names:
-            return [
-                entity
-                for entity in entities
-                if (not filters.filter or names.is_in(entity.name))
-                and (not categories or entity.info.category in categories)
-                and has_tags(entity.info.tags, filters.tags)
-            ]
-    except UsageError as error:
-        raise RequestError(f'filter: {error}', Result.RESULT_OPERATION_FAILED) from error
-
-
-def has_tags(tags: Collection[str], wanted: TagsFilter) -> bool:
-    """Whether one of the wanted tags is there, or all of them, as it says; none: always."""
-    if not wanted.tags:
-        return True
-    found = [tag in tags for tag in wanted.tags]
-    return all(found) if wanted.filter_mode == TagsFilter.FILTER_MODE_ALL else any(found)
-
-
-def check_bounds(bounds: Bounds) -> None:
-    """Raises RequestError: a kind that is not known here, or points that make none."""
-    if bounds.type not in (Bounds.TYPE_EMPTY, Bounds.TYPE_BOX, Bounds.TYPE_SPHERE):
-        raise RequestError(
-            f'bounds of type {bounds.type} are asked; EMPTY (0), BOX (1) and SPHERE (3) are known',
-            Result.RESULT_FEATURE_UNSUPPORTED,
-        )
-    if bounds.type != Bounds.TYPE_EMPTY and len(bounds.points) != 2:
-        raise RequestError(
-            f'bounds have {len(bounds.points)} points; two are needed: opposite corners of a box, '
-            'or the centre of a sphere and its radius in x',
-            Result.RESULT_OPERATION_FAILED,
-        )
-
-
-def overlaps(box: BoundingBox | None, bounds: Bounds) -> bool:
-    """Whether a box (in the world) and checked ``bounds`` have a point in common; none: none."""
-    if box is None:
-        return False
-    first, second = ((point.x, point.y, point.z) for point in bounds.points)
-    sides = list(zip(box.lower, box.upper, strict=True))
-    if bounds.type == Bounds.TYPE_SPHERE:
-        nearest = [min(max(c, low), high) for c, (low, high) in zip(first, sides, strict=True)]
-        return math.dist(first, nearest) <= second[0]
-    return all(
-        low <= max(a, b) and min(a, b) <= high
-        for (low, high), a, b in zip(sides, first, second, strict=True)
-    )
-
-
 FEATURES = (
     SimulatorFeatures.ENTITY_TAGS,
     SimulatorFeatures.ENTITY_BOUNDS,
@@ -121,11 +62,11 @@ FEATURES = (
     SimulatorFeatures.ENTITY_INFO_GETTING,
     SimulatorFeatures.ENTITY_INFO_SETTING,
 )
-"""What this file serves."""
+"""What these services support."""
 
 
 class EntityServices:
-    """Look at entities, put them elsewhere, and keep what is told of them."""
+    """Get and set the states of entities, and their info."""
 
     def __init__(self, node: Node, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -149,12 +90,12 @@ class EntityServices:
     async def _get_entities(
         self, request: GetEntities.Request, response: GetEntities.Response
     ) -> None:
-        response.entities = await self._chosen(request.filters)
+        response.entities = await self._matching(request.filters)
 
     async def _get_entities_states(
         self, request: GetEntitiesStates.Request, response: GetEntitiesStates.Response
     ) -> None:
-        states = await self._states(await self._chosen(request.filters))
+        states = await self._states(await self._matching(request.filters))
         response.entities, response.states = list(states), list(states.values())
 
     async def _get_entity_state(
@@ -163,13 +104,13 @@ class EntityServices:
         name = self._entities.find(request.entity).name
         found = list((await self._states([name])).values())
         if not found:
-            self._entities.find(name)  # it went meanwhile, which this tells
+            self._entities.find(name)  # raises: it was removed meanwhile
         response.state = found[0]
 
     async def _set_entity_state(
         self, request: SetEntityState.Request, response: SetEntityState.Response
     ) -> None:
-        """At once; the stamp and the acceleration count for nothing."""
+        """Set pose and twist at once; stamp and acceleration are ignored."""
         name, state = self._entities.find(request.entity).name, request.state
         frame = state.header.frame_id
         if frame not in ('', WORLD_FRAME):
@@ -218,25 +159,25 @@ class EntityServices:
     ) -> None:
         name, world = self._entities.find(request.entity).name, self._world
 
-        def look() -> BoundingBox | None:
+        def read() -> BoundingBox | None:
             robot = world.robot(name)
             return bounds_of(world.engine, robot, pose_of(robot))
 
-        box = await self._loop_thread.submit(look)
+        box = await self._loop_thread.submit(read)
         if box is not None:
             response.bounds.type = Bounds.TYPE_BOX
             response.bounds.points = [_vector3(box.upper), _vector3(box.lower)]
 
-    async def _chosen(self, filters: EntityFilters) -> list[str]:
-        """The names of the entities that meet all filters. Raises RequestError."""
+    async def _matching(self, filters: EntityFilters) -> list[str]:
+        """Return the names of the entities that match all filters. Raises RequestError."""
         check_bounds(filters.bounds)
-        entities: Collection[Entity] = chosen(self._entities.entities, filters)
+        entities: Collection[Entity] = matching(self._entities.entities, filters)
         names = [entity.name for entity in entities]
         if filters.bounds.type == Bounds.TYPE_EMPTY:
             return names
         world = self._world
 
-        def look() -> list[str]:
+        def read() -> list[str]:
             return [
                 name
                 for name in names
@@ -246,19 +187,19 @@ class EntityServices:
                 )
             ]
 
-        return await self._loop_thread.submit(look)
+        return await self._loop_thread.submit(read)
 
     async def _states(self, names: Collection[str]) -> dict[str, EntityState]:
-        """The states at one instant, of those that are still there."""
+        """Return the states at one instant, of the entities that still exist."""
         world = self._world
 
-        def look() -> dict[str, EntityState]:
+        def read() -> dict[str, EntityState]:
             return {name: self._state(name) for name in names if name in world.names}
 
-        return await self._loop_thread.submit(look)
+        return await self._loop_thread.submit(read)
 
     def _state(self, name: str) -> EntityState:
-        """On the control thread."""
+        """Return the state of an entity; on the control thread."""
         robot = self._world.robot(name)
         motion = motion_of(self._world.engine, robot)
         state = EntityState()
@@ -273,3 +214,61 @@ class EntityServices:
 def _vector3(values: Vector) -> Vector3:
     x, y, z = values
     return Vector3(x=x, y=y, z=z)
+
+
+def matching(entities: Iterable[Entity], filters: EntityFilters) -> list[Entity]:
+    """
+    Return the entities whose name, category and tags match.
+
+    Raises RequestError: ``filter`` is no regular expression.
+    """
+    categories = [each.category for each in filters.categories]
+    try:
+        with PosixRegex(filters.filter) as names:
+            return [
+                entity
+                for entity in entities
+                if (not filters.filter or names.is_in(entity.name))
+                and (not categories or entity.info.category in categories)
+                and has_tags(entity.info.tags, filters.tags)
+            ]
+    except UsageError as error:
+        raise RequestError(f'filter: {error}', Result.RESULT_OPERATION_FAILED) from error
+
+
+def has_tags(tags: Collection[str], wanted: TagsFilter) -> bool:
+    """Return whether any or all of the wanted tags are there, by their mode; true without any."""
+    if not wanted.tags:
+        return True
+    found = [tag in tags for tag in wanted.tags]
+    return all(found) if wanted.filter_mode == TagsFilter.FILTER_MODE_ALL else any(found)
+
+
+def check_bounds(bounds: Bounds) -> None:
+    """Raise RequestError: the type is not supported, or does not have two points."""
+    if bounds.type not in (Bounds.TYPE_EMPTY, Bounds.TYPE_BOX, Bounds.TYPE_SPHERE):
+        raise RequestError(
+            f'bounds of type {bounds.type} are asked; EMPTY (0), BOX (1) and SPHERE (3) are known',
+            Result.RESULT_FEATURE_UNSUPPORTED,
+        )
+    if bounds.type != Bounds.TYPE_EMPTY and len(bounds.points) != 2:
+        raise RequestError(
+            f'bounds have {len(bounds.points)} points; two are needed: opposite corners of a box, '
+            'or the centre of a sphere and its radius in x',
+            Result.RESULT_OPERATION_FAILED,
+        )
+
+
+def overlaps(box: BoundingBox | None, bounds: Bounds) -> bool:
+    """Return whether a box in the world and checked ``bounds`` overlap; false without a box."""
+    if box is None:
+        return False
+    first, second = ((point.x, point.y, point.z) for point in bounds.points)
+    sides = list(zip(box.lower, box.upper, strict=True))
+    if bounds.type == Bounds.TYPE_SPHERE:
+        closest = [min(max(c, low), high) for c, (low, high) in zip(first, sides, strict=True)]
+        return math.dist(first, closest) <= second[0]
+    return all(
+        low <= max(a, b) and min(a, b) <= high
+        for (low, high), a, b in zip(sides, first, second, strict=True)
+    )

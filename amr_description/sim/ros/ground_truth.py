@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What is true of every simulated robot, beside what its sensors and its odometry say.
+Ground truth topics of every simulated robot, to compare sensors and odometry with.
 
 In the namespace of the robot, reliable, depth 10, stamped with the exact simulated time::
 
@@ -9,17 +9,17 @@ In the namespace of the robot, reliable, depth 10, stamped with the exact simula
         pose     of the base in the frame 'world'; no errors, so no covariances
         twist    of the base's origin, in the base's own axes (child_frame_id)
     ground_truth/wheels  control_msgs/msg/DynamicJointState, of a robot that has wheels
-        contact           1 while the wheel bears on something, else 0
+        contact           1 while the wheel touches something, else 0
         normal_force      N
-        slip_along        m/s, of the tread over the ground, in the wheel's rolling direction
+        slip_along        m/s, of the wheel's surface over the ground, in its rolling direction
         slip_across       m/s, the same along the axle: the scrub of a skid-steered robot
 
-The base is the root link; of a robot whose root is ``world``, the first link that hangs on it.
+The base is the root link, or the first child of a root that is called ``world``. The child frame
+has the prefix that the controllers' frames have: the namespace.
 
-While time stands still the present instant is told ten times a second of the wall clock. Nothing
-is computed for a topic that nobody hears. The child frame has the prefix that the controllers'
-frames have: the namespace. Of several robots in one namespace, the first has these topics; those
-of the others lie below their own names.
+While time stands still, the present instant is published ten times a second of the wall clock.
+Nothing is computed for a topic without subscribers. Of several robots in one namespace the first
+has these topics; those of the others are below their names.
 """
 
 from collections.abc import Callable
@@ -48,7 +48,7 @@ from amr_description.sim.world import MujocoWorld
 ODOM_TOPIC = 'ground_truth/odom'
 WHEELS_TOPIC = 'ground_truth/wheels'
 WORLD_FRAME = 'world'
-"""The frame of every pose that the simulator takes or gives."""
+"""The frame of every pose that the simulator accepts or reports."""
 
 WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
@@ -57,7 +57,7 @@ _QOS = QoSProfile(depth=10)
 
 @dataclass(frozen=True, slots=True)
 class LinkMotion:
-    """Where a link is, and how it moves."""
+    """Pose and velocity of a link."""
 
     stamp: int
     """ns."""
@@ -69,16 +69,23 @@ class LinkMotion:
 
 class GroundTruth:
     """
-    Of all robots of a world. :meth:`add` and :meth:`remove` on the ROS thread, :meth:`report` on
-    the control thread.
+    The ground truth topics of all robots of a world.
+
+    :meth:`add` and :meth:`remove` are called on the ROS thread, :meth:`report` on the control
+    thread.
     """
 
     def __init__(
         self, node: Node, loop_publisher: LoopPublisher, world: MujocoWorld, rate: float
     ) -> None:
         """
-        ``node`` has the topics; ``rate``: Hz of simulated time, but no more often than the loop
-        turns; 0: never.
+        Publish from now on, at the end of control cycles.
+
+        Args:
+            node: Has the publishers.
+            loop_publisher: Publishes at the end of a cycle.
+            world: The simulated world.
+            rate: Hz of simulated time, at most once a cycle; 0: never.
         """
         self._node = node
         self._loop_publisher = loop_publisher
@@ -89,23 +96,23 @@ class GroundTruth:
         loop_publisher.reporters.append(self.report)
 
     def add(self, name: str, namespace: str) -> None:
-        """Tell of the robot ``name`` of the world, from now on, in its namespace."""
+        """Create the topics of the robot ``name`` of the world, in a namespace."""
         if self._period:
-            place = f'/{namespace.strip("/")}'.rstrip('/')
-            if place in {truth.place for truth in self._robots.values()}:
-                place = f'{place}/{name}'
-            truth = _RobotTruth(self._node, self._world.robot(name), self._world.engine, place)
+            prefix = f'/{namespace.strip("/")}'.rstrip('/')
+            if prefix in {truth.prefix for truth in self._robots.values()}:
+                prefix = f'{prefix}/{name}'
+            truth = _RobotTruth(self._node, self._world.robot(name), self._world.engine, prefix)
             self._robots = self._robots | {name: truth}
 
     def remove(self, name: str) -> None:
-        """Remove the topics of a robot that has left the world."""
+        """Remove the topics of a robot that was removed from the world."""
         truth = self._robots.get(name)
         if truth is not None:
             self._robots = {key: each for key, each in self._robots.items() if key != name}
             truth.destroy(self._node)
 
     def report(self, time: int) -> None:
-        """Send what is due at the turn of ``time``, ns."""
+        """Publish what is due at ``time``, ns."""
         stands_still, self._latest = time == self._latest, time
         if not self._robots:
             return
@@ -119,20 +126,20 @@ class GroundTruth:
 
 
 class _RobotTruth:
-    """The topics of one robot, below ``place``: a namespace, or nothing for the root."""
+    """The topics of one robot; ``prefix``: a namespace, or empty for the root."""
 
-    def __init__(self, node: Node, robot: RobotView, engine: Engine, place: str) -> None:
-        self.place = place
+    def __init__(self, node: Node, robot: RobotView, engine: Engine, prefix: str) -> None:
+        self.prefix = prefix
         self._robot = robot
         self._base = _base_of(robot.description)
-        self._contacts = WheelSlipReader(engine, robot)
-        self._odom = node.create_publisher(Odometry, f'{place}/{ODOM_TOPIC}', _QOS)
-        self._odometry = Odometry(child_frame_id=f'{place}/{self._base}'.removeprefix('/'))
+        self._wheel_slip = WheelSlipReader(engine, robot)
+        self._odom = node.create_publisher(Odometry, f'{prefix}/{ODOM_TOPIC}', _QOS)
+        self._odometry = Odometry(child_frame_id=f'{prefix}/{self._base}'.removeprefix('/'))
         self._odometry.header.frame_id = WORLD_FRAME
         self._wheels: Publisher | None = None
-        joints = self._contacts.joints
+        joints = self._wheel_slip.joints
         if joints:
-            topic = f'{place}/{WHEELS_TOPIC}'
+            topic = f'{prefix}/{WHEELS_TOPIC}'
             self._wheels = node.create_publisher(DynamicJointState, topic, _QOS)
             self._states = DynamicJointState()
             self._layout = DynamicLayout('', joints, (WHEEL_VALUES,) * len(joints))
@@ -144,14 +151,14 @@ class _RobotTruth:
                 node.destroy_publisher(publisher)
 
     def report(self, time: int, send: Callable[..., None]) -> None:
-        """Look at the robot, as far as anybody listens."""
-        if _is_heard(self._odom):
+        """Measure and publish, as far as there are subscribers."""
+        if _has_subscribers(self._odom):
             pose, velocity = self._robot.pose(self._base), self._robot.velocity(self._base)
             send(_fill_motion, LinkMotion(time, pose, velocity), self._odometry, self._odom)
-        if self._wheels is not None and _is_heard(self._wheels):
+        if self._wheels is not None and _has_subscribers(self._wheels):
             values = tuple(
                 (float(wheel.is_touching), wheel.normal_force, wheel.along, wheel.across)
-                for wheel in self._contacts.read()
+                for wheel in self._wheel_slip.read()
             )
             sample = DynamicJointStateSample(time, values, self._layout)
             send(fill_dynamic_joint_state, sample, self._states, self._wheels)
@@ -163,8 +170,8 @@ def _base_of(robot: Robot) -> str:
     return hanging[0].child if hanging else root
 
 
-def _is_heard(publisher: Publisher) -> bool:
-    """Whether anybody listens; 1 µs. A topic that is just being removed has no listener."""
+def _has_subscribers(publisher: Publisher) -> bool:
+    """Return whether there are any; 1 µs. False for a topic that is being removed."""
     try:
         return publisher.get_subscription_count() > 0
     except InvalidHandle:

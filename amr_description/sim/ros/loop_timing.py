@@ -15,7 +15,7 @@ import time
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Publisher, Stepper
-from amr_description.control.ros.loop_thread import WallPacer
+from amr_description.control.ros.pacing import WallPacer
 
 WINDOW = NANOSECONDS
 """ns of the wall clock over which the factor is taken."""

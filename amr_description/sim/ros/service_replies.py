@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Services of ``simulation_interfaces``: handlers that raise, answers with a code and a reason.
+Services of ``simulation_interfaces`` from handlers that raise.
 
-A handler fills the response and returns, which is ``RESULT_OK``; a RequestError has its own code,
-anything else is ``RESULT_OPERATION_FAILED``. A service is called as its handler is.
+When a handler returns, the ``result`` of its response is ``RESULT_OK``. When it raises, the result
+has the message and the code of a RequestError, or ``RESULT_OPERATION_FAILED``.
 """
 
 from collections.abc import Awaitable, Callable, Iterable
@@ -21,32 +21,39 @@ from amr_description.ros.log_thread import log_error
 from amr_description.text import unwrap
 
 type Handler = Callable[[Any, Any], Awaitable[None]]
-"""``async (request, response)``; the response has a ``result``."""
+"""``async (request, response)``, for services whose response has a ``result``."""
 
 
 def create_services(node: Node, log: Log, handlers: Iterable[tuple[type, Handler]]) -> None:
-    """Offer a service ``~/do_this`` for every handler ``_do_this``, with its type."""
+    """
+    Create a service ``~/do_this`` for every handler ``_do_this``.
+
+    Args:
+        node: Gets the services, in one reentrant callback group.
+        log: Gets unexpected errors, in addition to the client.
+        handlers: Service type and handler of each.
+    """
     group = ReentrantCallbackGroup()
     for service_type, handler in handlers:
         name = handler.__name__.removeprefix('_')
         node.create_service(
-            service_type, f'~/{name}', _answering(handler, log), callback_group=group
+            service_type, f'~/{name}', _reporting_errors(handler, log), callback_group=group
         )
 
 
 def fill_error(result: Result, error: Exception) -> None:
-    """Write in one line what went wrong, and its code."""
+    """Write the code and the message of an error, in one line, into a result."""
     is_coded = isinstance(error, RequestError)
     result.result = error.code if is_coded else Result.RESULT_OPERATION_FAILED
     result.error_message = unwrap(describe(error))
 
 
-def _answering(handler: Handler, log: Log) -> Callable[[Any, Any], Awaitable[Any]]:
+def _reporting_errors(handler: Handler, log: Log) -> Callable[[Any, Any], Awaitable[Any]]:
     async def answer(request: Any, response: Any) -> Any:
         try:
             await handler(request, response)
             response.result.result = Result.RESULT_OK
-        except Exception as error:  # a stranger's class may raise anything; others go on
+        except Exception as error:  # a plugin may raise anything
             fill_error(response.result, error)
             if not isinstance(error, AmrError):
                 log_error(log, error)

@@ -1,21 +1,18 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The services of ``simulation_interfaces`` about the simulation as a whole: its state and its time.
+The services of ``simulation_interfaces`` for the simulation as a whole: state, time, world.
 
-What the standard leaves open is so:
+What the standard leaves to the simulator:
 
-- A step is one physics step; ``~/get_simulator_features`` tells how long that is. Steps are made
-  as fast as they can be, whatever the real-time factor.
-- ``STATE_STOPPED`` is as paused and reset with SCOPE_ALL. It can be played and paused; to be
-  stepped it has to be paused first.
-- SCOPE_DEFAULT is SCOPE_ALL, which removes the spawned robots. To keep them, with their
-  controllers, ask for SCOPE_TIME + SCOPE_STATE (3): they stand where they were spawned, at time 0.
-
-The services of ``simulation_interfaces`` about worlds: which there are, and which one this is.
-
-A world is chosen at the start, by the parameter ``world``. What would need more than that answers
-``RESULT_FEATURE_UNSUPPORTED``, with the reason.
+- A step is one physics step, the length of which ``~/get_simulator_features`` reports. Steps are
+  made as fast as possible, whatever the real-time factor.
+- ``STATE_STOPPED`` is paused and reset with SCOPE_ALL. It can be played and paused; it can be
+  stepped once it is paused.
+- SCOPE_DEFAULT is SCOPE_ALL, which removes the spawned robots. SCOPE_TIME + SCOPE_STATE (3) keeps
+  them with their controllers, at their spawn poses and time 0.
+- The world is chosen at the start by the parameter ``world``. Services that would need more than
+  that reply ``RESULT_FEATURE_UNSUPPORTED``, with the reason.
 """
 
 from collections.abc import Awaitable, Callable, Sequence
@@ -61,15 +58,17 @@ FEATURES = (
     SimulatorFeatures.STEP_SIMULATION_SINGLE,
     SimulatorFeatures.STEP_SIMULATION_MULTIPLE,
     SimulatorFeatures.STEP_SIMULATION_ACTION,
+    SimulatorFeatures.WORLD_INFO_GETTING,
+    SimulatorFeatures.AVAILABLE_WORLDS,
 )
-"""What this file serves."""
+"""What these services support."""
 
 _TIME, _STATE = ResetSimulation.Request.SCOPE_TIME, ResetSimulation.Request.SCOPE_STATE
 _SPAWNED, _ALL = ResetSimulation.Request.SCOPE_SPAWNED, ResetSimulation.Request.SCOPE_ALL
 
 
 class SimulationServices:
-    """State, steps, reset, and what the simulator can do at all."""
+    """State, steps and reset of the simulation, and the features of the simulator."""
 
     def __init__(
         self,
@@ -78,7 +77,7 @@ class SimulationServices:
         features: Sequence[int],
         spawn_formats: Sequence[str],
     ) -> None:
-        """``features``: of all services together, as ``spawn_formats`` for the answer."""
+        """``features``, ``spawn_formats``: for ``~/get_simulator_features``."""
         self._simulation = simulation
         self._features = features
         self._spawn_formats = spawn_formats
@@ -111,7 +110,7 @@ class SimulationServices:
         )
 
     def close(self) -> None:
-        """Remove the action; the services go with the node."""
+        """Destroy the action server; the services are destroyed with the node."""
         self._action.destroy()
 
     def _get_simulator_features(
@@ -177,7 +176,7 @@ class SimulationServices:
         await self._step(request.steps)
 
     async def _simulate_steps(self, goal: ServerGoalHandle) -> SimulateSteps.Result:
-        """Step by step, each with its feedback."""
+        """Make steps one by one, each with a feedback."""
         total, result = goal.request.steps, SimulateSteps.Result()
         try:
             self._require_paused()
@@ -203,7 +202,7 @@ class SimulationServices:
         return result
 
     async def _step(self, count: int) -> None:
-        """Raises RequestError."""
+        """Make steps. Raises RequestError: not paused, or not all were made."""
         self._require_paused()
         try:
             missing = await self._simulation.step(count)
@@ -226,15 +225,8 @@ class SimulationServices:
             )
 
 
-WORLD_FEATURES = (
-    SimulatorFeatures.WORLD_INFO_GETTING,
-    SimulatorFeatures.AVAILABLE_WORLDS,
-)
-"""What this file serves."""
-
-
 class WorldServices:
-    """The world of this simulator, and those that it could have been started with."""
+    """The present world and the available ones; the rest is unsupported."""
 
     def __init__(self, node: Node, simulation: Simulation) -> None:
         self._world = simulation.parameters.world
@@ -259,7 +251,7 @@ class WorldServices:
     async def _get_available_worlds(
         self, request: GetAvailableWorlds.Request, response: GetAvailableWorlds.Response
     ) -> None:
-        """The shipped ones, and the MJCF files of further folders; no world has tags."""
+        """List the shipped worlds and the MJCF files of further folders; no world has tags."""
         try:
             paths = list(shipped_worlds().values())
         except ResourceError as error:
@@ -290,7 +282,7 @@ class WorldServices:
 
 
 def _worlds_in(source: str) -> list[Path]:
-    """The MJCF files of a folder. Raises RequestError."""
+    """Return the MJCF files of a folder. Raises RequestError."""
     try:
         folder = resolve_uri(source)
     except ResourceError as error:

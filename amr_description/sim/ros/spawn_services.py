@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The services of ``simulation_interfaces`` by which robots come and go."""
+"""The services of ``simulation_interfaces`` that spawn, delete and list entities."""
 
 from geometry_msgs.msg import PoseStamped
 from rclpy.exceptions import InvalidNamespaceException
@@ -40,17 +40,17 @@ FEATURES = (
     SimulatorFeatures.SPAWNABLES,
     SimulatorFeatures.SPAWNING_ENTITIES,
 )
-"""What this file serves."""
+"""What these services support."""
 
-FORMATS = ('urdf', 'xacro')
-"""Of what can be spawned; xacro files by uri."""
+SPAWN_FORMATS = ('urdf', 'xacro')
+"""Formats of descriptions that can be spawned; xacro files by uri only."""
 
 _SOURCES = (f'package://{OWN_PACKAGE}/urdf',)
 _SUFFIXES = ('.urdf', '.xacro')
 
 
 class SpawnServices:
-    """Spawn one or several, delete, and list what there is to spawn."""
+    """``~/spawn_entity``, ``~/spawn_entities``, ``~/delete_entity`` and ``~/get_spawnables``."""
 
     def __init__(self, node: Node, simulation: Simulation) -> None:
         self._node = node
@@ -69,7 +69,7 @@ class SpawnServices:
     async def _spawn_entity(
         self, request: SpawnEntity.Request, response: SpawnEntity.Response
     ) -> None:
-        # Where both are given, the text was made from the file: create expands xacro by itself.
+        # With both, the text was made from the file: create expands xacro itself.
         uri = '' if request.resource_string else request.uri
         source = request.uri or request.name or 'robot_description'
         try:
@@ -82,7 +82,7 @@ class SpawnServices:
     async def _spawn_entities(
         self, request: SpawnEntities.Request, response: SpawnEntities.Response
     ) -> None:
-        """One after the other; one that fails does not keep the next from coming."""
+        """Spawn one after the other, whether or not one fails."""
         for each in request.spawn_requests:
             spawned = SpawnResult()
             resource = each.entity_resource
@@ -91,7 +91,7 @@ class SpawnServices:
                 text = self._read(resource.uri) if resource.uri else resource.resource_string
                 spawned.entity_name = await self._spawn(each, text, source)
                 spawned.result.result = Result.RESULT_OK
-            except Exception as error:  # a stranger's component may raise anything
+            except Exception as error:  # a third-party component may raise anything
                 log_error(self._simulation.log, error)
                 fill_error(spawned.result, error)
             response.results.append(spawned)
@@ -111,7 +111,7 @@ class SpawnServices:
     async def _get_spawnables(
         self, request: GetSpawnables.Request, response: GetSpawnables.Response
     ) -> None:
-        """The URDF and xacro files of a folder, by default that of this package."""
+        """List the URDF and xacro files of folders, by default that of this package."""
         for source in request.sources or _SOURCES:
             try:
                 folder = resolve_uri(source)
@@ -130,7 +130,7 @@ class SpawnServices:
             ]
 
     async def _spawn(self, request: SpawnEntity.Request, text: str, source: str) -> str:
-        """``request``: of either service. Raises SpawnError, or whatever a component raises."""
+        """Spawn an entity; return its name. Raises SpawnError, or whatever a component raises."""
         robot = read_description(text, source, self._simulation.log)
         _check_frame(request.initial_pose)
         namespace = request.entity_namespace or ros2_control_host_of(robot).namespace

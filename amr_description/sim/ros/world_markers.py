@@ -1,19 +1,19 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The static surroundings of a simulated world on ``~/world``, for RViz and the browser page.
+The static geometry of the world on ``~/world``, for RViz and the browser page.
 
 ``visualization_msgs/msg/MarkerArray``, reliable, transient local, depth 1, in the frame ``world``.
-``ns`` of a marker is the kind of the shape, ``text`` its name. What has no marker type of its own:
+``ns`` of a marker is the kind of the shape, ``text`` its name. Shapes without a marker type:
 
 =========  =====================================================================================
-plane      a thin CUBE whose upper face is the plane, 100 m wide where it has no end
+plane      a thin CUBE whose upper face is the plane, 100 m wide where it is infinite
 capsule    a CYLINDER and two SPHEREs
 mesh,      a TRIANGLE_LIST
 field
 =========  =====================================================================================
 
-The first marker is a DELETEALL, so that a world takes the place of the one before.
+The first marker is a DELETEALL, so that a world replaces the one before.
 """
 
 from collections.abc import Iterator, Sequence
@@ -31,8 +31,8 @@ from amr_description.sim.world import MujocoWorld
 
 TOPIC = '~/world'
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-ENDLESS = 100.0
-"""m: how wide a plane is drawn that has no end."""
+INFINITE_WIDTH = 100.0
+"""m; the drawn width of an infinite plane."""
 _THICKNESS = 0.002
 """m, of a plane."""
 _TYPES = {
@@ -45,7 +45,7 @@ _TYPES = {
 
 
 def publish_world(node: Node, world: MujocoWorld) -> None:
-    """Tell once, for all who come later, what stands in a world that no robot has come to yet."""
+    """Publish the static geometry of a world without robots, once and latched."""
     publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
     publisher.publish(markers(visible_shapes(world.engine.spec)))
 
@@ -61,7 +61,7 @@ def markers(shapes: Sequence[VisibleShape]) -> MarkerArray:
 
 
 def _parts(shape: VisibleShape) -> Iterator[VisibleShape]:
-    """A shape as others that have a marker type."""
+    """Yield shapes that have a marker type and together make up ``shape``."""
     if shape.kind is not ShapeKind.CAPSULE:
         yield shape
         return
@@ -82,7 +82,7 @@ def _marker(shape: VisibleShape) -> Marker:
     position, (x, y, z) = shape.position, shape.size
     if shape.kind is ShapeKind.PLANE:
         position = _along_z(shape, -_THICKNESS / 2)
-        x, y, z = x or ENDLESS, y or ENDLESS, _THICKNESS
+        x, y, z = x or INFINITE_WIDTH, y or INFINITE_WIDTH, _THICKNESS
     elif shape.kind is ShapeKind.TRIANGLES:
         x = y = z = 1.0
         marker.points = [Point(x=a, y=b, z=c) for a, b, c in shape.points]
@@ -96,7 +96,7 @@ def _marker(shape: VisibleShape) -> Marker:
 
 
 def _along_z(shape: VisibleShape, distance: float) -> tuple[float, float, float]:
-    """A point on the shape's own z axis, in the world."""
+    """Return a point on the shape's own z axis, in the world."""
     x, y, z = shape.position
     dx, dy, dz = rotate(shape.rotation, (0.0, 0.0, distance))
     return (x + dx, y + dy, z + dz)

@@ -11,7 +11,7 @@ from simulation_interfaces.msg import Bounds, EntityCategory, EntityFilters, Tag
 from amr_description.errors import RequestError
 from amr_description.sim.entity_state import BoundingBox
 from amr_description.sim.ros.entities import Category, Entity, EntityRecord
-from amr_description.sim.ros.entity_services import check_bounds, chosen, has_tags, overlaps
+from amr_description.sim.ros.entity_services import check_bounds, has_tags, matching, overlaps
 
 ENTITIES = [
     Entity('amr_1', EntityRecord(Category.ROBOT, tags=('fast', 'red')), None, None),
@@ -24,7 +24,7 @@ coordinates = tuples(*[eighths] * 3)
 
 
 def names(**fields):
-    return [entity.name for entity in chosen(ENTITIES, EntityFilters(**fields))]
+    return [entity.name for entity in matching(ENTITIES, EntityFilters(**fields))]
 
 
 def bounds(kind, *points):

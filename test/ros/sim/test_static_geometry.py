@@ -14,7 +14,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.ros.world_markers import ENDLESS, LATCHED, markers, publish_world
+from amr_description.sim.ros.world_markers import INFINITE_WIDTH, LATCHED, markers, publish_world
 from amr_description.sim.static_geometry import ShapeKind, visible_shapes
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world, shipped_worlds
@@ -140,7 +140,7 @@ def test_a_plane_is_a_cube_whose_upper_face_it_is(shapes):
     assert top == pytest.approx(shapes['floor'].position)
     assert (floor.scale.x, floor.scale.y) == (4, 6)
     ground = markers([shapes['ground']]).markers[1]
-    assert (ground.scale.x, ground.scale.y) == (ENDLESS, ENDLESS)
+    assert (ground.scale.x, ground.scale.y) == (INFINITE_WIDTH, INFINITE_WIDTH)
 
 
 def test_a_page_draws_what_there_is(shapes):
