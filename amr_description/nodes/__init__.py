@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The executables: ROS nodes, and programs that talk to them.
+The executables, and nothing else: ``ros2 run amr_description NAME`` runs ``nodes/NAME``.
 
-One executable is one module with ``main(args: list[str] | None = None) -> int``; ``setup.py``
-makes a ``console_scripts`` entry of it (``entry:nodes.<module>.main``), which calls
-``sys.exit(main())``. A module without ``main`` is a part of the executables beside it. Start at
-``talker``, then read ``runtime``.
+Each is one module, or one folder with its parts, and has ``main(args: list[str] | None = None) ->
+int``. ``setup.py`` makes a ``console_scripts`` entry of it (``entry:nodes.NAME.main``), which
+calls ``sys.exit(main())``. What several executables need is in :mod:`amr_description.ros`. Start
+reading at ``talker``, then ``ros/runtime.py``.
 """

@@ -1,13 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``create``: put a robot into the simulation, as ros_gz_sim's executable of that name does.
+``create``: spawn a robot in the simulation, like the executable of ros_gz_sim.
 
 The file of ``-file`` may be a xacro file, with its arguments: ``-file robot.urdf.xacro
 wheel_radius:=0.2``.
 
-It ends with 0 when the robot is there, with 1 and the reason when the simulator refuses, with
-255 when no description is given.
+Exit codes: 0 when the robot is spawned, 1 with the reason when the simulator refuses, 255 when no
+description is given.
 """
 
 import argparse
@@ -33,13 +33,13 @@ _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'
 
 
 class NoSourceError(UsageError):
-    """No description was given; the original's exit code."""
+    """No description was given; the exit code is that of the original."""
 
     exit_code = 255
 
 
 def parser() -> argparse.ArgumentParser:
-    """Make the parser; every option takes one dash or two, as the original's."""
+    """Return the parser; options have one dash or two, as in the original."""
     options = argparse.ArgumentParser(prog='create', description=__doc__, allow_abbrev=False)
     options.add_argument('-world', '--world', default='', help='simulator, if there are several')
     source = options.add_argument_group('description, the first that is given')
@@ -62,9 +62,9 @@ def parser() -> argparse.ArgumentParser:
 
 
 def create(args: list[str] | None) -> int:
-    """Ask the simulator for the entity; return the exit code."""
+    """Call the simulator's spawn service; return the exit code."""
     given = sys.argv[1:] if args is None else args
-    # Without NAME:=VALUE, which rcl would take for remapping rules of ROS 1.
+    # Without NAME:=VALUE, which rcl would parse as remapping rules of ROS 1.
     with ros(['--ros-args', *ros_arguments(given)]):
         options = parser().parse_intermixed_args(other_arguments(given))
         with argument_errors():
@@ -97,10 +97,10 @@ def create(args: list[str] | None) -> int:
 
 def _spawn(node: Node, service: str, request: SpawnEntity.Request) -> Result:
     """
-    Send the request once, for it must not be done twice.
+    Send the request, only once: a second one would spawn a second robot.
 
-    A simulator that has not found this program's endpoints yet would throw its response away; so
-    it is asked something harmless first, where it offers that, by a client that is newer.
+    A simulator that has not discovered this client yet would drop its response. So a harmless
+    service of the simulator is called first, by a client that is created later.
     """
     client = node.create_client(SpawnEntity, service)
     probe = f'{service.rpartition("/")[0]}/get_entity_state'
@@ -111,7 +111,7 @@ def _spawn(node: Node, service: str, request: SpawnEntity.Request) -> Result:
 
 
 def _description(node: Node, options: argparse.Namespace) -> str:
-    """Get the URDF from where the options say. Raises NoSourceError, UsageError."""
+    """Return the URDF from the source in the options. Raises NoSourceError, UsageError."""
     mappings = mappings_of(options.arguments)
     if options.file:
         try:
@@ -136,16 +136,16 @@ def _description(node: Node, options: argparse.Namespace) -> str:
 
 
 def _latched(node: Node, topic: str) -> str:
-    """Wait for the description on a latched topic."""
+    """Wait for a message on a latched topic; return the description."""
     texts: list[str] = []
     subscription = node.create_subscription(
         String, topic, lambda message: texts.append(message.data), _LATCHED
     )
-    say = node.get_logger().warning
+    warn = node.get_logger().warning
     wait_until(
         node,
         lambda: texts or None,
-        lambda: say(f'Waiting messages on topic [{subscription.topic_name}].'),
+        lambda: warn(f'Waiting messages on topic [{subscription.topic_name}].'),
         every=1.0,
     )
     return texts[-1]
@@ -153,9 +153,9 @@ def _latched(node: Node, topic: str) -> str:
 
 def _find_simulator(node: Node, world: str) -> str:
     """
-    Find the one spawn service there is, or that of the simulator ``world``.
+    Wait for a spawn service; return the only one, or that of the simulator ``world``.
 
-    Raises UsageError when there are several and none is chosen.
+    Raises UsageError if there are several and none is chosen.
     """
 
     def services() -> list[str] | None:
@@ -165,10 +165,10 @@ def _find_simulator(node: Node, world: str) -> str:
         chosen = [name for name in found if not world or world in name.split('/')]
         return chosen or (found if world and found else None)
 
-    def say() -> None:
+    def warn() -> None:
         node.get_logger().warning(f'Waiting for service [{_SERVICE_TYPE}] to become available ...')
 
-    found = wait_until(node, services, say, every=5.0) or []
+    found = wait_until(node, services, warn, every=5.0) or []
     if len(found) > 1:
         raise UsageError(
             f'several simulators can create an entity: {", ".join(found)}; choose one by '

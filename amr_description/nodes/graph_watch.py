@@ -1,16 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What comes to and goes from the ROS graph, a line each; the bring-up asks it for its conditions.
+Prints a line for each change of the ROS graph; the bring-up reads them for its conditions.
 
-It is a process of its own, so that no crash of rclpy takes the bring-up down::
+It is a process of its own, so that the bring-up survives a crash of rclpy::
 
-    + topic /odom nav_msgs/msg/Odometry     somebody publishes it, as this type
-    + service /sim/pause                    somebody offers it
+    + topic /odom nav_msgs/msg/Odometry     has a publisher with this type
+    + service /sim/pause                    has a server
     + node /sim
-    - node /sim                             it is gone
+    - node /sim                             is gone
 
-Hidden names (``/_ros2cli``) are left out.
+Hidden names (``/_ros2cli``) are omitted.
 """
 
 from collections.abc import Iterator, Set as AbstractSet
@@ -23,12 +23,12 @@ from rclpy.node import Node
 from amr_description.ros.runtime import program, ros
 
 _PERIOD = 0.05
-"""s between two looks: rclpy does not tell when the graph has changed."""
+"""s between two polls: rclpy has no event for changes of the graph."""
 _HIDDEN = re.compile('/_')
 
 
 def entries(node: Node) -> Iterator[str]:
-    """Yield what is there now, in the words of the lines."""
+    """Yield the present entries of the graph, as in the lines."""
     for name, types in node.get_topic_names_and_types():
         if node.count_publishers(name):
             yield from (f'topic {name} {type_name}' for type_name in types)
@@ -40,14 +40,14 @@ def entries(node: Node) -> Iterator[str]:
 
 
 def changes(before: AbstractSet[str], now: AbstractSet[str]) -> list[str]:
-    """Return the lines that lead from one state of the graph to another."""
+    """Return the lines for the changes from one set of entries to another."""
     return [f'- {entry}' for entry in sorted(before - now)] + [
         f'+ {entry}' for entry in sorted(now - before)
     ]
 
 
 def main(args: list[str] | None = None) -> int:
-    """Watch until it is told to stop."""
+    """Print changes until asked to stop."""
 
     def body() -> None:
         with ros(args) as stop:

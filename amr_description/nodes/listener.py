@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The radio: log every greeting that arrives on ``topic``, whoever may send it."""
+"""Log every greeting that arrives on ``topic``."""
 
 from rclpy.node import Node
 from std_msgs.msg import String

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 r"""
-``static_transform_publisher``: say once, for everybody and for good, where a frame is.
+``static_transform_publisher``: publish the constant pose of a frame, latched.
 
 ::
 
@@ -9,10 +9,10 @@ r"""
         --frame-id base_link --child-frame-id laser
     ros2 run tf2_ros static_transform_publisher 0 0 0.3 1.57 0 0 base_link laser   # deprecated
 
-It publishes one message on ``/tf_static`` (reliable, transient local, depth 1) and stays, so that
-those who come later get it, too. Words, texts, parameters and exit codes are the original's. What
-the original sends although nobody can use it, is refused here: numbers with something behind them
-(``1.0m``), quaternions that are none.
+It publishes one message on ``/tf_static`` (reliable, transient local, depth 1) and keeps running,
+for later subscribers. Arguments, texts, parameters and exit codes are those of the original. But
+values that no listener can use are rejected: numbers with a suffix (``1.0m``), and quaternions
+that are not normalized.
 """
 
 from collections.abc import Callable, Sequence
@@ -58,38 +58,45 @@ deprecated:
   static_transform_publisher X Y Z YAW PITCH ROLL FRAME_ID CHILD_FRAME_ID
   static_transform_publisher X Y Z QX QY QZ QW FRAME_ID CHILD_FRAME_ID"""
 
-_PLACE = ('x', 'y', 'z')
+_TRANSLATION = ('x', 'y', 'z')
 _ANGLES = ('roll', 'pitch', 'yaw')
 _QUATERNION = ('qx', 'qy', 'qz', 'qw')
 _FRAMES = ('frame-id', 'child-frame-id')
-_NUMBERS = (*_PLACE, *_ANGLES, *_QUATERNION)
+_NUMBERS = (*_TRANSLATION, *_ANGLES, *_QUATERNION)
 _OLD_FORMS = {
-    8: (*_PLACE, *reversed(_ANGLES), *_FRAMES),
-    9: (*_PLACE, *_QUATERNION, *_FRAMES),
+    8: (*_TRANSLATION, *reversed(_ANGLES), *_FRAMES),
+    9: (*_TRANSLATION, *_QUATERNION, *_FRAMES),
 }
 _LETTERS = string.ascii_letters + string.digits
 
 
 class ArgumentsError(UsageError):
-    """The command line cannot be understood; text and exit code are the original's."""
+    """The command line is wrong; text and exit code are those of the original."""
 
     exit_code = 1
 
 
 @dataclass(frozen=True)
-class Request:
-    """What to publish."""
+class StaticTransform:
+    """The transform to publish."""
 
     frame_id: str
     child_frame_id: str
     transform: Transform
 
 
-def parse(words: Sequence[str], warn: Callable[[str], object] = lambda text: None) -> Request:
+def parse(
+    words: Sequence[str], warn: Callable[[str], object] = lambda text: None
+) -> StaticTransform:
     """
-    Read a command line, in either of its forms; ``warn`` hears that one is deprecated.
+    Read a command line, in its present or its deprecated form.
 
-    Raises ArgumentsError.
+    Args:
+        words: without the program and ROS arguments.
+        warn: called with a line if the form is deprecated.
+
+    Raises:
+        ArgumentsError: the command line is wrong.
     """
     values, rest = _flags(words)
     if len(rest) in _OLD_FORMS:
@@ -103,7 +110,7 @@ def parse(words: Sequence[str], warn: Callable[[str], object] = lambda text: Non
 
 
 def _flags(words: Sequence[str]) -> tuple[dict[str, str], list[str]]:
-    """Return the values of the flags, and the words that are none."""
+    """Return the values of the flags, and the other words."""
     values: dict[str, str] = {}
     others: list[str] = []
     rest = iter(words)
@@ -119,8 +126,8 @@ def _flags(words: Sequence[str]) -> tuple[dict[str, str], list[str]]:
     return values, others
 
 
-def _request(values: dict[str, str]) -> Request:
-    """Check what was given. Raises ArgumentsError."""
+def _request(values: dict[str, str]) -> StaticTransform:
+    """Return the transform of the given values. Raises ArgumentsError."""
     numbers = {name: _number(name, values[name]) for name in _NUMBERS if name in values}
     if not numbers.keys().isdisjoint(_ANGLES) and not numbers.keys().isdisjoint(_QUATERNION):
         raise ArgumentsError('Cannot specify both quaternion and Euler rotations')
@@ -134,8 +141,8 @@ def _request(values: dict[str, str]) -> Request:
             f"cannot publish static transform from '{parent}' to '{child}', exiting: "
             'child_frame_id cannot equal frame_id'
         )
-    x, y, z = (numbers.get(name, 0.0) for name in _PLACE)
-    return Request(parent, child, Transform((x, y, z), _rotation(numbers)))
+    x, y, z = (numbers.get(name, 0.0) for name in _TRANSLATION)
+    return StaticTransform(parent, child, Transform((x, y, z), _rotation(numbers)))
 
 
 def _rotation(numbers: dict[str, float]) -> tuple[float, float, float, float]:
@@ -165,14 +172,14 @@ def _number(name: str, word: str) -> float:
 
 
 class StaticTransformPublisher(Node):
-    """The node: it says it once, and stays for those who come later."""
+    """The node: it publishes once, and keeps running for later subscribers."""
 
-    def __init__(self, request: Request) -> None:
+    def __init__(self, request: StaticTransform) -> None:
         suffix = ''.join(secrets.choice(_LETTERS) for _ in range(16))
-        place, turn = request.transform.translation, request.transform.rotation
+        translation, rotation = request.transform.translation, request.transform.rotation
         values = {
-            **{f'translation.{axis}': value for axis, value in zip('xyz', place, strict=True)},
-            **{f'rotation.{axis}': value for axis, value in zip('xyzw', turn, strict=True)},
+            **{f'translation.{axis}': v for axis, v in zip('xyz', translation, strict=True)},
+            **{f'rotation.{axis}': v for axis, v in zip('xyzw', rotation, strict=True)},
             'frame_id': request.frame_id,
             'child_frame_id': request.child_frame_id,
         }
@@ -184,13 +191,13 @@ class StaticTransformPublisher(Node):
             self.declare_parameter(name, value, ParameterDescriptor(read_only=True))
         self.get_logger().info(
             'Spinning until stopped - publishing transform\n'
-            f'translation: ({_quoted(place)})\nrotation: ({_quoted(turn)})\n'
+            f'translation: ({_quoted(translation)})\nrotation: ({_quoted(rotation)})\n'
             f"from '{request.frame_id}' to '{request.child_frame_id}'"
         )
         self._broadcaster = StaticTransformBroadcaster(self)
         self._broadcaster.sendTransform(self._message(request))
 
-    def _message(self, request: Request) -> TransformStamped:
+    def _message(self, request: StaticTransform) -> TransformStamped:
         now = self.get_clock().now().nanoseconds
         return transform_message(
             StampedTransform(request.frame_id, request.child_frame_id, now, request.transform)
@@ -198,12 +205,12 @@ class StaticTransformPublisher(Node):
 
 
 def publish(args: list[str] | None) -> int:
-    """Publish, and stay until Ctrl-C; return the exit code."""
+    """Publish, and keep running until Ctrl-C; return the exit code."""
     words = arguments_of(args)
-    asks_for_help = not {'-h', '--help'}.isdisjoint(words)
-    if asks_for_help or not words:
+    wants_help = not {'-h', '--help'}.isdisjoint(words)
+    if wants_help or not words:
         print_now(USAGE)
-        return 0 if asks_for_help else ArgumentsError.exit_code
+        return 0 if wants_help else ArgumentsError.exit_code
     logger = get_logger('static_transform_publisher')
     try:
         request = parse(words, logger.warning)
@@ -214,7 +221,7 @@ def publish(args: list[str] | None) -> int:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Publish, and stay until Ctrl-C."""
+    """Publish, and keep running until Ctrl-C."""
     return run_tool(lambda: publish(args))
 
 

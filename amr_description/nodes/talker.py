@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The radio station: publish a greeting on ``topic`` twice a second, whoever may listen."""
+"""Publish a greeting on ``topic`` twice per second."""
 
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -13,7 +13,7 @@ class MinimalPublisher(Node):
 
     def __init__(self) -> None:
         super().__init__('minimal_publisher')
-        # Message type, topic name, and how many messages to keep for a slow listener.
+        # Message type, topic name, and how many messages to keep for a slow subscriber.
         self.publisher = self.create_publisher(String, 'topic', 10)
         self.timer = self.create_timer(0.5, self.publish_greeting)  # every 0.5 s
         self.count = 0

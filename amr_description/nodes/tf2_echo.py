@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``tf2_echo``: print where one frame is in another, again and again.
+``tf2_echo``: print the pose of one frame in another, periodically.
 
 ::
 
@@ -10,9 +10,9 @@
     ros2 run tf2_ros tf2_echo odom base_link -t 12.5   # where it was at 12.5 s; waits until known
     ros2 run tf2_ros tf2_echo odom base_link --once
 
-Words, texts and exit codes are the original's. Other than there the first transform is printed
-as soon as it is known, ``-t`` keeps its nanoseconds, a stamp its zeros (``5.000000003`` is not
-``5.3``), and nothing is ``-0.000``.
+Arguments, texts and exit codes are those of the original. But the first transform is printed as
+soon as it is known, ``-t`` has nanosecond resolution, stamps keep their zeros (``5.000000003``,
+not ``5.3``), and no number is ``-0.000``.
 """
 
 from collections.abc import Sequence
@@ -49,11 +49,11 @@ Options:
   -p <precision>  Digits behind the point (default: 3)
   --once          Print it once and end"""
 
-_MOST_DIGITS = 17  # more a double does not have
+_MOST_DIGITS = 17  # a double has no more
 
 
 @dataclass(frozen=True)
-class Request:
+class EchoRequest:
     """What to print: ``rate`` in Hz, ``time`` in ns (0: the latest)."""
 
     source: str
@@ -64,8 +64,8 @@ class Request:
     once: bool = False
 
 
-def parse(words: Sequence[str]) -> Request | None:
-    """Read a command line; None: it lacks the frames. Raises UsageError, with its exit code."""
+def parse(words: Sequence[str]) -> EchoRequest | None:
+    """Read a command line; None: the frames are missing. Raises UsageError."""
     frames: list[str] = []
     options: dict[str, object] = {}
     rest = iter(words)
@@ -76,19 +76,19 @@ def parse(words: Sequence[str]) -> Request | None:
             name, read = _OPTIONS[word]
             value = next(rest, None)
             if value is None:
-                raise _wrong(5, f'{word} needs a value: see tf2_echo --help')
+                raise _usage_error(5, f'{word} needs a value: see tf2_echo --help')
             options[name] = read(value)
         elif len(frames) < 2:
             frames.append(word)
         elif len(frames) == 2 and 'rate' not in options and not word.startswith('--'):
             options['rate'] = _rate(word)
         else:
-            raise _wrong(5, f'Unknown argument: {word}: see tf2_echo --help')
-    return Request(*frames, **options) if len(frames) == 2 else None
+            raise _usage_error(5, f'Unknown argument: {word}: see tf2_echo --help')
+    return EchoRequest(*frames, **options) if len(frames) == 2 else None
 
 
 def text_of(stamped: StampedTransform, precision: int = 3) -> str:
-    """Write a transform as it is printed."""
+    """Return the lines that are printed for a transform; ``precision``: decimals."""
     rpy = rpy_from_quaternion(stamped.transform.rotation)
 
     def row(values: Sequence[float]) -> str:
@@ -113,11 +113,11 @@ def text_of(stamped: StampedTransform, precision: int = 3) -> str:
 def echo(args: list[str] | None) -> int:
     """Print until Ctrl-C; return the exit code."""
     words = arguments_of(args)
-    asks_for_help = not {'-h', '--help'}.isdisjoint(words)
-    request = None if asks_for_help else parse(words)
+    wants_help = not {'-h', '--help'}.isdisjoint(words)
+    request = None if wants_help else parse(words)
     if request is None:
         print_now(USAGE)
-        return 0 if asks_for_help else 1
+        return 0 if wants_help else 1
     when = Time(nanoseconds=request.time)
     with listening('tf2_echo', args) as (node, buffer, _):
         wait_for_transform(node, buffer, request.source, request.target, when)
@@ -146,7 +146,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _stamp(stamp: int) -> str:
-    """What is static has no time; it is told as ``0.0``, as ever."""
+    """Format a stamp, ns; 0, of static transforms, is ``0.0``."""
     whole, fraction = divmod(stamp, NANOSECONDS)
     return f'{whole}.{fraction:09d}' if stamp else '0.0'
 
@@ -154,14 +154,14 @@ def _stamp(stamp: int) -> str:
 def _rate(word: str) -> float:
     rate = _number(word, 2, 'rate')
     if rate <= 0.0:
-        raise _wrong(2, f"Rate must be positive, not '{word}'")
+        raise _usage_error(2, f"Rate must be positive, not '{word}'")
     return float(rate)
 
 
 def _time(word: str) -> int:
     moment = _number(word, 3, 'time')
     if moment < 0:
-        raise _wrong(3, f"Time must be non-negative, not '{word}'")
+        raise _usage_error(3, f"Time must be non-negative, not '{word}'")
     return int(moment * NANOSECONDS)
 
 
@@ -169,11 +169,13 @@ def _precision(word: str) -> int:
     try:
         digits = int(word)
     except ValueError:
-        raise _wrong(4, f"Failed to convert precision argument '{word}' to an integer") from None
+        raise _usage_error(
+            4, f"Failed to convert precision argument '{word}' to an integer"
+        ) from None
     if digits < 0:
-        raise _wrong(4, f"Precision must be non-negative, not '{word}'")
+        raise _usage_error(4, f"Precision must be non-negative, not '{word}'")
     if digits > _MOST_DIGITS:
-        raise _wrong(4, f"Precision must be at most {_MOST_DIGITS}, not '{word}'")
+        raise _usage_error(4, f"Precision must be at most {_MOST_DIGITS}, not '{word}'")
     return digits
 
 
@@ -183,14 +185,14 @@ def _number(word: str, code: int, name: str) -> Decimal:
     except InvalidOperation:
         number = Decimal('nan')
     if not number.is_finite() or number > 1e12:
-        raise _wrong(
+        raise _usage_error(
             code, f"Failed to convert {name} argument '{word}' to a floating-point number"
         )
     return number
 
 
-def _wrong(code: int, text: str) -> UsageError:
-    """The original tells by its exit code what was wrong."""
+def _usage_error(code: int, text: str) -> UsageError:
+    """Return the error with the exit code of the original."""
     error = UsageError(text)
     error.exit_code = code
     return error

@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``tf2_monitor``: how often transforms come, from whom, and how late they are.
+``tf2_monitor``: the rates, publishers and delays of transforms.
 
 ::
 
     ros2 run tf2_ros tf2_monitor                  # all frames
-    ros2 run tf2_ros tf2_monitor odom base_link   # the way from one to another
+    ros2 run tf2_ros tf2_monitor odom base_link   # the chain between two frames
 
-It prints every 10 s, the original's lines. Instead of ``<no authority available>`` it names the
-nodes that publish on the topic (all of them, where there are several).
+It prints the lines of the original every 10 s. Instead of ``<no authority available>`` it names
+the nodes that publish on the topic.
 """
 
 import threading
@@ -41,12 +41,12 @@ TF_Monitor: usage: tf2_monitor [framea frameb]
 Print every 10 s how often transforms come and how late they are: of all frames, or of those on
 the way from one to another."""
 
-_SAMPLES = 20  # of the delay of a chain, between two reports
+_SAMPLES = 20  # delays of a chain, between two reports
 _SAMPLE_TIME = 0.5  # s
 
 
 class MonitoringListener(TransformListener):
-    """Takes note of what comes, besides putting it into the buffer."""
+    """Keeps statistics of the transforms that it puts into the buffer."""
 
     def __init__(self, buffer: Buffer, node: Node, **options: Any) -> None:
         self._lock = threading.Lock()
@@ -54,17 +54,17 @@ class MonitoringListener(TransformListener):
         super().__init__(buffer, node, **options)
 
     def callback(self, data: TFMessage) -> None:
-        """Hear moving transforms."""
+        """Handle a message on /tf."""
         self._note(DEFAULT_TF_TOPIC, data, static=False)
         super().callback(data)
 
     def static_callback(self, data: TFMessage) -> None:
-        """Hear static transforms."""
+        """Handle a message on /tf_static."""
         self._note(DEFAULT_STATIC_TF_TOPIC, data, static=True)
         super().static_callback(data)
 
     def add_chain_delay(self, way: tuple[str, str]) -> None:
-        """Take note how late the way between two frames is just now, if there is one."""
+        """Note the present delay of the chain between two frames, if it is known."""
         try:
             latest = self.buffer.get_latest_common_time(*way)
         except TransformException:
@@ -73,15 +73,15 @@ class MonitoringListener(TransformListener):
             self._statistics.add_chain_delay(latest.nanoseconds, self._now())
 
     def report(self, chain: list[str] | None) -> str:
-        """Write what was heard so far."""
+        """Return the report; ``chain``: the frames of it, None for all frames."""
         publishers = self.publishers()
         with self._lock:
             return self._statistics.report(publishers, chain)
 
     def _note(self, topic: str, data: TFMessage, *, static: bool) -> None:
-        heard = [(one.child_frame_id, nanoseconds(one.header.stamp)) for one in data.transforms]
+        received = [(one.child_frame_id, nanoseconds(one.header.stamp)) for one in data.transforms]
         with self._lock:
-            self._statistics.add_message(topic, heard, self._now(), static=static)
+            self._statistics.add_message(topic, received, self._now(), static=static)
 
     def _now(self) -> int:
         return self.node.get_clock().now().nanoseconds
@@ -90,10 +90,10 @@ class MonitoringListener(TransformListener):
 def monitor(args: list[str] | None) -> int:
     """Print until Ctrl-C; return the exit code."""
     frames = arguments_of(args)
-    asks_for_help = not {'-h', '--help'}.isdisjoint(frames)
-    if asks_for_help or len(frames) not in (0, 2):
+    wants_help = not {'-h', '--help'}.isdisjoint(frames)
+    if wants_help or len(frames) not in (0, 2):
         print_now(USAGE)
-        return 0 if asks_for_help else 1
+        return 0 if wants_help else 1
     with listening('tf2_monitor_main', args, MonitoringListener) as (node, buffer, listener):
         if frames:
             wait_for_transform(node, buffer, *frames)
@@ -114,7 +114,7 @@ def main(args: list[str] | None = None) -> int:
 def _report(buffer: Buffer, listener: MonitoringListener, frames: list[str]) -> str:
     try:
         return listener.report(buffer.chain(*frames) if frames else None)
-    except TransformException as error:  # it was there before; time went back, say
+    except TransformException as error:  # the chain existed before; time may have jumped back
         return f'Exception thrown:{error}'
 
 

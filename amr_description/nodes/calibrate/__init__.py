@@ -8,10 +8,11 @@
     ros2 run amr_description calibrate                              # /diff_drive_controller
     ros2 run amr_description calibrate --controller my_drive --ros-args -r __ns:=/robot1
 
-In the simulator, which knows the truth (``ground_truth/odom``), the robot is driven straight, on
-the spot and along arcs, both ways; it takes about three metres of free ground around it. Printed
-are the errors of the odometry before and after, and what to write into the controller's
-parameters. Nothing is changed by it. In every way out the robot is stopped.
+In the simulator, which publishes the ground truth (``ground_truth/odom``), the robot is driven
+straight, on the spot and along arcs, each in both directions; it needs about three metres of free
+ground around it. It prints the errors of the odometry before and after the fit, and the parameters
+to set in the controller's file. It changes no parameters itself. However it ends, it stops the
+robot.
 
 Exit codes: 0; 1: something is missing, or the fit is impossible; 2: wrong options; 128 + signal.
 """
@@ -36,7 +37,7 @@ _STRAIGHT = ('straight forward', 'straight backward')
 
 
 def parser() -> argparse.ArgumentParser:
-    """Make the parser."""
+    """Return the parser of the options, without ROS arguments."""
     options = argparse.ArgumentParser(
         prog='calibrate',
         description=__doc__.split('\n', 2)[1],
@@ -72,7 +73,14 @@ def parser() -> argparse.ArgumentParser:
 
 
 def manoeuvres(linear: float, angular: float, distance: float) -> tuple[Manoeuvre, ...]:
-    """The runs, m/s, rad/s and m; each with its counterpart, so that the robot stays around."""
+    """
+    Return the runs, each followed by its reverse, so that the robot stays in place.
+
+    Args:
+        linear: speed, m/s.
+        angular: speed, rad/s.
+        distance: length of the straight runs, m.
+    """
     return (
         Manoeuvre(_STRAIGHT[0], linear, 0.0, distance=distance),
         Manoeuvre(_STRAIGHT[1], -linear, 0.0, distance=distance),
@@ -84,7 +92,7 @@ def manoeuvres(linear: float, angular: float, distance: float) -> tuple[Manoeuvr
 
 
 def report(runs: Sequence[Run], before: Geometry, after: Geometry) -> str:
-    """The table of errors: of the turn, or where a run does not turn, of the distance."""
+    """Return the table of errors: of the angle, or for straight runs, of the distance."""
     rows = [('run', 'true', 'before', 'error', 'after', 'error')]
     for run in runs:
         turns = not math.isnan(yaw_error(run, before))
@@ -98,15 +106,15 @@ def report(runs: Sequence[Run], before: Geometry, after: Geometry) -> str:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return '\n'.join(
         '  '.join(
-            cell.ljust(width) if place == 0 else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
+            cell.ljust(width) if column == 0 else cell.rjust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
         )
         for row in rows
     )
 
 
 def patch(controller: str, geometry: Geometry) -> str:
-    """The YAML that makes ``geometry`` that of the controller (the full name of its node)."""
+    """Return the YAML of the parameters; ``controller`` is the full name of its node."""
     name = controller if controller.count('/') > 1 else controller[1:]
     return (
         f'{name}:\n'
@@ -118,7 +126,7 @@ def patch(controller: str, geometry: Geometry) -> str:
 
 
 def calibrate(args: list[str] | None) -> int:
-    """Drive, fit, print; return the exit code."""
+    """Drive the robot, fit the geometry, and print the result; return the exit code."""
     words = sys.argv[1:] if args is None else args
     options = parser().parse_args(other_arguments(words))
     with ros(words) as stop:
@@ -139,17 +147,17 @@ def calibrate(args: list[str] | None) -> int:
 def _drive(
     node: Node, controller: str, options: argparse.Namespace, stop: StopRequests
 ) -> tuple[list[Run], Geometry]:
-    """The runs, and the geometry that the controller has."""
-    asked = threading.Event()
+    """Return the runs, and the geometry in the controller's parameters."""
+    is_stopping = threading.Event()
 
-    def give_up() -> None:
-        if asked.is_set():
-            assert stop.signum is not None, 'it was a request that has set the event'
+    def raise_if_stopped() -> None:
+        if is_stopping.is_set():
+            assert stop.signum is not None, 'the event is set by a stop request'
             raise StopRequested(stop.signum)
 
     runs: list[Run] = []
-    with stop.on_stop(asked.set):
-        drive = CalibrationDrive(node, controller, options.timeout, give_up)
+    with stop.on_stop(is_stopping.set):
+        drive = CalibrationDrive(node, controller, options.timeout, raise_if_stopped)
         try:
             for manoeuvre in manoeuvres(options.linear, options.angular, options.distance):
                 runs.append(drive.run(manoeuvre))
@@ -160,7 +168,7 @@ def _drive(
                 )
         finally:
             stop.leave()
-            drive.leave()
+            drive.stop_robot()
     return runs, drive.geometry
 
 

@@ -1,9 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A robot driven from rest to rest over ROS, its odometry beside the truth of the simulator.
+Drives a robot from rest to rest over ROS, and records its odometry and the ground truth.
 
-Everything goes by the stamps of the messages, simulated time: the same at any real-time factor.
+All times are simulation time, from the stamps of messages, so the runs are the same at any
+real-time factor.
 """
 
 from collections.abc import Callable
@@ -26,19 +27,19 @@ from amr_description.ros.messages import nanoseconds, transform_of
 from amr_description.ros.service_calls import ask_until_answered, wait_until
 from amr_description.sim.ros.ground_truth import ODOM_TOPIC
 
-STILL = 1e-3
-"""m/s and rad/s; below it, both true, the robot is at rest."""
+MOVING_SPEED = 1e-3
+"""m/s and rad/s; a robot whose speeds are not above this is at rest."""
 
 REST = NANOSECONDS // 2
-"""ns for which it has to be, so that odometry is at rest too."""
+"""ns that a robot must be at rest, so that its odometry has settled too."""
 
 _QOS = QoSProfile(depth=1000)
-"""Deep, for a simulation that runs as fast as it can."""
+"""Deep, for a simulation that runs as fast as possible."""
 _LARGEST_STEP = math.pi / 2.0
-"""rad between two messages; with more, whole turns could be missed."""
+"""rad between two messages; beyond this, whole turns could be missed."""
 
-_GOODBYE = Duration(seconds=2.0)
-"""Of the wall clock: the longest wait for the last zero to be received."""
+_ACK_TIMEOUT = Duration(seconds=2.0)
+"""How long to wait, in wall-clock time, until the last zero is acknowledged."""
 
 _PARAMETERS = (
     'wheel_separation',
@@ -50,7 +51,7 @@ _PARAMETERS = (
 
 @dataclass(frozen=True, slots=True)
 class Manoeuvre:
-    """A twist held until odometry has it that the robot went so far, or turned so much."""
+    """A twist that is commanded until odometry has reached a distance or an angle."""
 
     name: str
     linear: float
@@ -63,31 +64,31 @@ class Manoeuvre:
     """rad."""
 
     @property
-    def patience(self) -> float:
-        """s of simulated time after which it will not be done any more."""
+    def time_limit(self) -> float:
+        """s of simulation time after which the manoeuvre has failed."""
         straight = self.distance / abs(self.linear) if self.linear else math.inf
         turning = self.turn / abs(self.angular) if self.angular else math.inf
         return 4.0 * min(straight, turning) + 5.0
 
     def is_done(self, travel: Travel) -> bool:
-        """Whether it has gone far enough."""
+        """Whether the distance or the angle is reached."""
         return abs(travel.distance) >= self.distance or abs(travel.turn) >= self.turn
 
 
 class Track:
-    """The messages of one odometry: the latest, and the path since the last :meth:`restart`."""
+    """One odometry topic: the latest message, and the path since the last :meth:`restart`."""
 
     def __init__(self) -> None:
         self.stamp = -1
         self.moved = 0
-        """ns: the stamp of the last message in which it moved."""
+        """Stamp of the last message in which the robot moved, ns."""
         self.has_jumped = self.has_gap = False
-        """Time went back; so much passed between two messages that a turn may be missed."""
+        """Stamps have jumped back; a gap between messages is so long that a turn may be missed."""
         self._path: Path | None = None
         self._pose = (0.0, 0.0, 0.0)
 
-    def hear(self, message: Odometry) -> None:
-        """Take a message."""
+    def add(self, message: Odometry) -> None:
+        """Take in a message."""
         stamp = nanoseconds(message.header.stamp)
         self.has_jumped = self.has_jumped or stamp < self.stamp
         gap, self.stamp = (stamp - self.stamp) / NANOSECONDS, stamp
@@ -99,42 +100,46 @@ class Track:
         twist = message.twist.twist
         if self._path is not None and gap * abs(twist.angular.z) > _LARGEST_STEP:
             self.has_gap = True
-        if max(abs(twist.linear.x), abs(twist.linear.y), abs(twist.angular.z)) > STILL:
+        if max(abs(twist.linear.x), abs(twist.linear.y), abs(twist.angular.z)) > MOVING_SPEED:
             self.moved = stamp
 
     @property
     def is_at_rest(self) -> bool:
-        """Whether it has not moved for a while."""
+        """Whether the robot has been at rest for long enough."""
         return self.stamp >= 0 and self.stamp - self.moved > REST
 
     @property
     def travel(self) -> Travel:
-        """Since the last restart."""
-        assert self._path is not None, 'it was restarted'
+        """Distance and angle since the last restart."""
+        assert self._path is not None, 'restart() was called'
         return self._path.travel
 
     def restart(self) -> None:
-        """Let the path begin here."""
+        """Start the path at the present pose."""
         self._path = Path(*self._pose)
 
 
 class CalibrationDrive:
     """
-    Drives through the controller's own topics; ``node`` is served while something is waited for.
+    Drives a robot through the topics of its controller, and spins ``node`` while it waits.
 
-    ``give_up``: asked all the time, raises when the program shall end.
+    Args:
+        node: of the program.
+        controller: full name of the controller's node.
+        timeout: how long to wait for anything that is needed, s of wall-clock time.
+        check: called periodically; raises an exception when the program has been asked to stop.
+
+    Raises:
+        CalibrationError: the controller or the ground truth is not there.
+        NoAnswerError: the controller does not answer.
     """
 
     def __init__(
-        self, node: Node, controller: str, timeout: float, give_up: Callable[[], object]
+        self, node: Node, controller: str, timeout: float, check: Callable[[], object]
     ) -> None:
-        """
-        Find controller and truth; ``controller``: full name of its node; ``timeout``: s of the
-        wall clock to wait for whatever has to be there. Raises CalibrationError, NoAnswerError.
-        """
         self._node = node
         self._timeout = timeout
-        self._give_up = give_up
+        self._check = check
         self._command: tuple[float, float] | None = None
         self._namespace, _, self._name = controller.rpartition('/')
         self.geometry = self._read_geometry(controller)
@@ -142,58 +147,58 @@ class CalibrationDrive:
         truth_topic = f'{self._namespace}/{ODOM_TOPIC}'
         odometry_topic, command_topic = self._find_topics(truth_topic)
         self._commands = node.create_publisher(TwistStamped, command_topic, 10)
-        node.create_subscription(Odometry, odometry_topic, self._odometry.hear, _QOS)
-        node.create_subscription(Odometry, truth_topic, self._hear_truth, _QOS)
+        node.create_subscription(Odometry, odometry_topic, self._odometry.add, _QOS)
+        node.create_subscription(Odometry, truth_topic, self._on_truth, _QOS)
         self._wait_for_messages(truth_topic, self._truth)
-        self._command = 0.0, 0.0  # with the first command odometry begins
+        self._command = 0.0, 0.0  # the controller publishes odometry from the first command on
         self._wait_for_messages(odometry_topic, self._odometry)
 
     def run(self, manoeuvre: Manoeuvre) -> Run:
-        """Do it, from rest to rest. Raises CalibrationError."""
-        self._come_to_rest()
+        """Drive a manoeuvre, from rest to rest. Raises CalibrationError."""
+        self._wait_for_rest()
         self._truth.restart()
         self._odometry.restart()
-        late = self._odometry.stamp + round(manoeuvre.patience * NANOSECONDS)
-        # Simulated seconds may be over before a command has arrived, as fast as they can pass.
-        too_late = time.monotonic() + self._timeout
+        limit = self._odometry.stamp + round(manoeuvre.time_limit * NANOSECONDS)
+        # A fast simulation may reach the limit before the first command has arrived.
+        wall_limit = time.monotonic() + self._timeout
         self._command = manoeuvre.linear, manoeuvre.angular
         self._send()
-        self._serve(
+        self._spin_until(
             lambda: (
                 manoeuvre.is_done(self._odometry.travel)
-                or (self._odometry.stamp > late and time.monotonic() > too_late)
+                or (self._odometry.stamp > limit and time.monotonic() > wall_limit)
             )
         )
         if not manoeuvre.is_done(self._odometry.travel):
             travel = self._odometry.travel
             raise CalibrationError(
-                f"'{manoeuvre.name}': in {manoeuvre.patience:.0f} s the wheels went "
+                f"'{manoeuvre.name}': in {manoeuvre.time_limit:.0f} s the wheels went "
                 f'{travel.distance:.2f} m and turned the robot by {math.degrees(travel.turn):.0f} '
                 'degrees only; is the controller active, does it limit speeds, does another '
                 'program command it?'
             )
-        self._come_to_rest()
+        self._wait_for_rest()
         return Run.from_odometry(
             manoeuvre.name, self._odometry.travel, self._truth.travel, self.geometry
         )
 
-    def leave(self) -> None:
-        """Stop the robot, in whatever state things are."""
+    def stop_robot(self) -> None:
+        """Command zero, and wait until it is acknowledged."""
         self._command = 0.0, 0.0
         self._send()
-        self._commands.wait_for_all_acked(_GOODBYE)
+        self._commands.wait_for_all_acked(_ACK_TIMEOUT)
 
     # --- driving ------------------------------------------------------------------------------
 
-    def _hear_truth(self, message: Odometry) -> None:
-        self._truth.hear(message)
+    def _on_truth(self, message: Odometry) -> None:
+        self._truth.add(message)
         if self._command is not None:
-            self._send()  # at 50 Hz of simulated time: the controller brakes without commands
+            self._send()  # 50 Hz of simulation time: without commands the controller brakes
 
     def _send(self) -> None:
         """
-        Send the command without a stamp, which counts as stamped on arrival: at a high real-time
-        factor the true one would be too old by then.
+        Send the command with a zero stamp, which the controller takes as stamped on arrival: at a
+        high real-time factor any other stamp would be too old by then.
         """
         if self._command is None:
             return
@@ -201,11 +206,11 @@ class CalibrationDrive:
         message.twist.linear.x, message.twist.angular.z = self._command
         self._commands.publish(message)
 
-    def _come_to_rest(self) -> None:
+    def _wait_for_rest(self) -> None:
         self._command = 0.0, 0.0
         self._send()
         since = self._truth.stamp
-        self._serve(
+        self._spin_until(
             lambda: (
                 self._truth.is_at_rest
                 and self._odometry.is_at_rest
@@ -213,14 +218,16 @@ class CalibrationDrive:
             )
         )
 
-    def _serve(self, condition: Callable[[], bool]) -> None:
+    def _spin_until(self, condition: Callable[[], bool]) -> None:
         """
-        Serve the node until a condition holds. Raises CalibrationError: time stands still, or
-        went back.
+        Spin the node until a condition holds.
+
+        Raises CalibrationError when simulation time has stopped or jumped back, or messages are
+        lost.
         """
 
         def is_over() -> bool | None:
-            self._give_up()
+            self._check()
             if self._truth.has_jumped:
                 raise CalibrationError('simulated time went back: the simulation was reset')
             if self._truth.has_gap or self._odometry.has_gap:
@@ -239,7 +246,7 @@ class CalibrationDrive:
                 )
             stamp = self._truth.stamp
 
-    # --- finding ------------------------------------------------------------------------------
+    # --- discovery ----------------------------------------------------------------------------
 
     def _read_geometry(self, controller: str) -> Geometry:
         request = GetParameters.Request(names=_PARAMETERS)
@@ -260,7 +267,7 @@ class CalibrationDrive:
         return Geometry(*found)
 
     def _find_topics(self, truth: str) -> tuple[str, str]:
-        """The topics of the controller's odometry and of its commands."""
+        """Return the topics of the controller's odometry and of its commands."""
         found: dict[str, str] = {}
 
         def look() -> bool:
@@ -283,13 +290,13 @@ class CalibrationDrive:
         namespace = self._namespace or '/'
         if (self._name, namespace) not in self._node.get_node_names_and_namespaces():
             return {}
-        said = self._node.get_publisher_names_and_types_by_node(self._name, namespace)
-        heard = self._node.get_subscriber_names_and_types_by_node(self._name, namespace)
+        published = self._node.get_publisher_names_and_types_by_node(self._name, namespace)
+        subscribed = self._node.get_subscriber_names_and_types_by_node(self._name, namespace)
         return {
             kind: topic
             for kind, topics, type_name in (
-                ('odometry', said, 'nav_msgs/msg/Odometry'),
-                ('commands', heard, 'geometry_msgs/msg/TwistStamped'),
+                ('odometry', published, 'nav_msgs/msg/Odometry'),
+                ('commands', subscribed, 'geometry_msgs/msg/TwistStamped'),
             )
             for topic, types in topics
             if type_name in types
@@ -302,10 +309,10 @@ class CalibrationDrive:
             'or the controller inactive?',
         )
 
-    def _wait(self, condition: Callable[[], bool], complaint: str) -> None:
+    def _wait(self, condition: Callable[[], bool], error: str) -> None:
         def holds() -> bool | None:
-            self._give_up()
+            self._check()
             return condition() or None
 
         if not wait_until(self._node, holds, timeout=self._timeout):
-            raise CalibrationError(complaint)
+            raise CalibrationError(error)

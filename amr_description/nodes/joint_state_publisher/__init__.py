@@ -1,40 +1,40 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 r"""
-``joint_state_publisher``: joint states for a robot that has no controllers, to look at it.
+``joint_state_publisher``: joint states for a robot without controllers, to inspect its model.
 
 ``ros2 run joint_state_publisher joint_state_publisher [FILE [NAME:=VALUE …]]``. FILE is a URDF or
-a xacro file with its arguments; without one the node waits for ``robot_description``. With or
-without, each other description that comes on that topic takes the place of the one before.
+a xacro file with its arguments; without one the node waits for ``robot_description``. In both
+cases a new description on that topic replaces the present one.
 
-========= ============================ ========================== ===============================
-direction topic                        type                       QoS
-========= ============================ ========================== ===============================
-publishes ``joint_states``             ``sensor_msgs/JointState`` reliable, volatile, depth 10
-hears     ``robot_description``        ``std_msgs/String``        reliable, transient local,
-                                                                  depth 1
-hears     ``~/set_joint_positions``    ``sensor_msgs/JointState`` reliable, volatile, depth 10
-hears     each of ``source_list``      ``sensor_msgs/JointState`` reliable, volatile, depth 10
-========= ============================ ========================== ===============================
+========== ============================ ========================== ==============================
+direction  topic                        type                       QoS
+========== ============================ ========================== ==============================
+publishes  ``joint_states``             ``sensor_msgs/JointState`` reliable, volatile, depth 10
+subscribes ``robot_description``        ``std_msgs/String``        reliable, transient local,
+                                                                   depth 1
+subscribes ``~/set_joint_positions``    ``sensor_msgs/JointState`` reliable, volatile, depth 10
+subscribes each of ``source_list``      ``sensor_msgs/JointState`` reliable, volatile, depth 10
+========== ============================ ========================== ==============================
 
-**To move joints** publish their names and positions on ``~/set_joint_positions``; there they
-stay. That is what sliders do, a browser's or one's own, and so can a terminal::
+**To move joints** publish their names and positions on ``~/set_joint_positions``; they keep these
+positions. The sliders of the browser page do that, and so can a terminal::
 
     ros2 topic pub --once /joint_state_publisher/set_joint_positions \
         sensor_msgs/msg/JointState '{name: [shoulder], position: [0.5]}'
 
-Velocities and efforts may be set likewise. Mimic joints follow, and cannot be set.
+Velocities and efforts are set in the same way. Mimic joints follow, and cannot be set.
 
-The parameters are in :class:`Settings`, and besides:
+The parameters are in :class:`JointStatePublisherSettings`, and besides:
 
 * ``rate`` (Hz, an integer or a double, 10): how often ``joint_states`` is published;
-* ``zeros.<joint>`` (rad; m): where a joint starts; else at 0 or, where that is outside of its
-  limits, in the middle between them;
+* ``zeros.<joint>`` (rad; m): the initial position; by default 0, or the middle of the limits if
+  0 is outside of them;
 * ``dependent_joints.<joint>.parent``, ``.factor`` (1.0), ``.offset`` (0.0): the joint follows
   another, whatever the description says. (In the original these have no effect.)
 
-``rate`` and ``delta`` may be set at run time. A description that cannot be used is told and the
-old one kept; one that the command line names ends the program, with one line and exit code 1.
+``rate`` and ``delta`` can be set at run time. An unusable description on the topic is logged, and
+the present one kept; an unusable FILE ends the program with one line and exit code 1.
 """
 
 from collections.abc import Sequence
@@ -64,12 +64,12 @@ from amr_description.ros.parameters import declare, values
 from amr_description.ros.runtime import run
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_QUIET = 5.0  # s between two complaints
+_WARNING_PERIOD = 5.0  # s between two equal warnings
 
 
 @dataclass(frozen=True)
-class Settings:
-    """The parameters of joint_state_publisher that are the same for every robot."""
+class JointStatePublisherSettings:
+    """The parameters of joint_state_publisher, without those named after joints."""
 
     publish_default_positions: bool = parameter(
         True, 'Publish positions before a source tells them', read_only=True
@@ -96,14 +96,17 @@ class JointStatePublisher(Node):
     """
     The node; see the module.
 
-    :param description: FILE and its arguments, or nothing.
-    :param options: Keywords of :class:`rclpy.node.Node`.
-    :raises AmrError: The file or a parameter cannot be used.
+    Args:
+        description: FILE and its arguments, or nothing.
+        options: keywords of :class:`rclpy.node.Node`.
+
+    Raises:
+        AmrError: the file or a parameter cannot be used.
     """
 
     def __init__(self, description: Sequence[str] = (), **options: Any) -> None:
         super().__init__('joint_state_publisher', **options)
-        self._settings = declare(self, Settings)
+        self._settings = declare(self, JointStatePublisherSettings)
         self._options = self._declare_options()
         self._joints: JointPositions | None = None
         self._text = ''
@@ -117,19 +120,19 @@ class JointStatePublisher(Node):
             )
         self.create_subscription(String, 'robot_description', self._on_description, _LATCHED)
         for topic in ('~/set_joint_positions', *self._settings.source_list):
-            self._hear(topic)
-        self.add_on_set_parameters_callback(self._judge)
-        self.add_post_set_parameters_callback(self._adopt)
+            self._subscribe_source(topic)
+        self.add_on_set_parameters_callback(self._validate)
+        self.add_post_set_parameters_callback(self._apply)
 
     def _declare_rate(self) -> float:
-        """Declare ``rate``, which is an integer or a double; return it. Raises ParameterError."""
+        """Declare ``rate``, an integer or a double; return it in Hz. Raises ParameterError."""
         about = ParameterDescriptor(
             description='How often joint_states is published [Hz]', dynamic_typing=True
         )
         return _rate(self.declare_parameter('rate', 10, about).value)
 
     def _declare_options(self) -> JointOptions:
-        """Declare what the node was given for single joints. Raises ParameterError."""
+        """Declare the parameters named after joints that were given. Raises ParameterError."""
         given = {}
         for name, override in self._parameter_overrides.items():
             if name.startswith(PREFIXES):
@@ -146,8 +149,8 @@ class JointStatePublisher(Node):
             dependent_joints=dependent_joints_of(given),
         )
 
-    def _hear(self, topic: str) -> None:
-        """Take joint states from a topic. Raises ParameterError for the node's own."""
+    def _subscribe_source(self, topic: str) -> None:
+        """Subscribe to a source. Raises ParameterError for the node's own topic."""
         if self.resolve_topic_name(topic) == self._publisher.topic_name:
             raise ParameterError(
                 f"source_list holds '{topic}', on which this node publishes itself; name the "
@@ -157,7 +160,7 @@ class JointStatePublisher(Node):
 
     def _on_description(self, message: String) -> None:
         if message.data == self._text:
-            return  # somebody started anew: the joints stay where they are
+            return  # its publisher was restarted: the joints keep their positions
         try:
             self._configure(message.data)
         except AmrError as error:
@@ -165,7 +168,7 @@ class JointStatePublisher(Node):
             self.get_logger().warning(f'robot_description cannot be used, {kept}: {error}')
 
     def _configure(self, text: str) -> None:
-        """Put the joints of a description where they start. Raises DescriptionError."""
+        """Read a description, and reset the joints. Raises DescriptionError."""
         joints = JointPositions(parse(text, 'robot_description'), self._options)
         self._joints, self._text = joints, text
         for warning in joints.warnings:
@@ -178,10 +181,10 @@ class JointStatePublisher(Node):
             self.get_logger().warning(
                 f'a JointState with {count} names and {", ".join(str(len(a)) for a in arrays)} '
                 'positions, velocities, efforts is ignored; each has as many, or none',
-                throttle_duration_sec=_QUIET,
+                throttle_duration_sec=_WARNING_PERIOD,
             )
         elif self._joints is not None:
-            self._joints.take(message.name, *arrays)
+            self._joints.set(message.name, *arrays)
 
     def _publish(self) -> None:
         if self._joints is None or not self._joints.names:
@@ -198,10 +201,10 @@ class JointStatePublisher(Node):
         message.header.stamp = self.get_clock().now().to_msg()
         self._publisher.publish(message)
 
-    def _judge(self, changed: list[Parameter]) -> SetParametersResult:
-        """Refuse parameters that cannot be used, before any of them is changed."""
+    def _validate(self, changed: list[Parameter]) -> SetParametersResult:
+        """Reject invalid values before any parameter is changed."""
         try:
-            values(self, Settings, changed)
+            values(self, JointStatePublisherSettings, changed)
             for each in changed:
                 if each.name == 'rate':
                     _rate(each.value)
@@ -209,9 +212,9 @@ class JointStatePublisher(Node):
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
-    def _adopt(self, _changed: list[Parameter]) -> None:
-        """Take checked parameters."""
-        self._settings = values(self, Settings)
+    def _apply(self, _changed: list[Parameter]) -> None:
+        """Apply validated parameters."""
+        self._settings = values(self, JointStatePublisherSettings)
         period = round(NANOSECONDS / _rate(self.get_parameter('rate').value))
         if period != self._timer.timer_period_ns:
             self._timer.timer_period_ns = period

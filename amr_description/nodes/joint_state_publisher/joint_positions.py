@@ -1,14 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Where the joints of a robot stand that nobody moves: what ``joint_state_publisher`` knows.
+The joints of ``joint_state_publisher``: their options, ranges, positions, and what follows what.
 
-This module imports no rclpy. Positions are in rad or m, velocities in rad/s or m/s, efforts in
-N·m or N.
-
-What joint_state_publisher is told about single joints, and how it reads a robot.
-
-This module imports no rclpy.
+Imports no rclpy. Positions are in rad or m, velocities in rad/s or m/s, efforts in N·m or N.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -22,7 +17,7 @@ from amr_description.text import quote, quote_all
 
 _ZEROS, _DEPENDENT = 'zeros.', 'dependent_joints.'
 PREFIXES = (_ZEROS, _DEPENDENT)
-"""Of the parameters that bear the name of a joint."""
+"""Prefixes of the parameters that are named after joints."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +31,7 @@ class Dependence:
 
 @dataclass(frozen=True, slots=True)
 class JointOptions:
-    """How the joints are read; see the parameters of joint_state_publisher."""
+    """See the parameters of joint_state_publisher."""
 
     use_mimic_tags: bool = True
     use_smallest_joint_limits: bool = True
@@ -48,7 +43,7 @@ class JointOptions:
 
 
 def zeros_of(given: Mapping[str, object]) -> dict[str, float]:
-    """Return joint -> position from the parameters ``zeros.<joint>``."""
+    """Return joint -> initial position, from parameters ``zeros.<joint>``."""
     return {
         name.removeprefix(_ZEROS): _number(name, value)
         for name, value in given.items()
@@ -57,7 +52,7 @@ def zeros_of(given: Mapping[str, object]) -> dict[str, float]:
 
 
 def dependent_joints_of(given: Mapping[str, object]) -> dict[str, Dependence]:
-    """Return joint -> whom it follows, from ``dependent_joints.<joint>.parent`` and so on."""
+    """Return joint -> what it follows, from parameters ``dependent_joints.<joint>.…``."""
     rows: dict[str, dict[str, Any]] = {}
     for name, value in given.items():
         joint, _, key = name.removeprefix(_DEPENDENT).rpartition('.')
@@ -86,18 +81,18 @@ def _number(name: str, value: object) -> float:
 
 @dataclass(frozen=True, slots=True)
 class FreeJoint:
-    """A joint that follows no other: its range, its start, whether both ends are one place."""
+    """A joint that follows no other: range, initial position, and whether it is continuous."""
 
     name: str
     lower: float
     upper: float
     zero: float
-    wraps: bool
+    is_continuous: bool
 
 
 @dataclass(frozen=True, slots=True)
 class JointSample:
-    """Joints in the order of the description; an array that nothing is known for is empty."""
+    """The joints in the order of the description; arrays without any known value are empty."""
 
     names: tuple[str, ...]
     positions: list[float]
@@ -107,13 +102,13 @@ class JointSample:
 
 class JointPositions:
     """
-    The joints of one robot; all but the fixed, floating and planar ones.
+    The joints of one robot, without fixed, floating and planar ones.
 
-    A joint is free, or depends on a free one, perhaps by way of others.
+    A joint is free, or it depends on a free one, directly or through others.
     """
 
     def __init__(self, robot: Robot, options: JointOptions) -> None:
-        """Put every joint where it starts. Raises DescriptionError: a dependence has no end."""
+        """Put every joint at its initial position. Raises DescriptionError for circular mimics."""
         moving = {joint.name: joint for joint in robot.joints if joint.has_position}
         dependent = _dependences(moving, options)
         self.names = tuple(moving)
@@ -133,9 +128,9 @@ class JointPositions:
         self._efforts = dict(zeros) if options.publish_default_efforts else {}
         self._directions = dict.fromkeys(self.free, 1.0)
         self.warnings = tuple(_warnings(self, options))
-        """What the user should know about the options, a line each."""
+        """Options that do not fit the robot, one line each."""
 
-    def take(
+    def set(
         self,
         names: Sequence[str],
         positions: Sequence[float] = (),
@@ -143,9 +138,10 @@ class JointPositions:
         efforts: Sequence[float] = (),
     ) -> None:
         """
-        Put free joints where a joint state says; arrays are as long as ``names``, or empty.
+        Set the values of free joints from a joint state.
 
-        Names of other joints are left aside, as is what is no number.
+        Arrays are as long as ``names``, or empty. Other joints, and values that are not finite,
+        are ignored.
         """
         for values, known in (
             (positions, self._positions),
@@ -157,11 +153,11 @@ class JointPositions:
                     known[name] = value
 
     def advance(self, delta: float) -> None:
-        """Move every free joint by ``delta``: to and fro between its limits, or round."""
+        """Move every free joint by ``delta``: back and forth between its limits, or in circles."""
         for name, position in self._positions.items():
             joint = self.free[name]
             moved = position + self._directions[name] * delta
-            if joint.wraps and moved > joint.upper:
+            if joint.is_continuous and moved > joint.upper:
                 moved = joint.lower + (moved - joint.lower) % (joint.upper - joint.lower)
             elif not joint.lower <= moved <= joint.upper:
                 moved = min(max(moved, joint.lower), joint.upper)
@@ -169,7 +165,7 @@ class JointPositions:
             self._positions[name] = moved
 
     def sample(self) -> JointSample:
-        """Return where every joint is now."""
+        """Return the present values of all joints."""
         positions, velocities, efforts = self._positions, self._velocities, self._efforts
         sources = self._sources.values()
         return JointSample(
@@ -181,7 +177,7 @@ class JointPositions:
 
 
 def _dependences(moving: Mapping[str, Joint], options: JointOptions) -> dict[str, Dependence]:
-    """Return what depends on what: the options' own words count more than the description's."""
+    """Return joint -> what it follows; options take precedence over the description."""
     found = {}
     for name, joint in moving.items():
         if name in options.dependent_joints:
@@ -195,27 +191,27 @@ def _dependences(moving: Mapping[str, Joint], options: JointOptions) -> dict[str
 def _resolved(
     name: str, dependent: Mapping[str, Dependence], moving: Mapping[str, Joint]
 ) -> Dependence:
-    """Return how a joint depends on a free one; a free one on itself, as it is."""
-    result, passed = Dependence(name), [name]
+    """Return how a joint depends on a free joint; a free joint depends on itself."""
+    result, chain = Dependence(name), [name]
     while result.parent in dependent:
         step = dependent[result.parent]
-        if step.parent in passed:
-            raise DescriptionError(f'Found an infinite recursive mimic chain: {passed}')
+        if step.parent in chain:
+            raise DescriptionError(f'Found an infinite recursive mimic chain: {chain}')
         if step.parent not in moving:
             raise DescriptionError(
                 f'joint {quote(result.parent)} follows {quote(step.parent)}, which is no joint '
                 f'that moves; these are: {quote_all(list(moving))}'
             )
-        passed.append(step.parent)
+        chain.append(step.parent)
         offset = result.offset + result.factor * step.offset
         result = Dependence(step.parent, result.factor * step.factor, offset)
     return result
 
 
 def _free_joint(joint: Joint, options: JointOptions) -> FreeJoint:
-    """Return the range of a joint and its zero: what is asked for, else 0, else the middle."""
-    wraps = joint.type is JointType.CONTINUOUS
-    if wraps or joint.limit is None:
+    """Return the range of a joint, and its initial position: option, else 0, else the middle."""
+    is_continuous = joint.type is JointType.CONTINUOUS
+    if is_continuous or joint.limit is None:
         lower, upper = -math.pi, math.pi
     else:
         lower, upper = joint.limit.lower, joint.limit.upper
@@ -223,14 +219,16 @@ def _free_joint(joint: Joint, options: JointOptions) -> FreeJoint:
         lower = max(lower, joint.safety.soft_lower_limit)
         upper = min(upper, joint.safety.soft_upper_limit)
     middle = 0.0 if lower <= 0.0 <= upper else (lower + upper) / 2.0
-    return FreeJoint(joint.name, lower, upper, options.zeros.get(joint.name, middle), wraps)
+    return FreeJoint(
+        joint.name, lower, upper, options.zeros.get(joint.name, middle), is_continuous
+    )
 
 
 def _warnings(joints: JointPositions, options: JointOptions) -> Iterator[str]:
     for name, zero in options.zeros.items():
         joint = joints.free.get(name)
         if joint is None:
-            yield f'zeros.{name}: the robot has no such joint of its own; {_free_ones(joints)}'
+            yield f'zeros.{name}: the robot has no such joint of its own; {_free_joints(joints)}'
         elif not joint.lower <= zero <= joint.upper:
             yield f'zeros.{name}: {zero:g} is not within {joint.lower:g} to {joint.upper:g}'
     for name in options.dependent_joints:
@@ -238,5 +236,5 @@ def _warnings(joints: JointPositions, options: JointOptions) -> Iterator[str]:
             yield f'dependent_joints.{name}: the robot has no such joint that moves'
 
 
-def _free_ones(joints: JointPositions) -> str:
+def _free_joints(joints: JointPositions) -> str:
     return f'these are: {quote_all(list(joints.free))}'

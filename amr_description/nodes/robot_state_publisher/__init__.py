@@ -1,38 +1,38 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``robot_state_publisher``: tell everybody what the robot is, and where its links are.
+``robot_state_publisher``: publish the description of a robot, and the poses of its links.
 
-========= ======================= ========================== ====================================
-direction topic                   type                       QoS
-========= ======================= ========================== ====================================
-publishes ``robot_description``   ``std_msgs/String``        reliable, transient local, depth 1
-publishes ``/tf``                 ``tf2_msgs/TFMessage``     reliable, volatile, depth 100
-publishes ``/tf_static``          ``tf2_msgs/TFMessage``     reliable, transient local, depth 1
-hears     ``joint_states``        ``sensor_msgs/JointState`` best effort, volatile, depth 5
-========= ======================= ========================== ====================================
+========== ======================= ========================== ===================================
+direction  topic                   type                       QoS
+========== ======================= ========================== ===================================
+publishes  ``robot_description``   ``std_msgs/String``        reliable, transient local, depth 1
+publishes  ``/tf``                 ``tf2_msgs/TFMessage``     reliable, volatile, depth 100
+publishes  ``/tf_static``          ``tf2_msgs/TFMessage``     reliable, transient local, depth 1
+subscribes ``joint_states``        ``sensor_msgs/JointState`` best effort, volatile, depth 5
+========== ======================= ========================== ===================================
 
-``robot_state_publisher [FILE [NAME:=VALUE …]]``: instead of the parameter ``robot_description`` a
-URDF file may be named, or a xacro file with its arguments.
+``robot_state_publisher [FILE [NAME:=VALUE …]]``: a URDF file, or a xacro file with its arguments,
+instead of the parameter ``robot_description``.
 
-The parameters are in :class:`Settings`; all may be set at run time. A new ``robot_description``
-that cannot be used is refused and the old one kept.
+The parameters are in :class:`RobotStatePublisherSettings`; all can be set at run time. An unusable
+``robot_description`` is rejected, and the present one kept.
 
-Transforms carry the stamp of the joint states they come from. As in the original, messages are
-throttled by these stamps (``robot_state.Throttle``). Where it differs from the original:
+Transforms have the stamp of their joint state. As in the original, messages are throttled by these
+stamps (``robot_state.Throttle``). It differs from the original as follows:
 
-* a joint state with a zero stamp, which it never publishes, counts as stamped on arrival (its
-  transforms too: TF has no use for stamp 0), and is thinned out by that stamp;
-* the first message about a joint is always published, also in the first 50 ms of simulated time;
-* ``publish_frequency`` is kept on average, whatever joint states come; 0 publishes every message;
-* joint states that go back in time by more than a second are published, also when the node's own
-  clock does not go back with them (a restarted simulator, ``use_sim_time`` forgotten);
-* an unusable description ends it with one line and exit code 1, not with an abort;
-* ``/tf_static`` carries the fixed joints of the present description only.
+* a joint state with a zero stamp, which the original never publishes, is treated as stamped on
+  arrival, and so are its transforms: TF cannot use stamp 0;
+* the first message about a joint is always published, also in the first 50 ms of simulation time;
+* ``publish_frequency`` is kept on average, at any rate of joint states; 0 publishes every message;
+* joint states whose stamps jump back by more than a second are published even if the node's own
+  clock does not jump back (a restarted simulator, ``use_sim_time`` forgotten);
+* an unusable description ends the node with one line and exit code 1, instead of an abort;
+* ``/tf_static`` has the fixed joints of the present description only.
 
-Joint states are received as bytes, and decoded only if they are published. With 20 Hz of
-transforms, 100 messages a second of four wheels cost 4 to 5 % of a core (2.3 % for receiving them
-at all), 1000 a second 12 to 14 %; ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
+Joint states are received as bytes, and decoded only if they are published. At 20 Hz of transforms,
+100 messages per second of four wheels cost 4 to 5 % of a core (2.3 % for receiving them), 1000 per
+second 12 to 14 %; ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
 """
 
 from collections.abc import Iterable, Sequence
@@ -72,11 +72,11 @@ from amr_description.ros.parameters import (
 from amr_description.ros.runtime import run
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_QUIET = 5.0  # s between two complaints
+_WARNING_PERIOD = 5.0  # s between two equal warnings
 
 
 @dataclass(frozen=True)
-class Settings:
+class RobotStatePublisherSettings:
     """The parameters of robot_state_publisher."""
 
     robot_description: str = parameter('', 'The URDF of the robot: its text, not a file name')
@@ -91,15 +91,18 @@ class RobotStatePublisher(Node):
     """
     The node; see the module.
 
-    :param description: FILE and its arguments, or nothing.
-    :param options: Keywords of :class:`rclpy.node.Node`.
-    :raises AmrError: The description or a parameter cannot be used.
+    Args:
+        description: FILE and its arguments, or nothing.
+        options: keywords of :class:`rclpy.node.Node`.
+
+    Raises:
+        AmrError: the description or a parameter cannot be used.
     """
 
     def __init__(self, description: Sequence[str] = (), **options: Any) -> None:
         super().__init__('robot_state_publisher', **options)
         add_parameter_event_qos_overrides(self)
-        self._settings = declare(self, Settings)
+        self._settings = declare(self, RobotStatePublisherSettings)
         if not self._settings.robot_description and description:
             self._take_file(description)
         if not self._settings.robot_description:
@@ -110,8 +113,8 @@ class RobotStatePublisher(Node):
         self._state: RobotState | None = None
         self._throttle = Throttle()
         self._heads = HeadReader()
-        self._parts: dict[str, TransformStamped] = {}  # by link
-        self._going_back = TimeJumpFilter()
+        self._transforms: dict[str, TransformStamped] = {}  # by link
+        self._time_jumps = TimeJumpFilter()
         self._description = self.create_publisher(String, 'robot_description', _LATCHED)
         self._static = self.create_publisher(
             TFMessage,
@@ -125,7 +128,7 @@ class RobotStatePublisher(Node):
             100,
             qos_overriding_options=QoSOverridingOptions(PUBLISHER_POLICIES),
         )
-        self._adopt(self._settings, self._state_for(self._settings))
+        self._apply(self._settings, self._state_for(self._settings))
         self.create_subscription(
             JointState,
             'joint_states',
@@ -134,11 +137,11 @@ class RobotStatePublisher(Node):
             raw=True,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
-        self.add_on_set_parameters_callback(self._judge)
-        self.add_post_set_parameters_callback(lambda _changed: self._adopt(*self._candidate))
+        self.add_on_set_parameters_callback(self._validate)
+        self.add_post_set_parameters_callback(lambda _changed: self._apply(*self._candidate))
 
     def _take_file(self, description: Sequence[str]) -> None:
-        """Read the description from a file, as its ancestor in ROS 1 was started."""
+        """Read the description from a file, as in ROS 1."""
         self.get_logger().warning(
             'No robot_description parameter, but command-line argument available.  Assuming '
             'argument is name of URDF file.  This backwards compatibility fallback will be '
@@ -146,19 +149,19 @@ class RobotStatePublisher(Node):
         )
         text = read_description(description, self.get_logger().warning)
         self.set_parameters([Parameter('robot_description', value=text)])
-        self._settings = values(self, Settings)
+        self._settings = values(self, RobotStatePublisherSettings)
 
-    def _judge(self, changed: list[Parameter]) -> SetParametersResult:
-        """Refuse parameters that cannot be used, before any of them is changed."""
+    def _validate(self, changed: list[Parameter]) -> SetParametersResult:
+        """Reject invalid values before any parameter is changed."""
         try:
-            settings = values(self, Settings, changed)
+            settings = values(self, RobotStatePublisherSettings, changed)
             self._candidate = (settings, self._state_for(settings))
         except AmrError as error:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
-    def _state_for(self, settings: Settings) -> RobotState:
-        """Check ``settings`` and read the robot, unless it is the present one. AmrError."""
+    def _state_for(self, settings: RobotStatePublisherSettings) -> RobotState:
+        """Validate settings, and read the robot if it is a new one. Raises AmrError."""
         if not 0.0 <= settings.publish_frequency <= 1000.0:
             raise ParameterError('publish_frequency must be between 0.0 and 1000.0')
         if not settings.robot_description:
@@ -172,8 +175,8 @@ class RobotStatePublisher(Node):
                 f'Unable to initialize urdf::model from robot description: {error}'
             ) from error
 
-    def _adopt(self, settings: Settings, state: RobotState) -> None:
-        """Take checked settings; publish what they change."""
+    def _apply(self, settings: RobotStatePublisherSettings, state: RobotState) -> None:
+        """Apply validated settings; publish what they change."""
         new_robot = state is not self._state
         new_frames = new_robot or settings.frame_prefix != self._settings.frame_prefix
         self._settings, self._state = settings, state
@@ -185,28 +188,28 @@ class RobotStatePublisher(Node):
             self._description.publish(String(data=settings.robot_description))
             self.get_logger().info('Robot initialized')
         if new_frames:
-            self._parts.clear()
+            self._transforms.clear()
             self._static.publish(self._message(state.static, self.get_clock().now().nanoseconds))
 
     def _on_joint_state(self, data: bytes) -> None:
-        """Take a serialized JointState: most of them are not published, so not decoded either."""
+        """Handle a serialized JointState; most are not published, and so not decoded."""
         now = self.get_clock().now().nanoseconds
-        if self._going_back.observe(now):
+        if self._time_jumps.observe(now):
             self.get_logger().warning('Moved backwards in time, re-publishing joint transforms!')
             self._throttle.forget()
         try:
             head = self._heads.read(data)
         except ValueError as error:
-            self._complain(str(error))
+            self._log_invalid(str(error))
             return
         stamp = head.stamp or now
-        if self._going_back.is_stale(stamp):
+        if self._time_jumps.is_stale(stamp):
             return
         if not (self._throttle.admit(head.names, stamp) or self._settings.ignore_timestamp):
             return
         message = deserialize_message(data, JointState)
         if len(message.name) != len(message.position):
-            self._complain_about(message)
+            self._log_mismatch(message)
             return
         self._throttle.note(head.names, stamp, self._period)
         positions = dict(zip(message.name, message.position, strict=True))
@@ -214,41 +217,41 @@ class RobotStatePublisher(Node):
         if transforms:
             self._moving.publish(self._message(transforms, stamp))
 
-    def _complain_about(self, message: JointState) -> None:
-        """Say, every few seconds, that a joint state cannot be used."""
+    def _log_mismatch(self, message: JointState) -> None:
+        """Log that names and positions of a joint state do not match."""
         if message.position:
             names, positions = len(message.name), len(message.position)
-            self._complain(f'{names} names, {positions} positions')
+            self._log_invalid(f'{names} names, {positions} positions')
         else:
             joints = ','.join(f'"{name}"' for name in message.name)
             self.get_logger().warning(
                 'Robot state publisher ignored a JointState message about joint(s) '
                 f'{joints} whose position member was empty.',
-                throttle_duration_sec=_QUIET,
+                throttle_duration_sec=_WARNING_PERIOD,
             )
 
-    def _complain(self, reason: str) -> None:
+    def _log_invalid(self, reason: str) -> None:
         self.get_logger().error(
             f'Robot state publisher ignored an invalid JointState message: {reason}',
-            throttle_duration_sec=_QUIET,
+            throttle_duration_sec=_WARNING_PERIOD,
         )
 
     def _message(self, links: Iterable[LinkTransform], stamp: int) -> TFMessage:
-        """Return the transforms with ``stamp`` (ns); the parts are used again for the next one."""
-        return TFMessage(transforms=[self._part(link, stamp) for link in links])
+        """Return the transforms with ``stamp`` (ns); its parts are reused for the next message."""
+        return TFMessage(transforms=[self._transform(link, stamp) for link in links])
 
-    def _part(self, link: LinkTransform, stamp: int) -> TransformStamped:
-        part = self._parts.get(link.child)
-        if part is None:
-            part = self._parts[link.child] = TransformStamped()
-            part.header.frame_id = self._settings.frame_prefix + link.parent
-            part.child_frame_id = self._settings.frame_prefix + link.child
-        time = part.header.stamp
+    def _transform(self, link: LinkTransform, stamp: int) -> TransformStamped:
+        message = self._transforms.get(link.child)
+        if message is None:
+            message = self._transforms[link.child] = TransformStamped()
+            message.header.frame_id = self._settings.frame_prefix + link.parent
+            message.child_frame_id = self._settings.frame_prefix + link.child
+        time = message.header.stamp
         time.sec, time.nanosec = divmod(stamp, NANOSECONDS)
-        place, turn = part.transform.translation, part.transform.rotation
-        place.x, place.y, place.z = link.transform.translation
-        turn.x, turn.y, turn.z, turn.w = link.transform.rotation
-        return part
+        translation, rotation = message.transform.translation, message.transform.rotation
+        translation.x, translation.y, translation.z = link.transform.translation
+        rotation.x, rotation.y, rotation.z, rotation.w = link.transform.rotation
+        return message
 
 
 def main(args: list[str] | None = None) -> int:

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Joint positions to transforms, and how often: what ``robot_state_publisher`` knows without ROS.
+From joint positions to transforms, and how often they are published; without ROS.
 
-This module imports no rclpy. Times are integer nanoseconds.
+Times are integer nanoseconds.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -15,8 +15,10 @@ from amr_description.model.frames import Transform
 from amr_description.model.kinematics import joint_transform
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 
-_RESTART = 1_000_000_000  # ns: messages of one source do not overtake one another by so much
-_PATIENCE = 2  # periods that a joint may be late before its turns are counted anew
+_RESTART_GAP = (
+    1_000_000_000  # ns; stamps of one publisher do not go back by more, unless it was restarted
+)
+_MOST_LATE_PERIODS = 2  # periods that a joint may be late before its schedule starts again
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,17 +32,17 @@ class LinkTransform:
 
 class RobotState:
     """
-    The transforms of a robot, a joint each.
+    The transforms of a robot, one per joint.
 
-    Fixed joints make ``static`` transforms, sorted by joint name. Revolute, continuous and
-    prismatic ones move. A floating joint makes none (its position is not one number: who knows
-    it, publishes it). A planar joint counts as fixed, at its origin, as in KDL.
+    Fixed joints have ``static`` transforms, sorted by joint name; revolute, continuous and
+    prismatic joints have moving ones. A floating joint has none, as a joint state cannot hold its
+    pose. A planar joint is treated as fixed at its origin, as in KDL.
     """
 
     def __init__(self, robot: Robot) -> None:
         joints = sorted(robot.joints, key=lambda joint: joint.name)
         self.warnings = tuple(_warnings(robot, joints))
-        """What the user should know about this description, a line each."""
+        """Problems of the description, one line each."""
         self.static = tuple(
             _link_transform(joint, 0.0)
             for joint in joints
@@ -54,8 +56,8 @@ class RobotState:
         Return the transforms of the moving joints in ``positions`` (rad; m), sorted by joint.
 
         A mimic joint that is not in ``positions`` follows its source joint if that one is:
-        multiplier · source + offset, also along a chain of mimics. Names that are no moving joint
-        of this robot, and positions that are not finite, are left out.
+        multiplier · source + offset, also along a chain of mimics. Names of other joints, and
+        positions that are not finite, are ignored.
         """
         known = dict(positions) if self._mimics else positions
         for joint, mimic in self._mimics:
@@ -70,52 +72,58 @@ class RobotState:
 
 class Throttle:
     """
-    How often the transforms of a joint are published: once a period, by message stamps.
+    Decides which joint states are published: each joint once per period, by message stamps.
 
-    Each joint counts for itself, so that two sources of joint states (wheels, an arm) do not
-    starve one another. A message is published whole when one of its joints is due.
+    Joints are scheduled independently, so two publishers of joint states (wheels, an arm) do not
+    starve each other. If one joint of a message is due, all of them are published.
 
-    A joint falls due at whole periods after it was published first, whatever stamps come, but half
-    a period after it was published last at the earliest. So the rate is kept, on average, also
-    where joint states come as often, but unevenly, or not much more often. (The original waits for
-    a whole period from each stamp: of 33 Hz it makes 17 instead of 20, and of 1 kHz, as programs
-    send it, 600 Hz instead of 1 kHz.)
+    A joint is due at whole periods after it was first published, and at least half a period after
+    it was last published. So the rate is kept on average even if joint states arrive at about this
+    rate, or with jitter. (The original waits for a whole period after each stamp: 33 Hz become 17
+    instead of 20 Hz, and 1 kHz with the jitter of real programs 600 Hz instead of 1 kHz.)
     """
 
     def __init__(self) -> None:
-        self._joints: dict[str, _Turn] = {}
+        self._joints: dict[str, _Schedule] = {}
 
     def admit(self, names: Iterable[str], stamp: int) -> bool:
         """
-        Tell whether a message stamped ``stamp`` about the joints ``names`` is to be published.
+        Return whether to publish a message with this stamp (ns) about these joints.
 
-        That is so if one of them is due, or has never been published, or the stamp is so much
-        older than the last that its source must have started anew. Call :meth:`note` for what was
-        published.
+        It is published if one of the joints is due or has never been published, or if the stamp is
+        so much older than the last one that the publisher must have been restarted. Call
+        :meth:`note` for every message that was published.
         """
         joints = self._joints
         for name in names:
-            turn = joints.get(name)
-            if turn is None or stamp >= turn.earliest or stamp < turn.last - _RESTART:
+            schedule = joints.get(name)
+            if (
+                schedule is None
+                or stamp >= schedule.earliest
+                or stamp < schedule.last - _RESTART_GAP
+            ):
                 return True
         return False
 
     def note(self, names: Iterable[str], stamp: int, period: int) -> None:
-        """Remember that a message with ``stamp`` was published, and that ``period`` ns follow."""
+        """Note that a message was published; ``stamp`` and ``period`` in ns."""
         for name in names:
-            turn = self._joints.get(name)
+            schedule = self._joints.get(name)
             due = stamp + period
-            if turn is not None and turn.due <= stamp < turn.due + _PATIENCE * period:
-                due = turn.due + period
-            self._joints[name] = _Turn(due, max(due, stamp + period // 2), stamp)
+            if (
+                schedule is not None
+                and schedule.due <= stamp < schedule.due + _MOST_LATE_PERIODS * period
+            ):
+                due = schedule.due + period
+            self._joints[name] = _Schedule(due, max(due, stamp + period // 2), stamp)
 
     def forget(self) -> None:
-        """Start anew: time went back, or the period is another."""
+        """Start again: time has jumped back, or the period has changed."""
         self._joints.clear()
 
 
-class _Turn(NamedTuple):
-    """When a joint is due by its rate, when at the earliest, and when it was published (ns)."""
+class _Schedule(NamedTuple):
+    """When a joint is due, when at the earliest, and when it was last published (ns)."""
 
     due: int
     earliest: int
@@ -132,7 +140,7 @@ def _link_transform(joint: Joint, position: float) -> LinkTransform:
 
 
 def _mimics_in_order(moving: Mapping[str, Joint]) -> Iterator[tuple[str, Mimic]]:
-    """Yield the mimic joints, each after the joint it follows; a ring of mimics in any order."""
+    """Yield the mimic joints, each after the joint it follows; circular mimics in any order."""
     waiting = {joint.name: joint.mimic for joint in moving.values() if joint.mimic is not None}
     while waiting:
         ready = [name for name, mimic in waiting.items() if mimic.joint not in waiting]
@@ -141,7 +149,7 @@ def _mimics_in_order(moving: Mapping[str, Joint]) -> Iterator[tuple[str, Mimic]]
 
 
 def _warnings(robot: Robot, joints: Iterable[Joint]) -> Iterator[str]:
-    """Yield the original's words, where it has some: people search for them."""
+    """Yield warnings, with the texts of the original if it has them: users search for them."""
     if '<xacro:' in robot.text:
         yield (
             'the description holds <xacro:…> elements, which are left out; expand them: name the '

@@ -5,25 +5,25 @@
 
 It publishes ``cmd_vel``, ``geometry_msgs/Twist`` or, with ``stamped``, ``TwistStamped`` (reliable,
 depth 10). Keys, texts and the parameters ``stamped``, ``frame_id``, ``speed`` and ``turn`` are
-those of the original; every key press publishes one message. What is added, and why:
+those of the original; every key press publishes one message. In addition:
 
-``stamped`` need not be given
-    The type is the one that the listeners on the topic want, also if they come later, and it is
-    said. Of the wrong type no command would arrive, without a word.
+``stamped`` is optional
+    By default the type is that of the subscriptions on the topic, also of later ones, and it is
+    printed. With the wrong type DDS would deliver no command, and report nothing.
 ``repeat_rate``
-    While a key is held the command is repeated. The original stutters on a controller that brakes
-    0.5 s after the last command: the second message of a held key comes up to 0.66 s after the
+    While a key is held, the command is repeated. With the original, a controller that brakes 0.5 s
+    after the last command stutters: the second message of a held key comes up to 0.66 s after the
     first.
 ``key_timeout``
-    A key that is let go stops the robot: at once where the terminal tells it (the kitty keyboard
-    protocol), else when it repeats no more, or that long after a single press. One zero is sent,
-    and nothing more: other publishers of ``cmd_vel`` have their turn.
+    Releasing a key stops the robot: at once if the terminal reports releases (kitty keyboard
+    protocol), else when the auto-repeat ends, or this long after a single press. A single zero is
+    published and then nothing, so other publishers of ``cmd_vel`` can command the robot.
 ``--latch``
-    The robot drives on until the next key, as with the original. With ``-p repeat_rate:=0.0`` it
-    is the original: one message per key press.
+    The robot drives on until the next key, as with the original. Together with
+    ``-p repeat_rate:=0.0`` it publishes exactly what the original does.
 
-In every way out (Ctrl-C, SIGTERM, SIGHUP, SIGQUIT, a fault, Ctrl-Z for the time being) a zero is
-sent and the terminal restored.
+However it ends (Ctrl-C, SIGTERM, SIGHUP, SIGQUIT, an exception), and on Ctrl-Z, it publishes a
+zero and restores the terminal.
 """
 
 import argparse
@@ -41,11 +41,11 @@ from amr_description.nodes.teleop_twist_keyboard.node import TeleopTwistKeyboard
 from amr_description.ros.runtime import argument_errors, program, ros, spinning
 
 _STDIN = 0  # sys.stdin is None where it was closed
-_LOOK_PERIOD = 0.5  # s: how soon another listener is seen; a look takes 0.1 ms
+_CHECK_PERIOD = 0.5  # s between two checks for new subscriptions; each takes 0.1 ms
 
 
-class Driver:
-    """Keys in, commands and prints out."""
+class KeyboardDriver:
+    """Turns keys into commands, and prints what the user needs to know."""
 
     def __init__(self, node: TeleopTwistKeyboard, keyboard: Keyboard) -> None:
         settings = node.settings
@@ -55,39 +55,39 @@ class Driver:
         self._hold = Hold(period, settings.key_timeout)
 
     def drive(self) -> None:
-        """Turn keys into commands until Ctrl-C."""
-        say([HELP, *self._node.look_first(), self._teleop.speeds])
-        look_at = time.monotonic() + _LOOK_PERIOD
+        """Publish commands until Ctrl-C."""
+        print_lines([HELP, *self._node.check_first(), self._teleop.speeds])
+        check_at = time.monotonic() + _CHECK_PERIOD
         while True:
             now = time.monotonic()
             due = self._hold.wait(now)
-            until_look = max(0.0, look_at - now)
-            timeout = until_look if due is None else min(due, until_look)
+            until_check = max(0.0, check_at - now)
+            timeout = until_check if due is None else min(due, until_check)
             for event in self._keyboard.read(timeout):
                 if event.key == CTRL_C:
                     return
-                self._take(event)
-            self._keep_on(time.monotonic())
-            if time.monotonic() >= look_at:
-                say(self._node.look())
-                look_at = time.monotonic() + _LOOK_PERIOD
+                self._handle(event)
+            self._repeat_or_stop(time.monotonic())
+            if time.monotonic() >= check_at:
+                print_lines(self._node.check())
+                check_at = time.monotonic() + _CHECK_PERIOD
 
-    def _take(self, event: KeyEvent) -> None:
+    def _handle(self, event: KeyEvent) -> None:
         if event.is_release:
             if self._hold.release(event.name):
                 self._stop()
             return
         text = self._teleop.press(event.key)
-        say([text] if text else [])
+        print_lines([text] if text else [])
         self._node.publish(self._teleop.velocity)
         self._hold.press(
             event.key, time.monotonic(), moving=self._teleop.is_moving, name=event.name
         )
-        if event.key == CTRL_Z:  # has stopped the robot, as every key without a meaning
+        if event.key == CTRL_Z:  # which has stopped the robot, like every unassigned key
             self._keyboard.suspend()
 
-    def _keep_on(self, now: float) -> None:
-        """Repeat the command of a held key, or stop when it has been let go."""
+    def _repeat_or_stop(self, now: float) -> None:
+        """Repeat the command of a held key, or stop after its release."""
         if self._hold.is_released(now):
             self._stop()
         elif self._hold.is_repeat_due(now):
@@ -98,8 +98,8 @@ class Driver:
         self._node.publish(self._teleop.velocity)
 
 
-def say(lines: Iterable[str]) -> None:
-    """Print for the driver, at once. Raises AmrError: nobody reads it any more (``| head``)."""
+def print_lines(lines: Iterable[str]) -> None:
+    """Print at once. Raises AmrError if the output is not read any more (``| head``)."""
     try:
         for line in lines:
             print(line, flush=True)
@@ -126,7 +126,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def teleop_twist_keyboard(args: list[str] | None) -> None:
-    """Set up node and terminal, drive, and leave both in order."""
+    """Drive the robot; at the end stop it, and restore the terminal."""
     words = sys.argv if args is None else ['teleop_twist_keyboard', *args]
     options = parser().parse_args(remove_ros_args(words)[1:])
     with ros(args) as stop:
@@ -134,10 +134,10 @@ def teleop_twist_keyboard(args: list[str] | None) -> None:
             node = TeleopTwistKeyboard(latch=options.latch)
         with spinning(node):
             releases = node.settings.key_timeout > 0.0
-            keyboard = Keyboard(_STDIN, instead=node.instead, releases=releases)
-            with stop.on_stop(keyboard.leave), keyboard:
+            keyboard = Keyboard(_STDIN, alternative=node.alternative, releases=releases)
+            with stop.on_stop(keyboard.stop), keyboard:
                 try:
-                    Driver(node, keyboard).drive()
+                    KeyboardDriver(node, keyboard).drive()
                 finally:
                     stop.leave()
                     node.stop_robot()

@@ -1,31 +1,27 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Single keys from a terminal, and the terminal as it was in every way out.
+Single keys from a terminal, whose settings are restored however the program ends.
 
-Keys come at once and are not shown, while Ctrl-C and Ctrl-Z remain signals for the whole job, as
-its user expects. Ctrl-Z is told as a key too, for the reader to call :meth:`Keyboard.suspend` when
-it has stopped the robot; ``fg`` takes the terminal again.
+:class:`Keyboard` reads keys at once and without echo; Ctrl-C and Ctrl-Z remain signals for the
+whole job. Ctrl-Z is also reported as a key, so that the reader can stop the robot and then call
+:meth:`Keyboard.suspend`; ``fg`` takes the terminal again.
 
-A terminal that knows the kitty keyboard protocol tells
-releases too. It is asked at the start and nobody waits for its answer: until it comes, and where
-it never comes, keys are ordinary ones. An answer that is still due when the terminal is given
-back is waited for, 0.5 s at most, or the shell would find it on its command line.
-
-This module imports no rclpy.
-
-Keys out of what a terminal sends: its characters, and the reports of the kitty keyboard protocol.
-
-An ordinary terminal tells no release of a key. kitty, foot, WezTerm, Ghostty, Konsole, iTerm2 and
-others do, when asked to (https://sw.kovidgoyal.net/kitty/keyboard-protocol/). Every key then is
+:class:`KeyParser` finds the keys in what the terminal sends. An ordinary terminal does not report
+the release of a key. kitty, foot, WezTerm, Ghostty, Konsole, iTerm2 and others do, on request
+(https://sw.kovidgoyal.net/kitty/keyboard-protocol/). Every key then is
 
     CSI code:shifted:base ; modifiers:event ; text u
 
-where ``code`` is the key without shift, ``base`` the one in its place on a US keyboard, ``event``
+where ``code`` is the key without shift, ``base`` the key in its place on a US keyboard, ``event``
 1 for a press, 2 for a repetition and 3 for a release. Arrow and function keys end in another
-letter, or ``~``. Ctrl-C and Ctrl-Z are reports too, and no signals.
+letter, or ``~``. Ctrl-C and Ctrl-Z are reports too, alternative of signals.
 
-This module imports no rclpy and knows no terminal and no clock: text comes in.
+The terminal is asked for the protocol at the start; until its answer comes, if ever, keys are
+ordinary ones. An answer that is still due when the terminal is given back is awaited for 0.5 s at
+most: otherwise the shell would read it as input.
+
+Imports no rclpy.
 """
 
 import codecs
@@ -48,11 +44,11 @@ CTRL_C = '\x03'
 CTRL_Z = '\x1a'
 
 ASK = '\x1b[?u\x1b[c'
-"""Ask for the protocol, then for the terminal's identity, which every terminal tells."""
+"""Query the protocol, then the terminal's identity, which every terminal reports."""
 BEGIN_REPORTS = '\x1b[>31u'
-"""From now on report all of it: bits 1 to 16 of the protocol."""
+"""Enable all reports: bits 1 to 16 of the protocol."""
 END_REPORTS = '\x1b[<u\x1b[c'
-"""As before; what was typed until then comes before the answer with the identity."""
+"""Restore the mode; everything typed before it precedes the answer with the identity."""
 
 # An arrow or function key is one key: ESC [ parameters letter, or ESC O letter.
 _TOKEN = re.compile(r'\x1b\[[0-?]*[ -/]*[@-~]|\x1bO.|.', re.DOTALL)
@@ -64,19 +60,29 @@ _REPORT = re.compile(r'\x1b\[([\d:;]*)([u~A-Z])')
 _SHIFT, _OTHER_MODIFIERS, _CAPS_LOCK = 0b1, 0b111110, 0b1000000
 _CTRL = 0b100
 _SIGNAL_KEYS = {'c': CTRL_C, 'z': CTRL_Z}
-# Shift and the like, by themselves: Caps Lock, Scroll Lock, Num Lock; then Left Shift and on.
+# Modifier keys by themselves: Caps Lock, Scroll Lock, Num Lock; from Left Shift on.
 _MODIFIER_KEYS = frozenset({*range(57358, 57361), *range(57441, 57455)})
-_SHIFTED = {',': '<', '.': '>'}  # of a US keyboard, as far as it matters
+_SHIFTED = {',': '<', '.': '>'}  # on a US keyboard, of the keys in use
 _RELEASE = 3
+
+_RESUMED = '\x00'
+_ON_SIGNAL = {signal.SIGTSTP: CTRL_Z, signal.SIGCONT: _RESUMED, signal.SIGQUIT: CTRL_C}
+_SIGNAL_OF = {CTRL_C: signal.SIGINT, CTRL_Z: signal.SIGTSTP}
+_MUTE_TERMINALS = ('', 'dumb', 'linux')  # values of TERM: they do not answer, or send garbage
+_NO_KEY = b'\x00'  # _POSIX_VDISABLE of Linux
+
+# s; within a sequence the next byte follows at once, after the key Escape nothing follows.
+_ESCAPE_TIMEOUT = 0.05
+_ANSWER_TIMEOUT = 0.5  # s: more than a round trip around the world
 
 
 @dataclass(frozen=True, slots=True)
 class KeyEvent:
     """
-    One press, or repetition, or release of a key.
+    One press, repetition or release of a key.
 
-    ``key`` is what it types, or a whole escape sequence; ``name`` is the same for the press and
-    the release of one key, whatever became of Shift in between.
+    ``key`` is the character that it types, or a whole escape sequence. ``name`` is the same for
+    the press and the release of one key, even if Shift was pressed or released in between.
     """
 
     key: str
@@ -86,26 +92,26 @@ class KeyEvent:
 
 class KeyParser:
     """
-    The keys in what a terminal sends, piece by piece.
+    Finds the keys in the text that a terminal sends, piece by piece; no terminal, no clock.
 
-    A sequence may arrive in two pieces: its end must not be taken for keys of its own (the ``u``
-    of a report drives a robot).
+    A sequence may arrive in two pieces. Its end must not be taken for other keys: the ``u`` of a
+    report would drive the robot.
     """
 
     def __init__(self) -> None:
         self.offers_releases = False
-        """Whether the terminal has said that it knows the kitty keyboard protocol."""
+        """Whether the terminal supports the kitty keyboard protocol."""
         self.identities = 0
-        """How often the terminal has told its identity."""
+        """How often the terminal has reported its identity."""
         self._beginning = ''
 
     @property
     def has_escape(self) -> bool:
-        """Whether an Escape came last: the key, or the beginning of a sequence."""
+        """Whether the text so far ends with Escape: the key, or the beginning of a sequence."""
         return self._beginning in ('\x1b', '\x1bO') and not self.offers_releases
 
     def feed(self, text: str) -> list[KeyEvent]:
-        """Return the keys that are whole with ``text``, and remember the rest of it."""
+        """Return the keys that are complete with ``text``; keep the rest."""
         text = self._beginning + text
         beginning = _BEGINNING.search(text)
         self._beginning = beginning[0] if beginning else ''
@@ -113,7 +119,7 @@ class KeyParser:
         return [event for token in _TOKEN.findall(whole) if (event := self._event(token))]
 
     def flush(self) -> list[KeyEvent]:
-        """Return the Escape that nothing followed, as the key that it was."""
+        """Return an Escape that nothing has followed, as a key."""
         key, self._beginning = self._beginning, ''
         return [KeyEvent(key, key)] if key else []
 
@@ -130,7 +136,7 @@ class KeyParser:
 
 
 def _reported(token: str, parameters: str, final: str) -> KeyEvent | None:
-    """Return the key of a report; None for Shift and the like."""
+    """Return the key of a report; None for modifier keys."""
     fields = [[_number(word) for word in field.split(':')] for field in parameters.split(';')]
     code, _, base = (*fields[0], 0, 0)[:3]
     modifiers, kind = (*(fields[1] if len(fields) > 1 else ()), 0, 0)[:2]
@@ -149,7 +155,7 @@ def _reported(token: str, parameters: str, final: str) -> KeyEvent | None:
 
 
 def _key(letter: str, typed: str, modifiers: int) -> str:
-    """Return what a key types, '' for nothing that an ordinary terminal would tell."""
+    """Return the character that an ordinary terminal would send for a key, or ''."""
     if modifiers & _OTHER_MODIFIERS:
         is_ctrl = modifiers & (_SHIFT | _OTHER_MODIFIERS) == _CTRL
         return _SIGNAL_KEYS.get(letter, '') if is_ctrl else ''
@@ -162,7 +168,7 @@ def _key(letter: str, typed: str, modifiers: int) -> str:
 
 
 def _number(word: str) -> int:
-    """Return a parameter, 0 if it is left out or no character's."""
+    """Return a parameter; 0 if it is empty, or above all characters."""
     number = int(word[:8] or 0)
     return number if number <= 0x10FFFF else 0
 
@@ -171,38 +177,30 @@ def _character(code: int) -> str:
     return chr(code) if code else ''
 
 
-_RESUMED = '\x00'
-_ON_SIGNAL = {signal.SIGTSTP: CTRL_Z, signal.SIGCONT: _RESUMED, signal.SIGQUIT: CTRL_C}
-_SIGNAL_OF = {CTRL_C: signal.SIGINT, CTRL_Z: signal.SIGTSTP}
-_MUTE_TERMINALS = ('', 'dumb', 'linux')  # values of TERM: they answer nothing, or garbage
-_NO_KEY = b'\x00'  # _POSIX_VDISABLE of Linux
-
-# Within a sequence the next byte follows at once; after the key Escape nothing follows, s.
-_ESCAPE_TIMEOUT = 0.05
-_ANSWER_TIMEOUT = 0.5  # s: more than a round trip around the world
-
-
 class Keyboard:
     """
-    The keys of a terminal, while inside this context manager (main thread only), once.
+    A context manager that reads the keys of a terminal; usable once, in the main thread only.
 
-    :param descriptor: The terminal, such as ``sys.stdin.fileno()``.
-    :param instead: What the user may do without a terminal, for the error.
-    :param releases: Ask the terminal to tell the releases of keys.
-    :raises AmrError: It is not a terminal.
+    Args:
+        descriptor: the terminal, such as ``sys.stdin.fileno()``.
+        alternative: what the user can do without a terminal, for the error.
+        releases: request reports of the releases of keys.
+
+    Raises:
+        AmrError: ``descriptor`` is not a terminal.
     """
 
-    def __init__(self, descriptor: int, *, instead: str, releases: bool) -> None:
+    def __init__(self, descriptor: int, *, alternative: str, releases: bool) -> None:
         if not os.isatty(descriptor):
             raise AmrError(
                 'standard input is not a terminal, so there are no keys to read; run '
                 'teleop_twist_keyboard in a terminal of its own, outside of a launch file or a '
-                f'pipe, or {instead}'
+                f'pipe, or {alternative}'
             )
         self._descriptor = descriptor
         self._parser = KeyParser()
         self._decoder = codecs.getincrementaldecoder('utf-8')(errors='replace')
-        self._is_to_ask = releases and os.environ.get('TERM', '') not in _MUTE_TERMINALS
+        self._wants_reports = releases and os.environ.get('TERM', '') not in _MUTE_TERMINALS
         self._reports = False
         self._questions = 0
         self._answer_by = 0.0
@@ -229,16 +227,16 @@ class Keyboard:
         os.close(self._pipe_in)
         os.close(self._pipe_out)
 
-    def leave(self) -> None:
-        """Have :meth:`read` return Ctrl-C; may be called from any thread."""
+    def stop(self) -> None:
+        """Make :meth:`read` return Ctrl-C; on any thread."""
         os.write(self._pipe_in, CTRL_C.encode())
 
     def read(self, timeout: float | None) -> list[KeyEvent]:
         """
-        Return the keys pressed by now, waiting up to ``timeout`` s for the first (None: for ever).
+        Return the keys pressed so far; wait up to ``timeout`` s for the first, None: for ever.
 
-        An arrow or function key is one string, its whole escape sequence. A terminal that is gone
-        counts as Ctrl-C.
+        An arrow or function key is one string, its whole escape sequence. A closed terminal is
+        reported as Ctrl-C.
         """
         if self._parser.has_escape:
             timeout = min(_ESCAPE_TIMEOUT, _ESCAPE_TIMEOUT if timeout is None else timeout)
@@ -256,7 +254,7 @@ class Keyboard:
         return self._parser.flush() if self._parser.has_escape else []
 
     def suspend(self) -> None:
-        """Give the terminal back and stop until ``fg``; without a shell, the kernel goes on."""
+        """Give the terminal back, and stop until ``fg``; ignored by the kernel without a shell."""
         self._give_terminal()
         signal.signal(signal.SIGTSTP, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGTSTP)
@@ -264,19 +262,19 @@ class Keyboard:
         self._take_terminal()
 
     def _typed(self) -> list[KeyEvent]:
-        """Return what has been typed: nothing if a Ctrl-Z, which drops input, came in between."""
+        """Return the typed keys; none if a Ctrl-Z, which drops input, came in the meantime."""
         try:
-            events = self._take_input()
+            events = self._read_input()
         except OSError:  # EIO: the terminal is gone
             return [KeyEvent(CTRL_C)]
         if self._parser.offers_releases:
-            self._begin_reports()
+            self._enable_reports()
         for event in events:
             if event.key in _SIGNAL_OF and not event.is_release:
-                os.killpg(0, _SIGNAL_OF[event.key])  # as the terminal does without the protocol
+                os.killpg(0, _SIGNAL_OF[event.key])  # as the terminal would without the protocol
         return [event for event in events if event.key not in _SIGNAL_OF]
 
-    def _take_input(self) -> list[KeyEvent]:
+    def _read_input(self) -> list[KeyEvent]:
         return self._parser.feed(self._decoder.decode(os.read(self._descriptor, 1024)))
 
     def _on_signal(self, signum: int, _frame: FrameType | None) -> None:
@@ -288,19 +286,19 @@ class Keyboard:
         attributes = copy.deepcopy(self._attributes)
         tty.cfmakecbreak(attributes)
         attributes[tty.CC][termios.VMIN] = 0  # a read never waits
-        attributes[tty.CC][termios.VQUIT] = _NO_KEY  # Ctrl-\ would leave all as it is
+        attributes[tty.CC][termios.VQUIT] = _NO_KEY  # Ctrl-\ would end us without restoring
         attributes[tty.IFLAG] &= ~termios.IXON  # Ctrl-S and Ctrl-V are keys like any other
         attributes[tty.LFLAG] &= ~termios.IEXTEN
         with contextlib.suppress(termios.error):  # the terminal is gone
             termios.tcsetattr(self._descriptor, termios.TCSANOW, attributes)
-        if self._is_to_ask:
-            self._is_to_ask = False
+        if self._wants_reports:
+            self._wants_reports = False
             self._ask(ASK)
         elif self._parser.offers_releases:
-            self._begin_reports()
+            self._enable_reports()
 
     def _give_terminal(self) -> None:
-        """Restore the settings and drop the keys not yet read: they are not for the shell."""
+        """Restore the settings, and drop the keys not yet read: they are not for the shell."""
         if not self._is_in_foreground():
             return
         if self._reports:
@@ -311,7 +309,7 @@ class Keyboard:
             termios.tcsetattr(self._descriptor, termios.TCSANOW, self._attributes)
             termios.tcflush(self._descriptor, termios.TCIFLUSH)
 
-    def _begin_reports(self) -> None:
+    def _enable_reports(self) -> None:
         if not self._reports:
             self._reports = True
             self._write(BEGIN_REPORTS)
@@ -322,7 +320,7 @@ class Keyboard:
         self._write(question)
 
     def _await_answers(self) -> None:
-        """Take what the terminal sends up to its last answer, if it is to be expected still."""
+        """Read what the terminal sends up to its last answer, within the time for it."""
         terminal = select.poll()
         terminal.register(self._descriptor, select.POLLIN)
         while self._parser.identities < self._questions:
@@ -330,7 +328,7 @@ class Keyboard:
             if left <= 0.0 or terminal.poll(1000.0 * left) != [(self._descriptor, select.POLLIN)]:
                 return
             try:
-                self._take_input()
+                self._read_input()
             except OSError:  # EIO: the terminal is gone
                 return
 
@@ -340,10 +338,10 @@ class Keyboard:
 
     def _is_in_foreground(self) -> bool:
         """
-        Whether the terminal is ours to set.
+        Return whether this job may change the settings of the terminal.
 
-        A job in the background would be stopped by SIGTTOU, or spoil the shell's own settings. A
-        terminal that is not the controlling one knows no foreground.
+        A job in the background would be stopped by SIGTTOU, or overwrite the shell's settings. A
+        terminal that is not the controlling one has no foreground job.
         """
         try:
             return os.tcgetpgrp(self._descriptor) == os.getpgrp()

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the keys of ``teleop_twist_keyboard`` mean, and how long a command holds.
+The meaning of the keys of ``teleop_twist_keyboard``, and how long a command holds.
 
-This module imports no rclpy and knows no terminal and no clock: keys and times (s) come in.
+Pure: keys and times (s) are arguments.
 """
 
 from dataclasses import dataclass
@@ -70,15 +70,15 @@ SPEEDS: dict[str, tuple[float, float]] = {
 _AT_REST = (0, 0, 0, 0)
 _HELP_EVERY = 15  # speed keys
 
-# Auto-repeat comes at 10 Hz or faster (usually 25 to 33 Hz), a finger is slower than this, s.
+# s; auto-repeat has 10 Hz or more (usually 25 to 33 Hz), a finger is slower than this.
 _REPEAT_GAP = 0.15
-# How long a command holds after the last auto-repeat, s: long enough for a hiccup of ssh.
+# s that a command holds after the last auto-repeat; tolerates the jitter of ssh.
 _RELEASE_TIMEOUT = 0.25
 
 
 @dataclass(frozen=True, slots=True)
 class Velocity:
-    """Along x, y, z (m/s) and about z (rad/s) of the robot's base."""
+    """Velocity along x, y, z (m/s) and about z (rad/s) of the robot's base."""
 
     x: float = 0.0
     y: float = 0.0
@@ -88,10 +88,11 @@ class Velocity:
 
 class Teleop:
     """
-    The state that keys change: speeds and direction.
+    What keys change: speeds and direction.
 
-    :param speed: Linear speed of a full move, m/s.
-    :param turn: Angular speed of a full turn, rad/s.
+    Args:
+        speed: linear speed, m/s.
+        turn: angular speed, rad/s.
     """
 
     def __init__(self, speed: float, turn: float) -> None:
@@ -101,7 +102,7 @@ class Teleop:
         self._speed_keys = 0
 
     def press(self, key: str) -> str:
-        """Take one key; return what to print, '' for nothing."""
+        """Handle a key; return the text to print, or ''."""
         if key not in SPEEDS:
             self._direction = MOVES.get(key, _AT_REST)
             return ''
@@ -113,38 +114,39 @@ class Teleop:
         return f'{self.speeds}\n{HELP}' if repeat_help else self.speeds
 
     def stop(self) -> None:
-        """Forget the direction, as any key without a meaning does."""
+        """Reset the direction, as any unassigned key does."""
         self._direction = _AT_REST
 
     @property
     def is_moving(self) -> bool:
-        """Whether the last key asks for a move."""
+        """Whether the last key was one that moves the robot."""
         return self._direction != _AT_REST
 
     @property
     def speeds(self) -> str:
-        """The line that tells the speeds."""
+        """The line with the speeds."""
         return f'currently:\tspeed {self.speed}\tturn {self.turn} '
 
     @property
     def velocity(self) -> Velocity:
-        """The command of the keys pressed so far."""
+        """The command that results from the keys so far."""
         x, y, z, yaw = self._direction
         return Velocity(x * self.speed, y * self.speed, z * self.speed, yaw * self.turn)
 
 
 class Hold:
     """
-    When to repeat a command, and when the key has been let go.
+    Decides when to repeat a command, and when its key has been released.
 
-    An ordinary terminal tells no release of a key. A key that is held down comes once, after 0.25
-    to 0.66 s again, and then 10 to 33 times a second. So a command holds for ``key_timeout`` after
-    a press, long enough to reach the first repetition; and for 0.25 s once the key repeats. The
-    times hold as well where releases are told: a terminal that loses the focus, or the network,
-    tells none.
+    An ordinary terminal does not report releases. A held key comes once, again after 0.25 to
+    0.66 s, and then 10 to 33 times per second. So a command holds for ``key_timeout`` after a
+    press, long enough for the first repetition, and for 0.25 s once the key repeats. The same
+    limits apply if releases are reported: they get lost when the terminal loses the focus, or the
+    network its connection.
 
-    :param period: Time between two repetitions of the command, s; 0: it is not repeated.
-    :param key_timeout: How long a single press holds, s; 0: until the next key.
+    Args:
+        period: time between two repetitions of the command, s; 0: it is not repeated.
+        key_timeout: how long a single press holds, s; 0: until the next key.
     """
 
     def __init__(self, period: float, key_timeout: float) -> None:
@@ -157,9 +159,13 @@ class Hold:
 
     def press(self, key: str, now: float, *, moving: bool, name: str = '') -> None:
         """
-        Take the time of a key press; ``moving`` as the command is after it.
+        Note a key press.
 
-        ``name``: what the release of this key will be told with.
+        Args:
+            key: that was pressed.
+            now: time, s.
+            moving: whether the command moves the robot now.
+            name: of the key, as its release will be reported.
         """
         if key not in SPEEDS:
             self._driving = name
@@ -170,26 +176,26 @@ class Hold:
         self._release_at = now + timeout if moving and self._key_timeout else None
 
     def release(self, name: str) -> bool:
-        """Take the release of a key; tell whether it is the one that drives."""
+        """Note the release of a key; return whether it is the key that moves the robot."""
         if self._release_at is None or name != self._driving:
             return False
         self._repeat_at = self._release_at = None
         return True
 
     def wait(self, now: float) -> float | None:
-        """Return how long (s) nothing is to be done unless a key comes; None: for ever."""
+        """Return the time until a repetition or release is due, s; None: only a key is awaited."""
         times = [time for time in (self._repeat_at, self._release_at) if time is not None]
         return max(0.0, min(times) - now) if times else None
 
     def is_released(self, now: float) -> bool:
-        """Tell, once, that the key has been let go."""
+        """Return whether the key counts as released; True only once."""
         if self._release_at is None or now < self._release_at:
             return False
         self._repeat_at = self._release_at = None
         return True
 
     def is_repeat_due(self, now: float) -> bool:
-        """Tell that the command is to be sent again, once a period."""
+        """Return whether the command is to be repeated; True once per period."""
         if self._repeat_at is None or now < self._repeat_at:
             return False
         self._repeat_at = now + self._period

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS side of ``teleop_twist_keyboard``: its parameters, its commands, and who wants them."""
+"""The node of ``teleop_twist_keyboard``: parameters, commands, and the type subscribers expect."""
 
 from dataclasses import dataclass
 
@@ -27,13 +27,13 @@ from amr_description.ros.type_mismatch import (
     warnings,
 )
 
-_GOODBYE_TIMEOUT = Duration(seconds=0.2)
+_ACK_TIMEOUT = Duration(seconds=0.2)
 _TOPIC = 'cmd_vel'
-_DISCOVERY = 1.0  # s: how long the first listener is waited for
+_DISCOVERY_TIMEOUT = 1.0  # s to wait for the first subscription
 
 
 @dataclass(frozen=True)
-class Settings:
+class TeleopSettings:
     """The parameters of teleop_twist_keyboard; none can be changed while it runs."""
 
     stamped: bool = parameter(
@@ -65,18 +65,21 @@ class TeleopTwistKeyboard(Node):
     """
     The publisher of commands; it knows no keys.
 
-    :param latch: A command holds until the next one: ``key_timeout`` is 0.
-    :raises ParameterError: The parameters contradict each other.
+    Args:
+        latch: commands hold until the next one, so ``key_timeout`` is 0.
+
+    Raises:
+        ParameterError: the parameters contradict each other.
     """
 
     def __init__(self, *, latch: bool = False) -> None:
         super().__init__('teleop_twist_keyboard')
-        self._chooses = 'stamped' not in self._parameter_overrides
+        self._is_automatic = 'stamped' not in self._parameter_overrides
         defaults = {'key_timeout': 0.0} if latch else {}
-        if self._chooses:
-            found = await_listeners(self, _TOPIC, _DISCOVERY)
+        if self._is_automatic:
+            found = await_listeners(self, _TOPIC, _DISCOVERY_TIMEOUT)
             defaults['stamped'] = wants_stamped(found, otherwise=False)
-        self.settings = declare(self, Settings, defaults=defaults)
+        self.settings = declare(self, TeleopSettings, defaults=defaults)
         if latch and self.settings.key_timeout:
             raise ParameterError(
                 f"'key_timeout' is {self.settings.key_timeout:g} s, but --latch holds a key until "
@@ -85,36 +88,37 @@ class TeleopTwistKeyboard(Node):
         if self.settings.frame_id and not self.settings.stamped:
             raise ParameterError("'frame_id' can only be set when 'stamped' is True")
         self._is_stamped = self.settings.stamped
-        self._commands = self._publisher()
-        self._served: bool | None = None
-        self._said: set[str] = set()
+        self._commands = self._create_commands()
+        self._announced: bool | None = None
+        self._printed: set[str] = set()
 
     @property
-    def instead(self) -> str:
-        """What sends commands without a keyboard, to be typed."""
+    def alternative(self) -> str:
+        """A command line that drives without a keyboard, for the error without a terminal."""
         twist = '{linear: {x: 0.2}}'
         message = f'{{twist: {twist}}}' if self._is_stamped else twist
         topic, type_name = self._commands.topic_name, TYPE_NAMES[self._is_stamped]
         return f'drive with: ros2 topic pub -r 10 {topic} {type_name} "{message}"'
 
-    def look(self) -> list[str]:
-        """Take the type that is wanted, unless it was given; return what is new to be said."""
+    def check(self) -> list[str]:
+        """Switch to the type that subscribers expect, unless it was given; return new lines."""
         found = listeners(self, _TOPIC)
-        topic, chosen = self._commands.topic_name, self._chooses
-        if chosen and not self.settings.frame_id:
+        topic = self._commands.topic_name
+        if self._is_automatic and not self.settings.frame_id:
             self._change_type(wants_stamped(found, otherwise=self._is_stamped))
         lines = warnings(topic, found, stamped=self._is_stamped)
-        if chosen and self._served != self._is_stamped and is_wanted(found, self._is_stamped):
-            self._served = self._is_stamped
+        is_news = self._announced != self._is_stamped
+        if self._is_automatic and is_news and is_wanted(found, self._is_stamped):
+            self._announced = self._is_stamped
             lines.insert(0, choice(topic, found, stamped=self._is_stamped))
-        new = [line for line in lines if line not in self._said]
-        self._said.update(new)
+        new = [line for line in lines if line not in self._printed]
+        self._printed.update(new)
         return new
 
-    def look_first(self) -> list[str]:
-        """As :meth:`look`, and say when nobody listens."""
+    def check_first(self) -> list[str]:
+        """As :meth:`check`, with a line if there is no subscription."""
         if listeners(self, _TOPIC):
-            return self.look()
+            return self.check()
         line = nobody(self._commands.topic_name, other_topics(self), stamped=self._is_stamped)
         return [line]
 
@@ -132,21 +136,21 @@ class TeleopTwistKeyboard(Node):
             self._commands.publish(twist)
 
     def stop_robot(self) -> None:
-        """Publish zero and wait, but not for long, until every subscriber has it."""
+        """Publish zero, and wait shortly until all subscribers have acknowledged it."""
         self.publish(Velocity())
-        self._commands.wait_for_all_acked(_GOODBYE_TIMEOUT)
+        self._commands.wait_for_all_acked(_ACK_TIMEOUT)
 
-    def _publisher(self) -> Publisher:
+    def _create_commands(self) -> Publisher:
         return self.create_publisher(MESSAGES[self._is_stamped], _TOPIC, 10)
 
     def _change_type(self, stamped: bool) -> None:
-        """Publish the other type from now on, and have the parameter say so."""
+        """Publish this type from now on, and set the parameter accordingly."""
         if stamped == self._is_stamped:
             return
         self._is_stamped = stamped
         self.destroy_publisher(self._commands)
-        self._commands = self._publisher()
-        # Read-only for others: only with a descriptor may the node itself set it.
+        self._commands = self._create_commands()
+        # The parameter is read-only: the node can only set it together with a descriptor.
         self._set_parameters_atomically_common(
             [Parameter('stamped', value=stamped)],
             {'stamped': self.describe_parameter('stamped')},

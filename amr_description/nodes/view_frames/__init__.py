@@ -8,9 +8,9 @@
     ros2 run tf2_tools view_frames                # frames_2026-01-31_12.00.00.gv, .pdf and .svg
     ros2 run tf2_tools view_frames -o my_robot    # my_robot.gv, .pdf and .svg
 
-It listens for 5 s (``--wait-time``). Options, texts and names of files are the original's. Other
-than there the PDF needs no Graphviz, there is an SVG, the trees are printed, and each frame is
-told to come from the nodes that publish on its topic instead of ``default_authority``.
+It listens for 5 s (``--wait-time``). Options, texts and file names are those of the original. In
+addition, the PDF needs no Graphviz, there is an SVG, the trees are printed, and the authority of a
+frame is the nodes that publish on its topic instead of ``default_authority``.
 """
 
 from argparse import ArgumentParser, ArgumentTypeError
@@ -55,7 +55,7 @@ def parser() -> ArgumentParser:
 
 
 def view(args: list[str] | None) -> None:
-    """Listen, then write the files. Raises UsageError: they cannot be written."""
+    """Listen, then write the files. Raises UsageError if they cannot be written."""
     options = parser().parse_args(arguments_of(args))
     name = options.output or time.strftime('frames_%Y-%m-%d_%H.%M.%S')
     _require_folder(Path(name))
@@ -75,7 +75,7 @@ def view(args: list[str] | None) -> None:
 
 
 def write(name: str, records: list[FrameRecord], recorded: int) -> None:
-    """Write the three files. Raises UsageError."""
+    """Write ``name`` .gv, .pdf and .svg; ``recorded`` is in ns. Raises UsageError."""
     drawing = draw(records, recorded)
     try:
         Path(f'{name}.gv').write_text(as_dot(records, recorded), 'utf-8')
@@ -91,7 +91,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _require_folder(name: Path) -> None:
-    """Do not listen for seconds only to fail then."""
+    """Raise UsageError now rather than after listening for seconds."""
     if not name.parent.is_dir():
         raise UsageError(f"-o '{name}': there is no folder '{name.parent}'")
     if not os.access(name.parent, os.W_OK):
@@ -101,7 +101,7 @@ def _require_folder(name: Path) -> None:
 def _with_broadcasters(
     records: list[FrameRecord], listener: TransformListener, tf_topic: str, tf_static_topic: str
 ) -> list[FrameRecord]:
-    """Name the nodes that publish each frame."""
+    """Return the records with the nodes that publish each frame as its authority."""
     nodes = {topic: broadcaster(names) for topic, names in listener.publishers().items()}
     return [
         replace(record, authority=nodes[tf_static_topic if record.is_static else tf_topic])

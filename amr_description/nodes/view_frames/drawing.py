@@ -1,21 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A drawing of frame trees: what ``view_frames`` shows, laid out without Graphviz.
+The drawing of frame trees by ``view_frames``: layout without Graphviz, SVG and PDF.
 
-Roots stand at the top; each frame hangs below its parent, and between the two stands how it is
-published. Lengths are points (1/72 inch), x to the right, y down. All text is in a typewriter
-face, whose letters are 0.6 of its size wide, so that places can be told without the font.
-
-This module imports no rclpy.
-
-A drawing as SVG and as PDF.
+Roots are at the top and each frame is below its parent; the text between them says how the frame
+is published. Lengths are in points (1/72 inch), x to the right, y down. All text is monospaced,
+with letters 0.6 of the font size wide, so the layout needs no font metrics.
 
 The PDF is written by hand (ISO 32000-1): one page, two kinds of strokes, and Courier, which every
-reader has and which needs no embedding; its letters are those of Western Europe, others become
-``?``. The SVG has all of them.
-
-This module imports no rclpy.
+reader has. Its characters are those of Western Europe; others become ``?``. The SVG has all of
+them.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,13 +22,14 @@ from amr_description.tf2_ros.time_cache import seconds
 NAME_SIZE = 11.0
 FACT_SIZE = 8.0
 LETTER_WIDTH = 0.6
-"""Of the size of the letters."""
+"""Fraction of the font size."""
 
 _MARGIN = 20.0
-_GAP = 16.0  # between neighbours, and above and below what is written on a line
+_GAP = 16.0  # between neighbours, and above and below the text on a line
 _BOX_HEIGHT = 24.0
-_LINE_HEIGHT = 1.25  # of the size of the letters
+_LINE_HEIGHT = 1.25  # fraction of the font size
 _NOTHING = 'No tf data received'
+_LARGEST_SIDE = 14400.0  # points; the limit of a PDF page
 
 
 @dataclass(frozen=True)
@@ -72,7 +67,7 @@ type Shape = Text | Box | Line
 
 @dataclass(frozen=True)
 class Drawing:
-    """A sheet and what is on it."""
+    """A page and the shapes on it."""
 
     width: float
     height: float
@@ -80,8 +75,8 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class _Place:
-    """One frame: its record (a root has none), its level, and the centre of its column."""
+class _PlacedFrame:
+    """One frame: its record (None for a root), its depth, and the centre of its column."""
 
     name: str
     label: str
@@ -91,30 +86,30 @@ class _Place:
 
 
 def draw(records: Sequence[FrameRecord], recorded: int) -> Drawing:
-    """Draw all trees side by side; ``recorded``: when, ns."""
+    """Draw all trees side by side; ``recorded`` is the time of the records, ns."""
     title = Text(0.0, _MARGIN + FACT_SIZE, FACT_SIZE, f'Recorded at time: {seconds(recorded)}')
-    places, right = _layout(records)
-    if not places:
-        places, right = [_Place('', _NOTHING, None, 0, _MARGIN + 100.0)], _MARGIN + 200.0
+    frames, right = _layout(records)
+    if not frames:
+        frames, right = [_PlacedFrame('', _NOTHING, None, 0, _MARGIN + 100.0)], _MARGIN + 200.0
     right = max(right, _MARGIN + _width(title.text, FACT_SIZE))
     title = Text((right + _MARGIN) / 2.0, title.y, title.size, title.text)
     level = _BOX_HEIGHT + 2.0 * _GAP + _height_of_facts(records)
     top = title.y + 2.0 * _GAP
-    by_name = {place.name: place for place in places}
+    by_name = {frame.name: frame for frame in frames}
     shapes: list[Shape] = [title]
-    for place in places:
-        y = top + place.depth * level
-        shapes += _frame(place, y)
-        if place.record and place.depth:
-            shapes += _connection(by_name[place.record.parent].x, place, y, level)
-    depth = max(place.depth for place in places)
+    for frame in frames:
+        y = top + frame.depth * level
+        shapes += _frame(frame, y)
+        if frame.record and frame.depth:
+            shapes += _connection(by_name[frame.record.parent].x, frame, y, level)
+    depth = max(frame.depth for frame in frames)
     return Drawing(right + _MARGIN, top + depth * level + _BOX_HEIGHT + _MARGIN, tuple(shapes))
 
 
-def _layout(records: Sequence[FrameRecord]) -> tuple[list[_Place], float]:
-    """Give each frame a column above the columns of its children; return the right end, too."""
+def _layout(records: Sequence[FrameRecord]) -> tuple[list[_PlacedFrame], float]:
+    """Give each frame a column above those of its children; return frames and right end."""
     order = tree_order(records)
-    widths: dict[str, float] = {}  # of a frame with all that hangs below it
+    widths: dict[str, float] = {}  # of a frame with all its descendants
     below: dict[str, float] = {}
     for name, record, depth in reversed(order):  # children come before their parents here
         own = _width(label(name, record, depth), NAME_SIZE) + _GAP
@@ -123,8 +118,8 @@ def _layout(records: Sequence[FrameRecord]) -> tuple[list[_Place], float]:
         widths[name] = max(own + _GAP, below.get(name, 0.0))
         if record and depth:
             below[record.parent] = below.get(record.parent, 0.0) + widths[name]
-    places: list[_Place] = []
-    start: dict[str, float] = {}  # where the next child of a frame begins
+    frames: list[_PlacedFrame] = []
+    start: dict[str, float] = {}  # left end of the next child of a frame
     end = _MARGIN
     for name, record, depth in order:
         left = start[record.parent] if record and depth else end
@@ -134,30 +129,30 @@ def _layout(records: Sequence[FrameRecord]) -> tuple[list[_Place], float]:
             end += widths[name]
         start[name] = left + (widths[name] - below.get(name, 0.0)) / 2.0
         center = left + widths[name] / 2.0
-        places.append(_Place(name, label(name, record, depth), record, depth, center))
-    return places, end
+        frames.append(_PlacedFrame(name, label(name, record, depth), record, depth, center))
+    return frames, end
 
 
-def _frame(place: _Place, y: float) -> Iterator[Shape]:
-    """The box with the name, its upper side at ``y``."""
-    width = _width(place.label, NAME_SIZE) + _GAP
-    yield Box(place.x - width / 2.0, y, width, _BOX_HEIGHT)
-    yield Text(place.x, y + _BOX_HEIGHT / 2.0 + 0.35 * NAME_SIZE, NAME_SIZE, place.label)
+def _frame(frame: _PlacedFrame, y: float) -> Iterator[Shape]:
+    """Yield the box with the name; its top is at ``y``."""
+    width = _width(frame.label, NAME_SIZE) + _GAP
+    yield Box(frame.x - width / 2.0, y, width, _BOX_HEIGHT)
+    yield Text(frame.x, y + _BOX_HEIGHT / 2.0 + 0.35 * NAME_SIZE, NAME_SIZE, frame.label)
 
 
-def _connection(parent_x: float, place: _Place, y: float, level: float) -> Iterator[Shape]:
-    """From the parent's box above down to the child's at ``y``, past what is known of it."""
+def _connection(parent_x: float, frame: _PlacedFrame, y: float, level: float) -> Iterator[Shape]:
+    """Yield the line from the parent's box to the child's at ``y``, and the facts beside it."""
     parent_y = y - level + _BOX_HEIGHT
     bend = parent_y + _GAP / 2.0
-    lines = facts(place.record)
+    lines = facts(frame.record)
     height = len(lines) * FACT_SIZE * _LINE_HEIGHT
     yield Line(parent_x, parent_y, parent_x, bend)
-    yield Line(parent_x, bend, place.x, bend)
-    yield Line(place.x, bend, place.x, y - _GAP / 2.0 - height)
+    yield Line(parent_x, bend, frame.x, bend)
+    yield Line(frame.x, bend, frame.x, y - _GAP / 2.0 - height)
     for number, line in enumerate(lines):
         base = y - _GAP / 2.0 - height + (number + 0.8) * FACT_SIZE * _LINE_HEIGHT
-        yield Text(place.x, base, FACT_SIZE, line)
-    yield Line(place.x, y - _GAP / 2.0, place.x, y)
+        yield Text(frame.x, base, FACT_SIZE, line)
+    yield Line(frame.x, y - _GAP / 2.0, frame.x, y)
 
 
 def _height_of_facts(records: Sequence[FrameRecord]) -> float:
@@ -167,9 +162,6 @@ def _height_of_facts(records: Sequence[FrameRecord]) -> float:
 
 def _width(text: str, size: float) -> float:
     return len(text) * size * LETTER_WIDTH
-
-
-_LARGEST = 14400.0  # points: no side of a page may be longer
 
 
 def as_svg(drawing: Drawing) -> str:
@@ -191,8 +183,8 @@ def as_svg(drawing: Drawing) -> str:
 
 
 def as_pdf(drawing: Drawing) -> bytes:
-    """Return the bytes of a PDF file; a drawing too large for a page is made smaller."""
-    scale = min(1.0, _LARGEST / max(drawing.width, drawing.height))
+    """Return the bytes of a PDF file; a drawing too large for a page is scaled down."""
+    scale = min(1.0, _LARGEST_SIDE / max(drawing.width, drawing.height))
     strokes = [f'{scale:.6f} 0 0 {scale:.6f} 0 0 cm 1 w']
     strokes += [stroke for shape in drawing.shapes for stroke in _pdf(shape, drawing.height)]
     content = '\n'.join(strokes).encode('cp1252', errors='replace')
@@ -219,7 +211,7 @@ def _svg_stroke(shape: Box | Line) -> str:
 
 
 def _svg_text(text: Text) -> str:
-    # textLength: whichever typewriter face the viewer has, the text is as wide as was laid out.
+    # textLength: the text is as wide as in the layout, whatever monospaced font is used.
     width = len(text.text) * text.size * LETTER_WIDTH
     return (
         f'<text x="{text.x:.1f}" y="{text.y:.1f}" font-size="{text.size:g}" '
@@ -228,7 +220,7 @@ def _svg_text(text: Text) -> str:
 
 
 def _pdf(shape: Shape, height: float) -> Iterator[str]:
-    """The strokes of a shape; in a PDF y goes up."""
+    """Yield the operators that draw a shape; in a PDF, y goes up."""
     if isinstance(shape, Box):
         bottom = height - shape.y - shape.height
         yield f'{shape.x:.1f} {bottom:.1f} {shape.width:.1f} {shape.height:.1f} re S'
@@ -244,13 +236,13 @@ def _pdf(shape: Shape, height: float) -> Iterator[str]:
 
 
 def _pdf_file(objects: list[bytes]) -> bytes:
-    """Number the objects and add the table that says where each begins."""
+    """Return the file: numbered objects, and the table of their offsets."""
     file = b'%PDF-1.4\n'
-    places = []
+    offsets = []
     for number, content in enumerate(objects, start=1):
-        places.append(len(file))
+        offsets.append(len(file))
         file += b'%d 0 obj\n%s\nendobj\n' % (number, content)
-    table = b''.join(b'%010d 00000 n \n' % place for place in places)
+    table = b''.join(b'%010d 00000 n \n' % offset for offset in offsets)
     count = len(objects) + 1
     return file + (
         b'xref\n0 %d\n0000000000 65535 f \n%strailer\n<< /Size %d /Root 1 0 R >>\n'
@@ -259,5 +251,5 @@ def _pdf_file(objects: list[bytes]) -> bytes:
 
 
 def _printable(text: str) -> str:
-    """Names come from the network: control characters would break either file."""
+    """Replace control characters, which would break either file: names come from the network."""
     return ''.join(letter if letter.isprintable() else '?' for letter in text)

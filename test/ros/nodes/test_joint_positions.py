@@ -81,7 +81,7 @@ def test_names_keep_the_order_of_the_description_mimics_among_them():
 
 def test_the_range_of_a_continuous_joint_is_one_turn():
     third = joints_of(*ARM).free['third']
-    assert (third.lower, third.upper, third.wraps) == (-math.pi, math.pi, True)
+    assert (third.lower, third.upper, third.is_continuous) == (-math.pi, math.pi, True)
 
 
 def test_soft_limits_narrow_the_range_if_they_may():
@@ -109,7 +109,7 @@ CHAIN = [
 @given(strategies.floats(-5, 5))
 def test_mimics_follow_along_the_chain(position):
     joints = joints_of(*CHAIN)
-    joints.take(['first'], [position], [position], [3.0])
+    joints.set(['first'], [position], [position], [3.0])
     sample = joints.sample()
     assert sample.positions == pytest.approx([position, 2 * position + 0.1, -(2 * position + 0.1)])
     assert sample.velocities == pytest.approx([position, 2 * position, -2 * position])
@@ -119,16 +119,16 @@ def test_mimics_follow_along_the_chain(position):
 def test_mimics_are_free_without_mimic_tags():
     joints = joints_of(*CHAIN, use_mimic_tags=False)
     assert list(joints.free) == ['first', 'second', 'third']
-    joints.take(['third'], [1.0])
+    joints.set(['third'], [1.0])
     assert positions(joints) == {'first': 0.0, 'second': 0.0, 'third': 1.0}
 
 
 def test_dependent_joints_count_more_than_the_description():
     joints = joints_of(*CHAIN, dependent_joints={'second': Dependence('first', 5.0, 1.0)})
-    joints.take(['first'], [0.1])
+    joints.set(['first'], [0.1])
     assert positions(joints)['second'] == pytest.approx(1.5)
     joints = joints_of(*ARM, dependent_joints={'third': Dependence('first', -1.0)})
-    joints.take(['first', 'third'], [0.5, 0.7])
+    joints.set(['first', 'third'], [0.5, 0.7])
     assert positions(joints)['third'] == -0.5
 
 
@@ -152,7 +152,7 @@ def test_a_mimic_of_what_does_not_move_is_refused(parent):
 
 def test_sources_move_what_is_free_and_known_and_is_a_number():
     joints = joints_of(*CHAIN, ('last', 'continuous', ''))
-    joints.take(['stranger', 'second', 'last', 'first'], [1.0, 2.0, math.nan, 0.5])
+    joints.set(['stranger', 'second', 'last', 'first'], [1.0, 2.0, math.nan, 0.5])
     assert positions(joints) == pytest.approx(
         {'first': 0.5, 'second': 1.1, 'third': -1.1, 'last': 0.0}
     )
@@ -162,7 +162,7 @@ def test_an_array_is_there_once_something_is_known_for_it():
     joints = joints_of(*ARM, publish_default_positions=False)
     sample = joints.sample()
     assert (sample.positions, sample.velocities, sample.efforts) == ([], [], [])
-    joints.take(['third'], [], [2.0])
+    joints.set(['third'], [], [2.0])
     assert joints.sample().positions == []
     assert joints.sample().velocities == [0.0, 0.0, 2.0, 0.0]
     joints = joints_of(*ARM, publish_default_velocities=True, publish_default_efforts=True)

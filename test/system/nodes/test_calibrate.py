@@ -189,15 +189,15 @@ def test_options_must_be_positive_numbers(option, value):
 def test_messages_that_leave_room_for_a_missed_turn_are_not_trusted(gap, is_lost):
     track = Track()
     message = Odometry()
-    track.hear(message)
+    track.add(message)
     track.restart()
     message.twist.twist.angular.z = 1.2
     for count in range(1, 4):
         fill_stamp(round(count * gap * NANOSECONDS), message.header.stamp)
-        track.hear(message)
+        track.add(message)
     assert (track.has_gap, track.has_jumped) == (is_lost, False)
     fill_stamp(0, message.header.stamp)
-    track.hear(message)
+    track.add(message)
     assert track.has_jumped
 
 
@@ -206,7 +206,7 @@ def test_every_manoeuvre_has_its_counterpart_and_a_limit():
     assert sum(each.angular for each in found) == 0.0
     assert sum(each.linear for each in found if not each.angular) == 0.0
     for each in found:
-        assert 5.0 < each.patience < 60.0
+        assert 5.0 < each.time_limit < 60.0
         assert not each.is_done(Travel(0.0, 0.0))
         assert each.is_done(Travel(-1.5, 0.0)) == (each.angular == 0.0)
         assert each.is_done(Travel(0.0, 7.0)) == (each.angular != 0.0)

@@ -125,7 +125,7 @@ def pty(monkeypatch):
 
 def test_an_answer_still_due_at_the_end_does_not_reach_the_shell(pty):
     user, terminal = pty
-    with Keyboard(terminal, instead='', releases=True):
+    with Keyboard(terminal, alternative='', releases=True):
         assert os.read(user, 1024).decode() == ASK
         os.write(user, f'i{KNOWS_THE_PROTOCOL}'.encode())
     assert unread(terminal) == b''
@@ -134,7 +134,7 @@ def test_an_answer_still_due_at_the_end_does_not_reach_the_shell(pty):
 
 def test_a_sequence_in_two_pieces_is_one_key(pty):
     user, terminal = pty
-    with Keyboard(terminal, instead='', releases=True) as keyboard:
+    with Keyboard(terminal, alternative='', releases=True) as keyboard:
         os.write(user, KNOWS_THE_PROTOCOL.encode())
         assert keyboard.read(PATIENCE) == []
         os.write(user, RELEASE_I[:-2].encode())
@@ -146,7 +146,7 @@ def test_a_sequence_in_two_pieces_is_one_key(pty):
 
 def test_the_key_escape_is_told_although_nothing_follows(pty):
     user, terminal = pty
-    with Keyboard(terminal, instead='', releases=False) as keyboard:
+    with Keyboard(terminal, alternative='', releases=False) as keyboard:
         os.write(user, b'\x1b')
         assert keyboard.read(None) == []
         assert keyboard.read(None) == [KeyEvent('\x1b', '\x1b')]

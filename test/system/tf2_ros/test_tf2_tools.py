@@ -20,7 +20,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import UsageError
 from amr_description.model.frames import quaternion_from_rpy, Transform
 from amr_description.nodes import static_transform_publisher, tf2_echo, view_frames
-from amr_description.nodes.tf2_echo import Request
+from amr_description.nodes.tf2_echo import EchoRequest
 from amr_description.ros.runtime import spinning
 from amr_description.ros.service_calls import wait_until
 from amr_description.tf2_ros.broadcaster import TransformBroadcaster
@@ -34,10 +34,10 @@ from amr_description.tf2_ros.time_cache import StampedTransform
 @pytest.mark.parametrize(
     ('words', 'request_'),
     [
-        ('a b', Request('a', 'b')),
-        ('a b 10', Request('a', 'b', rate=10.0)),
-        ('a b -r 0.5 -p 6 --once', Request('a', 'b', rate=0.5, precision=6, once=True)),
-        ('-t 1630223704.616726054 a b', Request('a', 'b', time=1_630_223_704_616_726_054)),
+        ('a b', EchoRequest('a', 'b')),
+        ('a b 10', EchoRequest('a', 'b', rate=10.0)),
+        ('a b -r 0.5 -p 6 --once', EchoRequest('a', 'b', rate=0.5, precision=6, once=True)),
+        ('-t 1630223704.616726054 a b', EchoRequest('a', 'b', time=1_630_223_704_616_726_054)),
         ('a', None),
         ('', None),
     ],
@@ -97,7 +97,7 @@ def test_echo_writes_stamps_with_their_zeros_and_no_negative_zero():
 
 
 def placed(*place, turn=(0.0, 0.0, 0.0, 1.0)):
-    return static_transform_publisher.Request('foo', 'bar', Transform(place, turn))
+    return static_transform_publisher.StaticTransform('foo', 'bar', Transform(place, turn))
 
 
 FRAMES = ['--frame-id', 'foo', '--child-frame-id', 'bar']
