@@ -14,7 +14,6 @@ import argparse
 import sys
 
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntityState, SpawnEntity
 from std_msgs.msg import String
@@ -24,11 +23,11 @@ from amr_description.model.description_file import description_at, mappings_of
 from amr_description.model.frames import Transform
 from amr_description.ros.arguments import other_arguments, ros_arguments
 from amr_description.ros.messages import fill_pose
+from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import argument_errors, program, ros
 from amr_description.ros.service_calls import ask_until_answered, call_with, wait_until
 from amr_description.text import truth
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'
 
 
@@ -139,7 +138,7 @@ def _latched(node: Node, topic: str) -> str:
     """Wait for a message on a latched topic; return the description."""
     texts: list[str] = []
     subscription = node.create_subscription(
-        String, topic, lambda message: texts.append(message.data), _LATCHED
+        String, topic, lambda message: texts.append(message.data), LATCHED
     )
     warn = node.get_logger().warning
     wait_until(

@@ -44,7 +44,6 @@ from typing import Any
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -61,9 +60,9 @@ from amr_description.nodes.joint_state_publisher.joint_positions import (
 from amr_description.parameters import parameter
 from amr_description.ros.arguments import read_description, split_arguments
 from amr_description.ros.parameters import declare, values
+from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _WARNING_PERIOD = 5.0  # s between two equal warnings
 
 
@@ -118,7 +117,7 @@ class JointStatePublisher(Node):
             self.get_logger().info(
                 'Waiting for robot_description to be published on the robot_description topic...'
             )
-        self.create_subscription(String, 'robot_description', self._on_description, _LATCHED)
+        self.create_subscription(String, 'robot_description', self._on_description, LATCHED)
         for topic in ('~/set_joint_positions', *self._settings.source_list):
             self._subscribe_source(topic)
         self.add_on_set_parameters_callback(self._validate)

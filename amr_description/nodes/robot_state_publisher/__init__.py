@@ -44,7 +44,7 @@ from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
+from rclpy.qos import qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
@@ -69,9 +69,9 @@ from amr_description.ros.parameters import (
     PUBLISHER_POLICIES,
     values,
 )
+from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _WARNING_PERIOD = 5.0  # s between two equal warnings
 
 
@@ -115,11 +115,11 @@ class RobotStatePublisher(Node):
         self._heads = HeadReader()
         self._transforms: dict[str, TransformStamped] = {}  # by link
         self._time_jumps = TimeJumpFilter()
-        self._description = self.create_publisher(String, 'robot_description', _LATCHED)
+        self._description = self.create_publisher(String, 'robot_description', LATCHED)
         self._static = self.create_publisher(
             TFMessage,
             '/tf_static',
-            copy(_LATCHED),
+            copy(LATCHED),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
         self._moving = self.create_publisher(

@@ -14,19 +14,18 @@ from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
 from amr_description.errors import ViewerError
 from amr_description.ros.messages import fill_stamp
+from amr_description.ros.qos import LATCHED
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import RobotInfo
 from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
 
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _COMMAND_FRAME = 'base_link'
 
 

@@ -15,7 +15,6 @@ from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from pal_statistics_msgs.msg import StatisticsNames, StatisticsValues
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
@@ -32,13 +31,12 @@ from amr_description.ros.cdr import (
     read_twist_stamped,
 )
 from amr_description.ros.polled_topic import PolledTopic
+from amr_description.ros.qos import LATCHED, TF_STATIC
 from amr_description.viewer.graph import FoundRobot, TWISTS
 from amr_description.viewer.protocol import FrameInfo, RobotLayout
 from amr_description.viewer.states import Floats, RobotFloats
 
 COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
-_TF_STATIC = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
 
@@ -57,7 +55,7 @@ class TransformTopics:
             static, moving = f'{namespace}/tf_static', f'{namespace}/tf'
             prefix = f'{namespace[1:]}/' if namespace else ''
             self._topics += [
-                (prefix, PolledTopic(node, TFMessage, static, read_transforms, qos=_TF_STATIC)),
+                (prefix, PolledTopic(node, TFMessage, static, read_transforms, qos=TF_STATIC)),
                 (prefix, PolledTopic(node, TFMessage, moving, read_transforms, depth=100)),
             ]
         self._poses: dict[str, tuple[float, ...]] = {}
@@ -121,7 +119,7 @@ class CommandedVelocities:
     def __init__(self, node: Node, prefix: str, joints: Sequence[str]) -> None:
         self._wanted = [f'command_interface.{joint}/velocity' for joint in joints]
         self._names = PolledTopic(
-            node, StatisticsNames, f'{prefix}/names', read_statistics_names, qos=_LATCHED
+            node, StatisticsNames, f'{prefix}/names', read_statistics_names, qos=LATCHED
         )
         self._values = PolledTopic(
             node, StatisticsValues, f'{prefix}/values', read_statistics_values

@@ -14,12 +14,12 @@ import time
 
 import numpy as np
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
 from amr_description.ros.cdr import read_clock
 from amr_description.ros.polled_topic import PolledTopic
+from amr_description.ros.qos import CLOCK
 from amr_description.viewer.protocol import Layout, ServerMessage, TimeReset
 from amr_description.viewer.ros.robot_topics import RobotTopics, TransformTopics
 from amr_description.viewer.states import LAYOUTS, StateFrame
@@ -32,8 +32,7 @@ class RosClock:
     """The time of /clock, and the real-time factor."""
 
     def __init__(self, node: Node) -> None:
-        qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=qos)
+        self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=CLOCK)
         self._samples: deque[tuple[float, int]] = deque()
         """(wall-clock time, s; simulation time, ns)."""
         self._jumped_back = False
