@@ -1,12 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Hardware components: what a controller's commands end in, and where its states come from.
+Hardware components: drivers of simulated, mocked and real robots.
 
-``<plugin>`` of a ``<ros2_control>`` block names the class: one of the table below, or
-``my_package.my_module/MyClass`` for one of yours, a
-:class:`~amr_description.control.contracts.HardwareComponent`. Nothing is imported until its name
-is asked for.
+``<plugin>`` of a ``<ros2_control>`` block names the class: one of :data:`HARDWARE`, or
+``my_package.my_module/MyClass`` for a
+:class:`~amr_description.control.contracts.HardwareComponent` of yours. A class is imported when it
+is used.
+
+============================ =====================================================================
+``mujoco_system.py``         the joints and sensors of a simulated robot
+``simulated_imu.py``         … its inertial measurement units
+``mock_system.py``           states follow commands at once, without physics
+``serial_base_system.py``    a wheeled robot with a motor board on a serial port
+``serial_link.py``           … the connection to the board: parameters, conversation, thread, port
+``serial_protocol.py``       … the messages, for both ends
+``simulated_motor_board.py`` … the other end, for tests without a board
+============================ =====================================================================
 """
 
 from amr_description.errors import HardwareError

@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``mock_components/GenericSystem``: hardware that does at once what it is told.
+``mock_components/GenericSystem``: hardware whose states follow commands at once.
 
-For testing controllers without physics: every read brings the states to where the commands are. A
-joint's state begins at its ``initial_value`` or at 0.0, any other one at its ``initial_value`` or
-unset. A command that is not set (NaN) changes nothing; an infinite one is an error.
+For testing controllers without physics: every read sets the states to the commands. The state of a
+joint starts at its ``initial_value`` or at 0.0, any other one at its ``initial_value`` or unset. A
+command that is not set (NaN) changes nothing; an infinite one is an error.
 
 Parameters of its ``<hardware>`` block:
 
@@ -17,8 +17,6 @@ Parameters of its ``<hardware>`` block:
 ``mock_sensor_commands``                    every sensor state can also be commanded (false)
 ``mock_gpio_commands``                      every GPIO state can also be commanded (false)
 =========================================== =====================================================
-
-A joint, sensor or GPIO of ``mock_components/GenericSystem``: its cells, and how they follow.
 """
 
 from collections.abc import Sequence
@@ -39,128 +37,21 @@ from amr_description.model.hardware_info import ComponentInfo, ComponentType, Ha
 from amr_description.text import truth
 
 MODES = (POSITION, VELOCITY, ACCELERATION)
-"""What a joint with dynamics can be commanded by."""
-
-
-class MockPart:
-    """States that follow commands; of a joint also those that it has without showing them."""
-
-    def __init__(
-        self,
-        info: ComponentInfo,
-        offset: float = 0.0,
-        custom: str = '',
-        commands_states: bool = False,
-    ) -> None:
-        """
-        ``offset``: added to the position command, or to what ``custom`` gets if that is given.
-        ``commands_states``: every state can be commanded.
-        """
-        self.info = info
-        self.mode = POSITION
-        self.states = {i.name: StateInterface.of(info, i) for i in info.state_interfaces}
-        wanted = {interface.name: interface for interface in info.command_interfaces}
-        if commands_states:
-            wanted = {i.name: i for i in info.state_interfaces} | wanted
-        self._initial = {name: CommandInterface.of(info, i).value for name, i in wanted.items()}
-        self.commands = {name: CommandInterface.of(info, i) for name, i in wanted.items()}
-        self._offset, self._custom = offset, custom
-        self._values = dict.fromkeys(MODES, 0.0)
-
-    def set_initial_states(self) -> None:
-        """Go back to the values of the tag; a joint has 0.0 where it gives none."""
-        is_joint = self.info.type is ComponentType.JOINT
-        self._values = dict.fromkeys(MODES, 0.0)
-        for interface in self.info.state_interfaces:
-            first = StateInterface.of(self.info, interface).value
-            self._values[interface.name] = 0.0 if is_joint and math.isnan(first) else first
-        if not self._custom:
-            self._values[POSITION] += self._offset
-        self._show()
-
-    def set_initial_commands(self) -> None:
-        """Forget every command of an earlier life."""
-        for name, command in self.commands.items():
-            command.value = self._initial[name]
-
-    def stop(self) -> None:
-        """Stand still where it is."""
-        self._values[VELOCITY] = self._values[ACCELERATION] = 0.0
-
-    def follow(self) -> None:
-        """Take over every command that is set."""
-        self._mirror(skipped=(POSITION,))
-        position = self._commanded(POSITION)
-        if position is not None:
-            self._values[POSITION] = position + self._own_offset
-        self._show()
-
-    def integrate(self, dt: float) -> None:
-        """
-        Advance by ``dt`` (s, positive) in the present mode; other commands as in :meth:`follow`.
-
-        Backward Euler, ``v += a·dt; x += v·dt``, which the command of its mode enters first;
-        what is commanded has its derivatives as differences over ``dt``.
-        """
-        self._mirror(skipped=MODES)
-        values, command = self._values, self._commanded(self.mode)
-        before = values[POSITION], values[VELOCITY]
-        if self.mode == POSITION:
-            if command is not None:
-                values[POSITION] = command + self._own_offset
-                values[VELOCITY] = (values[POSITION] - before[0]) / dt
-        else:
-            if command is not None:
-                values[self.mode] = command
-            if self.mode == ACCELERATION:
-                values[VELOCITY] += values[ACCELERATION] * dt
-            values[POSITION] += values[VELOCITY] * dt
-        if self.mode != ACCELERATION and command is not None:
-            values[ACCELERATION] = (values[VELOCITY] - before[1]) / dt
-        self._show()
-
-    def mimic(self, source: 'MockPart') -> None:
-        """Position = offset + multiplier · that of ``source``; derivatives without the offset."""
-        mimic = self.info.mimic
-        assert mimic is not None
-        for name in MODES:
-            offset = mimic.offset if name == POSITION else 0.0
-            self._values[name] = offset + mimic.multiplier * source._values[name]
-        self._show()
-
-    @property
-    def _own_offset(self) -> float:
-        return 0.0 if self._custom else self._offset
-
-    def _commanded(self, name: str) -> float | None:
-        command = self.commands.get(name)
-        return command.value if command is not None and command.is_set else None
-
-    def _mirror(self, skipped: tuple[str, ...]) -> None:
-        for name, command in self.commands.items():
-            if name not in skipped and command.is_set:
-                self._values[name] = command.value
-        position = self._commanded(POSITION)
-        if self._custom in self.states and position is not None:
-            self._values[self._custom] = position + self._offset
-
-    def _show(self) -> None:
-        for name, state in self.states.items():
-            state.value = self._values[name]
+"""The command interfaces of a joint with ``calculate_dynamics``."""
 
 
 class MockSystem(HardwareComponent):
     """States follow commands; see the module for the parameters."""
 
     def __init__(self, info: HardwareInfo, log: Log, world: World | None = None) -> None:
-        """Needs no world. Raises HardwareError for a parameter that cannot be read."""
+        """Raises HardwareError: a parameter is invalid. ``world`` is not used."""
         super().__init__(info, log, world)
         self._with_dynamics = self._flag('calculate_dynamics')
         self._is_disabled = self._flag('disable_commands')
-        self._has_lived = False
+        self._was_configured = False
         offset = self._number('position_state_following_offset')
         custom = info.parameters.get('custom_interface_with_following_offset', '')
-        self._warn_of_missing(custom)
+        self._check_custom_interface(custom)
         mock_sensors, mock_gpios = map(self._flag, ('mock_sensor_commands', 'mock_gpio_commands'))
         self._joints = {joint.name: MockPart(joint, offset, custom) for joint in info.joints}
         self._joint_commands = {
@@ -175,33 +66,33 @@ class MockSystem(HardwareComponent):
         ]
 
     def state_interfaces(self) -> Sequence[StateInterface]:
-        """As the tag declares them: joints, sensors, GPIOs."""
+        """Return those of the tag: joints, sensors, GPIOs."""
         return [state for part in self._parts for state in part.states.values()]
 
     def command_interfaces(self) -> Sequence[CommandInterface]:
-        """As the tag declares them, with the mocked ones of sensors and GPIOs."""
+        """Return those of the tag, and the mocked ones of sensors and GPIOs."""
         return [command for part in self._parts for command in part.commands.values()]
 
     def configure(self) -> None:
-        """Begin at the initial values; a later life begins where the one before ended."""
-        if not self._has_lived:
+        """Start at the initial values, the first time; later, keep the states."""
+        if not self._was_configured:
             for part in self._parts:
                 part.set_initial_states()
-        self._has_lived = True
+        self._was_configured = True
 
     def activate(self) -> None:
-        """Forget commands of an earlier life."""
+        """Drop earlier commands."""
         for part in self._parts:
             part.set_initial_commands()
 
     def deactivate(self) -> None:
-        """Stand still."""
+        """Stop the joints."""
         for joint in self._joints.values():
             joint.stop()
             joint.set_initial_commands()
 
     def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """With dynamics, a joint is commanded in one mode."""
+        """Refuse several modes for a joint with dynamics. Raises HardwareError."""
         if not self._with_dynamics:
             return
         for joint, names in self._by_joint(start).items():
@@ -218,7 +109,7 @@ class MockSystem(HardwareComponent):
                 )
 
     def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Integrate from what is claimed; what is released stands still."""
+        """Set the modes of claimed joints; stop the released ones."""
         for joint, names in self._by_joint(stop).items():
             self._joints[joint].stop()
             for name in names:
@@ -229,7 +120,7 @@ class MockSystem(HardwareComponent):
             self._joints[joint].mode = modes[0] if modes else self._joints[joint].mode
 
     def _by_joint(self, interfaces: Sequence[str]) -> dict[str, list[str]]:
-        """Joint → the names of its commands among these."""
+        """Group command interfaces by joint."""
         found: dict[str, list[str]] = {}
         for interface in interfaces:
             if interface in self._joint_commands:
@@ -258,7 +149,7 @@ class MockSystem(HardwareComponent):
                 joint.mimic(self._joints[joint.info.mimic.joint])
 
     def write(self, time: int, period: int) -> None:
-        """Nothing to do: commands are taken by the next ``read``."""
+        """Do nothing: the next ``read`` takes the commands."""
 
     def _refuse_infinite(self, command: CommandInterface) -> None:
         if math.isinf(command.value):
@@ -267,7 +158,7 @@ class MockSystem(HardwareComponent):
                 f'{command.value}; a finite number is needed'
             )
 
-    def _warn_of_missing(self, custom: str) -> None:
+    def _check_custom_interface(self, custom: str) -> None:
         states = {state.name for joint in self.info.joints for state in joint.state_interfaces}
         if custom and custom not in states:
             self.log(
@@ -294,3 +185,119 @@ class MockSystem(HardwareComponent):
             f"hardware component '{self.info.name}': parameter '{name}' is '{text}'; {expected} "
             'is needed'
         )
+
+
+class MockPart:
+    """
+    A joint, sensor or GPIO: its interfaces, and how its states follow its commands.
+
+    A joint has a position, velocity and acceleration even without state interfaces for them.
+    """
+
+    def __init__(
+        self,
+        info: ComponentInfo,
+        offset: float = 0.0,
+        custom: str = '',
+        commands_states: bool = False,
+    ) -> None:
+        """
+        Take a description.
+
+        Args:
+            info: of the joint, sensor or GPIO.
+            offset: added to the position command, rad or m.
+            custom: the state that gets command + offset instead of the position.
+            commands_states: every state can be commanded.
+        """
+        self.info = info
+        self.mode = POSITION
+        self.states = {i.name: StateInterface.of(info, i) for i in info.state_interfaces}
+        wanted = {interface.name: interface for interface in info.command_interfaces}
+        if commands_states:
+            wanted = {i.name: i for i in info.state_interfaces} | wanted
+        self._initial = {name: CommandInterface.of(info, i).value for name, i in wanted.items()}
+        self.commands = {name: CommandInterface.of(info, i) for name, i in wanted.items()}
+        self._offset, self._custom = offset, custom
+        self._values = dict.fromkeys(MODES, 0.0)
+
+    def set_initial_states(self) -> None:
+        """Set the states to the initial values of the tag; those of joints default to 0.0."""
+        is_joint = self.info.type is ComponentType.JOINT
+        self._values = dict.fromkeys(MODES, 0.0)
+        for interface in self.info.state_interfaces:
+            first = StateInterface.of(self.info, interface).value
+            self._values[interface.name] = 0.0 if is_joint and math.isnan(first) else first
+        if not self._custom:
+            self._values[POSITION] += self._offset
+        self._update_states()
+
+    def set_initial_commands(self) -> None:
+        """Set the commands to the initial values of the tag, or unset."""
+        for name, command in self.commands.items():
+            command.value = self._initial[name]
+
+    def stop(self) -> None:
+        """Stop at the present position."""
+        self._values[VELOCITY] = self._values[ACCELERATION] = 0.0
+
+    def follow(self) -> None:
+        """Set the states to the commands that are set."""
+        self._mirror(skipped=(POSITION,))
+        position = self._commanded(POSITION)
+        if position is not None:
+            self._values[POSITION] = position + self._own_offset
+        self._update_states()
+
+    def integrate(self, dt: float) -> None:
+        """
+        Advance by ``dt`` (s, positive) in the present mode; other commands as in :meth:`follow`.
+
+        Backward Euler, ``v += a·dt; x += v·dt``, after the quantity of the mode was set to its
+        command; the derivatives of that quantity are differences over ``dt``.
+        """
+        self._mirror(skipped=MODES)
+        values, command = self._values, self._commanded(self.mode)
+        before = values[POSITION], values[VELOCITY]
+        if self.mode == POSITION:
+            if command is not None:
+                values[POSITION] = command + self._own_offset
+                values[VELOCITY] = (values[POSITION] - before[0]) / dt
+        else:
+            if command is not None:
+                values[self.mode] = command
+            if self.mode == ACCELERATION:
+                values[VELOCITY] += values[ACCELERATION] * dt
+            values[POSITION] += values[VELOCITY] * dt
+        if self.mode != ACCELERATION and command is not None:
+            values[ACCELERATION] = (values[VELOCITY] - before[1]) / dt
+        self._update_states()
+
+    def mimic(self, source: 'MockPart') -> None:
+        """Follow ``source``: offset + multiplier · position; derivatives without the offset."""
+        mimic = self.info.mimic
+        assert mimic is not None
+        for name in MODES:
+            offset = mimic.offset if name == POSITION else 0.0
+            self._values[name] = offset + mimic.multiplier * source._values[name]
+        self._update_states()
+
+    @property
+    def _own_offset(self) -> float:
+        return 0.0 if self._custom else self._offset
+
+    def _commanded(self, name: str) -> float | None:
+        command = self.commands.get(name)
+        return command.value if command is not None and command.is_set else None
+
+    def _mirror(self, skipped: tuple[str, ...]) -> None:
+        for name, command in self.commands.items():
+            if name not in skipped and command.is_set:
+                self._values[name] = command.value
+        position = self._commanded(POSITION)
+        if self._custom in self.states and position is not None:
+            self._values[self._custom] = position + self._offset
+
+    def _update_states(self) -> None:
+        for name, state in self.states.items():
+            state.value = self._values[name]

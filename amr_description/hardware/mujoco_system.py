@@ -1,15 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The joints and inertial measurement units of a simulated robot as a hardware component.
+``amr_description/MujocoSystem``: the joints and inertial measurement units of a simulated robot.
 
-It knows :class:`~amr_description.control.world.World` and not what is behind it. A joint obeys the
-command interface that is claimed, once the first command has come. Until then, and when nobody
-commands it, it is held where it stands, as Gazebo's ``hold_joints`` does; with
-``<hold_joints>false</hold_joints>`` in the plugin's ``<gazebo>`` block, or
-``<param name="hold_joints">false</param>`` in ``<hardware>``, it swings freely.
-
-Which of its command interfaces each joint obeys: the one that is claimed.
+It depends on :class:`~amr_description.control.world.World` only. A joint follows the command
+interface that is claimed, from the first command on. Before that, and while nobody commands it, it
+is held where it is, as with ``hold_joints`` in Gazebo. With ``<hold_joints>false</hold_joints>``
+in the plugin's ``<gazebo>`` block, or ``<param name="hold_joints">false</param>`` in
+``<hardware>``, it moves freely.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -31,71 +29,16 @@ from amr_description.model.gazebo import GAZEBOS_GAIN, ros2_control_host_of
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
 from amr_description.text import truth
 
-
-class CommandModes:
-    """
-    The mode of each joint, told by claims.
-
-    A joint with one command interface has no choice: it obeys that, claimed or not.
-    """
-
-    def __init__(self, commands: Sequence[CommandInterface]) -> None:
-        """``commands``: all command interfaces of the component."""
-        self._commands = {command.name: command for command in commands}
-        self._claimed: set[str] = set()
-        self._by_joint: dict[str, list[CommandInterface]] = {}
-        for command in commands:
-            self._by_joint.setdefault(command.prefix, []).append(command)
-
-    def check(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Refuse two modes on one joint. Raises HardwareError."""
-        modes: dict[str, str] = {}
-        for name in sorted(self._after(start, stop)):
-            command = self._commands[name]
-            other = modes.setdefault(command.prefix, command.interface)
-            if other != command.interface:
-                raise HardwareError(
-                    f"joint '{command.prefix}' is to be commanded by {other} and "
-                    f'{command.interface} at once; one of them will do'
-                )
-
-    def switch(self, start: Sequence[str], stop: Sequence[str]) -> set[str]:
-        """Take over what is claimed and released; return the joints concerned."""
-        self._claimed = self._after(start, stop)
-        names = self._commands.keys() & {*start, *stop}
-        return {self._commands[name].prefix for name in names}
-
-    def forget(self) -> None:
-        """Nothing is claimed any more."""
-        self._claimed.clear()
-
-    def obeyed(self, joint: str) -> CommandInterface | None:
-        """The command that the joint obeys; None if there are several and none is claimed."""
-        commands = self._by_joint[joint]
-        if len(commands) == 1:
-            return commands[0]
-        return next((command for command in commands if command.name in self._claimed), None)
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """The joints with a command interface."""
-        return tuple(self._by_joint)
-
-    def _after(self, start: Sequence[str], stop: Sequence[str]) -> set[str]:
-        return (self._claimed - set(stop)) | (self._commands.keys() & set(start))
-
-
 STATES = (POSITION, VELOCITY, EFFORT)
+
 COMMANDS = (POSITION, VELOCITY, EFFORT)
 
 
 class MujocoSystem(HardwareComponent):
-    """
-    ``amr_description/MujocoSystem``: position, velocity and effort of joints, states and commands.
-    """
+    """Position, velocity and effort of joints, as states and commands; see the module."""
 
     def __init__(self, info: HardwareInfo, log: Log, world: World | None) -> None:
-        """Raises HardwareError: without a world, or for an interface that it does not have."""
+        """Raises HardwareError: there is no world, or an interface that is not supported."""
         super().__init__(info, log, world)
         if world is None:
             raise HardwareError(
@@ -136,7 +79,7 @@ class MujocoSystem(HardwareComponent):
         self._warn_unsupported()
         self._states += [state for imu in self._imus for state in imu.states]
         self._modes = CommandModes(self._commands)
-        self._followers: list[_Follower] = []
+        self._commanded: list[_CommandedGroup] = []
         self._idle: tuple[str, ...] = ()
         self._idle_group = world.joints(self._modes.joints)
 
@@ -158,20 +101,20 @@ class MujocoSystem(HardwareComponent):
             )
 
     def state_interfaces(self) -> Sequence[StateInterface]:
-        """As the tag declares them, in its order."""
+        """Return those of the tag, in its order."""
         return self._states
 
     def command_interfaces(self) -> Sequence[CommandInterface]:
-        """As the tag declares them, in its order."""
+        """Return those of the tag, in its order."""
         return self._commands
 
     def configure(self) -> None:
-        """Fill the state cells, so that what is available is also valid."""
+        """Read the states, which become available now."""
         self.read(0, 0)
         self._restart_noise()
 
     def activate(self) -> None:
-        """Leave the joints idle, and forget commands of an earlier life."""
+        """Start with idle joints, without earlier commands."""
         self._stop()
 
     def deactivate(self) -> None:
@@ -179,24 +122,24 @@ class MujocoSystem(HardwareComponent):
         self._stop()
 
     def cleanup(self) -> None:
-        """Nobody has a claim on it any more."""
+        """Drop the claims."""
         self._modes.forget()
 
     def prepare_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Two modes on one joint are refused. Raises HardwareError."""
+        """Refuse two command interfaces on one joint. Raises HardwareError."""
         self._modes.check(start, stop)
 
     def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
-        """Joints that are released, or change hands, are idle until the first command."""
-        self._rest(self._modes.switch(start, stop))
+        """Joints that are claimed or released are idle until the first command."""
+        self._make_idle(self._modes.switch(start, stop))
 
     def reset(self, time: int) -> None:
-        """The world has put the joints back: forget all targets; what is measured is repeated."""
+        """Drop all commands, and repeat the noise from its start."""
         self._stop()
         self._restart_noise()
 
     def read(self, time: int, period: int) -> None:
-        """Take the joints' present state, and what the sensors measure."""
+        """Read joints and sensors."""
         for cells, read in self._sources:
             for cell, value in zip(cells, read(), strict=True):
                 cell.value = value
@@ -204,20 +147,19 @@ class MujocoSystem(HardwareComponent):
             imu.read(period / NANOSECONDS)
 
     def write(self, time: int, period: int) -> None:
-        """Command the joints; NaN keeps the target of before."""
-        if any(self._is_called(joint) for joint in self._idle):
-            self._gather([joint for joint in self._idle if not self._is_called(joint)])
+        """Command the joints; NaN keeps the previous command."""
+        if any(self._has_command(joint) for joint in self._idle):
+            self._group_joints([joint for joint in self._idle if not self._has_command(joint)])
         try:
-            for follower in self._followers:
-                follower.write()
+            for group in self._commanded:
+                group.write()
             self._keep_idle()
         except SimulationError as cause:
             self._stop()
             raise HardwareError(f"hardware component '{self.info.name}': {cause}") from cause
 
-    def _is_called(self, joint: str) -> bool:
-        """Whether there is a command for the joint."""
-        command = self._modes.obeyed(joint)
+    def _has_command(self, joint: str) -> bool:
+        command = self._modes.followed(joint)
         return command is not None and not math.isnan(command.value)
 
     def _restart_noise(self) -> None:
@@ -225,28 +167,28 @@ class MujocoSystem(HardwareComponent):
             imu.restart()
 
     def _stop(self) -> None:
-        self._rest(self._modes.joints)
+        self._make_idle(self._modes.joints)
 
-    def _rest(self, joints: Iterable[str]) -> None:
-        """Leave these joints idle, and forget what they were told."""
-        resting = set(joints)
+    def _make_idle(self, joints: Iterable[str]) -> None:
+        """Make joints idle, and drop their commands."""
+        idle = set(joints)
         for command in self._commands:
-            if command.prefix in resting:
+            if command.prefix in idle:
                 command.value = math.nan
-        resting.update(self._idle)
-        self._gather([joint for joint in self._modes.joints if joint in resting])
+        idle.update(self._idle)
+        self._group_joints([joint for joint in self._modes.joints if joint in idle])
         self._keep_idle()
 
-    def _gather(self, idle: Sequence[str]) -> None:
-        """Sort the joints anew into idle ones and groups that follow one kind of command."""
-        targets = {name: target for each in self._followers for name, target in each.targets()}
-        busy = [self._modes.obeyed(joint) for joint in self._modes.joints if joint not in idle]
-        self._followers = []
+    def _group_joints(self, idle: Sequence[str]) -> None:
+        """Divide the joints into idle ones and groups that follow one kind of command."""
+        targets = {name: target for each in self._commanded for name, target in each.targets()}
+        busy = [self._modes.followed(joint) for joint in self._modes.joints if joint not in idle]
+        self._commanded = []
         for interface in COMMANDS:
             commands = [each for each in busy if each is not None and each.interface == interface]
             if commands:
                 group = self._world.joints([command.prefix for command in commands])
-                self._followers.append(_Follower(group, interface, commands, targets))
+                self._commanded.append(_CommandedGroup(group, interface, commands, targets))
         self._idle = tuple(idle)
         self._idle_group = self._world.joints(self._idle)
 
@@ -257,7 +199,69 @@ class MujocoSystem(HardwareComponent):
             self._idle_group.release()
 
 
-class _Follower:
+class CommandModes:
+    """
+    The command interface that each joint follows: the claimed one.
+
+    A joint with a single command interface follows it, claimed or not.
+    """
+
+    def __init__(self, commands: Sequence[CommandInterface]) -> None:
+        """``commands``: all command interfaces of the component."""
+        self._commands = {command.name: command for command in commands}
+        self._claimed: set[str] = set()
+        self._by_joint: dict[str, list[CommandInterface]] = {}
+        for command in commands:
+            self._by_joint.setdefault(command.prefix, []).append(command)
+
+    def check(self, start: Sequence[str], stop: Sequence[str]) -> None:
+        """
+        Check a switch of command interfaces.
+
+        Args:
+            start: names of the interfaces to claim.
+            stop: names of the interfaces to release.
+
+        Raises:
+            HardwareError: two interfaces of one joint would be claimed.
+        """
+        modes: dict[str, str] = {}
+        for name in sorted(self._after(start, stop)):
+            command = self._commands[name]
+            other = modes.setdefault(command.prefix, command.interface)
+            if other != command.interface:
+                raise HardwareError(
+                    f"joint '{command.prefix}' is to be commanded by {other} and "
+                    f'{command.interface} at once; one of them will do'
+                )
+
+    def switch(self, start: Sequence[str], stop: Sequence[str]) -> set[str]:
+        """Carry out a switch, arguments as above; return the joints concerned."""
+        self._claimed = self._after(start, stop)
+        names = self._commands.keys() & {*start, *stop}
+        return {self._commands[name].prefix for name in names}
+
+    def forget(self) -> None:
+        """Drop all claims."""
+        self._claimed.clear()
+
+    def followed(self, joint: str) -> CommandInterface | None:
+        """Return the command that a joint follows; None: it has several, none of them claimed."""
+        commands = self._by_joint[joint]
+        if len(commands) == 1:
+            return commands[0]
+        return next((command for command in commands if command.name in self._claimed), None)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints with a command interface."""
+        return tuple(self._by_joint)
+
+    def _after(self, start: Sequence[str], stop: Sequence[str]) -> set[str]:
+        return (self._claimed - set(stop)) | (self._commands.keys() & set(start))
+
+
+class _CommandedGroup:
     """Joints that follow one kind of command."""
 
     def __init__(
@@ -267,19 +271,19 @@ class _Follower:
         commands: Sequence[CommandInterface],
         targets: dict[str, float],
     ) -> None:
-        """``targets``: the last commands that were numbers, by name, where there were some."""
+        """``targets``: earlier commands by name, in force where there is no new one."""
         self._group, self._interface, self._commands = group, interface, commands
         self._targets = [targets.get(command.name, command.value) for command in commands]
 
     def write(self) -> None:
-        """Raises SimulationError."""
+        """Command the joints. Raises SimulationError."""
         for index, command in enumerate(self._commands):
             if not math.isnan(command.value):
                 self._targets[index] = command.value
         self._group.command(self._interface, self._targets)
 
     def targets(self) -> Iterable[tuple[str, float]]:
-        """The last command of each joint that was a number."""
+        """Return the command in force, by name."""
         return zip((command.name for command in self._commands), self._targets, strict=True)
 
 
@@ -299,7 +303,7 @@ def _checked(
 
 
 def _holds_joints(info: HardwareInfo, world: World) -> bool:
-    """Raises HardwareError for a text that is no truth value."""
+    """Return the parameter ``hold_joints``. Raises HardwareError: it is not a truth value."""
     text = info.parameters.get('hold_joints')
     if text is None:
         return ros2_control_host_of(world.description).hold_joints

@@ -3,25 +3,25 @@
 """
 The line protocol between a robot computer (the host) and a motor board with two sides, version 1.
 
-All that a firmware has to know stands here; :mod:`amr_description.hardware.serial_protocol` reads
-and writes it. **A line** is ASCII, at most 96 bytes with the line feed that ends it::
+This is the specification for a firmware, and the code that reads and writes the messages, for both
+ends, without a port or a clock. **A line** is ASCII, at most 96 bytes including its line feed::
 
     $<word>,<field>,…*<CRC>
 
 The CRC is CRC-16/CCITT-FALSE (polynomial 0x1021, start 0xFFFF; ``123456789`` gives ``29B1``) of
-all between ``$`` and ``*``, as four upper-case hexadecimal digits. A line that departs from this
-in anything is refused whole; an empty line says nothing. Whatever went wrong, the next line feed
-puts things right, so the host sends one before its first word.
+the bytes between ``$`` and ``*``, as four upper-case hexadecimal digits. Any other line is refused
+as a whole; an empty line is ignored. A line feed always starts a new line, so the host sends one
+before its first message.
 
 ========================================  =========================================================
 from the host                             the board
 ========================================  =========================================================
 ``HELLO,<number>,<version>``              answers ``BOARD``
 ``GET,<number>``                          answers ``STATE``
-``ARM,<number>,<watchdog>``               but in FAULT powers the motors at 0 rad/s and goes to
+``ARM,<number>,<watchdog>``               unless in FAULT, powers the motors at 0 rad/s and goes to
                                           ARMED; answers ``STATE``. ``watchdog``: 20 to 5000 ms
-``SET,<number>,<left>,<right>``           in ARMED or TIMEOUT follows these target velocities and
-                                          goes to ARMED; answers ``STATE``, whose mode tells
+``SET,<number>,<left>,<right>``           in ARMED or TIMEOUT, follows these target velocities and
+                                          goes to ARMED; answers ``STATE``
 ``DISARM,<number>``                       brakes and goes to IDLE, from FAULT if the fault is over;
                                           answers ``STATE``
 ========================================  =========================================================
@@ -29,32 +29,28 @@ from the host                             the board
 ========================================  =========================================================
 from the board                            meaning
 ========================================  =========================================================
-``BOARD,<number>,<version>,<name>,``      who it is. ``ticks``: of the encoder, per turn of the
-``<ticks>,<velocity>``                    motor shaft; ``velocity``: the greatest that ``SET`` may
-                                          ask for, rad/s
+``BOARD,<number>,<version>,<name>,``      identification. ``ticks``: of the encoder, per turn of
+``<ticks>,<velocity>``                    the motor shaft; ``velocity``: the greatest of ``SET``,
+                                          rad/s
 ``STATE,<number>,<uptime>,``              ms since its start; encoder counts, growing as the motor
 ``<left ticks>,<right ticks>,``           turns forward; measured velocities, rad/s; mode
 ``<left>,<right>,<mode>``
 ``ERROR,<reason>``                        a line was refused, and nothing was changed
 ========================================  =========================================================
 
-The board says nothing by itself. Every good line has exactly one answer, with the ``number`` of
-its question, so that no old answer is taken for a new one. What the host reads is as old as its
-question: a host that asks in its own rhythm gets samples in that rhythm.
+The board only answers. Every valid line has exactly one answer, with the ``number`` of its
+question, so that no old answer is taken for a new one. A state is as old as its question: a host
+that asks periodically gets periodic samples.
 
-**The watchdog.** When the board is ARMED and for ``watchdog`` ms no ``SET`` came that it could
-follow, it brakes and goes to TIMEOUT. The next good ``SET`` makes it go on. Nothing else feeds it:
-a host whose program hangs stops, even if its driver still asks for states.
+**The watchdog.** If the board is ARMED and receives no valid ``SET`` for ``watchdog`` ms, it
+brakes and goes to TIMEOUT. The next valid ``SET`` makes it go on. No other message resets the
+watchdog: the robot stops if the host's program hangs, even if its driver still asks for states.
 
 Fields: velocities are of the motor shafts, rad/s, with four digits after the point (``-12.5000``).
 ``uptime`` is an unsigned, a tick count a signed 32-bit number; both wrap around. ``number`` and
 ``version`` have 16 bits. A name has 1 to 16 letters, digits, ``-`` or ``_``. Modes and reasons:
-:class:`Mode`, :class:`Reason`. A board that is of another version answers ``HELLO`` all the same,
-with its own version.
-
-Messages to bytes and back, for both ends of :mod:`amr_description.hardware.serial_protocol`.
-
-Pure: no port, no clock.
+:class:`BoardMode`, :class:`Reason`. A board of another version answers ``HELLO`` too, with its own
+version.
 """
 
 import binascii
@@ -69,35 +65,35 @@ from amr_description.errors import HardwareError
 
 VERSION = 1
 LONGEST_LINE = 96
-"""bytes, with the line feed."""
+"""bytes, including the line feed."""
 SHORTEST_WATCHDOG, LONGEST_WATCHDOG = 20, 5000
 """ms."""
 GREATEST_VELOCITY = 10_000.0
-"""rad/s: no line carries more."""
+"""rad/s: the greatest in a line."""
 
 
-class Mode(StrEnum):
-    """What the motors of a board do."""
+class BoardMode(StrEnum):
+    """The mode of a board."""
 
     IDLE = 'IDLE'
-    """Without power, as after its start."""
+    """The motors have no power, as after the start."""
     ARMED = 'ARMED'
-    """They follow ``SET``."""
+    """The motors follow ``SET``."""
     TIMEOUT = 'TIMEOUT'
-    """The watchdog has stopped them."""
+    """The watchdog has stopped the motors."""
     FAULT = 'FAULT'
-    """The board has stopped them: over-current, over-temperature, an encoder that is missing."""
+    """The board has stopped the motors: over-current, over-temperature, a missing encoder."""
 
 
 class Reason(StrEnum):
     """Why a line was refused."""
 
     CHECKSUM = 'CHECKSUM'
-    """Not a line, too long a line, or a wrong CRC: noise, or the wrong baud rate."""
+    """Not a line, too long, or a wrong CRC: noise, or the wrong baud rate."""
     MESSAGE = 'MESSAGE'
-    """An unknown word, or fields that do not belong to it."""
+    """An unknown word, or wrong fields."""
     RANGE = 'RANGE'
-    """A number beyond its limits."""
+    """A number out of range."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +156,7 @@ class State:
     right_ticks: int
     left: float
     right: float
-    mode: Mode
+    mode: BoardMode
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +173,7 @@ type Message = Question | Answer
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """A line that is none, without its line feed; of one that is too long, the beginning."""
+    """An invalid line, without its line feed; the beginning of one that is too long."""
 
     line: bytes
     reason: Reason
@@ -185,7 +181,7 @@ class Refused:
 
 @dataclass(frozen=True, slots=True)
 class _Field:
-    """How a value is written, and read from a text that ``pattern`` matches."""
+    """How a value is written, and read from a text that matches ``pattern``."""
 
     pattern: str
     read: Callable[[str], Any]
@@ -234,7 +230,7 @@ _LAYOUTS: dict[type[Message], tuple[_Field, ...]] = {
     Set: (_U16, _VELOCITY, _VELOCITY),
     Disarm: (_U16,),
     Board: (_U16, _U16, _text('[A-Za-z0-9_-]{1,16}'), _U32, _VELOCITY),
-    State: (_U16, _U32, _I32, _I32, _VELOCITY, _VELOCITY, _text('|'.join(Mode), Mode)),
+    State: (_U16, _U32, _I32, _I32, _VELOCITY, _VELOCITY, _text('|'.join(BoardMode), BoardMode)),
     Error: (_text('|'.join(Reason), Reason),),
 }
 _BY_WORD = {kind.__name__.upper(): (kind, layout) for kind, layout in _LAYOUTS.items()}
@@ -273,23 +269,23 @@ def _crc(data: bytes) -> int:
 
 
 class LineReader:
-    """Turns bytes, in whatever pieces they come, into messages and refused lines."""
+    """Splits a stream of bytes into messages and refused lines."""
 
     def __init__(self) -> None:
-        self._begun = bytearray()
+        self._line = bytearray()
 
     def feed(self, data: bytes) -> list[Message | Refused]:
-        """Return what has become complete, oldest first."""
-        *ended, begun = data.split(b'\n')
+        """Return the lines that are complete, oldest first."""
+        *ended, started = data.split(b'\n')
         found = []
         for piece in ended:
-            self._grow(piece)
-            if self._begun:
-                found.append(decode(bytes(self._begun)))
-            self._begun.clear()
-        self._grow(begun)
+            self._append(piece)
+            if self._line:
+                found.append(decode(bytes(self._line)))
+            self._line.clear()
+        self._append(started)
         return found
 
-    def _grow(self, piece: bytes) -> None:
-        """Of a line that is too long, keep as much as shows that it is."""
-        self._begun += piece[: LONGEST_LINE - len(self._begun)]
+    def _append(self, piece: bytes) -> None:
+        """Keep only as much of a line as shows that it is too long."""
+        self._line += piece[: LONGEST_LINE - len(self._line)]

@@ -7,20 +7,17 @@ The link that it is mounted on is that of the Gazebo sensor of the same name::
 
     <gazebo reference="base_link"><sensor name="imu" type="imu"/></gazebo>
 
-without one that of ``<param name="link">``, ``frame`` or ``frame_id`` in the ``<ros2_control>``
-sensor, and else the link of its own name. Its orientation is that in the world, not that against
-the start.
+or else that of ``<param name="link">``, ``frame`` or ``frame_id`` in the ``<ros2_control>``
+sensor, or else the link with the name of the sensor. Its orientation is relative to the world, not
+to the start.
 
-It measures without noise, but for what the Gazebo sensor asks for::
+It measures without noise, unless the Gazebo sensor declares some (see
+:mod:`amr_description.model.gazebo`)::
 
     <imu><angular_velocity><z><noise type="gaussian"><stddev>0.001</stddev> …
 
-see :mod:`amr_description.model.gazebo`.
-
-The noise of one simulated sensor: by chance, and the same each time.
-
-Every number follows from a seed. Each sensor has a stream of its own, so that another sensor, or
-another robot, does not change what this one measures.
+The noise is reproducible: each sensor has its own random stream, and another sensor or robot does
+not change its measurements.
 """
 
 from collections.abc import Sequence
@@ -33,59 +30,23 @@ from amr_description.model.frames import Transform
 from amr_description.model.gazebo import gazebo_sensors_of, GazeboSensor, Noise
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo
 
-
-class SensorNoise:
-    """The noise on some quantities of a sensor; the stream is that of numpy's PCG64."""
-
-    def __init__(self, noises: Sequence[Noise], seed: Sequence[int]) -> None:
-        """``seed``: numbers from 0 on that no other sensor has."""
-        self._noises = tuple(noises)
-        self._seed = tuple(seed)
-        self.restart()
-
-    def restart(self) -> None:
-        """Begin the stream anew, the biases too."""
-        from numpy.random import Generator, PCG64  # not at import: few sensors have noise
-
-        self._generator = Generator(PCG64(self._seed))
-        self._biases = [self._first_bias(noise) for noise in self._noises]
-
-    def _first_bias(self, noise: Noise) -> float:
-        draw, sign = self._generator.standard_normal(2).tolist()
-        return math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
-
-    def apply(self, values: Sequence[float], period: float) -> list[float]:
-        """What is measured instead of ``values``, ``period`` s after the last time."""
-        count = len(self._noises)
-        draws = self._generator.standard_normal(2 * count).tolist()
-        measured = []
-        for index, (noise, value) in enumerate(zip(self._noises, values, strict=True)):
-            if noise.wanders:
-                self._wander(index, noise, period, draws[count + index])
-            value += self._biases[index] + noise.mean + noise.stddev * draws[index]
-            if noise.precision:
-                value = round(value / noise.precision) * noise.precision
-            measured.append(value)
-        return measured
-
-    def _wander(self, index: int, noise: Noise, period: float, draw: float) -> None:
-        tau = noise.dynamic_bias_correlation_time
-        spread = noise.dynamic_bias_stddev * math.sqrt(
-            -0.5 * tau * math.expm1(-2.0 * period / tau)
-        )
-        self._biases[index] = math.exp(-period / tau) * self._biases[index] + spread * draw
-
-
 _LINK_PARAMETERS = ('link', 'frame', 'frame_id')
 
 
 class SimulatedImu:
-    """The state interfaces of one unit: unit quaternion, rad/s and m/s², gravity included."""
+    """The state interfaces of a unit: unit quaternion, rad/s and m/s², gravity included."""
 
     def __init__(self, info: ComponentInfo, world: World, mounted: GazeboSensor | None) -> None:
         """
-        ``mounted``: what Gazebo knows of it. Raises HardwareError for another interface, or if
-        nothing says where it is mounted.
+        Take a unit.
+
+        Args:
+            info: the ``<sensor>`` of the ``<ros2_control>`` block.
+            world: the simulated world.
+            mounted: the Gazebo sensor, if there is one.
+
+        Raises:
+            HardwareError: it has an interface that is not one of a unit, or no link.
         """
         self.info = info
         self._world = world
@@ -96,25 +57,25 @@ class SimulatedImu:
                     f'has: {", ".join(IMU_INTERFACES)}'
                 )
         self._link = _link_of(info, world, mounted)
-        self._place = Transform() if mounted is None else mounted.place
+        self._mount_pose = Transform() if mounted is None else mounted.place
         self.states = [StateInterface(info.name, each.name) for each in info.state_interfaces]
         self._indices = [IMU_INTERFACES.index(state.interface) for state in self.states]
         noises = () if mounted is None else mounted.noise
         self._noisy = [IMU_INTERFACES.index(interface) for interface, _ in noises]
         self._noise: SensorNoise | None = None
         if noises:
-            # 0 is in no name: no robot and sensor have the numbers of two others.
+            # No name contains a 0: no other robot and sensor have the same seed.
             seed = (*world.seed, 0, *info.name.encode())
             self._noise = SensorNoise([noise for _, noise in noises], seed)
 
     def restart(self) -> None:
-        """Begin the noise anew."""
+        """Restart the noise."""
         if self._noise is not None:
             self._noise.restart()
 
     def read(self, period: float) -> None:
-        """Bring the states up to date, ``period`` s after the last time."""
-        reading = self._world.imu(self._link, self._place)
+        """Update the states; ``period``: since the previous call, s."""
+        reading = self._world.imu(self._link, self._mount_pose)
         # In the order of IMU_INTERFACES.
         values = [*reading.orientation, *reading.angular_velocity, *reading.linear_acceleration]
         if self._noise is not None:
@@ -127,8 +88,17 @@ class SimulatedImu:
 
 def imus_of(info: HardwareInfo, world: World) -> list[SimulatedImu]:
     """
-    The units among a component's sensors: those that are one in Gazebo, or have an interface of
-    one. Raises HardwareError, and DescriptionError for a ``<gazebo>`` block that cannot be read.
+    Return the units among the sensors of a component.
+
+    Those are the sensors of type ``imu`` in Gazebo, or with at least one interface of a unit.
+
+    Args:
+        info: of the component.
+        world: the simulated world.
+
+    Raises:
+        HardwareError: of :class:`SimulatedImu`.
+        DescriptionError: a ``<gazebo>`` block is invalid.
     """
     if not info.sensors:
         return []
@@ -142,8 +112,56 @@ def imus_of(info: HardwareInfo, world: World) -> list[SimulatedImu]:
     ]
 
 
+class SensorNoise:
+    """The noise of some quantities of a sensor, from numpy's PCG64."""
+
+    def __init__(self, noises: Sequence[Noise], seed: Sequence[int]) -> None:
+        """``seed``: numbers ≥ 0, different for every sensor."""
+        self._noises = tuple(noises)
+        self._seed = tuple(seed)
+        self.restart()
+
+    def restart(self) -> None:
+        """Restart the random stream, and the biases."""
+        from numpy.random import Generator, PCG64  # slow to import, and few sensors have noise
+
+        self._generator = Generator(PCG64(self._seed))
+        self._biases = [self._first_bias(noise) for noise in self._noises]
+
+    def _first_bias(self, noise: Noise) -> float:
+        draw, sign = self._generator.standard_normal(2).tolist()
+        return math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
+
+    def apply(self, values: Sequence[float], period: float) -> list[float]:
+        """
+        Return values with noise.
+
+        Args:
+            values: one for each quantity.
+            period: since the previous call, s.
+        """
+        count = len(self._noises)
+        draws = self._generator.standard_normal(2 * count).tolist()
+        measured = []
+        for index, (noise, value) in enumerate(zip(self._noises, values, strict=True)):
+            if noise.wanders:
+                self._drift_bias(index, noise, period, draws[count + index])
+            value += self._biases[index] + noise.mean + noise.stddev * draws[index]
+            if noise.precision:
+                value = round(value / noise.precision) * noise.precision
+            measured.append(value)
+        return measured
+
+    def _drift_bias(self, index: int, noise: Noise, period: float, draw: float) -> None:
+        tau = noise.dynamic_bias_correlation_time
+        spread = noise.dynamic_bias_stddev * math.sqrt(
+            -0.5 * tau * math.expm1(-2.0 * period / tau)
+        )
+        self._biases[index] = math.exp(-period / tau) * self._biases[index] + spread * draw
+
+
 def _link_of(info: ComponentInfo, world: World, mounted: GazeboSensor | None) -> str:
-    """The link that the unit is mounted on. Raises HardwareError."""
+    """Return the link that a unit is mounted on. Raises HardwareError."""
     robot = world.description
     links = ', '.join(link.name for link in robot.links)
     named = [info.parameters[name] for name in _LINK_PARAMETERS if name in info.parameters]

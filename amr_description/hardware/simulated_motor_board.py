@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A motor board without the metal: what its firmware answers, and how its two motors turn.
+A simulated motor board: what its firmware answers, and how its two motors turn.
 
-Bytes in, bytes out, and time as an argument; :mod:`amr_description.nodes.motor_board` gives it a
+Bytes in, bytes out, and time as an argument; :mod:`amr_description.nodes.motor_board` adds a
 pseudo-terminal and a clock.
 """
 
@@ -15,6 +15,7 @@ from amr_description.hardware.serial_protocol import (
     Answer,
     Arm,
     Board,
+    BoardMode,
     Disarm,
     encode,
     Error,
@@ -22,7 +23,6 @@ from amr_description.hardware.serial_protocol import (
     LineReader,
     LONGEST_WATCHDOG,
     Message,
-    Mode,
     Reason,
     Refused,
     Set,
@@ -37,7 +37,7 @@ class MotorConstants:
     """
     A motor with its speed controller, and the encoder on its shaft.
 
-    The speed follows its target as dω/dt = (target − ω) / ``time_constant``, its size not above
+    The speed follows its target: dω/dt = (target − ω) / ``time_constant``, limited to
     ``acceleration``.
     """
 
@@ -46,13 +46,13 @@ class MotorConstants:
     acceleration: float = 50.0
     """rad/s²."""
     velocity: float = 30.0
-    """rad/s: the greatest target."""
+    """Greatest target, rad/s."""
     ticks: int = 4096
     """Of the encoder, per turn of the shaft."""
 
 
 class Motor:
-    """One side: it turns towards ``target`` (rad/s)."""
+    """One side: its velocity follows ``target``."""
 
     def __init__(self, constants: MotorConstants) -> None:
         self._constants = constants
@@ -60,7 +60,7 @@ class Motor:
         """rad/s, rad/s and rad since the start."""
 
     def advance(self, dt: float) -> None:
-        """Turn for ``dt`` s; exact for a target that is near, whatever ``dt``."""
+        """Turn for ``dt`` s; exact for any ``dt`` unless the acceleration is limited."""
         limits = self._constants
         change = (self.target - self.velocity) * -math.expm1(-dt / limits.time_constant)
         most = limits.acceleration * dt
@@ -70,51 +70,55 @@ class Motor:
 
     @property
     def ticks(self) -> int:
-        """What the encoder has counted, as a signed number of 32 bits."""
+        """The count of the encoder, a signed number of 32 bits."""
         count = math.floor(self.position / math.tau * self._constants.ticks)
         return (count + 2**31) % 2**32 - 2**31
 
 
 class SimulatedMotorBoard:
-    """
-    The device of :mod:`amr_description.hardware.serial_protocol`.
-
-    ``say`` is told in one line what a bystander would see: armed, stopped by the watchdog, …
-    """
+    """The board of :mod:`amr_description.hardware.serial_protocol`."""
 
     def __init__(
         self,
-        say: Callable[[str], None] = lambda line: None,
+        report: Callable[[str], None] = lambda line: None,
         constants: MotorConstants = MotorConstants(),
         name: str = 'simulated',
     ) -> None:
-        self.mode = Mode.IDLE
+        """
+        Start in IDLE.
+
+        Args:
+            report: called with a line for every change: armed, stopped by the watchdog, …
+            constants: of both motors.
+            name: of the board.
+        """
+        self.mode = BoardMode.IDLE
         self.left, self.right = Motor(constants), Motor(constants)
-        self._say = say
+        self._report = report
         self._constants = constants
         self._name = name
         self._lines = LineReader()
         self._uptime = self._last_set = 0.0
         self._watchdog = 0
 
-    def break_down(self) -> None:
+    def fail(self) -> None:
         """Go to FAULT, as when a motor takes too much current."""
-        self._enter(Mode.FAULT, 'a fault: the motors stop')
+        self._enter(BoardMode.FAULT, 'a fault: the motors stop')
 
     def advance(self, dt: float) -> None:
-        """Let ``dt`` s pass: the watchdog looks, the motors turn."""
+        """Let ``dt`` s pass for the watchdog and the motors."""
         self._uptime += dt
-        if self.mode is Mode.ARMED and (self._uptime - self._last_set) * 1e3 > self._watchdog:
-            self._enter(Mode.TIMEOUT, f'no SET for {self._watchdog} ms: the motors stop')
+        if self.mode is BoardMode.ARMED and (self._uptime - self._last_set) * 1e3 > self._watchdog:
+            self._enter(BoardMode.TIMEOUT, f'no SET for {self._watchdog} ms: the motors stop')
         for motor in (self.left, self.right):
             motor.advance(dt)
 
-    def hear(self, data: bytes) -> bytes:
-        """Take what came in on the line; return what goes out."""
+    def receive(self, data: bytes) -> bytes:
+        """Take received bytes; return those to send."""
         return b''.join(encode(self._answer(message)) for message in self._lines.feed(data))
 
     def _answer(self, message: Message | Refused) -> Answer:
-        """Do what a line says, if it may be; the answer tells."""
+        """Carry out a message, if that is valid, and return the answer."""
         match message:
             case Refused(reason=reason):
                 return Error(reason)
@@ -130,27 +134,27 @@ class SimulatedMotorBoard:
                     return Error(Reason.RANGE)
                 self._set(left, right)
             case Disarm():
-                self._enter(Mode.IDLE, 'disarmed')
+                self._enter(BoardMode.IDLE, 'disarmed')
             case Board() | State() | Error():
-                return Error(Reason.MESSAGE)  # words of the board itself: a host that echoes
+                return Error(Reason.MESSAGE)  # its own messages: the host echoes them
         return self._state(message.number)
 
     def _arm(self, watchdog: int) -> None:
-        if self.mode is not Mode.FAULT:
+        if self.mode is not BoardMode.FAULT:
             self._watchdog = watchdog
             self._last_set = self._uptime
-            self._enter(Mode.ARMED, f'armed; the watchdog waits {watchdog} ms')
+            self._enter(BoardMode.ARMED, f'armed; the watchdog waits {watchdog} ms')
 
     def _set(self, left: float, right: float) -> None:
-        if self.mode in (Mode.ARMED, Mode.TIMEOUT):
-            self._enter(Mode.ARMED, 'a SET came: the motors go on')
+        if self.mode in (BoardMode.ARMED, BoardMode.TIMEOUT):
+            self._enter(BoardMode.ARMED, 'a SET came: the motors go on')
             self._last_set = self._uptime
             self.left.target, self.right.target = left, right
 
-    def _enter(self, mode: Mode, line: str) -> None:
-        """Change the mode, which stops the motors: whatever turns them says so afterwards."""
+    def _enter(self, mode: BoardMode, line: str) -> None:
+        """Change the mode and stop the motors; a target is set afterwards."""
         if mode is not self.mode:
-            self._say(line)
+            self._report(line)
         self.mode = mode
         self.left.target = self.right.target = 0.0
 

@@ -164,7 +164,7 @@ def serve(board: SimulatedMotorBoard, line: int, until: Callable[[], bool]) -> N
             now = time.monotonic()
             board.advance(now - before)
             before = now
-            answer = board.hear(heard)
+            answer = board.receive(heard)
             if answer:
                 with suppress(BlockingIOError):  # nobody reads it; a wire keeps nothing either
                     os.write(line, answer)

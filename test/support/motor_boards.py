@@ -37,9 +37,9 @@ class TamperedBoard(SimulatedMotorBoard):
         self.is_deaf = False
         self.answered = Event()
 
-    def hear(self, data):
+    def receive(self, data):
         self.heard += data
-        answer = self.tamper(super().hear(b'' if self.is_deaf else data))
+        answer = self.tamper(super().receive(b'' if self.is_deaf else data))
         if data:
             self.answered.set()
         return answer

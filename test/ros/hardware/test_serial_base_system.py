@@ -23,12 +23,12 @@ from amr_description.hardware.serial_base_system import SerialBaseSystem
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
+    BoardMode,
     Disarm,
     encode,
     Get,
     Hello,
     LineReader,
-    Mode,
     Refused,
     Set,
     State,
@@ -92,7 +92,7 @@ class Wire:
         self.sent = []
 
     def ask(self, _kind, *_values):
-        return State(1, 0, 0, 0, 0.0, 0.0, Mode.ARMED)
+        return State(1, 0, 0, 0, 0.0, 0.0, BoardMode.ARMED)
 
     def post(self, _kind, left, right):
         self.sent.append((left, right))
@@ -321,7 +321,7 @@ def test_the_board_may_allow_less(plugged, board):
     rig.command(1e300, 1e300)
     expected = pytest.approx((30.0 / 7.3, 30.0 / 7.3), abs=1e-4)
     rig.turn_until(lambda: rig.state('velocity') == expected, board)
-    assert rig.system._board._link.status.complaints == 0
+    assert rig.system._board._link.status.errors == 0
     rig.system.cleanup()
 
 
@@ -358,7 +358,7 @@ def test_nothing_infinite_reaches_the_wire(rig, board, bad):
     with pytest.raises(HardwareDeactivationError, match='a finite number is needed'):
         rig.turn()
     rig.system.deactivate()
-    assert board.mode is Mode.IDLE
+    assert board.mode is BoardMode.IDLE
     assert {(m.left, m.right) for m in heard(board) if isinstance(m, Set)} <= {(5.0, -3.0)}
 
 
@@ -430,7 +430,7 @@ def heard(board):
 def test_deactivating_stops_the_motors(rig, board):
     drive(rig, board)
     rig.system.deactivate()
-    assert (board.mode, board.left.target, board.right.target) == (Mode.IDLE, 0.0, 0.0)
+    assert (board.mode, board.left.target, board.right.target) == (BoardMode.IDLE, 0.0, 0.0)
     assert type(heard(board)[-1]) is Disarm
 
 
@@ -446,7 +446,7 @@ def test_an_owner_who_hangs_is_stopped_by_the_watchdog_and_may_go_on(plugged, bo
     rig = Rig(plugged.port, watchdog_timeout=0.05)
     rig.start()
     drive(rig, board)
-    wait_until(lambda: board.mode is Mode.TIMEOUT)
+    wait_until(lambda: board.mode is BoardMode.TIMEOUT)
     assert board.left.target == 0.0
     drive(rig, board)
     rig.system.cleanup()
@@ -531,8 +531,8 @@ def test_deaf(rig, board):
 def test_hears_only_noise(rig, board, monkeypatch):
     drive(rig, board)
     noise = b'$NOISE*0000\n'
-    hear = board.hear
-    monkeypatch.setattr(board, 'hear', lambda data: hear(noise if data else b''))
+    receive = board.receive
+    monkeypatch.setattr(board, 'receive', lambda data: receive(noise if data else b''))
     is_lost(rig, board, r'has not told its state for 0.25 s, but refused \d+ lines \(CHECKSUM\);')
 
 
@@ -587,14 +587,14 @@ def test_the_clock_of_the_board_may_wrap(plugged, board):
 
 def test_lets_its_motors_go(rig, board):
     drive(rig, board)
-    board.break_down()
+    board.fail()
     is_lost(rig, board, 'has let go of its motors: it is in the mode FAULT')
 
 
 def test_a_board_with_a_fault_is_not_activated(plugged, board):
     rig = Rig(plugged.port, answer_timeout=0.05)
     rig.system.configure()
-    board.break_down()
+    board.fail()
     with pytest.raises(
         HardwareError, match='does not arm its motors: it is in the mode FAULT; check'
     ):

@@ -15,7 +15,7 @@ import pytest
 from support.motor_boards import BoardOnPty
 from support.running_programs import PATIENCE, Program
 
-from amr_description.hardware.simulated_motor_board import Mode
+from amr_description.hardware.simulated_motor_board import BoardMode
 
 AT_ONCE = ['create-3', 'mujoco_sim-1', 'robot_state_publisher-2']
 COMMAND = '/diff_drive_controller/cmd_vel'
@@ -83,7 +83,7 @@ def test_the_wheels_stop_when_the_orchestrator_is_killed(tmp_path):
                 pids = bringup.left()
                 bringup.signal(signal.SIGKILL)
                 assert all(ends(pid) for pid in pids)
-        assert comes(lambda: board.mode is not Mode.ARMED)
+        assert comes(lambda: board.mode is not BoardMode.ARMED)
         assert board.left.target == board.right.target == 0.0
 
 

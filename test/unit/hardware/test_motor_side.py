@@ -25,7 +25,7 @@ def joint(name, commands=('velocity',), states=('position', 'velocity')):
 
 def make_side(reduction=1.0, ticks=0):
     side = MotorSide('Rig', [joint('front'), joint('back')], reduction)
-    side.rebase(ticks, TICKS)
+    side.set_encoder(ticks, TICKS)
     return side
 
 
@@ -47,8 +47,8 @@ def test_position_is_the_sum_of_moves_however_the_counter_wraps(start, moves, re
     count = start
     for move in moves:
         count += move
-        side.show(wrapped(count), 0.0)
-    side.show(wrapped(count), 0.0)
+        side.update_states(wrapped(count), 0.0)
+    side.update_states(wrapped(count), 0.0)
     expected = sum(moves) * math.tau / TICKS / reduction
     assert values(side)['front/position'] == pytest.approx(expected, rel=1e-9, abs=1e-6)
 
@@ -56,18 +56,18 @@ def test_position_is_the_sum_of_moves_however_the_counter_wraps(start, moves, re
 @given(st.integers(-(2**31), 2**31 - 1), st.integers(-(2**31), 2**31 - 1))
 def test_a_new_counter_moves_nothing(before, after):
     side = make_side()
-    side.show(500, 0.0)
-    side.show(before, 0.0)
+    side.update_states(500, 0.0)
+    side.update_states(before, 0.0)
     position = values(side)['back/position']
-    side.rebase(after, TICKS)
-    side.show(after, 0.0)
+    side.set_encoder(after, TICKS)
+    side.update_states(after, 0.0)
     assert values(side)['back/position'] == position
 
 
 @pytest.mark.parametrize('reduction', [1.0, 20.0, -2.5])
 def test_all_joints_show_the_wheel_and_not_the_shaft(reduction):
     side = make_side(reduction)
-    side.show(TICKS, 3.0)
+    side.update_states(TICKS, 3.0)
     assert values(side) == {
         'front/position': pytest.approx(math.tau / reduction),
         'front/velocity': 3.0 / reduction,
@@ -78,16 +78,16 @@ def test_all_joints_show_the_wheel_and_not_the_shaft(reduction):
 
 def test_no_command_keeps_the_one_of_before():
     side = make_side()
-    assert side.wanted() == 0.0
+    assert side.target() == 0.0
     for command in side.commands:
         command.value = 4.0
-    assert side.wanted() == 4.0
+    assert side.target() == 4.0
     side.commands[0].value = math.nan
-    assert side.wanted() == 4.0
+    assert side.target() == 4.0
     side.commands[1].value = math.nan
-    assert side.wanted() == 4.0
-    side.forget()
-    assert side.wanted() == 0.0
+    assert side.target() == 4.0
+    side.forget_commands()
+    assert side.target() == 0.0
 
 
 def test_one_motor_cannot_turn_at_two_speeds():
@@ -95,7 +95,7 @@ def test_one_motor_cannot_turn_at_two_speeds():
     side.commands[0].value, side.commands[1].value = 1.0, 2.0
     expected = r"'front/velocity' \(1.0\) and 'back/velocity' \(2.0\) differ, but one motor turns"
     with pytest.raises(HardwareDeactivationError, match=expected):
-        side.wanted()
+        side.target()
 
 
 @pytest.mark.parametrize('bad', [math.inf, -math.inf])
@@ -103,7 +103,7 @@ def test_an_infinite_command_is_refused(bad):
     side = make_side()
     side.commands[1].value = bad
     with pytest.raises(HardwareDeactivationError, match=f"'back/velocity' is {bad}; a finite"):
-        side.wanted()
+        side.target()
 
 
 @pytest.mark.parametrize(

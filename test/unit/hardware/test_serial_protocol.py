@@ -14,6 +14,7 @@ from amr_description.hardware import serial_protocol
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
+    BoardMode,
     decode,
     Disarm,
     encode,
@@ -24,7 +25,6 @@ from amr_description.hardware.serial_protocol import (
     LineReader,
     LONGEST_LINE,
     LONGEST_WATCHDOG,
-    Mode,
     Reason,
     Refused,
     Set,
@@ -46,10 +46,10 @@ MESSAGES = st.one_of(
     st.builds(Set, U16, VELOCITIES, VELOCITIES),
     st.builds(Disarm, U16),
     st.builds(Board, U16, U16, NAMES, U32, VELOCITIES),
-    st.builds(State, U16, U32, I32, I32, VELOCITIES, VELOCITIES, st.sampled_from(Mode)),
+    st.builds(State, U16, U32, I32, I32, VELOCITIES, VELOCITIES, st.sampled_from(BoardMode)),
     st.builds(Error, st.sampled_from(Reason)),
 )
-LONGEST = State(65535, 2**32 - 1, -(2**31), -(2**31), -10000.0, -10000.0, Mode.TIMEOUT)
+LONGEST = State(65535, 2**32 - 1, -(2**31), -(2**31), -10000.0, -10000.0, BoardMode.TIMEOUT)
 
 
 def good(found):
@@ -105,7 +105,7 @@ def test_a_stream_without_end_takes_no_memory():
     reader = LineReader()
     for _ in range(1000):
         assert reader.feed(b'x' * 1000) == []
-    assert len(reader._begun) <= LONGEST_LINE
+    assert len(reader._line) <= LONGEST_LINE
     assert reader.feed(b'\n') == [Refused(b'x' * LONGEST_LINE, Reason.CHECKSUM)]
     assert reader.feed(encode(Get(7))) == [Get(7)]
 

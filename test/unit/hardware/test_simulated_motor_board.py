@@ -10,13 +10,13 @@ import pytest
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
+    BoardMode,
     Disarm,
     encode,
     Error,
     Get,
     Hello,
     LineReader,
-    Mode,
     Reason,
     Set,
     State,
@@ -89,7 +89,7 @@ class Bench:
         self.board = SimulatedMotorBoard(self.events.append)
 
     def ask(self, message):
-        (answer,) = LineReader().feed(self.board.hear(encode(message)))
+        (answer,) = LineReader().feed(self.board.receive(encode(message)))
         return answer
 
     def wait(self, seconds):
@@ -108,7 +108,7 @@ def bench():
 
 @pytest.fixture
 def armed(bench):
-    assert bench.ask(Arm(1, 200)).mode is Mode.ARMED
+    assert bench.ask(Arm(1, 200)).mode is BoardMode.ARMED
     return bench
 
 
@@ -123,7 +123,7 @@ def test_every_line_has_one_answer_and_the_motors_never_exceed_their_limit(reque
         bench.wait(0.1)
         for motor in (bench.board.left, bench.board.right):
             assert abs(motor.target) <= MotorConstants().velocity
-        if bench.board.mode is not Mode.ARMED:
+        if bench.board.mode is not BoardMode.ARMED:
             assert bench.board.left.target == bench.board.right.target == 0.0
 
 
@@ -145,10 +145,10 @@ def test_turns_as_it_is_told_and_tells_it(armed):
 def test_watchdog_stops_the_motors_and_the_next_command_goes_on(armed):
     armed.ask(Set(1, 5.0, 5.0))
     armed.wait(0.19)
-    assert (armed.mode, armed.board.left.target) == (Mode.ARMED, 5.0)
+    assert (armed.mode, armed.board.left.target) == (BoardMode.ARMED, 5.0)
     armed.wait(0.02)
-    assert (armed.mode, armed.board.left.target) == (Mode.TIMEOUT, 0.0)
-    assert armed.ask(Set(1, 1.0, 1.0)).mode is Mode.ARMED
+    assert (armed.mode, armed.board.left.target) == (BoardMode.TIMEOUT, 0.0)
+    assert armed.ask(Set(1, 1.0, 1.0)).mode is BoardMode.ARMED
     assert armed.board.left.target == 1.0
     assert armed.events == [
         'armed; the watchdog waits 200 ms',
@@ -162,26 +162,26 @@ def test_only_a_good_command_feeds_the_watchdog(armed, fodder):
     for _ in range(30):
         armed.ask(fodder)
         armed.wait(0.01)
-    assert armed.mode is Mode.TIMEOUT
+    assert armed.mode is BoardMode.TIMEOUT
 
 
 def test_is_not_moved_before_it_is_armed_nor_after(bench):
-    assert bench.ask(Set(1, 1.0, 1.0)).mode is Mode.IDLE
+    assert bench.ask(Set(1, 1.0, 1.0)).mode is BoardMode.IDLE
     assert bench.board.left.target == 0.0
     bench.ask(Arm(1, 200))
     bench.ask(Set(1, 1.0, 1.0))
-    assert bench.ask(Disarm(1)).mode is Mode.IDLE
-    assert bench.ask(Set(1, 1.0, 1.0)).mode is Mode.IDLE
+    assert bench.ask(Disarm(1)).mode is BoardMode.IDLE
+    assert bench.ask(Set(1, 1.0, 1.0)).mode is BoardMode.IDLE
     assert bench.board.left.target == 0.0
 
 
 def test_a_fault_stops_it_until_it_is_disarmed(armed):
     armed.ask(Set(1, 1.0, 1.0))
-    armed.board.break_down()
-    assert armed.ask(Arm(1, 200)).mode is Mode.FAULT
-    assert armed.ask(Set(1, 1.0, 1.0)).mode is Mode.FAULT
+    armed.board.fail()
+    assert armed.ask(Arm(1, 200)).mode is BoardMode.FAULT
+    assert armed.ask(Set(1, 1.0, 1.0)).mode is BoardMode.FAULT
     assert armed.board.left.target == 0.0
-    assert armed.ask(Disarm(1)).mode is Mode.IDLE
+    assert armed.ask(Disarm(1)).mode is BoardMode.IDLE
 
 
 @pytest.mark.parametrize(
@@ -191,10 +191,10 @@ def test_what_is_beyond_its_limits_changes_nothing(armed, refused):
     armed.ask(Set(1, 1.0, 2.0))
     assert armed.ask(refused) == Error(Reason.RANGE)
     assert (armed.mode, armed.board.left.target, armed.board.right.target) == (
-        Mode.ARMED, 1.0, 2.0
+        BoardMode.ARMED, 1.0, 2.0
     )  # fmt: skip
 
 
 def test_noise_and_its_own_words_are_refused(bench):
-    assert LineReader().feed(bench.board.hear(b'noise\n')) == [Error(Reason.CHECKSUM)]
+    assert LineReader().feed(bench.board.receive(b'noise\n')) == [Error(Reason.CHECKSUM)]
     assert bench.ask(Error(Reason.RANGE)) == Error(Reason.MESSAGE)
