@@ -1,17 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The way into every executable: Ctrl-C is quiet from here on, also while libraries are imported.
+The entry point of every executable: Ctrl-C prints no traceback, even while libraries are imported.
 
-``setup.py`` names ``amr_description.entry:nodes.talker.main`` in the place of
-``amr_description.nodes.talker:main``. Importing rclpy or MuJoCo takes 0.1 s to 1 s, in which a
-Ctrl-C would show where Python was. There is nothing to clean up yet, so the process just ends,
-with exit code 130 as programs do on SIGINT. What the program itself does with Ctrl-C begins with
-its ``main``; what it leaves to Python ends quietly, too.
+``setup.py`` names ``amr_description.entry:nodes.talker.main`` in place of
+``amr_description.nodes.talker:main``. Importing rclpy or MuJoCo takes 0.1 s to 1 s, during which
+Ctrl-C would print a traceback. There is nothing to clean up yet, so the process just exits with
+code 130, as programs do on SIGINT. From its ``main`` on the program handles Ctrl-C itself; a
+KeyboardInterrupt that it does not catch is quiet, too.
 
-Before it lies what no module can reach: the start of Python itself, and the few lines of the
-script that setuptools writes, some 50 ms. Who starts the program can hold SIGINT back until then
-by starting it with that signal blocked, as the bring-up does.
+The start of Python and of the script that setuptools writes, some 50 ms, is not covered. A parent
+process can cover it by starting the program with SIGINT blocked, as the bring-up does.
 """
 
 from collections.abc import Callable
@@ -23,14 +22,14 @@ INTERRUPTED = 128 + signal.SIGINT
 
 
 class LazyEntryPoint:
-    """A function that is imported when it is called: ``LazyEntryPoint('package').module.function()``."""
+    """A function that is imported when called: ``LazyEntryPoint('package').module.main()``."""
 
     def __init__(self, path: str) -> None:
-        """``path``: dotted name."""
+        """Store the dotted name of a package, a module or a function."""
         self.path = path
 
     def __getattr__(self, name: str) -> 'LazyEntryPoint':
-        """Return what is below."""
+        """Return the entry point of a member."""
         return LazyEntryPoint(f'{self.path}.{name}')
 
     def __call__(self) -> int | None:
@@ -47,26 +46,30 @@ def run(
     find: Callable[[], Callable[[], int | None]], interrupted: int = INTERRUPTED
 ) -> int | None:
     """
-    Call the function that ``find`` imports; return its exit code, ``interrupted`` after Ctrl-C.
+    Call the function that ``find`` imports, and return its exit code.
 
     SIGINT stays ignored where it was (a job in the background of a script).
+
+    Args:
+        find: imports and returns the function.
+        interrupted: the exit code after Ctrl-C.
     """
-    is_heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if is_heard:
-        # Not by an exception: out of an import it would be lost, or told by who catches it.
+    handles_sigint = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if handles_sigint:
+        # No exception: during an import it could be swallowed, or reported as an ImportError.
         signal.signal(signal.SIGINT, lambda *_: os._exit(interrupted))
-    # A bring-up starts programs of this package with SIGINT blocked, so that its own Ctrl-C waits
-    # until here: before, Python itself would tell of it.
+    # The bring-up starts executables of this package with SIGINT blocked, so that a Ctrl-C stays
+    # pending until here; earlier, Python itself would print a traceback.
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     main = find()
     try:
-        if is_heard:
+        if handles_sigint:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         return main()
     except KeyboardInterrupt:
         return interrupted
 
 
-bringup = LazyEntryPoint('amr_description.bringup')
-nodes = LazyEntryPoint('amr_description.nodes')
+_package = LazyEntryPoint(__package__)
+bringup, nodes = _package.bringup, _package.nodes
 xacro = LazyEntryPoint('xacro')

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The arguments of a stack, ``name:=value``: declared by the signature of its function.
+The arguments of a stack, ``name:=value``, declared by the signature of its function.
 
 ::
 
@@ -29,12 +29,12 @@ class Argument:
     type: type
     """str, float, int or bool."""
     default: str | None = None
-    """As a user would type it; None: the argument is required."""
+    """As a user would type it; None: required."""
     choices: tuple[str, ...] = ()
     help: str = ''
 
     def convert(self, text: str) -> Any:
-        """Return the value that the text means; one line says what is wrong with it."""
+        """Return the value of a text. Raises BringupError or UsageError."""
         if self.choices and text not in self.choices:
             raise BringupError(
                 f'Argument "{self.name}" provided value "{text}" is not valid. '
@@ -51,7 +51,7 @@ class Argument:
 
 
 def declared(function: Callable[..., object]) -> list[Argument]:
-    """Return the arguments that the signature of a stack's function declares."""
+    """Return the arguments that a stack's function declares. Raises BringupError."""
     try:
         hints = get_type_hints(function, include_extras=True)
     except NameError as error:
@@ -64,7 +64,7 @@ def declared(function: Callable[..., object]) -> list[Argument]:
 
 def with_arguments_of[F: Callable[..., object]](other: Callable[..., object]) -> Callable[[F], F]:
     """
-    Have a stack's function take, for its ``**others``, the arguments of another stack.
+    Return a decorator: the ``**others`` of a stack's function are the arguments of another stack.
 
     ::
 
@@ -123,7 +123,7 @@ def as_typed(value: object) -> str:
 
 
 def parse(words: Sequence[str]) -> dict[str, str]:
-    """Split ``name:=value`` words; the last of a name wins."""
+    """Split words ``name:=value``; the last one of a name wins. Raises UsageError."""
     given = {}
     for word in words:
         name, separator, value = word.partition(':=')
@@ -136,7 +136,17 @@ def parse(words: Sequence[str]) -> dict[str, str]:
 
 
 def resolve(arguments: Sequence[Argument], given: Mapping[str, str]) -> dict[str, Any]:
-    """Return the values to call the stack's function with."""
+    """
+    Return the values to call a stack's function with.
+
+    Args:
+        arguments: those that it declares.
+        given: texts by name, as a user typed them.
+
+    Raises:
+        UsageError: a name is unknown, or a value has the wrong type.
+        BringupError: a required argument is missing, or a value is not among the choices.
+    """
     known = [argument.name for argument in arguments]
     for name in given:
         if name not in known:
@@ -155,7 +165,7 @@ def _value(argument: Argument, given: Mapping[str, str]) -> Any:
 
 
 def show(arguments: Sequence[Argument]) -> str:
-    """Return what ``--show-args`` prints, as launch has it."""
+    """Return what ``--show-args`` prints, in launch's format."""
     paragraphs = ["Arguments (pass arguments as '<name>:=<value>'):\n"]
     for argument in arguments:
         about = argument.help or 'no description given'

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A node made ready to run: its command line and the parameter files that this names.
+The command line of each node of a stack, with the parameter files that it names.
 
-What can be wrong with a node is found here, before the first start.
+Everything that can be wrong with a node is found here, before the first process starts.
 """
 
 from collections.abc import Mapping, Sequence
@@ -72,26 +72,26 @@ def _scalar(name: str, value: object) -> bool | int | float | str:
 
 @dataclass(frozen=True)
 class ProcessSpec:
-    """What the orchestrator starts for one node."""
+    """The process that the orchestrator starts for one node."""
 
-    placed: ResolvedNode
+    resolved: ResolvedNode
     name: str
     """``<executable>-<number in the stack, from 1>``, as on the screen."""
     executable: Path
     parameter_files: Sequence[tuple[Path, str | None]]
-    """(path, text to write there before the start; None: the file is the user's)."""
+    """(path, text to write there before the start; None: it is a file of the user)."""
     launch_prefix: str = ''
-    """What the command line begins with, unless its node says so itself."""
+    """Words before the command line, unless the node has a prefix of its own."""
 
     @property
     def node(self) -> Node:
-        """What it is made of."""
-        return self.placed.node
+        """The node as the stack contains it."""
+        return self.resolved.node
 
     @property
     def environment(self) -> Mapping[str, str]:
-        """The variables that the stack gives the node."""
-        return self.placed.environment
+        """The variables that the stack sets for the node."""
+        return self.resolved.environment
 
     @property
     def command(self) -> list[str]:
@@ -102,23 +102,23 @@ class ProcessSpec:
         words.append('--ros-args')
         if node.name:
             words += ['-r', f'__node:={node.name}']
-        if self.placed.namespace:
-            words += ['-r', f'__ns:={self.placed.namespace}']
+        if self.resolved.namespace:
+            words += ['-r', f'__ns:={self.resolved.namespace}']
         for path, _ in self.parameter_files:
             words += ['--params-file', str(path)]
-        for source, target in self.placed.remappings:
+        for source, target in self.resolved.remappings:
             words += ['-r', f'{source}:={target}']
         return words
 
     @property
-    def takes_sigint_later(self) -> bool:
-        """Whether it is a program of ours: it unblocks SIGINT once it can take it (entry.py)."""
+    def unblocks_sigint(self) -> bool:
+        """Whether it is an executable of this package: it may be started with SIGINT blocked."""
         return self.node.package == 'amr_description' and not (
             self.node.prefix or self.launch_prefix
         )
 
-    def why_not(self, error: OSError) -> str:
-        """Say why it could not be started; of a script the kernel tells only that it was not."""
+    def explain(self, error: OSError) -> str:
+        """Return why it could not be started; the kernel names no missing interpreter."""
         with contextlib.suppress(OSError):
             interpreter = interpreter_of(self.executable, os.environ)
             if interpreter and not interpreter.exists():
@@ -131,7 +131,7 @@ class ProcessSpec:
         return shlex.join(self.command)
 
     def write_parameter_files(self) -> None:
-        """Write the parameters that stand in the stack to where the command line says."""
+        """Write the tables of parameters to the files that the command line names."""
         for path, text in self.parameter_files:
             if text is not None:
                 path.write_text(text, encoding='utf-8')
@@ -139,14 +139,15 @@ class ProcessSpec:
 
 @dataclass(frozen=True)
 class LaunchPrefix:
-    """What command lines are to begin with: ``gdb -ex run --args``, ``valgrind``."""
+    """The options ``--launch-prefix`` and ``--launch-prefix-filter``."""
 
     words: str = ''
+    """Words before each command line: ``gdb -ex run --args``, ``valgrind``."""
     filter: str = ''
-    """A regular expression; only executables of which the name begins so get it."""
+    """A regular expression; only executables whose name begins with a match get the prefix."""
 
     def __post_init__(self) -> None:
-        """Refuse what is no command or no pattern."""
+        """Raise UsageError or BringupError for an invalid pattern or prefix."""
         check_prefix(self.words)
         try:
             re.compile(self.filter)
@@ -154,12 +155,12 @@ class LaunchPrefix:
             raise UsageError(f"--launch-prefix-filter '{self.filter}': {error}") from None
 
     def of(self, executable: str) -> str:
-        """Return what the command line of an executable begins with."""
+        """Return the prefix of an executable's command line; '' if the filter excludes it."""
         return self.words if re.match(self.filter, executable) else ''
 
 
 def check_prefix(prefix: str) -> None:
-    """Raise BringupError if the command line could not begin so."""
+    """Raise BringupError unless a prefix begins with a command on the PATH."""
     try:
         words = shlex.split(prefix)
     except ValueError as error:
@@ -168,37 +169,50 @@ def check_prefix(prefix: str) -> None:
         raise BringupError(f"prefix {prefix!r}: there is no command '{words[0]}' on the PATH")
 
 
-def jobs_of(stack: Stack, folder: Path, prefix: LaunchPrefix | None = None) -> list[ProcessSpec]:
+def process_specs(
+    stack: Stack, folder: Path, prefix: LaunchPrefix | None = None
+) -> list[ProcessSpec]:
     """
-    Make the nodes of a stack ready to run; starts and writes nothing.
+    Prepare the processes of a stack, in the order of its nodes; starts and writes nothing.
 
-    :param folder: Where parameters are written: the log folder, so that they stay readable and
-        the printed command line can be typed again, and no temporary file is ever left over.
-    :param prefix: That of all command lines.
-    :raises BringupError: A package, an executable, a parameter file or a prefix is missing.
+    Args:
+        stack: the stack.
+        folder: where parameter files will be written: the log folder, so that they stay readable,
+            the printed command line can be typed again and no temporary file is left behind.
+        prefix: that of all command lines.
+
+    Raises:
+        BringupError: a parameter or a prefix is invalid.
+        ResourceError: a package, an executable or a parameter file is missing.
     """
-    placed = Placement(stack).nodes
     prefix = prefix or LaunchPrefix()
-    return [_job(each, number, folder, prefix) for number, each in enumerate(placed, start=1)]
+    return [
+        _process_spec(resolved, number, folder, prefix)
+        for number, resolved in enumerate(Placement(stack).nodes, start=1)
+    ]
 
 
-def _job(placed: ResolvedNode, number: int, folder: Path, prefix: LaunchPrefix) -> ProcessSpec:
-    node = placed.node
+def _process_spec(
+    resolved: ResolvedNode, number: int, folder: Path, prefix: LaunchPrefix
+) -> ProcessSpec:
+    node = resolved.node
     check_prefix(node.prefix)
     name = f'{node.executable}-{number}'
     files: list[tuple[Path, str | None]] = []
-    for index, entry in enumerate(placed.parameters, start=1):
+    for index, entry in enumerate(resolved.parameters, start=1):
         if isinstance(entry, Mapping):
             path = folder / f'{name}-parameters-{index}.yaml'
-            files.append((path, _parameters(name, placed, entry)))
+            files.append((path, _parameters_text(name, resolved, entry)))
         else:
             files.append((path_of(str(entry)), None))
     executable = executable_of(node.package, node.executable)
-    return ProcessSpec(placed, name, executable, files, prefix.of(node.executable))
+    return ProcessSpec(resolved, name, executable, files, prefix.of(node.executable))
 
 
-def _parameters(name: str, placed: ResolvedNode, table: Mapping[str, ParameterValue]) -> str:
+def _parameters_text(
+    name: str, resolved: ResolvedNode, table: Mapping[str, ParameterValue]
+) -> str:
     try:
-        return yaml_text(node_key(placed.node.name, placed.namespace), table)
+        return yaml_text(node_key(resolved.node.name, resolved.namespace), table)
     except BringupError as error:
         raise BringupError(f'{name}: {error}') from None

@@ -1,14 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-When a node of a stack starts: what a condition is, how conditions combine, and time.
+When a node of a stack starts: conditions on nodes, on their output, on time, and combinations.
 
-A condition is pure: it judges a :class:`StackState`, and is asked again after every event. Those on
-nodes stand in ``node_conditions.py``, those on the world outside in ``outside_conditions.py``.
-
-Conditions on what became of the nodes of the stack, what they wrote, and who asks for one.
-
-What conditions judge: how far the nodes are, what they said, what else there is.
+A condition is a pure value. The scheduler evaluates it against a :class:`StackState`, a snapshot
+that it makes anew after every event. Conditions on the ROS graph and on files are in
+``graph_conditions.py``.
 """
 
 from abc import ABC, abstractmethod
@@ -22,14 +19,18 @@ from amr_description.errors import BringupError
 
 
 class Member:
-    """What may stand in a stack: a node, a group or a stack; compared by identity."""
+    """A node, a group or a stack: what a stack is made of; compared by identity."""
 
 
 class NodeRef(Member):
-    """What conditions, states and events know of a node of a stack; compared by identity."""
+    """A node of a stack as conditions and events see it; ``description.Node`` derives from it."""
 
     executable: str
     required: bool
+
+
+type NameOf = Callable[[NodeRef], str]
+"""Returns the name of a node on the screen, ``create-3``."""
 
 
 @dataclass(frozen=True)
@@ -38,61 +39,58 @@ class NodeState:
 
     started: bool = False
     returncode: int | None = None
-    """None until it ended for good; then its exit code, or minus the signal it died of."""
-    never: bool = False
-    """Whether it waits for what can no longer happen."""
+    """Exit code, or minus the signal that ended it; None: it runs, or will run again."""
+    unreachable: bool = False
+    """Whether it will never start, because its condition can no longer hold."""
     restarts: int = 0
-    """How often it was started again, in a row."""
+    """Respawns in a row."""
     restart_at: float | None = None
-    """When it is to be started again; None: it runs, or is not to be."""
+    """Time of the next respawn, s; None: none is planned."""
 
     @property
     def running(self) -> bool:
-        """Started, and not ended."""
+        """Whether its process was started and has not ended."""
         return self.started and self.returncode is None and self.restart_at is None
 
 
 @dataclass(frozen=True)
-class Graph:
-    """What is seen of the ROS graph; all names are absolute."""
+class RosGraph:
+    """The ROS graph at one moment; all names are absolute."""
 
     topics: Mapping[str, AbstractSet[str]] = field(default_factory=dict)
-    """Topics that somebody publishes, and their types, ``std_msgs/msg/String``."""
+    """Topics with a publisher, and their types, ``std_msgs/msg/String``."""
     services: AbstractSet[str] = frozenset()
     nodes: AbstractSet[str] = frozenset()
 
 
 @dataclass(frozen=True)
-class PathLook:
-    """What is seen of a path."""
+class PathState:
+    """A path of the file system at one moment."""
 
-    there: bool
-    beside: AbstractSet[str] = frozenset()
-    """The names in its folder."""
+    exists: bool
+    siblings: AbstractSet[str] = frozenset()
+    """The names in its folder, if it does not exist."""
 
 
 @dataclass(frozen=True)
 class StackState:
-    """All that conditions may look at; a new one is made after each event."""
+    """All that conditions are evaluated against."""
 
-    states: Mapping[NodeRef, NodeState]
+    nodes: Mapping[NodeRef, NodeState]
     time: float = 0.0
-    """s, of any clock that never goes back."""
-    began: float = 0.0
-    """The time at which the stack began."""
-    said: 'AbstractSet[Condition]' = frozenset()
-    """The ``logged`` conditions of which a line was seen, and what handlers asked for."""
+    """s, of a monotonic clock."""
+    start_time: float = 0.0
+    """When the stack began, s of the same clock."""
+    triggered: 'AbstractSet[Condition]' = frozenset()
+    """``logged`` conditions whose line was seen, ``on_request`` ones that a handler asked for."""
     held_since: 'Mapping[Condition, float]' = field(default_factory=dict)
-    """Since when the conditions hold that an ``after`` counts from."""
-    graph: Graph = field(default_factory=Graph)
-    paths: Mapping[str, PathLook] = field(default_factory=dict)
-
-
-type NameOf = Callable[[NodeRef], str]
+    """When each condition that an ``after`` counts from first held, s."""
+    graph: RosGraph = field(default_factory=RosGraph)
+    paths: Mapping[str, PathState] = field(default_factory=dict)
 
 
 class Verdict(enum.Enum):
-    """What a condition says of the present situation."""
+    """The value of a condition."""
 
     HOLDS = 'holds'
     NOT_YET = 'not yet'
@@ -101,11 +99,11 @@ class Verdict(enum.Enum):
 
 @dataclass(frozen=True)
 class Scope:
-    """Where a condition stands in a stack: what its relative names mean."""
+    """Where a condition stands in a stack; relative ROS names are resolved with it."""
 
     namespace: str = '/'
     stacks: Mapping[Member, str] = field(default_factory=dict)
-    """The namespaces of the stacks that stand in the whole one."""
+    """The namespaces of all included stacks."""
 
     def absolute(self, name: str) -> str:
         """Return the full name of a topic, a service or a node."""
@@ -122,37 +120,37 @@ class Condition(ABC):
 
     @property
     def parts(self) -> 'tuple[Condition, ...]':
-        """The conditions that it is made of."""
+        """The conditions it is made of."""
         return ()
 
     @property
     def delay(self) -> float:
-        """How long it waits on purpose, s; no patience is lost by that."""
+        """How long it delays on purpose, s; timeouts are extended by it."""
         return max((part.delay for part in self.parts), default=0.0)
-
-    def waits_forever(self, situation: StackState) -> bool:
-        """Say whether it waits for a failure or a request, which has not come and need not."""
-        return any(part.waits_forever(situation) for part in self.parts)
 
     @property
     def is_external(self) -> bool:
-        """Whether it can come to hold although no process of the stack does anything."""
+        """Whether it can come to hold without any process of the stack."""
         return any(part.is_external for part in self.parts)
 
+    def waits_forever(self, state: StackState) -> bool:
+        """Return whether it waits for a failure or a request, which may never come: no timeout."""
+        return any(part.waits_forever(state) for part in self.parts)
+
     @abstractmethod
-    def evaluate(self, situation: StackState) -> Verdict:
-        """Say whether it holds; called after every event of the stack."""
+    def evaluate(self, state: StackState) -> Verdict:
+        """Return whether it holds; called after every event of the stack."""
 
     @abstractmethod
     def describe(self, name_of: NameOf) -> str:
-        """Say it in words: ``create-3 exited with code 0``."""
+        """Return it in words: ``create-3 exited with code 0``."""
 
     @abstractmethod
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        """Say why it does not hold, and what is there instead: ``create-3 still runs``."""
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        """Return why it does not hold, with what is there instead: ``create-3 still runs``."""
 
     def resolved(self, scope: Scope) -> 'Condition':
-        """Return it with full names."""
+        """Return the same condition with absolute names."""
         return self
 
 
@@ -161,59 +159,197 @@ CONDITION = Validator(
 )
 
 
+def exited_cleanly(node: NodeRef) -> Condition:
+    """
+    Hold once the node has ended with exit code 0.
+
+    Unlike launch's OnProcessExit, which fires after a failure as well.
+    """
+    return _ExitedCleanly(node)
+
+
+def failed(node: NodeRef) -> Condition:
+    """Hold once a node with ``required=False`` has failed; a required one would end the stack."""
+    return _Failed(node)
+
+
+def started(node: NodeRef) -> Condition:
+    """Hold once the node's process was started, even if it has ended: launch's OnProcessStart."""
+    return _Started(node)
+
+
+def settled(node: NodeRef) -> Condition:
+    """Hold once the node was started, or is optional and will never start."""
+    return _Settled(node)
+
+
+def logged(node: NodeRef, pattern: str) -> Condition:
+    """Hold once the node wrote a line in which the regular expression is found."""
+    return Logged(node, pattern)
+
+
+def on_request() -> Condition:
+    """Hold once a handler has returned the node; see ``handlers.py``."""
+    return OnRequest()
+
+
+def after(seconds: float, condition: Condition | None = None) -> Condition:
+    """
+    Hold some time after a condition first held.
+
+    Args:
+        seconds: The delay.
+        condition: What it counts from; None: the start of the stack.
+    """
+    require('after(%s)', seconds, NUMBER)
+    require('after(…, %s)', condition, CONDITION.or_none())
+    if not 0 <= seconds < float('inf'):
+        raise BringupError(f'after({seconds!r}): it takes 0 s or more')
+    return After(seconds, condition)
+
+
+def all_of(*conditions: Condition) -> Condition:
+    """Hold once every one of the conditions holds."""
+    return _AllOf(conditions)
+
+
+def any_of(*conditions: Condition) -> Condition:
+    """Hold once one of the conditions holds."""
+    if not conditions:
+        raise BringupError('any_of(): it takes one condition or more')
+    return _AnyOf(conditions)
+
+
 def walk(condition: Condition | None) -> Iterator[Condition]:
-    """Yield a condition, or what it is made of, innermost first."""
+    """Yield a condition after all that it is made of, innermost first; nothing for None."""
     if condition is not None:
         for part in condition.parts:
             yield from walk(part)
         yield condition
 
 
-@dataclass(frozen=True)
-class _Combined(Condition):
-    conditions: tuple[Condition, ...]
+def may_never_hold(condition: Condition | None) -> bool:
+    """Return whether it depends on a failure or a request; if it never holds, nothing is wrong."""
+    return any(isinstance(part, OnRequest | _Failed) for part in walk(condition))
 
-    def __post_init__(self) -> None:
-        """Refuse what is no condition."""
-        for condition in self.conditions:
-            require('all_of(…) or any_of(…), %s', condition, CONDITION)
+
+def waits_for_request(condition: Condition | None) -> bool:
+    """Return whether it depends on the request of a handler."""
+    return any(isinstance(part, OnRequest) for part in walk(condition))
+
+
+@dataclass(frozen=True)
+class _OfNode(Condition):
+    """A condition on one node."""
+
+    node: NodeRef
 
     @property
-    def parts(self) -> tuple[Condition, ...]:
-        return self.conditions
+    def nodes(self) -> tuple[NodeRef, ...]:
+        return (self.node,)
 
-    def resolved(self, scope: Scope) -> Condition:
-        return replace(self, conditions=tuple(part.resolved(scope) for part in self.parts))
-
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        lacking = [c for c in self.conditions if c.evaluate(situation) is not Verdict.HOLDS]
-        return '; '.join(dict.fromkeys(c.explain_unmet(situation, name_of) for c in lacking))
-
-
-@dataclass(frozen=True)
-class _AllOf(_Combined):
-    def evaluate(self, situation: StackState) -> Verdict:
-        verdicts = {condition.evaluate(situation) for condition in self.conditions}
-        for verdict in (Verdict.NEVER, Verdict.NOT_YET):
-            if verdict in verdicts:
-                return verdict
-        return Verdict.HOLDS
-
-    def describe(self, name_of: NameOf) -> str:
-        return ' and '.join(condition.describe(name_of) for condition in self.conditions)
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        node, name = state.nodes[self.node], name_of(self.node)
+        if node.returncode is not None:
+            return f'{name} ended with {node.returncode}'
+        if node.restart_at is not None:
+            return f'{name} waits for its next start'
+        return f'{name} still runs' if node.started else f'{name} was not started'
 
 
 @dataclass(frozen=True)
-class _AnyOf(_Combined):
-    def evaluate(self, situation: StackState) -> Verdict:
-        verdicts = {condition.evaluate(situation) for condition in self.conditions}
-        for verdict in (Verdict.HOLDS, Verdict.NOT_YET):
-            if verdict in verdicts:
-                return verdict
-        return Verdict.NEVER
+class _ExitedCleanly(_OfNode):
+    def evaluate(self, state: StackState) -> Verdict:
+        node = state.nodes[self.node]
+        if node.returncode is None:
+            return Verdict.NEVER if node.unreachable else Verdict.NOT_YET
+        return Verdict.HOLDS if node.returncode == 0 else Verdict.NEVER
 
     def describe(self, name_of: NameOf) -> str:
-        return f'({" or ".join(condition.describe(name_of) for condition in self.conditions)})'
+        return f'{name_of(self.node)} exited with code 0'
+
+
+@dataclass(frozen=True)
+class _Failed(_OfNode):
+    def waits_forever(self, state: StackState) -> bool:
+        return self.evaluate(state) is Verdict.NOT_YET
+
+    def evaluate(self, state: StackState) -> Verdict:
+        node = state.nodes[self.node]
+        if node.returncode is None:
+            return Verdict.NEVER if node.unreachable else Verdict.NOT_YET
+        return Verdict.NEVER if node.returncode == 0 else Verdict.HOLDS
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} failed'
+
+
+@dataclass(frozen=True)
+class _Started(_OfNode):
+    def evaluate(self, state: StackState) -> Verdict:
+        node = state.nodes[self.node]
+        if node.started:
+            return Verdict.HOLDS
+        return Verdict.NEVER if node.unreachable else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} was started'
+
+
+@dataclass(frozen=True)
+class _Settled(_Started):
+    def evaluate(self, state: StackState) -> Verdict:
+        given_up = state.nodes[self.node].unreachable and not self.node.required
+        return Verdict.HOLDS if given_up else super().evaluate(state)
+
+
+@dataclass(frozen=True)
+class Logged(_OfNode):
+    """See :func:`logged`."""
+
+    pattern: str
+
+    def __post_init__(self) -> None:
+        """Raise BringupError unless the pattern is a regular expression."""
+        require('logged(…, %s)', self.pattern, TEXT)
+        try:
+            re.compile(self.pattern)
+        except re.error as error:
+            raise BringupError(f'logged(…, {self.pattern!r}): {error}') from None
+
+    def matches(self, line: str) -> bool:
+        """Return whether the pattern is found in a line."""
+        return re.search(self.pattern, line) is not None
+
+    def evaluate(self, state: StackState) -> Verdict:
+        if self in state.triggered:
+            return Verdict.HOLDS
+        node = state.nodes[self.node]
+        is_over = node.unreachable or node.returncode is not None
+        return Verdict.NEVER if is_over else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} said {self.pattern!r}'
+
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} has not said {self.pattern!r}'
+
+
+@dataclass(frozen=True, eq=False)
+class OnRequest(Condition):
+    """See :func:`on_request`; compared by identity, so that each node has a request of its own."""
+
+    def waits_forever(self, state: StackState) -> bool:
+        return self.evaluate(state) is Verdict.NOT_YET
+
+    def evaluate(self, state: StackState) -> Verdict:
+        return Verdict.HOLDS if self in state.triggered else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return 'a handler asks for it'
+
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        return 'no handler asks for it'
 
 
 @dataclass(frozen=True)
@@ -235,211 +371,77 @@ class After(Condition):
     def is_external(self) -> bool:
         return self.condition is None or self.condition.is_external
 
-    def due(self, situation: StackState) -> float | None:
-        """Return the time at which it will hold; None: that is not known yet."""
+    def due(self, state: StackState) -> float | None:
+        """Return the time at which it will hold, s; None: not known yet."""
         if self.condition is None:
-            return situation.began + self.seconds
-        since = situation.held_since.get(self.condition)
+            return state.start_time + self.seconds
+        since = state.held_since.get(self.condition)
         return None if since is None else since + self.seconds
 
-    def evaluate(self, situation: StackState) -> Verdict:
-        due = self.due(situation)
+    def evaluate(self, state: StackState) -> Verdict:
+        due = self.due(state)
         if due is None:
-            verdict = self.condition.evaluate(situation)
+            verdict = self.condition.evaluate(state)
             return Verdict.NEVER if verdict is Verdict.NEVER else Verdict.NOT_YET
-        return Verdict.HOLDS if situation.time >= due else Verdict.NOT_YET
+        return Verdict.HOLDS if state.time >= due else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         origin = f'since {self.condition.describe(name_of)}' if self.condition else 'of the stack'
         return f'{self.seconds:g} s have passed {origin}'
 
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        due = self.due(situation)
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        due = self.due(state)
         if due is None:
-            return self.condition.explain_unmet(situation, name_of)
-        return f'{due - situation.time:.1f} s are left'
+            return self.condition.explain_unmet(state, name_of)
+        return f'{due - state.time:.1f} s are left'
 
     def resolved(self, scope: Scope) -> Condition:
         inner = self.condition.resolved(scope) if self.condition else None
         return replace(self, condition=inner)
 
 
-def after(seconds: float, condition: Condition | None = None) -> Condition:
-    """Hold so long after the condition came to hold; after the stack began, if there is none."""
-    require('after(%s)', seconds, NUMBER)
-    require('after(…, %s)', condition, CONDITION.or_none())
-    if not 0 <= seconds < float('inf'):
-        raise BringupError(f'after({seconds!r}): it takes 0 s or more')
-    return After(seconds, condition)
-
-
-def all_of(*conditions: Condition) -> Condition:
-    """Hold once every one of the conditions holds."""
-    return _AllOf(conditions)
-
-
-def any_of(*conditions: Condition) -> Condition:
-    """Hold once one of the conditions holds."""
-    if not conditions:
-        raise BringupError('any_of(): it takes one condition or more')
-    return _AnyOf(conditions)
-
-
 @dataclass(frozen=True)
-class _OfNode(Condition):
-    """On one node."""
-
-    node: NodeRef
-
-    @property
-    def nodes(self) -> tuple[NodeRef, ...]:
-        return (self.node,)
-
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        state, name = situation.states[self.node], name_of(self.node)
-        if state.returncode is not None:
-            return f'{name} ended with {state.returncode}'
-        if state.restart_at is not None:
-            return f'{name} waits for its next start'
-        return f'{name} still runs' if state.started else f'{name} was not started'
-
-
-@dataclass(frozen=True)
-class _ExitedCleanly(_OfNode):
-    def evaluate(self, situation: StackState) -> Verdict:
-        state = situation.states[self.node]
-        if state.returncode is None:
-            return Verdict.NEVER if state.never else Verdict.NOT_YET
-        return Verdict.HOLDS if state.returncode == 0 else Verdict.NEVER
-
-    def describe(self, name_of: NameOf) -> str:
-        return f'{name_of(self.node)} exited with code 0'
-
-
-@dataclass(frozen=True)
-class _Failed(_OfNode):
-    def waits_forever(self, situation: StackState) -> bool:
-        return self.evaluate(situation) is Verdict.NOT_YET
-
-    def evaluate(self, situation: StackState) -> Verdict:
-        state = situation.states[self.node]
-        if state.returncode is None:
-            return Verdict.NEVER if state.never else Verdict.NOT_YET
-        return Verdict.NEVER if state.returncode == 0 else Verdict.HOLDS
-
-    def describe(self, name_of: NameOf) -> str:
-        return f'{name_of(self.node)} failed'
-
-
-@dataclass(frozen=True)
-class _Started(_OfNode):
-    def evaluate(self, situation: StackState) -> Verdict:
-        state = situation.states[self.node]
-        if state.started:
-            return Verdict.HOLDS
-        return Verdict.NEVER if state.never else Verdict.NOT_YET
-
-    def describe(self, name_of: NameOf) -> str:
-        return f'{name_of(self.node)} was started'
-
-
-@dataclass(frozen=True)
-class _Settled(_Started):
-    """Started, or optional and given up."""
-
-    def evaluate(self, situation: StackState) -> Verdict:
-        given_up = situation.states[self.node].never and not self.node.required
-        return Verdict.HOLDS if given_up else super().evaluate(situation)
-
-
-@dataclass(frozen=True)
-class Logged(_OfNode):
-    """See :func:`logged`."""
-
-    pattern: str
+class _Combined(Condition):
+    conditions: tuple[Condition, ...]
 
     def __post_init__(self) -> None:
-        """Refuse what is no regular expression."""
-        require('logged(…, %s)', self.pattern, TEXT)
-        try:
-            re.compile(self.pattern)
-        except re.error as error:
-            raise BringupError(f'logged(…, {self.pattern!r}): {error}') from None
+        """Raise BringupError unless all are conditions."""
+        for condition in self.conditions:
+            require('all_of(…) or any_of(…), %s', condition, CONDITION)
 
-    def matches(self, line: str) -> bool:
-        """Say whether this is the line."""
-        return re.search(self.pattern, line) is not None
+    @property
+    def parts(self) -> tuple[Condition, ...]:
+        return self.conditions
 
-    def evaluate(self, situation: StackState) -> Verdict:
-        if self in situation.said:
-            return Verdict.HOLDS
-        state = situation.states[self.node]
-        over = state.never or state.returncode is not None
-        return Verdict.NEVER if over else Verdict.NOT_YET
+    def resolved(self, scope: Scope) -> Condition:
+        return replace(self, conditions=tuple(part.resolved(scope) for part in self.parts))
 
-    def describe(self, name_of: NameOf) -> str:
-        return f'{name_of(self.node)} said {self.pattern!r}'
-
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        return f'{name_of(self.node)} has not said {self.pattern!r}'
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        unmet = [c for c in self.conditions if c.evaluate(state) is not Verdict.HOLDS]
+        return '; '.join(dict.fromkeys(c.explain_unmet(state, name_of) for c in unmet))
 
 
-@dataclass(frozen=True, eq=False)
-class OnRequest(Condition):
-    """See :func:`on_request`; each is another one."""
-
-    def waits_forever(self, situation: StackState) -> bool:
-        return self.evaluate(situation) is Verdict.NOT_YET
-
-    def evaluate(self, situation: StackState) -> Verdict:
-        return Verdict.HOLDS if self in situation.said else Verdict.NOT_YET
+@dataclass(frozen=True)
+class _AllOf(_Combined):
+    def evaluate(self, state: StackState) -> Verdict:
+        verdicts = {condition.evaluate(state) for condition in self.conditions}
+        for verdict in (Verdict.NEVER, Verdict.NOT_YET):
+            if verdict in verdicts:
+                return verdict
+        return Verdict.HOLDS
 
     def describe(self, name_of: NameOf) -> str:
-        return 'a handler asks for it'
-
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        return 'no handler asks for it'
+        return ' and '.join(condition.describe(name_of) for condition in self.conditions)
 
 
-def exited_cleanly(node: NodeRef) -> Condition:
-    """
-    Hold once the node has ended with exit code 0.
+@dataclass(frozen=True)
+class _AnyOf(_Combined):
+    def evaluate(self, state: StackState) -> Verdict:
+        verdicts = {condition.evaluate(state) for condition in self.conditions}
+        for verdict in (Verdict.HOLDS, Verdict.NOT_YET):
+            if verdict in verdicts:
+                return verdict
+        return Verdict.NEVER
 
-    Other than launch's OnProcessExit, which fires after a failure too.
-    """
-    return _ExitedCleanly(node)
-
-
-def failed(node: NodeRef) -> Condition:
-    """Hold once the node has ended otherwise; it is ``required=False``, or all stops then."""
-    return _Failed(node)
-
-
-def started(node: NodeRef) -> Condition:
-    """Hold once the node's process was started, as launch's OnProcessStart, even if it ended."""
-    return _Started(node)
-
-
-def settled(node: NodeRef) -> Condition:
-    """As :func:`started`; also if the node is optional and can never start."""
-    return _Settled(node)
-
-
-def logged(node: NodeRef, pattern: str) -> Condition:
-    """Hold once a line that the node wrote matched, anywhere in it, a regular expression."""
-    return Logged(node, pattern)
-
-
-def on_request() -> Condition:
-    """Hold once a handler has asked for the node; see :mod:`handlers`."""
-    return OnRequest()
-
-
-def may_never_hold(condition: Condition | None) -> bool:
-    """Say whether it is no fault if it never holds: it is for a failure, or for a request."""
-    return any(isinstance(part, OnRequest | _Failed) for part in walk(condition))
-
-
-def waits_for_request(condition: Condition | None) -> bool:
-    """Say whether a handler has to ask before it can hold."""
-    return any(isinstance(part, OnRequest) for part in walk(condition))
+    def describe(self, name_of: NameOf) -> str:
+        return f'({" or ".join(condition.describe(name_of) for condition in self.conditions)})'

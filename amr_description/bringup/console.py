@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a person reads: lines as launch prints them, coloured on a terminal, and in log files."""
+"""The screen and the log files of a run: lines as launch prints them, coloured on a terminal."""
 
 from collections.abc import Callable, Mapping
 import contextlib
@@ -18,9 +18,9 @@ from amr_description.bringup.terminal import as_foreground
 type Level = Literal['INFO', 'WARNING', 'ERROR']
 
 LAUNCH = 'launch'
-"""The name under which the orchestrator itself speaks."""
+"""The name under which the orchestrator itself logs."""
 
-# A line that matters also to a person who drives: ``[WARN] [1795273609.66] [name]: text``.
+# Shown even while a process has the terminal: ``[WARN] [1795273609.66] [name]: text``.
 _ALARM = re.compile(r'\[(WARN|ERROR|FATAL)\] \[')
 _ERASE_LINE = '\r\x1b[K'
 _RESET = '\x1b[0m'
@@ -29,7 +29,7 @@ _NAME_COLOURS = [f'\x1b[{code}m' for code in (36, 32, 35, 34, 96, 92, 95, 94)]
 
 
 def wants_colour(screen: TextIO, environment: Mapping[str, str]) -> bool:
-    """Say whether to colour: ``RCUTILS_COLORIZED_OUTPUT`` decides, else NO_COLOR, else a TTY."""
+    """Return whether to colour: RCUTILS_COLORIZED_OUTPUT decides, else NO_COLOR, else a TTY."""
     forced = environment.get('RCUTILS_COLORIZED_OUTPUT', '')
     if forced in ('0', '1'):
         return forced == '1'
@@ -39,7 +39,7 @@ def wants_colour(screen: TextIO, environment: Mapping[str, str]) -> bool:
 
 
 def can_erase(screen: TextIO, environment: Mapping[str, str]) -> bool:
-    """Say whether a line on the screen can be written anew."""
+    """Return whether a line on the screen can be erased and rewritten."""
     return screen.isatty() and environment.get('TERM', 'dumb') != 'dumb'
 
 
@@ -47,8 +47,8 @@ def _with_buffer(screen: TextIO) -> TextIO:
     """
     Return ``screen`` with a buffer, if it has none (``python -u``, PYTHONUNBUFFERED).
 
-    Without one, Python drops what is left of a write that a signal cuts short: a child ends while
-    a full pipe waits for its reader.
+    Without a buffer, Python drops the rest of a write that a signal interrupts: SIGCHLD, while a
+    full pipe waits for its reader.
     """
     if not isinstance(getattr(screen, 'buffer', None), io.RawIOBase):
         return screen
@@ -56,7 +56,7 @@ def _with_buffer(screen: TextIO) -> TextIO:
 
 
 class Console:
-    """The screen and the log files of one run; all lines go through here, one at a time."""
+    """All lines that a run prints go through here, one at a time."""
 
     def __init__(
         self,
@@ -67,62 +67,65 @@ class Console:
         erases: bool = False,
     ) -> None:
         """
-        Write to ``screen`` and below ``folder``.
+        Write nothing yet.
 
-        :param colour: Whether the screen is to show colours; see :func:`wants_colour`.
-        :param erases: Whether it can take a line back; see :func:`can_erase`.
+        Args:
+            screen: a text stream.
+            folder: where the log files are.
+            colour: whether the screen shows colours; see :func:`wants_colour`.
+            erases: whether it can erase a line; see :func:`can_erase`.
         """
         self._screen: TextIO | None = _with_buffer(screen)
         self._folder = folder
         self._colour = colour
-        self._nobody_reads = False
-        self._on_reader_gone: Callable[[], None] | None = None
+        self._reader_gone = False
+        self._reader_gone_callback: Callable[[], None] | None = None
         self._name_colours: dict[str, str] = {}
         self._free_colours = itertools.cycle(_NAME_COLOURS)
-        self._log_failure_told = False
+        self._log_failure_shown = False
         self.erases = erases
-        """Whether it has a status line."""
+        """Whether there is a status line."""
         self._status = ''
         self._is_lent = False
         with contextlib.suppress(AttributeError):  # not a TextIOWrapper
             self._screen.reconfigure(errors='backslashreplace')
 
-    def when_reader_is_gone(self, do: Callable[[], None]) -> None:
-        """Call ``do`` once, when nobody reads the screen any more (``| head``), or now."""
-        self._on_reader_gone = do
-        if self._nobody_reads:
-            do()
+    def on_reader_gone(self, callback: Callable[[], None]) -> None:
+        """Call ``callback`` once, now or when nobody reads the screen any more (``| head``)."""
+        self._reader_gone_callback = callback
+        if self._reader_gone:
+            callback()
 
-    def say(self, level: Level, name: str, text: str) -> None:
+    def log(self, level: Level, name: str, text: str) -> None:
         """Print ``[INFO] [name]: text``."""
         colour = _LEVEL_COLOURS.get(level, '')
         shown = f'[{level}] [{self._named(name, name)}]: {self._painted(text, colour)}'
         self._show(shown, f'[{level}] [{name}]: {text}', alarm=level != 'INFO')
 
     def output(self, name: str, line: str) -> None:
-        """Print a line that a process wrote, ``[name] line``; it has a log file of its own too."""
+        """Print a line of a process's output, ``[name] line``; it goes to its log file, too."""
         self._folder.write(name, line)
         shown = f'{self._named(name, f"[{name}]")} {line}'
         self._show(shown, f'[{name}] {line}', alarm=bool(_ALARM.search(line)))
 
     @property
     def log_folder(self) -> str:
-        """Where the log files are."""
+        """The path of the log files."""
         return str(self._folder.path)
 
-    def log_of(self, name: str) -> str:
-        """Return the path of a log file, as a person reads it."""
+    def log_path(self, name: str) -> str:
+        """Return the path of a log file for a message, with ``~`` for the home folder."""
         return with_tilde(self._folder.path / f'{name}.log')
 
     def status(self, text: str) -> None:
-        """Have ``text`` as the last line of the screen, in the place of the one before."""
+        """Show ``text`` as the last line of the screen, in place of the one before."""
         text = text[: shutil.get_terminal_size().columns - 1]
         if self.erases and text != self._status and not self._is_lent:
             self._status = text
             self._write(_ERASE_LINE + text)
 
-    def lend(self, is_lent: bool) -> None:
-        """Show warnings and errors only, while a process of the stack has the terminal."""
+    def set_lent(self, is_lent: bool) -> None:
+        """Show only warnings and errors while a process of the stack has the terminal."""
         self.status('')
         self._is_lent = is_lent
 
@@ -130,12 +133,12 @@ class Console:
         self._folder.write(LAUNCH, f'{time.time():.7f} {logged}')
         if alarm or not self._is_lent:
             self._print(line)
-        if self._folder.failure is not None and not self._log_failure_told:
-            self._log_failure_told = True
+        if self._folder.failure is not None and not self._log_failure_shown:
+            self._log_failure_shown = True
             self._print(f'[WARNING] [{LAUNCH}]: no log files from here on: {self._folder.failure}')
 
     def _print(self, line: str) -> None:
-        if self._is_lent and self.erases:  # it may be in raw mode, in the midst of a line
+        if self._is_lent and self.erases:  # it may be in raw mode, with the cursor in a line
             self._write(f'{_ERASE_LINE}{line}\r\n')
         elif self._status:
             self._write(f'{_ERASE_LINE}{line}\n{self._status}')
@@ -151,11 +154,11 @@ class Console:
                 self._screen.flush()
         except BlockingIOError:  # a terminal that another program made non-blocking is busy
             pass
-        except OSError as error:  # a full disk costs what is said, never the robot
+        except OSError as error:  # a full disk costs the output, never the run
             self._screen = None
-            self._nobody_reads = error.errno in (errno.EPIPE, errno.EIO)
-            if self._nobody_reads and self._on_reader_gone:
-                self._on_reader_gone()
+            self._reader_gone = error.errno in (errno.EPIPE, errno.EIO)
+            if self._reader_gone and self._reader_gone_callback:
+                self._reader_gone_callback()
 
     def _named(self, name: str, text: str) -> str:
         if name == LAUNCH:

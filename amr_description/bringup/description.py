@@ -1,9 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The words of a stack: :class:`Node`, :class:`Group` and :class:`Stack`, as launch has them."""
+"""
+What a stack is written with: :class:`Node`, :class:`Group` and :class:`Stack`, named as in launch.
+
+A value of the wrong type raises BringupError at once, with the field that it was given for.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, KW_ONLY, replace
+from dataclasses import dataclass, field, InitVar, KW_ONLY, replace
 from pathlib import Path
 from typing import Literal
 
@@ -29,11 +33,11 @@ type Scalar = bool | int | float | str
 type ParameterValue = Scalar | Sequence[Scalar] | Mapping[str, ParameterValue]
 type Parameters = Sequence[Mapping[str, ParameterValue] | str | Path]
 
-PATIENCE = 60.0
+DEFAULT_TIMEOUT = 60.0
 """s"""
 
 _MEMBERS = validation.list_of('nodes, groups and stacks')
-_COMMON_KINDS = {
+_COMMON_FIELDS = {
     'namespace': validation.NAMESPACE.or_none(),
     'environment': validation.ENVIRONMENT,
     'parameters': validation.PARAMETERS,
@@ -44,19 +48,19 @@ _COMMON_KINDS = {
 
 @dataclass(frozen=True)
 class Respawn:
-    """Start a node again whenever it ends, with whatever exit code, until the stack stops."""
+    """Start a node again whenever it ends, whatever its exit code, until the stack stops."""
 
     delay: float = 1.0
-    """s from its end to its first new start."""
+    """s from its end to its first restart."""
     backoff: float = 2.0
-    """By which each further delay is longer than the one before."""
+    """Factor from each delay to the next one."""
     limit: int | None = 5
-    """How often in a row; when that is over, its next end is a failure. None: for ever."""
+    """Restarts in a row, after which its next end is a failure; None: no limit."""
     steady: float = 60.0
-    """s; once it ran for so long, delay and limit begin anew."""
+    """s of running after which delay and limit start over."""
 
     def __post_init__(self) -> None:
-        """Refuse what would start it without a pause, or never."""
+        """Raise BringupError if it would restart without a pause, or never."""
         numbers = dict.fromkeys(('delay', 'backoff', 'steady'), validation.NUMBER)
         validation.require_fields(
             'Respawn(…', self, {**numbers, 'limit': validation.NUMBER.or_none()}
@@ -65,24 +69,24 @@ class Respawn:
             raise BringupError(f'{self}: it takes delay > 0, backoff >= 1 and limit > 0 (or None)')
 
 
-_NODE_KINDS = {
+_NODE_FIELDS = {
     'package': validation.FILE_NAME,
     'name': validation.NAME.or_none(),
-    **_COMMON_KINDS,
+    **_COMMON_FIELDS,
     'arguments': validation.ARGUMENTS,
     'prefix': validation.TEXT,
-    'patience': validation.NUMBER.or_none(),
-    'required': validation.TRUTH,
+    'timeout': validation.NUMBER.or_none(),
+    'required': validation.BOOLEAN,
     'respawn': validation.Validator('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
     'on_exit': validation.Validator(
         "'continue', 'shutdown' or a function",
         lambda value: value in ('continue', 'shutdown') or callable(value),
     ),
-    'terminal': validation.TRUTH,
+    'terminal': validation.BOOLEAN,
 }
-_STACK_KINDS = {
+_STACK_FIELDS = {
     'ready_when': CONDITION.or_none(),
-    'patience': validation.NUMBER,
+    'timeout': validation.NUMBER,
     'on_shutdown': validation.FUNCTION.or_none(),
     'next_steps': validation.TEXT,
     'notes': validation.list_of("pairs, as [('INFO', 'a text')]", validation.is_pair),
@@ -92,7 +96,7 @@ _STACK_KINDS = {
 @dataclass(frozen=True, eq=False, repr=False)
 class Node(NodeRef):
     """
-    One process of a stack; each Node is its own identity, so ``start_when`` can refer to it.
+    One process of a stack; compared by identity, so that ``start_when`` can refer to it.
 
     The command line is launch's: ``<prefix>/lib/<package>/<executable> <arguments> --ros-args …``.
     """
@@ -101,93 +105,97 @@ class Node(NodeRef):
     _: KW_ONLY
     package: str = 'amr_description'
     name: str | None = None
-    """Name of the ROS node (``-r __node:=``); None: the name the program gives itself."""
+    """Name of the ROS node (``-r __node:=``); None: the default of the executable."""
     namespace: str | None = None
-    """Namespace of the ROS node (``-r __ns:=``), within that of its group unless it begins /."""
+    """That of the ROS node (``-r __ns:=``), relative to its group's unless it begins with /."""
     parameters: Parameters = ()
-    """Tables of parameters and paths of YAML files, in order: the later wins."""
+    """Tables of parameters and paths of YAML files; later ones override earlier ones."""
     remappings: Sequence[tuple[str, str]] = ()
     """Pairs (from, to), ``-r from:=to``."""
     arguments: Sequence[object] = ()
-    """What stands before ``--ros-args``."""
+    """The words before ``--ros-args``."""
     environment: Mapping[str, str] = field(default_factory=dict)
-    """Environment variables, beside those of the bring-up and of its groups."""
+    """Environment variables in addition to those of the bring-up and of its groups."""
     prefix: str = ''
-    """What its command line begins with: ``gdb -ex run --args``, ``valgrind``, ``nice -n 10``."""
+    """Words before the command line: ``gdb -ex run --args``, ``valgrind``, ``nice -n 10``."""
     start_when: Condition | None = None
     """None: at once."""
-    patience: float | None = None
-    """s for which ``start_when`` may lack; None: as its stack has it; ``math.inf``: for ever."""
+    timeout: float | None = None
+    """s to wait for ``start_when``; None: the timeout of its stack; ``math.inf``: no timeout."""
     required: bool = True
     """Whether its failure (an exit code other than 0, or a signal) stops the stack."""
     respawn: Respawn | None = None
     on_exit: Literal['continue', 'shutdown'] | ExitHandler = 'continue'
-    """What its end with exit code 0 means to the rest; or who is to be told of its end."""
+    """What happens when it ends with exit code 0; or a handler that is called at its end."""
     terminal: bool = False
-    """Whether it reads keys: it gets the terminal itself (see terminal.py); one of a stack may."""
+    """Whether it reads keys and needs the terminal, see terminal.py; at most one in a stack."""
+    patience: InitVar[float | None] = None
+    """Alias of ``timeout``."""
 
-    def __post_init__(self) -> None:
-        """Refuse what could not be started so."""
+    def __post_init__(self, patience: float | None) -> None:
+        """Raise BringupError for a field of the wrong type."""
+        if patience is not None:
+            object.__setattr__(self, 'timeout', patience)
         validation.require('Node(%s)', self.executable, validation.FILE_NAME)
-        validation.require_fields(f'Node({self.executable!r}', self, _NODE_KINDS)
-        if self.patience is not None:
-            _check_patience(self.patience)
+        validation.require_fields(f'Node({self.executable!r}', self, _NODE_FIELDS)
+        if self.timeout is not None:
+            _check_timeout(self.timeout)
 
     def __repr__(self) -> str:
-        """Return what a person knows it by."""
+        """Return it as short as error messages need it."""
         return f'Node({self.executable!r})'
 
 
 @dataclass(frozen=True, eq=False)
 class Group(Member):
     """
-    Nodes, groups and stacks that have something in common.
+    Nodes, groups and stacks with something in common.
 
-    Of the environment and of parameters what stands further inside wins, of remappings what
-    stands further outside, as in launch.
+    Environment variables and parameters of inner groups override those of outer ones; of
+    remappings those of the outer groups win, as in launch.
     """
 
     members: Sequence[Member]
     _: KW_ONLY
     namespace: str | None = None
-    """Before the namespaces of its members; within that of its own group, unless it begins /."""
+    """Prepended to those of its members; relative to its own group's unless it begins with /."""
     environment: Mapping[str, str] = field(default_factory=dict)
     parameters: Parameters = ()
     remappings: Sequence[tuple[str, str]] = ()
     start_when: Condition | None = None
-    """What every member waits for, beside what it waits for itself."""
+    """What every member waits for, in addition to its own condition."""
 
     def __post_init__(self) -> None:
-        """Refuse what no member could have."""
+        """Raise BringupError for a field of the wrong type."""
         validation.require('Group(%s)', self.members, _MEMBERS)
-        validation.require_fields('Group(…', self, _COMMON_KINDS)
+        validation.require_fields('Group(…', self, _COMMON_FIELDS)
 
 
 @dataclass(frozen=True, eq=False)
 class Stack(Member):
-    """
-    What to start, in which order, and when it is ready.
-
-    A stack may stand among the nodes of another one.
-    """
+    """What to start, in which order, and when it is ready; it may be part of another stack."""
 
     nodes: Sequence[Member]
     _: KW_ONLY
     ready_when: Condition | None = None
-    """None: once every node was started, and every stack in it is ready."""
-    patience: float = PATIENCE
-    """s that each wait in it may take before the stack fails; ``math.inf``: for ever."""
+    """None: once every node was started and every included stack is ready."""
+    timeout: float = DEFAULT_TIMEOUT
+    """s that each wait in it may take before the stack fails; ``math.inf``: no timeout."""
     on_shutdown: StopHandler | None = None
-    """Called once, before the first process is told to stop."""
+    """Called once, before the first process is signalled."""
     next_steps: str = ''
-    """Printed after ``ready in … s: ``; what a person would type next."""
+    """Logged after ``ready in … s: ``: what a user would type next."""
     notes: Sequence[tuple[Level, str]] = ()
-    """Said before the first node starts; see :func:`file_notes.notes_on`."""
+    """Logged before the first node starts; see :func:`input_files.notes_on`."""
+    patience: InitVar[float | None] = None
+    """Alias of ``timeout``."""
 
-    def __post_init__(self) -> None:
-        """Refuse a stack that could not run as it is written."""
+    def __post_init__(self, patience: float | None) -> None:
+        """Raise BringupError if the stack could not run as it is written."""
+        if patience is not None:
+            object.__setattr__(self, 'timeout', patience)
         validation.require('Stack(%s)', self.nodes, _MEMBERS)
-        validation.require_fields('Stack(…', self, _STACK_KINDS)
+        validation.require_fields('Stack(…', self, _STACK_FIELDS)
         nodes = list(nodes_of(self.nodes))
         if not nodes:
             raise BringupError('a stack needs at least one node')
@@ -206,29 +214,29 @@ class Stack(Member):
                         f'a condition waits for {validation.shortened(node)}, '
                         'which is not in the list of the stack'
                     )
-        _check_patience(self.patience)
+        _check_timeout(self.timeout)
 
     @property
     def all_notes(self) -> list[tuple[Level, str]]:
-        """Its notes and those of the stacks in it, each once."""
+        """Its notes and those of the included stacks, without repetitions."""
         inner = [note for stack in stacks_of(self.nodes) for note in stack.all_notes]
         return list(dict.fromkeys([*self.notes, *inner]))
 
     @property
     def stop_handlers(self) -> list[StopHandler]:
-        """Its own handler and those of the stacks in it."""
+        """Its own handler and those of the included stacks."""
         inner = [each for stack in stacks_of(self.nodes) for each in stack.stop_handlers]
         return [*([self.on_shutdown] if self.on_shutdown else []), *inner]
 
     @property
     def all_next_steps(self) -> str:
-        """What it says that comes next, or else what the stacks in it say."""
+        """Its own next steps or, if it has none, those of the included stacks."""
         inner = (stack.all_next_steps for stack in stacks_of(self.nodes))
         return self.next_steps or '\n'.join(filter(None, inner))
 
     @property
     def readiness(self) -> Condition:
-        """When it is ready; the names in it are relative to where the stack stands."""
+        """The condition for being ready; names in it are relative to the stack's namespace."""
         if self.ready_when is not None:
             return self.ready_when
         nodes = nodes_of(self.nodes, into_stacks=False)
@@ -244,21 +252,21 @@ class _Ready(Condition):
     def parts(self) -> tuple[Condition, ...]:
         return (self.stack.readiness,)
 
-    def evaluate(self, situation: StackState) -> Verdict:
-        return self.stack.readiness.evaluate(situation)
+    def evaluate(self, state: StackState) -> Verdict:
+        return self.stack.readiness.evaluate(state)
 
     def describe(self, name_of: NameOf) -> str:
         return self.stack.readiness.describe(name_of)
 
-    def explain_unmet(self, situation: StackState, name_of: NameOf) -> str:
-        return self.stack.readiness.explain_unmet(situation, name_of)
+    def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
+        return self.stack.readiness.explain_unmet(state, name_of)
 
     def resolved(self, scope: Scope) -> Condition:
         return self.stack.readiness.resolved(replace(scope, namespace=scope.stacks[self.stack]))
 
 
 def ready(stack: Stack) -> Condition:
-    """Hold once a stack that stands in this one is ready."""
+    """Hold once a stack that is part of this one is ready."""
     validation.require(
         'ready(%s)', stack, validation.Validator('a Stack', lambda value: isinstance(value, Stack))
     )
@@ -266,7 +274,13 @@ def ready(stack: Stack) -> Condition:
 
 
 def nodes_of(members: Sequence[Member], *, into_stacks: bool = True) -> Iterator[Node]:
-    """Yield the nodes of a tree, in its order; optionally not those of the stacks in it."""
+    """
+    Yield the nodes of a tree, in its order.
+
+    Args:
+        members: the roots.
+        into_stacks: whether to yield the nodes of included stacks too.
+    """
     for member in members:
         match member:
             case Node():
@@ -277,12 +291,13 @@ def nodes_of(members: Sequence[Member], *, into_stacks: bool = True) -> Iterator
                 yield from nodes_of(member.nodes) if into_stacks else ()
             case _:
                 raise BringupError(
-                    f'{validation.shortened(member)} stands in a stack; there can be Node, Group, Stack'
+                    f'{validation.shortened(member)} stands in a stack; '
+                    'there can be Node, Group, Stack'
                 )
 
 
 def stacks_of(members: Sequence[Member]) -> Iterator[Stack]:
-    """Yield the stacks in a tree, not those within them."""
+    """Yield the stacks of a tree, without the ones that these include."""
     for member in members:
         if isinstance(member, Stack):
             yield member
@@ -290,13 +305,13 @@ def stacks_of(members: Sequence[Member]) -> Iterator[Stack]:
             yield from stacks_of(member.members)
 
 
-def _check_patience(seconds: float) -> None:
-    if not seconds > 0:
-        raise BringupError(f'patience={seconds}: it takes more than 0 s')
+def _check_timeout(seconds: float) -> None:
+    if not seconds > 0:  # nan, too
+        raise BringupError(f'timeout={seconds}: it takes more than 0 s')
 
 
 def _conditions(members: Sequence[Member]) -> Iterator[Condition | None]:
-    """Yield the conditions in a tree; a stack in it has judged its own."""
+    """Yield the conditions of a tree, but not of included stacks, which have checked theirs."""
     for member in members:
         if not isinstance(member, Stack):
             yield member.start_when

@@ -1,13 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The environment variables of a child, and of the shell in which the user goes on.
+Environment variables: those that configure discovery, those of a child, those of the next shell.
 
-By whom the nodes of a stack are found: options of ``bringup``, the same for every stack.
-
-Each option stands for an environment variable that every ROS 2 node reads, and wins over it; the
-variables stay the way to say it once for a whole shell. What they say is checked before anything
-starts, as nodes would just not find each other, without a word.
+Discovery is configured by options of ``bringup``, the same for every stack. Each option stands for
+an environment variable that all ROS 2 nodes read, and overrides it; set the variable to configure
+a whole shell. Both are checked before anything starts, since nodes with a wrong value find nobody
+and log nothing about it.
 
 ================================ ================================================================
 ``--domain 5``                   ROS_DOMAIN_ID
@@ -34,7 +33,7 @@ RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 PEERS = 'ROS_STATIC_PEERS'
 SERVER = 'ROS_DISCOVERY_SERVER'
 
-_LAST_DOMAIN = 232  # the ports of the next are beyond 65535 (DDSI-RTPS 2.5, 9.6.2.3)
+_LAST_DOMAIN = 232  # the ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)
 _RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')  # as rcl spells them
 _SERVER_PORT = 11811  # Fast DDS's default
 _OPTIONS = {
@@ -43,7 +42,7 @@ _OPTIONS = {
     PEERS: '--peer',
     SERVER: '--discovery-server',
 }
-# host, host:port, and the locators that Fast DDS takes too: UDPv4:[10.0.0.1]:11811
+# host, host:port, or a locator of Fast DDS, UDPv4:[10.0.0.1]:11811
 _ADDRESS = re.compile(
     r'(?:(?:UDP|TCP)v[46]:)?(?:\[(?P<locator>[^\]]+)\]|(?P<host>[^\[\]:;\s]+))(?::(?P<port>\d+))?'
 )
@@ -73,8 +72,8 @@ def add_options(parser: ArgumentParser) -> None:
     )
 
 
-def words(options: Namespace) -> list[str]:
-    """Return the options that were given as they are typed."""
+def as_arguments(options: Namespace) -> list[str]:
+    """Return the given options as command-line arguments."""
     return [
         f'{option}={value}'
         for option, given in _given(options).items()
@@ -89,9 +88,14 @@ def _given(options: Namespace) -> dict[str, str | list[str]]:
 
 def variables(options: Namespace, environment: Mapping[str, str]) -> dict[str, str]:
     """
-    Return the environment variables to set, those of the options.
+    Return the environment variables that the options stand for.
 
-    :raises UsageError: An option, or a variable that no option replaces, cannot be used.
+    Args:
+        options: the parsed command line.
+        environment: the variables as they are; those that no option overrides are checked.
+
+    Raises:
+        UsageError: an option or a variable has an invalid value.
     """
     given = _given(options)
     chosen = {}
@@ -106,7 +110,7 @@ def variables(options: Namespace, environment: Mapping[str, str]) -> dict[str, s
 
 
 def _check_inherited(variable: str, text: str) -> None:
-    """Check what the shell says; lists may have empty places, whose number counts."""
+    """Check a variable of the shell; lists may have empty entries, whose position matters."""
     values = text.split(';') if variable in (PEERS, SERVER) else [text]
     for value in filter(None, values):
         checked = _CHECKS[variable](value, f'{variable}={text}')
@@ -114,46 +118,54 @@ def _check_inherited(variable: str, text: str) -> None:
             raise UsageError(f'{variable}={text}: rcl wants capital letters, {checked}')
 
 
-def _domain(value: str, said: str) -> str:
+def _checked_domain(value: str, source: str) -> str:
     if not value.isdecimal() or int(value) > _LAST_DOMAIN:
-        raise UsageError(f'{said}: a ROS domain is an integer from 0 to {_LAST_DOMAIN}')
+        raise UsageError(f'{source}: a ROS domain is an integer from 0 to {_LAST_DOMAIN}')
     return value
 
 
-def _range(value: str, said: str) -> str:
+def _checked_range(value: str, source: str) -> str:
     if value.upper() not in _RANGES:
-        raise UsageError(f'{said}: a discovery range is one of {", ".join(_RANGES)}')
+        raise UsageError(f'{source}: a discovery range is one of {", ".join(_RANGES)}')
     return value.upper()
 
 
-def _peer(value: str, said: str) -> str:
+def _checked_peer(value: str, source: str) -> str:
     if not (match := _ADDRESS.fullmatch(value)) or match['port'] or not match['host']:
-        raise UsageError(f'{said}: a peer is the address or the name of a host, without a port')
-    _must_resolve(match['host'], said)
+        raise UsageError(f'{source}: a peer is the address or the name of a host, without a port')
+    _must_resolve(match['host'], source)
     return value
 
 
-def _server(value: str, said: str) -> str:
+def _checked_server(value: str, source: str) -> str:
     match = _ADDRESS.fullmatch(value)
     port = int(match['port'] or _SERVER_PORT) if match else 0
     if not 0 < port < 65536:
-        raise UsageError(f'{said}: a discovery server is HOST or HOST:PORT, as 10.0.0.9:11811')
-    _must_resolve(match['host'] or match['locator'], said)
+        raise UsageError(f'{source}: a discovery server is HOST or HOST:PORT, as 10.0.0.9:11811')
+    _must_resolve(match['host'] or match['locator'], source)
     return value if match['port'] else f'{value}:{_SERVER_PORT}'
 
 
-def _must_resolve(host: str, said: str) -> None:
+def _must_resolve(host: str, source: str) -> None:
     try:
         socket.getaddrinfo(host, None)
     except (OSError, UnicodeError) as error:
-        raise UsageError(f"{said}: no address is known for the host '{host}' ({error})") from None
+        raise UsageError(
+            f"{source}: no address is known for the host '{host}' ({error})"
+        ) from None
 
 
-_CHECKS = {DOMAIN: _domain, RANGE: _range, PEERS: _peer, SERVER: _server}
+_CHECKS = {
+    DOMAIN: _checked_domain,
+    RANGE: _checked_range,
+    PEERS: _checked_peer,
+    SERVER: _checked_server,
+}
+"""Each takes a value and the option or variable that it is from, and returns what to set."""
 
 
-def told(environment: Mapping[str, str]) -> str:
-    """Say in a few words who finds the nodes: ``ROS domain 5, this host only``."""
+def discovery_text(environment: Mapping[str, str]) -> str:
+    """Return in a few words who discovers the nodes: ``ROS domain 5, this host only``."""
     domain = f'ROS domain {environment.get(DOMAIN) or 0}'
     if server := environment.get(SERVER):
         return f'{domain}, found through the discovery server {server.strip(";")}'
@@ -164,7 +176,7 @@ def told(environment: Mapping[str, str]) -> str:
 
 
 def exports(environment: Mapping[str, str]) -> list[str]:
-    """Return what to type in another shell, after ``scripts/activate``, to be found there too."""
+    """Return the exports that another shell needs, after ``scripts/activate``, for discovery."""
     usual = {DOMAIN: '0', RANGE: 'LOCALHOST'}
     return [
         f"export {name}='{value}'" if ';' in value else f'export {name}={value}'
@@ -173,17 +185,24 @@ def exports(environment: Mapping[str, str]) -> list[str]:
     ]
 
 
-# The ROS wheels start each Python twice, to set LD_LIBRARY_PATH; this guard says that it is done.
-# The bring-up has both, so its children save 0.1 s each, if they are of the same environment.
+# The ROS wheels start each Python twice, to set LD_LIBRARY_PATH; this variable marks that as done.
+# Children of the same virtual environment inherit both, which saves each of them 0.1 s.
 WHEELS_GUARD = '_ROS_WHEELS_BOOTSTRAP_COMPLETE'
 
 
 def child_environment(executable: Path, base: Mapping[str, str]) -> dict[str, str]:
     """
-    Return the environment to start an executable in.
+    Return the environment variables for an executable.
 
-    Python's output is unbuffered, as it goes to a pipe and should be seen at once. A Python of
-    another environment gets neither the guard of the ROS wheels nor their libraries.
+    Python's output is unbuffered, since it goes to a pipe and should appear at once. A Python of
+    another virtual environment gets neither the ROS wheels' guard nor their libraries.
+
+    Args:
+        executable: its path.
+        base: the variables of the bring-up.
+
+    Raises:
+        OSError: the executable cannot be read.
     """
     environment = {**base, 'PYTHONUNBUFFERED': '1'}
     if WHEELS_GUARD in base and not _is_of_this_python(executable, base):
@@ -203,7 +222,7 @@ def _same_folder(one: Path, other: Path) -> bool:
 
 
 def interpreter_of(executable: Path, base: Mapping[str, str]) -> Path | None:
-    """Return the Python that the first line of a script names; None: it is no Python script."""
+    """Return the interpreter that a Python script names in its first line; None: it is none."""
     with executable.open('rb') as file:
         first_line = file.readline(512)
     if not first_line.startswith(b'#!'):
@@ -222,8 +241,14 @@ def _drop_wheels_libraries(environment: dict[str, str]) -> None:
     environment['LD_LIBRARY_PATH'] = os.pathsep.join(kept)
 
 
-def other_shell(package: str, base: Mapping[str, str]) -> str:
-    """Return what to type in another shell before ROS commands reach what runs here."""
+def setup_command(package: str, base: Mapping[str, str]) -> str:
+    """
+    Return the command after which ROS commands of another shell reach the nodes of this one.
+
+    Args:
+        package: whose workspace to source.
+        base: the environment variables of this shell.
+    """
     prefix = package_prefix(package)
     install = prefix if (prefix / 'setup.bash').is_file() else prefix.parent
     candidates = [install.parent / 'scripts/activate', install / 'setup.bash']

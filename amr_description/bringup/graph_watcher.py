@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What is seen of the world outside of a stack's processes, while a condition asks for it.
+Observes what is outside the stack's processes, the ROS graph and files, while a condition asks.
 
-The ROS graph is seen by a process of its own, ``nodes/graph_watch.py``, which runs only as long as
-somebody waits for something on the graph. Files are looked at ten times a second; the standard
-library offers no way to be told of them.
+The ROS graph is observed by a child process, ``nodes/graph_watch.py``, so that the supervisor
+loads no DDS; it runs only while a condition on the graph is pending. Files are polled ten times a
+second, since the standard library has no file notifications.
 """
 
 from collections.abc import Callable, Iterable
@@ -14,8 +14,8 @@ from pathlib import Path
 import signal
 import sys
 
-from amr_description.bringup.conditions import Condition, Graph, PathLook
-from amr_description.bringup.graph_conditions import OnGraph, PathExists
+from amr_description.bringup.conditions import Condition, PathState, RosGraph
+from amr_description.bringup.graph_conditions import GraphCondition, PathExists
 from amr_description.bringup.process import RunningProcess
 
 GRAPH_WATCH = 'graph_watch'
@@ -25,35 +25,37 @@ COMMAND = (
     '-c',
     'import sys; from amr_description.entry import nodes; sys.exit(nodes.graph_watch.main())',
 )
-"""By way of entry.py, so that an early SIGINT ends it without a word."""
-_LOOK_PERIOD = 0.1  # s
-_FIRST_DELAY, _LONGEST_DELAY = 1.0, 30.0  # s before the watch is started again
+"""Through ``entry.py``, so that an early SIGINT ends it without a traceback."""
+_POLL_PERIOD = 0.1  # s
+_FIRST_DELAY, _MAX_DELAY = 1.0, 30.0  # s before the process is started again
 
 type Spawn = Callable[[Callable[[str], None]], RunningProcess]
-"""Starts the watch; it is given who takes the lines that the watch writes."""
+"""Starts the process; takes the callback for the lines of its output."""
 
 
 class GraphWatch:
-    """The process that sees the ROS graph, and what it has told."""
+    """The child process that observes the ROS graph, and the graph as its output describes it."""
 
-    def __init__(self, spawn: Spawn, wake: Callable[[], None], say: Callable[[str], None]) -> None:
+    def __init__(self, spawn: Spawn, wake: Callable[[], None], log: Callable[[str], None]) -> None:
         """
         Start nothing yet.
 
-        :param wake: Called when something on the graph has changed.
-        :param say: Takes what a person should know: lines that are no news of the graph.
+        Args:
+            spawn: starts the process; may raise OSError.
+            wake: called when the graph has changed.
+            log: called with each line that is meant for a person.
         """
         self._spawn = spawn
         self._wake = wake
-        self._say = say
+        self._log = log
         self._entries: set[str] = set()
         self._delay = _FIRST_DELAY
         self._start_at: float | None = None
         self.process: RunningProcess | None = None
 
     @property
-    def graph(self) -> Graph:
-        """What is there."""
+    def graph(self) -> RosGraph:
+        """The graph as last reported."""
         found: dict[str, set[str]] = {'service': set(), 'node': set()}
         topics: dict[str, set[str]] = {}
         for entry in self._entries:
@@ -62,11 +64,11 @@ class GraphWatch:
                 topics.setdefault(name, set()).update(types)
             else:
                 found[kind].add(name)
-        return Graph(topics, frozenset(found['service']), frozenset(found['node']))
+        return RosGraph(topics, frozenset(found['service']), frozenset(found['node']))
 
-    def want(self, wanted: bool, now: float) -> float | None:
-        """Have it run, or not; return the time, s, of the next start if it waits for that."""
-        self._take_end(now)
+    def set_wanted(self, wanted: bool, now: float) -> float | None:
+        """Start or stop the process; return the time of its next start, s, if one is planned."""
+        self._handle_exit(now)
         if not wanted:
             self.send(signal.SIGINT)
             self._start_at = None
@@ -75,23 +77,23 @@ class GraphWatch:
         return self._start_at
 
     def send(self, number: signal.Signals) -> None:
-        """Signal it, each signal once."""
+        """Send a signal to the process, unless it was the last one sent."""
         if self.process is not None and self.process.sent != number:
             self.process.send(number)
 
     def poll(self) -> bool:
-        """Return whether it still runs; its end is taken note of."""
+        """Return whether the process is running."""
         return self.process is not None and not self.process.poll()
 
     def _start(self, now: float) -> None:
         self._start_at = None
         self._entries.clear()
         try:
-            self.process = self._spawn(self._hear)
+            self.process = self._spawn(self._on_line)
         except OSError as error:
             self._plan_start(now, f'could not be started: {error}')
 
-    def _take_end(self, now: float) -> None:
+    def _handle_exit(self, now: float) -> None:
         if self.process is None or not self.process.poll():
             return
         process, self.process = self.process, None
@@ -101,14 +103,14 @@ class GraphWatch:
             self._plan_start(now, f'ended with exit code {process.returncode}')
 
     def _plan_start(self, now: float, reason: str) -> None:
-        self._say(f'{reason}; the ROS graph is not seen; next start in {self._delay:g} s')
+        self._log(f'{reason}; the ROS graph is not seen; next start in {self._delay:g} s')
         self._start_at = now + self._delay
-        self._delay = min(2 * self._delay, _LONGEST_DELAY)
+        self._delay = min(2 * self._delay, _MAX_DELAY)
 
-    def _hear(self, line: str) -> None:
+    def _on_line(self, line: str) -> None:
         sign, _, entry = line.partition(' ')
         if sign not in ('+', '-') or entry.partition(' ')[0] not in ('topic', 'service', 'node'):
-            self._say(line)
+            self._log(line)
             return
         change = self._entries.add if sign == '+' else self._entries.discard
         change(entry)
@@ -116,33 +118,39 @@ class GraphWatch:
 
 
 class ExternalState:
-    """All that conditions may want to know of the world outside."""
+    """The ROS graph and the paths that pending conditions ask about."""
 
     def __init__(self, watch: GraphWatch) -> None:
-        """Look at nothing yet."""
+        """Observe nothing yet."""
         self.watch = watch
-        self.graph = Graph()
-        self.paths: dict[str, PathLook] = {}
+        self.graph = RosGraph()
+        self.paths: dict[str, PathState] = {}
         self.next_time: float | None = None
-        """s; when to look again, if nothing happens before."""
+        """When to call :meth:`update` again although nothing happened, s; None: not needed."""
 
-    def look(self, conditions: Iterable[Condition], now: float) -> None:
-        """See what the conditions ask for."""
-        asked = list(conditions)
-        on_graph = any(isinstance(each, OnGraph) for each in asked)
-        paths = {each.path for each in asked if isinstance(each, PathExists)}
-        times = [self.watch.want(on_graph, now), now + _LOOK_PERIOD if paths else None]
+    def update(self, conditions: Iterable[Condition], now: float) -> None:
+        """
+        Observe what the conditions ask about.
+
+        Args:
+            conditions: all pending ones, with their parts.
+            now: s, of a monotonic clock.
+        """
+        pending = list(conditions)
+        on_graph = any(isinstance(each, GraphCondition) for each in pending)
+        paths = {each.path for each in pending if isinstance(each, PathExists)}
+        times = [self.watch.set_wanted(on_graph, now), now + _POLL_PERIOD if paths else None]
         if on_graph:
             self.graph = self.watch.graph
-        self.paths |= {path: look_at(Path(path)) for path in paths}
+        self.paths |= {path: path_state(Path(path)) for path in paths}
         self.next_time = min((time for time in times if time is not None), default=None)
 
 
-def look_at(path: Path) -> PathLook:
-    """Look at a path and, if there is nothing, at the folder that it would be in."""
+def path_state(path: Path) -> PathState:
+    """Return whether a path exists and, if not, what is in the folder it would be in."""
     if path.exists():
-        return PathLook(True)
+        return PathState(True)
     try:
-        return PathLook(False, frozenset(os.listdir(path.parent)))
+        return PathState(False, frozenset(os.listdir(path.parent)))
     except OSError:
-        return PathLook(False)
+        return PathState(False)

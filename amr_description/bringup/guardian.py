@@ -1,17 +1,17 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The guardian: a program that ends what is left of a bring-up, whatever became of the orchestrator.
+The guardian, a reaper process: ends what is left of a bring-up, however the orchestrator ended.
 
-``python -I -S guardian.py LIFELINE_FD RUN ORCHESTRATOR_PID``, started by ``lifeline.py``. It waits
-until the lifeline breaks: at every end of the orchestrator, by SIGKILL too. Then it ends every
-process that carries the mark of the run in its environment, and their descendants: a process that
-ignores SIGINT, one that left its session, one whose parent is gone. Last it takes away the shared
-memory that killed ROS nodes have left, of this run or of one before.
+``lifeline.py`` starts it as ``python -I -S guardian.py LIFELINE_FD RUN ORCHESTRATOR_PID``. It
+waits until the writing end of the lifeline is closed, as happens at every end of the orchestrator,
+even by SIGKILL. Then it ends every process that carries the mark of the run in its environment,
+and their descendants: those that ignore SIGINT, that left their session, whose parent is gone.
+Finally it removes the shared memory that killed ROS nodes have left, in this run or before.
 
-It is not the parent of any of them, so it looks into ``/proc`` again and again; pidfds would save
-the looking, but need Linux 5.3 (the ROS wheels run from RHEL 8's 4.18 on). It imports neither this
-package nor ``site``: it is up in 20 ms and needs no PYTHONPATH.
+It is the parent of none of them, so it polls ``/proc``; pidfds would save that, but need Linux 5.3
+(the ROS wheels run from RHEL 8's 4.18 on). It imports neither this package nor ``site``: it starts
+in 20 ms and needs no PYTHONPATH.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -24,26 +24,26 @@ import time
 from typing import NamedTuple
 
 RUN_VARIABLE = 'AMR_BRINGUP_RUN'
-_PATIENCE = 2.0  # s from SIGINT to SIGKILL
+_KILL_DELAY = 2.0  # s from SIGINT to SIGKILL
 _GIVE_UP = 4.0  # s after which a process that even SIGKILL does not end is reported
-_INTERVAL = 0.02  # s between two looks
+_POLL_PERIOD = 0.02  # s
 _SHARED_MEMORY = '/dev/shm'
-_SETTLED = 5.0  # s of age from which a lock that nobody holds is not just about to be taken
+_SETTLED = 5.0  # s of age; a younger lock file may be just about to be locked
 
 
 class Process(NamedTuple):
-    """A process that is no zombie."""
+    """A running process."""
 
     pid: int
     parent: int
     marked: bool
     """Whether it carries the mark of the run."""
     start: int = 0
-    """When it began, in clock ticks since boot: a pid may be used again."""
+    """Clock ticks from boot to its start; with the pid, which is reused, its identity."""
 
 
 def processes(run: str) -> Iterator[Process]:
-    """Yield the processes of this machine."""
+    """Yield the processes of this machine, without zombies; ``run``: whose mark to look for."""
     mark = os.fsencode(f'{RUN_VARIABLE}={run}')
     for name in os.listdir('/proc'):
         if name.isdecimal():
@@ -66,10 +66,12 @@ def _environment(pid: str) -> list[bytes]:
 
 def family(processes: Iterable[Process], root: int, spare: int) -> list[Process]:
     """
-    Return all marked processes, and the descendants of those and of ``root``, by pid.
+    Return all marked processes, and the descendants of those and of ``root``, sorted by pid.
 
-    :param root: The orchestrator, which is not in the family.
-    :param spare: A process, the guardian, to leave out with its descendants.
+    Args:
+        processes: all processes.
+        root: pid of the orchestrator, which is not included.
+        spare: pid of the guardian, which is left out with its descendants.
     """
     listed = [process for process in processes if process.pid not in (root, spare)]
     found = {process.pid: process for process in listed if process.marked}
@@ -82,48 +84,48 @@ def family(processes: Iterable[Process], root: int, spare: int) -> list[Process]
     return [found[pid] for pid in sorted(found)]
 
 
-class Search:
-    """Finds the family of a run, and whoever was in it once: its parent may be gone since."""
+class FamilySearch:
+    """Finds the family of a run, with those once found in it whose parent is gone since."""
 
     def __init__(self, run: str, root: int, spare: int) -> None:
-        """See :func:`processes` and :func:`family`."""
+        """Take the arguments of :func:`processes` and :func:`family`."""
         self._run, self._root, self._spare = run, root, spare
-        self._met: set[tuple[int, int]] = set()
+        self._known: set[tuple[int, int]] = set()  # (pid, start)
 
     def __call__(self) -> list[int]:
-        """Look; return pids."""
+        """Return the pids of those that are running now."""
         listed = [
-            process._replace(marked=process.marked or (process.pid, process.start) in self._met)
+            process._replace(marked=process.marked or (process.pid, process.start) in self._known)
             for process in processes(self._run)
         ]
         found = family(listed, self._root, self._spare)
-        self._met.update((process.pid, process.start) for process in found)
+        self._known.update((process.pid, process.start) for process in found)
         return [process.pid for process in found]
 
 
 def end(find: Callable[[], list[int]]) -> tuple[set[int], list[int]]:
     """
-    End the processes that ``find`` finds, until it finds none; return (ended ones, immortals).
+    End the processes that ``find`` returns, until it returns none; return (ended, not ended).
 
-    Two looks in a row must find none: a process is without environment while it starts a program.
+    It must return none twice in a row: during exec() a process has no environment.
     """
     begin = time.monotonic()
-    met: set[int] = set()
-    looks_without_find = 0
-    while looks_without_find < 2:
+    known: set[int] = set()
+    empty_polls = 0
+    while empty_polls < 2:
         pids = find()
-        looks_without_find = 0 if pids else looks_without_find + 1
+        empty_polls = 0 if pids else empty_polls + 1
         elapsed = time.monotonic() - begin
         if elapsed > _GIVE_UP:
-            return met - set(pids), pids
+            return known - set(pids), pids
         for pid in pids:
-            if elapsed > _PATIENCE:
+            if elapsed > _KILL_DELAY:
                 _send(pid, signal.SIGKILL)
-            elif pid not in met:
+            elif pid not in known:
                 _send(pid, signal.SIGINT)
-        met.update(pids)
-        time.sleep(_INTERVAL)
-    return met, []
+        known.update(pids)
+        time.sleep(_POLL_PERIOD)
+    return known, []
 
 
 def _send(pid: int, number: signal.Signals) -> None:
@@ -133,11 +135,16 @@ def _send(pid: int, number: signal.Signals) -> None:
 
 def remove_unused_segments(folder: str = _SHARED_MEMORY, settled: float = _SETTLED) -> list[str]:
     """
-    Remove the segments of Fast DDS's shared memory that nobody owns; return their names.
+    Remove the segments of Fast DDS's shared memory that no process owns; return their names.
 
-    A participant that is killed leaves its own, half a megabyte, for ever: no later one takes it
-    away. Its owner holds a lock (flock) on ``<segment>_el``; as with ``fastdds shm clean``, a
-    segment is unused if that lock can be had. Ports, which later participants take over, stay.
+    A participant that is killed leaves its segment, half a megabyte, which no later participant
+    removes. The owner of a segment holds a lock (flock) on ``<segment>_el``; as ``fastdds shm
+    clean`` does, a segment counts as unused if that lock is free. Ports stay: later participants
+    reuse them.
+
+    Args:
+        folder: where the segments are.
+        settled: s of age that a lock file must have; see ``_SETTLED``.
     """
     removed = []
     for name in os.listdir(folder) if os.path.isdir(folder) else []:
@@ -155,26 +162,26 @@ def remove_unused_segments(folder: str = _SHARED_MEMORY, settled: float = _SETTL
 
 
 def _is_segment(name: str) -> bool:
-    """Tell names as ``fastrtps_5fcf25dfbd682471`` from those of ports and others."""
+    """Return whether it is a name as ``fastrtps_5fcf25dfbd682471``; ports have others."""
     prefix, _, digits = name.partition('_')
     return prefix == 'fastrtps' and len(digits) == 16 and not digits.strip('0123456789abcdef')
 
 
 def main(lifeline: int, run: str, orchestrator: int) -> int:
-    """Wait for the end of the orchestrator and end the rest; exit code 1 if something stays."""
+    """Wait for the end of the orchestrator and end the rest; return 1 if something is left."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
-    os.read(lifeline, 1)  # nobody ever writes: this returns when the last writer is gone
-    ended, immortal = end(Search(run, orchestrator, os.getpid()))
+    os.read(lifeline, 1)  # nobody ever writes: it returns when the writing end is closed
+    ended, not_ended = end(FamilySearch(run, orchestrator, os.getpid()))
     remove_unused_segments()
     if ended:
-        _say(f'[WARNING] [guardian]: ended what was left: pid {_list(ended)}')
-    if immortal:
-        _say(f'[ERROR] [guardian]: could not end: pid {_list(immortal)}')
-    return 1 if immortal else 0
+        _log(f'[WARNING] [guardian]: ended what was left: pid {_list(ended)}')
+    if not_ended:
+        _log(f'[ERROR] [guardian]: could not end: pid {_list(not_ended)}')
+    return 1 if not_ended else 0
 
 
-def _say(text: str) -> None:
+def _log(text: str) -> None:
     with contextlib.suppress(OSError):  # the terminal may be gone
         print(text, file=sys.stderr, flush=True)
 

@@ -1,21 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a stack does when a node ends, or when it stops: functions of the user.
+Event handlers of a stack: the user's functions for the end of a node and of the whole stack.
 
 ::
 
     diagnose = Node('diagnose', package='my_robot', start_when=on_request())
 
-    def when_the_driver_ends(event: Exited) -> Node | Shutdown | None:
+    def on_driver_exit(event: Exited) -> Node | Shutdown | None:
         if event.returncode == 3:
             return Shutdown('the battery is empty')
         return diagnose if event.returncode else None
 
-    driver = Node('driver', package='my_robot', required=False, on_exit=when_the_driver_ends)
+    driver = Node('driver', package='my_robot', required=False, on_exit=on_driver_exit)
 
-A node that a handler may start stands in the stack like every other, so that what is missing is
-found before anything starts. Handlers are called by the supervisor: they must be quick.
+A node that a handler starts is a member of the stack like every other, so that a missing
+executable is found before anything starts. Handlers run on the supervisor's event loop: they must
+return quickly.
 """
 
 from collections.abc import Callable, Sequence
@@ -27,21 +28,21 @@ from amr_description.bringup.conditions import Member, NodeRef
 
 @dataclass(frozen=True)
 class Exited:
-    """A node has ended, and is not to be started again."""
+    """A node has ended and will not be respawned."""
 
     node: NodeRef
     returncode: int
-    """Its exit code, or minus the number of the signal it died of."""
+    """Exit code, or minus the number of the signal that ended it."""
     last_lines: Sequence[str] = ()
-    """What it wrote last."""
+    """The last lines of its output."""
 
 
 @dataclass(frozen=True)
 class Stopping:
-    """The stack stops; its processes are about to be told."""
+    """The stack stops; no process has been signalled yet."""
 
     exit_code: int
-    """That of the whole, as it is known now."""
+    """The exit code of the bring-up, as far as it is known."""
 
 
 _EXIT_CODE = validation.Validator(
@@ -51,14 +52,14 @@ _EXIT_CODE = validation.Validator(
 
 @dataclass(frozen=True)
 class Shutdown:
-    """The wish of a handler that all be stopped."""
+    """Returned by a handler: stop the stack."""
 
     reason: str
     exit_code: int = 0
-    """That of the whole, 0 to 255."""
+    """The exit code of the bring-up, 0 to 255."""
 
     def __post_init__(self) -> None:
-        """Refuse what can be no exit code."""
+        """Raise BringupError for a field of the wrong type."""
         validation.require('Shutdown(%s)', self.reason, validation.TEXT)
         validation.require('Shutdown(…, exit_code=%s)', self.exit_code, _EXIT_CODE)
 
@@ -70,19 +71,19 @@ type StopHandler = Callable[[Stopping], None]
 
 @dataclass(frozen=True)
 class HandlerResult:
-    """What a handler wants."""
+    """What the scheduler does about the return value of an exit handler."""
 
     members: Sequence[Member] = ()
-    """To be started; each waits for :func:`conditions.on_request`."""
+    """What to start; the condition of each node contains :func:`conditions.on_request`."""
     shutdown: Shutdown | None = None
 
 
 def call_exit_handler(handler: ExitHandler, event: Exited) -> HandlerResult:
-    """Return what a handler wants; one that fails wants the stack to stop."""
+    """Call a handler; if it raises, the stack is to stop with exit code 1."""
     try:
         reaction = handler(event)
-    except (Exception, SystemExit) as error:  # a stranger's must not end the supervisor
-        return HandlerResult(shutdown=Shutdown(complaint('on_exit', error), exit_code=1))
+    except (Exception, SystemExit) as error:  # the user's code must not end the supervisor
+        return HandlerResult(shutdown=Shutdown(describe_failure('on_exit', error), exit_code=1))
     if reaction is None:
         return HandlerResult()
     if isinstance(reaction, Shutdown):
@@ -90,6 +91,6 @@ def call_exit_handler(handler: ExitHandler, event: Exited) -> HandlerResult:
     return HandlerResult(tuple(reaction) if isinstance(reaction, list | tuple) else (reaction,))
 
 
-def complaint(name: str, error: BaseException) -> str:
-    """Return one line on what a handler raised, and where."""
+def describe_failure(name: str, error: BaseException) -> str:
+    """Return one line about the exception of the handler ``name``, with its location."""
     return f'{name} failed: {user_errors.describe(error)}'

@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Which files a stack is started with, and whether somebody edits another copy of one.
+The input files of a stack: their hashes, and a warning where another copy differs.
 
-A workspace that is built without ``--symlink-install`` has every description twice, and an edit
-of the source changes nothing until the next build. A file that its editor has not saved yet looks
-the same from here; when it was last saved stands in the note.
+A workspace that was built without ``--symlink-install`` has every description twice, and an edit
+of the source has no effect until the next build. Each note contains the time at which the file was
+last saved: that shows changes which an editor has not saved yet.
 """
 
 from collections.abc import Iterator, Sequence
@@ -19,19 +19,19 @@ from amr_description.bringup.console import Level
 from amr_description.errors import ResourceError
 
 type Note = tuple[Level, str]
-"""What the bring-up says, and how loudly."""
+"""(level, text) of a message in the log."""
 
-_DIGITS = 12  # of the SHA-256, enough for a person to compare
+_DIGITS = 12  # of the SHA-256; enough to compare by eye
 _MANIFESTS = ('package.xml', *(f'src/{"*/" * depth}package.xml' for depth in range(4)))
 _FIX = 'run scripts/setup, or colcon build --symlink-install, which links instead of copying'
 
 
 def notes_on(files: Sequence[Path]) -> list[Note]:
     """
-    Return a note on each file, with its hash, and a warning where its other copy is another.
+    Return a note on each file, with its hash, and a warning for each whose other copy differs.
 
     The other copy of an installed file is its source, that of a source file the installed one.
-    Beside a xacro file all others of its folder are compared, as it may include them.
+    With a xacro file all other files of its folder are compared, since it may include them.
     """
     notes: list[Note] = []
     for file in files:
@@ -44,7 +44,7 @@ def notes_on(files: Sequence[Path]) -> list[Note]:
 
 
 def _differences(used: Path) -> Iterator[str]:
-    """Yield at most one line: which other copy there is, and how to make them one."""
+    """Yield at most one line: which other copy differs, and how to avoid a second copy."""
     other, what = source_of(used), 'its source'
     if other is None:
         other, what = installed_copy_of(used), 'the installed copy'
@@ -58,7 +58,7 @@ def _differences(used: Path) -> Iterator[str]:
 
 
 def source_of(installed: Path) -> Path | None:
-    """Return the file in a workspace's sources that an installed file was copied from."""
+    """Return the source file that an installed file was copied from; None: it is not known."""
     for prefix in prefixes():
         share = prefix / 'share'
         if installed.is_relative_to(share) and len(installed.relative_to(share).parts) > 1:
@@ -70,7 +70,7 @@ def source_of(installed: Path) -> Path | None:
 
 
 def installed_copy_of(source: Path) -> Path | None:
-    """Return the file that ``package://`` finds in place of a file of a package's sources."""
+    """Return the installed copy of a package's source file, which ``package://`` finds, if any."""
     for folder in source.parents:
         package = _package_in(folder / 'package.xml')
         if package is None:
@@ -85,7 +85,7 @@ def installed_copy_of(source: Path) -> Path | None:
 
 
 def _sources(workspace: Path, package: str) -> Iterator[Path]:
-    """Yield the folders of a package's sources in a colcon workspace."""
+    """Yield the source folders of a package in a colcon workspace."""
     if not (workspace / 'build' / package).is_dir():
         return
     for pattern in _MANIFESTS:
@@ -95,7 +95,7 @@ def _sources(workspace: Path, package: str) -> Iterator[Path]:
 
 
 def _package_in(manifest: Path) -> str | None:
-    """Return the name in a package.xml, None if there is none."""
+    """Return the name in a package.xml; None if there is none."""
     try:
         text = manifest.read_text('utf-8', errors='replace')
     except OSError:
@@ -105,13 +105,13 @@ def _package_in(manifest: Path) -> str | None:
 
 
 def _family(file: Path) -> list[Path]:
-    """Return the files of a folder, ``file`` first."""
+    """Return all files of the folder of ``file``, that one first."""
     others = (other for other in sorted(file.parent.iterdir()) if other.is_file())
     return [file, *(other for other in others if other.name != file.name)]
 
 
 def _target(file: Path) -> str:
-    """Tell where a link leads."""
+    """Return where a link leads, `` -> …``; '' if it is none."""
     target = file.resolve()
     return '' if target == file else f' -> {target}'
 

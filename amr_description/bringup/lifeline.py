@@ -1,19 +1,19 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The lifeline: what makes sure that nothing outlives the orchestrator, not even its SIGKILL.
+The lifeline, a parent-death pipe: no process outlives the orchestrator, even after its SIGKILL.
 
 Every child of a bring-up inherits
 
 ``AMR_LIFELINE_FD``
-    The number of a file descriptor: the reading end of a pipe into which nobody ever writes and
-    whose writing end only the orchestrator holds. It reports POLLHUP (or end of file) as soon as
-    the orchestrator is gone, in whatever way. A node that watches it ends as on SIGTERM. It must
-    only be polled; and only if it is a FIFO, as the variable outlives the descriptor where a child
-    starts a program with closed descriptors.
+    A file descriptor: the reading end of a pipe to which nobody ever writes and whose writing end
+    only the orchestrator holds. It reports POLLHUP (or end of file) as soon as the orchestrator
+    is gone, for whatever reason; a node that watches it then ends as on SIGTERM. It may only be
+    polled, and only if it is a FIFO: a program that a child starts with closed descriptors
+    inherits the variable, but not the descriptor.
 ``AMR_BRINGUP_RUN``
-    The name of the run, the same in all its processes. By it the guardian finds what is left,
-    whether or not it watches the lifeline.
+    The name of the run, the same in all its processes. By it the guardian finds the processes
+    that are left, whether or not they watch the lifeline.
 """
 
 import contextlib
@@ -30,13 +30,14 @@ _PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 
 class Lifeline:
-    """The pipe, and the guardian that holds its other end."""
+    """The pipe, and the guardian that waits at its reading end."""
 
     def __init__(self, run: str) -> None:
         """
         Open the pipe and start the guardian.
 
-        :param run: A name that no other run on this machine has.
+        Args:
+            run: the name of the run, unique on this machine.
         """
         self._run = run
         self.reader, self._writer = os.pipe()
@@ -45,18 +46,23 @@ class Lifeline:
 
     @property
     def variables(self) -> dict[str, str]:
-        """The environment variables of the children, as the module's docstring says."""
+        """The environment variables for the children, see the module's docstring."""
         return {LIFELINE_VARIABLE: str(self.reader), guardian.RUN_VARIABLE: self._run}
 
-    def revive(self) -> bool:
-        """Start the guardian anew if somebody ended it; return whether that was needed."""
+    def revive_guardian(self) -> bool:
+        """Start the guardian again if somebody ended it; return whether that was needed."""
         if self._guardian.poll() is None:
             return False
         self._guardian = self._start_guardian()
         return True
 
     def reap_adopted(self, children: set[int]) -> None:
-        """Reap the ended orphans that this process, their subreaper, has adopted."""
+        """
+        Reap the orphans that this process has adopted as their subreaper, once they have ended.
+
+        Args:
+            children: the pids of its own children, which their Popen objects reap.
+        """
         with contextlib.suppress(ChildProcessError):
             while ended := os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT):
                 if ended.si_pid in children | {self._guardian.pid}:
@@ -64,12 +70,12 @@ class Lifeline:
                 os.waitpid(ended.si_pid, 0)
 
     def cut(self) -> None:
-        """Let the guardian end what is left, now; :meth:`is_over` says when that is done."""
+        """Let the guardian end what is left; :meth:`is_over` returns whether it is done."""
         os.close(self._writer)
         os.close(self.reader)
 
     def is_over(self) -> bool:
-        """Return whether the guardian, after :meth:`cut`, has done its work and is gone."""
+        """Return whether the guardian has ended, after :meth:`cut`."""
         return self._guardian.poll() is not None
 
     def _start_guardian(self) -> subprocess.Popen[bytes]:
@@ -78,7 +84,7 @@ class Lifeline:
         environment = {k: v for k, v in os.environ.items() if k != guardian.RUN_VARIABLE}
         return subprocess.Popen(
             [sys.executable, '-I', '-S', program, *arguments],
-            env=environment,  # without the mark of a bring-up that this one may run in
+            env=environment,  # without the mark of an outer bring-up
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             pass_fds=(self.reader,),
@@ -87,7 +93,7 @@ class Lifeline:
 
 
 def become_subreaper() -> None:
-    """Have orphaned descendants of this process adopted by it rather than by init."""
+    """Have orphaned descendants of this process adopted by it instead of by init."""
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0) != 0:
         error = ctypes.get_errno()

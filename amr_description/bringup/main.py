@@ -1,11 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The command ``bringup``: start a stack, by name or from a file, and keep it until Ctrl-C.
+The command ``bringup``: starts a stack, by name or from a file, and runs it until Ctrl-C.
 
-What ``--print`` prints: the tree of a stack, what each part waits for, and command lines.
-
-Signals that ask for the end before the orchestrator listens to them: xacro may be running.
+Also ``--print``, which shows the tree of a stack, what each node waits for and its command line;
+``--show-args``; and the commands of ``run_commands.py``.
 """
 
 import argparse
@@ -22,16 +21,16 @@ import threading
 from amr_description import streams
 from amr_description.bringup import environment, run_registry
 from amr_description.bringup.arguments import declared, parse, show
-from amr_description.bringup.command_line import jobs_of, LaunchPrefix, ProcessSpec
-from amr_description.bringup.conditions import NameOf
+from amr_description.bringup.command_line import LaunchPrefix, process_specs, ProcessSpec
+from amr_description.bringup.conditions import Member, NameOf
 from amr_description.bringup.console import can_erase, Console, LAUNCH, wants_colour
-from amr_description.bringup.description import Group, Member, Node, nodes_of, Stack
+from amr_description.bringup.description import Group, Node, nodes_of, Stack
 from amr_description.bringup.orchestrator import Orchestrator
 from amr_description.bringup.placement import Placement
 from amr_description.bringup.run_commands import COMMANDS
 from amr_description.bringup.run_log import (
     EventLog,
-    FILE,
+    EVENTS_FILE,
     json_line,
     log_base,
     LogFolder,
@@ -47,9 +46,67 @@ from amr_description.errors import AmrError
 _INDENT = '    '
 
 
-def listing(stack: Stack, jobs: Sequence[ProcessSpec]) -> str:
-    """Return the text."""
-    by_node = {job.node: job for job in jobs}
+def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
+    """
+    Run the command.
+
+    Args:
+        args: its arguments; None: those of the process.
+        prog: the name of the command in its messages.
+
+    Returns:
+        The exit code: see ``orchestrator.py``; 2: wrong command line.
+    """
+    streams.open_missing()
+    words = sys.argv[1:] if args is None else args
+    try:
+        if words and words[0] in COMMANDS:
+            return COMMANDS[words[0]](words[1:])
+        with _exit_on_signals():
+            return _run(_parser().parse_intermixed_args(words))
+    except AmrError as error:
+        print(f'{prog}: {error}', file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt:  # before or after the orchestrator handles SIGINT
+        return 130
+
+
+def start(
+    stack: Stack, *, name: str, force: bool = False, prefix: LaunchPrefix | None = None
+) -> int:
+    """
+    Run a stack until it ends or is stopped; return the exit code.
+
+    Args:
+        stack: what to run.
+        name: what the run is called.
+        force: whether to start although a running stack has nodes of the same names.
+        prefix: that of all command lines.
+    """
+    for node in nodes_of(stack.nodes):
+        if node.terminal:
+            require_terminal(node.executable, node.package)
+    run = run_name(datetime.now())
+    about = {'stack': name, 'domain': int(os.environ.get(environment.DOMAIN) or 0)}
+    record = RunRecord(registry_folder(os.environ), run)
+    names = run_registry.unique_names(process_specs(stack, Path(), prefix))
+    record.register(about, names=names, force=force)
+    folder = LogFolder(log_base(os.environ), run)
+    try:
+        specs = process_specs(stack, folder.path, prefix)
+        events = EventLog(lambda e: folder.append(EVENTS_FILE, json_line(e)), record.update)
+        events.note('begun', run=run, pid=os.getpid(), log_folder=str(folder.path), **about)
+        code = asyncio.run(_orchestrate(stack, specs, _console(stack, folder), run, events))
+        events.note('stopped', exit_code=code)
+        return code
+    finally:
+        record.remove()
+        folder.close()
+
+
+def listing(stack: Stack, specs: Sequence[ProcessSpec]) -> str:
+    """Return what ``--print`` prints of a stack and its nodes."""
+    by_node = {spec.node: spec for spec in specs}
 
     def name_of(node: Node) -> str:
         return by_node[node].name
@@ -58,93 +115,6 @@ def listing(stack: Stack, jobs: Sequence[ProcessSpec]) -> str:
     if stack.ready_when:
         lines.append(f'ready: when {Placement(stack).ready_when.describe(name_of)}')
     return '\n'.join(lines)
-
-
-def _tree(
-    members: Sequence[Member], jobs: Mapping[Node, ProcessSpec], name_of: NameOf
-) -> Iterator[str]:
-    for member in members:
-        if isinstance(member, Node):
-            yield from _of_job(jobs[member], name_of)
-            continue
-        inside = member.members if isinstance(member, Group) else member.nodes
-        yield f'{_group(member) if isinstance(member, Group) else "stack"}:'
-        yield from (f'{_INDENT}{line}' for line in _tree(inside, jobs, name_of))
-
-
-def _group(group: Group) -> str:
-    return f'group {group.namespace}' if group.namespace else 'group'
-
-
-def _of_job(job: ProcessSpec, name_of: NameOf) -> Iterator[str]:
-    condition = job.placed.start_when
-    when = f'when {condition.describe(name_of)}' if condition else 'at once'
-    yield f'{job.name}: {", ".join([when, *_manners(job.node)])}'
-    yield f'{_INDENT}{job.command_text}'
-    for variable, value in job.environment.items():
-        yield f'{_INDENT}{variable}={value}'
-    for path, text in job.parameter_files:
-        if text is not None:
-            yield f'{_INDENT}{path}:'
-            yield from (f'{2 * _INDENT}{line}' for line in text.splitlines())
-
-
-def _manners(node: Node) -> Iterator[str]:
-    """Yield how it differs from a node of which nothing is said."""
-    if not node.required:
-        yield 'optional'
-    if node.respawn:
-        limit = '' if node.respawn.limit is None else f' up to {node.respawn.limit} times'
-        yield f'started again{limit}'
-    if node.on_exit == 'shutdown':
-        yield 'its end is the end of all'
-    if node.terminal:
-        yield 'has the terminal'
-
-
-@contextmanager
-def ended_by_signals() -> Iterator[None]:
-    """
-    Have SIGTERM and SIGHUP unwind this block, as Ctrl-C does, with the exit code that shells give.
-
-    An ignored one stays so (nohup). The orchestrator's own handlers replace these.
-    """
-    if threading.current_thread() is not threading.main_thread():  # Python handles none there
-        yield
-        return
-    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
-    for number, handler in before.items():
-        if handler is signal.SIG_DFL:
-            signal.signal(number, _leave)
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
-
-def _leave(number: int, _frame: object) -> None:
-    sys.exit(128 + number)
-
-
-def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
-    """
-    Run the command; return its exit code (see ``orchestrator.py``; 2: wrong command line).
-
-    ``prog``: what messages call it.
-    """
-    streams.open_missing()
-    words = sys.argv[1:] if args is None else args
-    try:
-        if words and words[0] in COMMANDS:
-            return COMMANDS[words[0]](words[1:])
-        with ended_by_signals():
-            return _run(_parser().parse_intermixed_args(words))
-    except AmrError as error:
-        print(f'{prog}: {error}', file=sys.stderr)
-        return error.exit_code
-    except KeyboardInterrupt:  # before or after the orchestrator handles it
-        return 130
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -182,62 +152,100 @@ def _run(options: argparse.Namespace) -> int:
     stack = make_stack(options.stack, parse(options.arguments))
     prefix = LaunchPrefix(options.launch_prefix, options.launch_prefix_filter)
     if options.print:
-        print(listing(stack, jobs_of(stack, Path('LOG_FOLDER'), prefix)))
+        print(listing(stack, process_specs(stack, Path('LOG_FOLDER'), prefix)))
         return 0
     return start(stack, name=Path(options.stack).stem, force=options.force, prefix=prefix)
 
 
-def start(
-    stack: Stack, *, name: str, force: bool = False, prefix: LaunchPrefix | None = None
-) -> int:
-    """
-    Run a stack until it ends or is stopped; return the exit code.
-
-    :param name: What it is called.
-    :param force: Whether it may have nodes of the same names as a stack that runs.
-    :param prefix: That of all command lines.
-    """
-    for node in nodes_of(stack.nodes):
-        if node.terminal:
-            require_terminal(node.executable, node.package)
-    run = run_name(datetime.now())
-    about = {'stack': name, 'domain': int(os.environ.get(environment.DOMAIN) or 0)}
-    record = RunRecord(registry_folder(os.environ), run)
-    record.enter(about, names=run_registry.of(jobs_of(stack, Path(), prefix)), anyway=force)
-    folder = LogFolder(log_base(os.environ), run)
-    try:
-        jobs = jobs_of(stack, folder.path, prefix)
-        events = EventLog(lambda event: folder.append(FILE, json_line(event)), record.take)
-        events.note('begun', run=run, pid=os.getpid(), log_folder=str(folder.path), **about)
-        code = asyncio.run(_orchestrate(stack, jobs, _console(stack, folder), run, events))
-        events.note('stopped', exit_code=code)
-        return code
-    finally:
-        record.leave()
-        folder.close()
-
-
 def _console(stack: Stack, folder: LogFolder) -> Console:
-    """Return the console, on which has been said what a person knows before the start."""
+    """Return the console, after the lines that come before the first start."""
     colour, erases = wants_colour(sys.stdout, os.environ), can_erase(sys.stdout, os.environ)
     console = Console(sys.stdout, folder, colour=colour, erases=erases)
     where = with_tilde(folder.path)
-    console.say('INFO', LAUNCH, f'All log files can be found below {where}')
-    console.say('INFO', LAUNCH, environment.told(os.environ))
+    console.log('INFO', LAUNCH, f'All log files can be found below {where}')
+    console.log('INFO', LAUNCH, environment.discovery_text(os.environ))
     for level, text in stack.all_notes:
-        console.say(level, LAUNCH, text)
+        console.log(level, LAUNCH, text)
     return console
 
 
 async def _orchestrate(
-    stack: Stack, jobs: list[ProcessSpec], console: Console, run: str, events: EventLog
+    stack: Stack, specs: list[ProcessSpec], console: Console, run: str, events: EventLog
 ) -> int:
     # The log files that the nodes write themselves belong to this run, too.
-    environment = {**os.environ, 'ROS_LOG_DIR': console.log_folder}
+    variables = {**os.environ, 'ROS_LOG_DIR': console.log_folder}
     try:
-        return await Orchestrator(stack, jobs, console, run, environment, events).run()
+        return await Orchestrator(stack, specs, console, run, variables, events).run()
     finally:
         console.status('')
+
+
+@contextmanager
+def _exit_on_signals() -> Iterator[None]:
+    """
+    Have SIGTERM and SIGHUP unwind the context, with the exit code of shells, as Ctrl-C does.
+
+    For the time before the orchestrator installs its own handlers: xacro may be running. An
+    ignored signal stays ignored (nohup).
+    """
+    if threading.current_thread() is not threading.main_thread():  # no handlers can be set there
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
+    for number, handler in before.items():
+        if handler is signal.SIG_DFL:
+            signal.signal(number, _exit)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _exit(number: int, _frame: object) -> None:
+    sys.exit(128 + number)
+
+
+def _tree(
+    members: Sequence[Member], specs: Mapping[Node, ProcessSpec], name_of: NameOf
+) -> Iterator[str]:
+    for member in members:
+        if isinstance(member, Node):
+            yield from _node_lines(specs[member], name_of)
+            continue
+        inner = member.members if isinstance(member, Group) else member.nodes
+        yield f'{_group_title(member) if isinstance(member, Group) else "stack"}:'
+        yield from (f'{_INDENT}{line}' for line in _tree(inner, specs, name_of))
+
+
+def _group_title(group: Group) -> str:
+    return f'group {group.namespace}' if group.namespace else 'group'
+
+
+def _node_lines(spec: ProcessSpec, name_of: NameOf) -> Iterator[str]:
+    condition = spec.resolved.start_when
+    when = f'when {condition.describe(name_of)}' if condition else 'at once'
+    yield f'{spec.name}: {", ".join([when, *_options(spec.node)])}'
+    yield f'{_INDENT}{spec.command_text}'
+    for variable, value in spec.environment.items():
+        yield f'{_INDENT}{variable}={value}'
+    for path, text in spec.parameter_files:
+        if text is not None:
+            yield f'{_INDENT}{path}:'
+            yield from (f'{2 * _INDENT}{line}' for line in text.splitlines())
+
+
+def _options(node: Node) -> Iterator[str]:
+    """Yield what differs from the defaults of a node."""
+    if not node.required:
+        yield 'optional'
+    if node.respawn:
+        limit = '' if node.respawn.limit is None else f' up to {node.respawn.limit} times'
+        yield f'started again{limit}'
+    if node.on_exit == 'shutdown':
+        yield 'its end is the end of all'
+    if node.terminal:
+        yield 'has the terminal'
 
 
 if __name__ == '__main__':

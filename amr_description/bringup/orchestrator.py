@@ -1,16 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The engine: start the processes of a stack in order, watch them, end them all.
+Runs a stack: starts its processes in order, watches them, and ends them all.
 
-One thread, one event loop. It is woken when a child ended (SIGCHLD) or wrote a line that a
-condition asks for, when the ROS graph changed, when somebody wants the stack to stop (SIGINT,
-SIGTERM, SIGHUP or a screen that nobody reads), and when it is time: for a start, for a look at a
-file, or because a patience is over.
+One thread, one event loop. It is woken when a child has ended (SIGCHLD) or has written a line that
+fulfils a condition, when the ROS graph has changed, when the stack is asked to stop (SIGINT,
+SIGTERM, SIGHUP, or a screen that nobody reads any more), and at the times that the scheduler asks
+for: starts, polls of files and timeouts.
 
-The exit code is that of the required node that failed first (128 + signal if it died of one), and
-124 if a wait took too long. It is 0 if the stack ended by itself, and if it was stopped by a
-signal: Ctrl-C is its ordinary end.
+The exit code is that of the required node that failed first (128 + signal if a signal ended it),
+or 124 after a timeout. It is 0 if the stack ended by itself and if it was stopped by a signal:
+Ctrl-C is its ordinary end.
 """
 
 import asyncio
@@ -25,9 +25,9 @@ from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
 from amr_description.bringup.graph_watcher import COMMAND, ExternalState, GraphWatch
-from amr_description.bringup.handlers import complaint, Stopping
+from amr_description.bringup.handlers import describe_failure, Stopping
 from amr_description.bringup.lifeline import Lifeline
-from amr_description.bringup.process import Child, held_back, RunningProcess
+from amr_description.bringup.process import Child, RunningProcess, signal_blocked
 from amr_description.bringup.reporter import Reporter
 from amr_description.bringup.run_log import EventLog
 from amr_description.bringup.scheduler import Scheduler
@@ -36,7 +36,7 @@ from amr_description.bringup.terminal import TerminalChild
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed
 _NOBODY_READS = 128 + signal.SIGPIPE  # as of a program that wrote into a closed pipe
 
-# (signal, s to wait for the end before the next; None: as long as it takes)
+# (signal, s to wait before the next one; None: as long as it takes)
 _ESCALATION = ((signal.SIGINT, 5.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, None))
 
 
@@ -46,58 +46,63 @@ class Orchestrator:
     def __init__(
         self,
         stack: Stack,
-        jobs: Sequence[ProcessSpec],
+        specs: Sequence[ProcessSpec],
         console: Console,
         run_name: str,
         environment: Mapping[str, str],
         events: EventLog,
     ) -> None:
         """
-        Take over what is to be run.
+        Prepare a run.
 
-        :param jobs: The nodes of the stack, made ready by :func:`job.jobs_of`.
-        :param run_name: A name that no other run on this machine has.
-        :param environment: The environment variables of the children.
-        :param events: Is told all that happens.
+        Args:
+            stack: what to run.
+            specs: its nodes, made by :func:`command_line.process_specs`.
+            console: where lines for a person go.
+            run_name: unique on this machine.
+            environment: the environment variables of the children.
+            events: where events for programs go.
         """
-        self._jobs: dict[Node, ProcessSpec] = {job.node: job for job in jobs}
+        self._specs: dict[Node, ProcessSpec] = {spec.node: spec for spec in specs}
         self._run_name = run_name
         self._environment = environment
-        self._narrator = Reporter(stack, jobs, console, events)
-        self._progress = Scheduler(stack, time.monotonic())
+        self._reporter = Reporter(stack, specs, console, events)
+        self._scheduler = Scheduler(stack, time.monotonic())
         self._children: dict[Node, RunningProcess] = {}  # in the order of their start
         self._last_lines: dict[Node, Collection[str]] = {}
         self._wake = asyncio.Event()
-        watch = GraphWatch(self._spawn_watch, self._wake.set, self._narrator.graph_watch_said)
-        self._outlook = ExternalState(watch)
+        watch = GraphWatch(
+            self._spawn_graph_watch, self._wake.set, self._reporter.graph_watch_output
+        )
+        self._external = ExternalState(watch)
         self._stop_handlers = stack.stop_handlers
         self._stop_requests = 0
         self._exit_code = 0
-        console.when_reader_is_gone(self._on_reader_gone)
+        console.on_reader_gone(self._on_reader_gone)
 
     async def run(self) -> int:
-        """Run the stack to its end and return the exit code; nothing is left when it returns."""
+        """Run the stack to its end; return the exit code. No process is left when it returns."""
         with self._signal_handlers():
             self._lifeline = Lifeline(self._run_name)
             try:
-                await self._until_over()
+                await self._run_until_over()
             finally:
                 await self._stop_all()
                 await self._end_the_rest()
-        self._narrator.failure(self._progress, self._last_lines)
+        self._reporter.failure(self._scheduler, self._last_lines)
         return self._result
 
     @property
     def _result(self) -> int:
         """The exit code, as far as it is known."""
-        reason = self._progress.failure or self._progress.shutdown
+        reason = self._scheduler.failure or self._scheduler.shutdown
         return self._exit_code if reason is None else reason.exit_code
 
     @contextlib.contextmanager
     def _signal_handlers(self) -> Iterator[None]:
         loop = asyncio.get_running_loop()
-        # nohup's ignored SIGHUP stays ignored; an ignored SIGINT (of a job in the background of a
-        # script) does not: whoever sends it means it.
+        # SIGHUP stays ignored under nohup. SIGINT is handled even where it was ignored (a job in
+        # the background of a script): whoever sends it wants the stack to stop.
         stops = [signal.SIGINT, signal.SIGTERM]
         if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
             stops.append(signal.SIGHUP)
@@ -111,7 +116,7 @@ class Orchestrator:
                 loop.remove_signal_handler(number)
 
     def _on_stop_signal(self, number: signal.Signals) -> None:
-        self._narrator.stop_requested(number, again=self._stop_requests > 0)
+        self._reporter.stop_requested(number, again=self._stop_requests > 0)
         self._request_stop()
 
     def _on_reader_gone(self) -> None:
@@ -120,139 +125,139 @@ class Orchestrator:
 
     def _request_stop(self) -> None:
         self._stop_requests += 1
-        self._progress.over = True
+        self._scheduler.over = True
         self._wake.set()
 
-    async def _until_over(self) -> None:
-        while not self._progress.over:
-            self._look()
-            while not self._progress.over and (nodes := self._progress.startable()):
+    async def _run_until_over(self) -> None:
+        while not self._scheduler.over:
+            self._observe()
+            while not self._scheduler.over and (nodes := self._scheduler.startable()):
                 self._start(nodes[0])
-            self._narrator.progress(self._progress)
-            if not self._progress.over:
+            self._reporter.progress(self._scheduler)
+            if not self._scheduler.over:
                 await self._event(self._time_left())
-            self._collect()
-        if self._progress.shutdown:
-            self._narrator.shutdown(self._progress.shutdown)
+            self._handle_exits()
+        if self._scheduler.shutdown:
+            self._reporter.shutdown(self._scheduler.shutdown)
         for handler in self._stop_handlers:
             try:
                 handler(Stopping(self._result))
             except (Exception, SystemExit) as error:  # must not keep processes alive
-                self._narrator.handler_failed(complaint('on_shutdown', error))
+                self._reporter.handler_failed(describe_failure('on_shutdown', error))
 
-    def _look(self) -> None:
-        """See what the time and the world outside have come to."""
+    def _observe(self) -> None:
+        """Give the scheduler the time, the ROS graph and the files."""
         now = time.monotonic()
-        self._outlook.look(self._progress.lookouts(), now)
-        self._progress.see(graph=self._outlook.graph, paths=self._outlook.paths)
-        self._progress.at(now)
+        self._external.update(self._scheduler.pending_conditions(), now)
+        self._scheduler.observe(graph=self._external.graph, paths=self._external.paths)
+        self._scheduler.advance_to(now)
 
     def _time_left(self) -> float | None:
-        """Return the s until there is something to do although nothing happens."""
-        times = [self._progress.next_time(), self._outlook.next_time]
+        """Return the s until something is due although no event comes; None: nothing is."""
+        times = [self._scheduler.next_time(), self._external.next_time]
         earliest = min((each for each in times if each is not None), default=None)
         return None if earliest is None else max(0.0, earliest - time.monotonic())
 
-    async def _event(self, patience: float | None) -> bool:
-        """Wait for the next event, at most ``patience`` s; return whether there was one."""
+    async def _event(self, timeout: float | None) -> bool:
+        """Wait for the next event, at most ``timeout`` s; return whether there was one."""
         try:
-            await asyncio.wait_for(self._wake.wait(), patience)
+            await asyncio.wait_for(self._wake.wait(), timeout)
         except TimeoutError:
             return False
         self._wake.clear()
         return True
 
     def _start(self, node: Node) -> None:
-        job = self._jobs[node]
-        self._progress.start(node)
+        spec = self._specs[node]
+        self._scheduler.on_start(node)
         try:
-            environment = {**self._environment, **job.environment}
-            environment = child_environment(job.executable, environment)
-            job.write_parameter_files()
-            child = self._child(job, environment | self._lifeline.variables)
+            environment = {**self._environment, **spec.environment}
+            environment = child_environment(spec.executable, environment)
+            spec.write_parameter_files()
+            child = self._spawn(spec, environment | self._lifeline.variables)
         except OSError as error:
-            reason = f'could not be started: {job.why_not(error)}'
-            self._narrator.not_started(node, reason)
+            reason = f'could not be started: {spec.explain(error)}'
+            self._reporter.not_started(node, reason)
             self._last_lines[node] = [reason]
-            self._progress.end(node, CANNOT_START, [reason])
-            self._narrator.respawn(node, self._progress.situation)
+            self._scheduler.on_exit(node, CANNOT_START, [reason])
+            self._reporter.respawn(node, self._scheduler.state)
             self._wake.set()
             return
-        if node in self._children:  # it is started again
+        if node in self._children:  # a respawn
             self._children.pop(node).close()
         self._children[node] = child
         self._last_lines[node] = child.last_lines
-        self._narrator.started(node, child.pid)
+        self._reporter.started(node, child.pid)
 
-    def _child(self, job: ProcessSpec, environment: Mapping[str, str]) -> RunningProcess:
-        reader, narrator = self._lifeline.reader, self._narrator
-        with held_back(signal.SIGINT) if job.takes_sigint_later else contextlib.nullcontext():
-            if not job.node.terminal:
-                hear = functools.partial(self._hear, job.node)
-                return Child(job.command, environment, reader, hear)
-            narrator.progress(self._progress)  # as long as all of it can be seen
-            narrator.lends_terminal(job.node)
+    def _spawn(self, spec: ProcessSpec, environment: Mapping[str, str]) -> RunningProcess:
+        reader, reporter = self._lifeline.reader, self._reporter
+        with signal_blocked(signal.SIGINT) if spec.unblocks_sigint else contextlib.nullcontext():
+            if not spec.node.terminal:
+                on_line = functools.partial(self._on_line, spec.node)
+                return Child(spec.command, environment, reader, on_line)
+            reporter.progress(self._scheduler)  # while all of it can still be seen
+            reporter.lending_terminal(spec.node)
             try:
-                return TerminalChild(job.command, environment, reader, narrator.terminal_lent)
+                return TerminalChild(spec.command, environment, reader, reporter.terminal_lent)
             except OSError:
-                narrator.terminal_lent(False)
+                reporter.terminal_lent(False)
                 raise
 
-    def _hear(self, node: Node, line: str) -> None:
-        self._narrator.output(node, line)
-        if self._progress.hear(node, line):
+    def _on_line(self, node: Node, line: str) -> None:
+        self._reporter.output(node, line)
+        if self._scheduler.on_line(node, line):
             self._wake.set()
 
-    def _spawn_watch(self, on_line: Callable[[str], None]) -> Child:
+    def _spawn_graph_watch(self, on_line: Callable[[str], None]) -> Child:
         environment = {**self._environment, 'PYTHONUNBUFFERED': '1', **self._lifeline.variables}
-        with held_back(signal.SIGINT):
+        with signal_blocked(signal.SIGINT):
             return Child(COMMAND, environment, self._lifeline.reader, on_line)
 
-    def _collect(self) -> None:
-        """Take note of all processes that have ended."""
-        self._progress.tick(time.monotonic())
+    def _handle_exits(self) -> None:
+        """Give the scheduler all processes that have ended."""
+        self._scheduler.set_time(time.monotonic())
         for node, child in self._running().items():
             if child.poll():
-                self._narrator.ended(node, child)
-                if node.terminal and child.died_of_ctrl_c:  # which it alone has heard
+                self._reporter.ended(node, child)
+                if node.terminal and child.died_of_ctrl_c:  # only its process group gets that one
                     self._on_stop_signal(signal.SIGINT)
-                self._progress.end(node, child.returncode, list(child.last_lines))
-                self._narrator.respawn(node, self._progress.situation)
-        if self._lifeline.revive():
-            self._narrator.guardian_replaced()
+                self._scheduler.on_exit(node, child.returncode, list(child.last_lines))
+                self._reporter.respawn(node, self._scheduler.state)
+        if self._lifeline.revive_guardian():
+            self._reporter.guardian_replaced()
         self._lifeline.reap_adopted(self._running_pids())
 
     def _running(self) -> dict[Node, RunningProcess]:
         return {n: child for n, child in self._children.items() if child.returncode is None}
 
     def _running_pids(self) -> set[int]:
-        watch = self._outlook.watch.process
+        watch = self._external.watch.process
         running = [*self._running().values(), *([watch] if watch else [])]
         return {child.pid for child in running}
 
     async def _stop_all(self) -> None:
-        """Signal all at once in the reverse order of their start, and again where that fails."""
+        """Signal all processes in the reverse order of their start, then escalate."""
         begin = time.monotonic()
         before: signal.Signals | None = None
-        for number, patience in _ESCALATION:
+        for number, timeout in _ESCALATION:
             running = self._running()
             for node, child in reversed(running.items()):
                 elapsed = time.monotonic() - begin
-                self._narrator.signalled(node, child.pid, number, before, elapsed)
+                self._reporter.signal_sent(node, child.pid, number, before, elapsed)
                 child.send(number)
-            self._outlook.watch.send(number)
-            await self._until_ended(patience)
+            self._external.watch.send(number)
+            await self._until_all_ended(timeout)
             before = number
 
-    async def _until_ended(self, patience: float | None) -> None:
-        """Wait for the end of all, at most ``patience`` s, or for somebody who is in a hurry."""
-        deadline = None if patience is None else time.monotonic() + patience
+    async def _until_all_ended(self, timeout: float | None) -> None:
+        """Wait until all have ended, at most ``timeout`` s, or until a further stop request."""
+        deadline = None if timeout is None else time.monotonic() + timeout
         requests = self._stop_requests
-        while self._stop_requests == requests and (self._running() or self._outlook.watch.poll()):
+        while self._stop_requests == requests and (self._running() or self._external.watch.poll()):
             left = None if deadline is None else max(0.0, deadline - time.monotonic())
             if not await self._event(left):
                 return
-            self._collect()
+            self._handle_exits()
 
     async def _end_the_rest(self) -> None:
         """Have the guardian end what the children left behind."""

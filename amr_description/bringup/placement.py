@@ -1,101 +1,100 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tree of groups and stacks, flattened: what holds for each node where it stands."""
+"""The tree of groups and stacks, flattened: each node with all that it inherits."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from amr_description.bringup.conditions import all_of, Condition, Scope
-from amr_description.bringup.description import Group, Member, Node, Parameters, Stack
+from amr_description.bringup.conditions import all_of, Condition, Member, Scope
+from amr_description.bringup.description import Group, Node, Parameters, Stack
 
 
 @dataclass(frozen=True)
 class ResolvedNode:
-    """A node, and what it has of its groups and stacks."""
+    """A node with what it inherits from its groups and stacks."""
 
     node: Node
     namespace: str | None
-    """From the root, ``/robot1/arm``; None: neither the node nor a group gives one."""
+    """Absolute, ``/robot1/arm``; None: neither the node nor a group sets one."""
     environment: Mapping[str, str]
     parameters: Parameters
     remappings: Sequence[tuple[str, str]]
     start_when: Condition | None
-    """With full names."""
-    patience: float
+    """With absolute names."""
+    timeout: float
     """s"""
 
 
 @dataclass(frozen=True)
-class _Place:
-    """What a member inherits."""
+class _Inherited:
+    """What a member gets from the groups and stacks around it."""
 
-    patience: float
+    timeout: float
     namespace: str | None = None
     environment: Mapping[str, str] = field(default_factory=dict)
     parameters: Parameters = ()
     remappings: Sequence[tuple[str, str]] = ()
     conditions: tuple[tuple[Condition, str | None], ...] = ()
-    """Those of the groups around it, each with the namespace that it stands in."""
+    """Those of the groups, each with the namespace that its names are relative to."""
 
 
 class Placement:
-    """Where everything of a stack stands."""
+    """The nodes of a stack, resolved."""
 
     def __init__(self, stack: Stack) -> None:
-        """Flatten ``stack``."""
+        """Flatten the stack."""
         self._stacks: dict[Stack, str] = {}
-        at_root = _Place(stack.patience)
-        found = list(self._walk(stack, at_root))
-        self.nodes = [self._placed(node, place) for node, place in found]
+        found = list(self._walk(stack, _Inherited(stack.timeout)))
+        self.nodes = [self._resolve(node, inherited) for node, inherited in found]
         """In the order of the tree."""
         self.ready_when = stack.readiness.resolved(self._scope(None))
+        """With absolute names."""
 
-    def _walk(self, member: Member, place: _Place) -> Iterator[tuple[Node, _Place]]:
+    def _walk(self, member: Member, inherited: _Inherited) -> Iterator[tuple[Node, _Inherited]]:
         if isinstance(member, Node):
-            yield member, place
+            yield member, inherited
             return
         if isinstance(member, Stack):
-            self._stacks[member] = place.namespace or '/'
-            inside, members = replace(place, patience=member.patience), member.nodes
+            self._stacks[member] = inherited.namespace or '/'
+            inner, members = replace(inherited, timeout=member.timeout), member.nodes
         else:
-            inside, members = _inside(member, place), member.members
+            inner, members = _with_group(inherited, member), member.members
         for each in members:
-            yield from self._walk(each, inside)
+            yield from self._walk(each, inner)
 
-    def _placed(self, node: Node, place: _Place) -> ResolvedNode:
-        namespace = _joined(place.namespace, node.namespace)
-        conditions = [c.resolved(self._scope(where)) for c, where in place.conditions]
+    def _resolve(self, node: Node, inherited: _Inherited) -> ResolvedNode:
+        conditions = [c.resolved(self._scope(where)) for c, where in inherited.conditions]
         if node.start_when is not None:
-            conditions.append(node.start_when.resolved(self._scope(place.namespace)))
+            conditions.append(node.start_when.resolved(self._scope(inherited.namespace)))
         return ResolvedNode(
             node,
-            namespace,
-            {**place.environment, **node.environment},
-            (*place.parameters, *node.parameters),
-            (*place.remappings, *node.remappings),
+            _joined(inherited.namespace, node.namespace),
+            {**inherited.environment, **node.environment},
+            (*inherited.parameters, *node.parameters),
+            (*inherited.remappings, *node.remappings),
             all_of(*conditions) if len(conditions) > 1 else next(iter(conditions), None),
-            place.patience if node.patience is None else node.patience,
+            inherited.timeout if node.timeout is None else node.timeout,
         )
 
     def _scope(self, namespace: str | None) -> Scope:
         return Scope(namespace or '/', self._stacks)
 
 
-def _inside(group: Group, place: _Place) -> _Place:
-    namespace = _joined(place.namespace, group.namespace)
+def _with_group(inherited: _Inherited, group: Group) -> _Inherited:
+    namespace = _joined(inherited.namespace, group.namespace)
     own = ((group.start_when, namespace),) if group.start_when else ()
     return replace(
-        place,
+        inherited,
         namespace=namespace,
-        environment={**place.environment, **group.environment},
-        parameters=(*place.parameters, *group.parameters),
-        remappings=(*place.remappings, *group.remappings),
-        conditions=(*place.conditions, *own),
+        environment={**inherited.environment, **group.environment},
+        parameters=(*inherited.parameters, *group.parameters),
+        remappings=(*inherited.remappings, *group.remappings),
+        conditions=(*inherited.conditions, *own),
     )
 
 
 def _joined(outer: str | None, inner: str | None) -> str | None:
-    """Return a namespace in another one, from the root, or None if there is none."""
+    """Return the absolute namespace ``inner`` within ``outer``; None if there is neither."""
     if inner is None:
         return outer
     if inner.startswith('/') or outer is None:

@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Bytes from a pipe, as they come, into lines of text.
+One running process of a stack: its process group, its output line by line, its end.
 
-One running process of a stack: its session, its output, its end.
+Processes are started, polled and signalled on the event loop's thread.
 """
 
 import asyncio
@@ -16,61 +16,18 @@ import signal
 import subprocess
 import termios
 
+LAST_LINES = 20  # kept for failure reports
+_READ_SIZE = 65_536  # bytes, the capacity of a pipe
 LONGEST_LINE = 32_768  # bytes; a longer one is shown in pieces rather than held in memory
 
 
-class LineSplitter:
-    """Collects what a process writes and hands out whole lines, without their line ends."""
-
-    def __init__(self, longest: int = LONGEST_LINE) -> None:
-        """``longest``: bytes after which a line is cut."""
-        self._longest = longest
-        self._rest = b''
-
-    def feed(self, data: bytes) -> list[str]:
-        """Add what was read; return the lines that are complete now."""
-        *lines, self._rest = (self._rest + data).split(b'\n')
-        pieces = [piece for line in lines for piece in self._cut(line)]
-        *full, self._rest = self._cut(self._rest)
-        return [_text(piece) for piece in pieces + full]
-
-    def flush(self) -> list[str]:
-        """Return the unfinished last line, if there is one: nothing more will come."""
-        rest, self._rest = self._rest, b''
-        return [_text(rest)] if rest else []
-
-    def _cut(self, line: bytes) -> list[bytes]:
-        pieces = []
-        while len(line) > self._longest:
-            end = _start_of_character(line, self._longest)
-            pieces.append(line[:end])
-            line = line[end:]
-        return [*pieces, line]
-
-
-def _start_of_character(line: bytes, index: int) -> int:
-    """Return the last index, at most 3 before ``index``, at which a UTF-8 character begins."""
-    for back in range(4):
-        if line[index - back] & 0xC0 != 0x80:
-            return index - back
-    return index
-
-
-def _text(line: bytes) -> str:
-    return line.removesuffix(b'\r').decode(errors='replace')
-
-
-LAST_LINES = 20  # kept for the post-mortem
-_READ_SIZE = 65_536  # bytes, the capacity of a pipe
-
-
 @contextlib.contextmanager
-def held_back(number: signal.Signals) -> Iterator[None]:
+def signal_blocked(number: signal.Signals) -> Iterator[None]:
     """
-    Have a signal wait while inside.
+    Block a signal within the context.
 
-    For a process that is started here it waits until that process takes it: what is blocked is
-    inherited.
+    A process that is started in it inherits the mask: the signal stays pending there until the
+    process unblocks it.
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, [number])
     try:
@@ -81,16 +38,16 @@ def held_back(number: signal.Signals) -> Iterator[None]:
 
 class RunningProcess:
     """
-    A process that leads a process group; made, polled and signalled in the event loop's thread.
+    A process that leads a process group.
 
-    Its makers are :class:`Child` and :class:`terminal.TerminalChild`.
+    Its subclasses :class:`Child` and :class:`terminal.TerminalChild` start it.
     """
 
     def __init__(self, process: subprocess.Popen[bytes]) -> None:
-        """Take over a process that has just been started."""
+        """Take over a process that was just started."""
         self._process = process
         self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
-        """What it wrote last, for the post-mortem."""
+        """The last lines of its output, for failure reports."""
         self.sent: signal.Signals | None = None
         """The last signal that :meth:`send` sent."""
 
@@ -106,11 +63,11 @@ class RunningProcess:
 
     @property
     def died_of_ctrl_c(self) -> bool:
-        """Whether it died of a SIGINT that is not from here, as programs without handler do."""
+        """Whether a SIGINT ended it that :meth:`send` did not send."""
         return self.sent is None and self.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
 
     def poll(self) -> bool:
-        """Return whether the process has ended; if so, all its lines have been handed over."""
+        """Return whether the process has ended; if so, all its lines were passed on."""
         return self._process.poll() is not None
 
     def send(self, number: signal.Signals) -> None:
@@ -121,15 +78,15 @@ class RunningProcess:
                 os.killpg(self.pid, number)
 
     def close(self) -> None:
-        """Have done with it, once it has ended."""
+        """Free what it uses, once it has ended."""
 
 
 class Child(RunningProcess):
     """
-    A process in a session of its own, whose output is handed over line by line.
+    A process in a session of its own, whose output is passed on line by line.
 
-    asyncio's own subprocesses are not used because their exit and their last output arrive in no
-    fixed order: here :meth:`poll` hands over every line that was written before the process ended.
+    asyncio's subprocesses report the exit and the last output in no fixed order; here
+    :meth:`poll` passes on every line that was written before the process ended.
     """
 
     def __init__(
@@ -142,13 +99,18 @@ class Child(RunningProcess):
         """
         Start the process.
 
-        :param inherit: A file descriptor that the child gets under the same number.
-        :param on_line: Called with each line of its stdout and stderr, without line end.
-        :raises OSError: The operating system cannot start it.
+        An ignored signal is inherited by children, a handled one is reset to its default: thanks
+        to the orchestrator's handlers no child ignores SIGINT, even where a shell started the
+        orchestrator with SIGINT ignored.
 
-        What a process ignores, its children ignore too, but what it handles is reset in them:
-        under the orchestrator's handlers no child starts with SIGINT ignored, even where a shell
-        started the orchestrator so.
+        Args:
+            command: the command line.
+            environment: all its environment variables.
+            inherit: a file descriptor that the child gets under the same number.
+            on_line: called with each line of its stdout and stderr, without line end.
+
+        Raises:
+            OSError: the operating system cannot start it.
         """
         reader, writer = os.pipe()
         try:
@@ -181,12 +143,12 @@ class Child(RunningProcess):
         return True
 
     def close(self) -> None:
-        """Stop listening to its output, which its own children may still hold open."""
+        """Stop reading its output, which its own children may still hold open."""
         if self._reader is not None:
             asyncio.get_running_loop().remove_reader(self._reader)
             os.close(self._reader)
             self._reader = None
-            self._hand_over(self._splitter.flush())
+            self._pass_on(self._splitter.flush())
 
     def _read(self, size: int = _READ_SIZE) -> None:
         try:
@@ -194,12 +156,12 @@ class Child(RunningProcess):
         except BlockingIOError:
             return
         if data:
-            self._hand_over(self._splitter.feed(data))
+            self._pass_on(self._splitter.feed(data))
         else:
             self.close()
 
     def _drain(self) -> None:
-        """Read what is in the pipe at this moment, not what others still write into it."""
+        """Read what is in the pipe now, but not what other processes still write into it."""
         if self._reader is None:
             return
         waiting = fcntl.ioctl(self._reader, termios.FIONREAD, bytes(4))
@@ -207,9 +169,50 @@ class Child(RunningProcess):
         while size > 0 and self._reader is not None:
             self._read(min(size, _READ_SIZE))
             size -= _READ_SIZE
-        self._hand_over(self._splitter.flush())
+        self._pass_on(self._splitter.flush())
 
-    def _hand_over(self, lines: list[str]) -> None:
+    def _pass_on(self, lines: list[str]) -> None:
         for line in lines:
             self.last_lines.append(line)
             self._on_line(line)
+
+
+class LineSplitter:
+    """Splits a stream of bytes into lines of text, without their line ends."""
+
+    def __init__(self, longest: int = LONGEST_LINE) -> None:
+        """Begin; ``longest``: bytes after which a line is cut."""
+        self._longest = longest
+        self._rest = b''
+
+    def feed(self, data: bytes) -> list[str]:
+        """Add bytes; return the lines that are complete now."""
+        *lines, self._rest = (self._rest + data).split(b'\n')
+        pieces = [piece for line in lines for piece in self._cut(line)]
+        *full, self._rest = self._cut(self._rest)
+        return [_text(piece) for piece in pieces + full]
+
+    def flush(self) -> list[str]:
+        """Return the unfinished last line, if there is one; call it at the end of the stream."""
+        rest, self._rest = self._rest, b''
+        return [_text(rest)] if rest else []
+
+    def _cut(self, line: bytes) -> list[bytes]:
+        pieces = []
+        while len(line) > self._longest:
+            end = _start_of_character(line, self._longest)
+            pieces.append(line[:end])
+            line = line[end:]
+        return [*pieces, line]
+
+
+def _start_of_character(line: bytes, index: int) -> int:
+    """Return the last index, at most 3 before ``index``, at which a UTF-8 character begins."""
+    for back in range(4):
+        if line[index - back] & 0xC0 != 0x80:
+            return index - back
+    return index
+
+
+def _text(line: bytes) -> str:
+    return line.removesuffix(b'\r').decode(errors='replace')

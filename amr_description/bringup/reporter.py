@@ -1,14 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the orchestrator says of a stack: to a person, as launch does, and to programs.
+Reports the events of a stack: to the console in launch's words, and to the log of events.
 
-What a stack waits for while it starts, told to who waits with it.
-
-On a terminal that is one line, written anew a few times a second and gone when the stack is up;
-elsewhere a line every few seconds, if it takes so long.
-
-What is said about the failure that stopped a stack, last of all, where it is read.
+While a stack starts, :class:`StartStatus` shows what it waits for: on a terminal in one line that
+is rewritten a few times a second and erased when the stack is up, elsewhere in a line every few
+seconds. After a failure, :func:`failure_report` or :func:`timeout_report` is printed last of all,
+where it is read. All of it runs on the orchestrator's event loop.
 """
 
 import asyncio
@@ -27,17 +25,242 @@ from amr_description.bringup.process import RunningProcess
 from amr_description.bringup.run_log import EventLog
 from amr_description.bringup.scheduler import Expired, Failure, Scheduler, Wait
 
-_REFRESH = 0.25  # s between two states of the line on a terminal
-_PATIENCE = 5.0  # s between two lines elsewhere
+_REFRESH_PERIOD = 0.25  # s between two states of the line on a terminal
+_LINE_PERIOD = 5.0  # s between two lines elsewhere
+_MAX_REASON = 500  # characters
+_MAX_STEPS = 6  # in a line
+_ROS_LOG_PREFIX = re.compile(r'\[[A-Z]+\] \[[\d.]+\] \[\S+\]: ')
+_POLITE = (signal.SIGINT, signal.SIGTERM)  # by which a program may end without handling them
+
+
+class Reporter:
+    """Reports each event of one run once."""
+
+    def __init__(
+        self, stack: Stack, specs: Sequence[ProcessSpec], console: Console, events: EventLog
+    ) -> None:
+        """
+        Log that all nodes wait.
+
+        Args:
+            stack: what is run.
+            specs: its nodes.
+            console: where lines for a person go.
+            events: where events for programs go.
+        """
+        self._stack = stack
+        self._specs = {spec.node: spec for spec in specs}
+        self._console = console
+        self._events = events
+        self._start_status = StartStatus(console, self._name_of)
+        self._started_at: dict[Node, float] = {}
+        self._steps: dict[str, float] = {}  # nodes that ended well, and how long they ran, s
+        for node in self._specs:
+            self._note('waiting', node, condition=self._condition_of(node))
+        self._begin = time.monotonic()
+        self._readiness_reported = False
+        self._never_starting: set[Node] = set()  # those reported
+        self._met: set[Node] = set()  # those whose condition was reported to hold
+
+    def output(self, node: Node, line: str) -> None:
+        """Show a line of a node's output."""
+        self._console.output(self._name_of(node), line)
+
+    def started(self, node: Node, pid: int) -> None:
+        """Report that the process of a node was started."""
+        self._started_at[node] = time.monotonic()
+        self._condition_held(node)
+        self._note('started', node, pid=pid)
+        self._console.log('INFO', self._name_of(node), f'process started with pid [{pid}]')
+
+    def not_started(self, node: Node, reason: str) -> None:
+        """Report that the process of a node could not be started."""
+        self._condition_held(node)
+        self._note('not_started', node, reason=reason)
+        self._console.log('ERROR', self._name_of(node), f'process {reason}')
+
+    def ended(self, node: Node, process: RunningProcess) -> None:
+        """Report how a process ended: as an error, like launch, unless it was asked to end."""
+        name, code = self._name_of(node), process.returncode
+        self._note('exited', node, pid=process.pid, **_exit_fields(code))
+        if code == 0:
+            self._steps[name] = time.monotonic() - self._started_at[node]
+            text = f'process has finished cleanly [pid {process.pid}]'
+            self._console.log('INFO', name, text)
+        elif process.sent in _POLITE and code in (-process.sent, 128 + process.sent):
+            text = f'process has ended on {process.sent.name} [pid {process.pid}]'
+            self._console.log('INFO', name, text)
+        else:
+            command = ' '.join(self._specs[node].command)
+            text = f"process has died [pid {process.pid}, exit code {code}, cmd '{command}']."
+            self._console.log('ERROR', name, text)
+
+    def respawn(self, node: Node, state: StackState) -> None:
+        """Report when the process of a node will be started again, if it will."""
+        own, rule = state.nodes[node], node.respawn
+        if own.restart_at is None or rule is None:
+            return
+        of = f' of {rule.limit}' if rule.limit is not None else ''
+        delay = own.restart_at - state.time
+        self._note('respawn', node, seconds=round(delay, 3), restarts=own.restarts)
+        text = f'process is started again in {delay:.1f} s ({own.restarts}{of})'
+        self._console.log('WARNING', self._name_of(node), text)
+
+    def progress(self, scheduler: Scheduler) -> None:
+        """Report that the stack is ready, what it waits for, and what can never start."""
+        self._start_status.follow(scheduler)
+        for expired in scheduler.abandoned:
+            self._never_starts(expired.node, expired.text(self._name_of))
+        if not scheduler.over:
+            for node in scheduler.unreachable():
+                if not may_never_hold(scheduler.condition_of(node)):
+                    self._never_starts(node, f'needs that {self._condition_of(node)}')
+            self._never_ready(scheduler.never_ready)
+        if scheduler.ready and scheduler.failure is None and not self._readiness_reported:
+            self._ready()
+
+    def stop_requested(self, number: signal.Signals, again: bool) -> None:
+        """Report a signal that asks to stop the stack; ``again``: it is not the first one."""
+        self._note('stop_requested', signal=number.name)
+        self._start_status.end()
+        how = 'user interrupted with ctrl-c (SIGINT)' if number == signal.SIGINT else number.name
+        suffix = ' again: not waiting any longer' if again else ''
+        self._console.log('WARNING', LAUNCH, how + suffix)
+
+    def shutdown(self, shutdown: Shutdown) -> None:
+        """Report why a handler stops the stack."""
+        self._note('shutdown', reason=shutdown.reason)
+        level = 'ERROR' if shutdown.exit_code else 'INFO'
+        self._console.log(level, LAUNCH, f'stopping: {shutdown.reason}')
+
+    def signal_sent(
+        self,
+        node: Node,
+        pid: int,
+        number: signal.Signals,
+        before: signal.Signals | None,
+        elapsed: float,
+    ) -> None:
+        """
+        Report that a process is sent a signal.
+
+        Args:
+            node: whose process it is.
+            pid: its process id.
+            number: the signal.
+            before: the signal on which it did not end, or None.
+            elapsed: s since the first signal.
+        """
+        name = self._name_of(node)
+        self._start_status.end()
+        self._note('signal_sent', node, pid=pid, signal=number.name)
+        if before is None:
+            self._console.log('INFO', name, f"sending signal '{number.name}' to process[{name}]")
+            return
+        seconds = f'{elapsed:.1f}'.removesuffix('.0')
+        text = (
+            f"process[{name}] failed to terminate '{seconds}' seconds after receiving "
+            f"'{before.name}', escalating to '{number.name}'"
+        )
+        self._console.log('ERROR', name, text)
+
+    def failure(self, scheduler: Scheduler, last_lines: Mapping[Node, Collection[str]]) -> None:
+        """Report, last of all, what stopped the stack, if it was a failure."""
+        failure, shutdown = scheduler.failure, scheduler.shutdown
+        if failure is None:
+            if shutdown and shutdown.exit_code:
+                self._console.log('ERROR', LAUNCH, f'stopped because {shutdown.reason}')
+            return
+        if isinstance(failure, Expired):
+            texts = timeout_report(failure, self._name_of, last_lines)
+        else:
+            name = self._name_of(failure.node)
+            never_started = [self._name_of(node) for node in scheduler.waiting()]
+            texts = failure_report(name, failure, last_lines[failure.node], never_started)
+        self._note('failure', failure.node, reason=texts[-1])
+        for text in texts:
+            self._console.log('ERROR', LAUNCH, text)
+
+    def handler_failed(self, text: str) -> None:
+        """Report the exception of a handler."""
+        self._console.log('ERROR', LAUNCH, text)
+
+    def graph_watch_output(self, line: str) -> None:
+        """Show what the process that observes the ROS graph logs."""
+        self._console.output(GRAPH_WATCH, line)
+
+    def guardian_replaced(self) -> None:
+        """Report that the guardian had ended."""
+        self._console.log('WARNING', LAUNCH, 'somebody ended the guardian; started it anew')
+
+    def lending_terminal(self, node: Node) -> None:
+        """Report that from here on the screen belongs to the process of a node."""
+        log = self._console.log_path(LAUNCH)
+        text = f'has the terminal; what the others say goes to {log}, their warnings also here'
+        self._console.log('INFO', self._name_of(node), text)
+        self._console.set_lent(True)
+
+    def terminal_lent(self, is_lent: bool) -> None:
+        """Note whether the process of a node has the terminal."""
+        self._console.set_lent(is_lent)
+
+    def _condition_held(self, node: Node) -> None:
+        """Note that the condition of a node held, at its first start."""
+        condition = self._condition_of(node)
+        if condition and node not in self._met:
+            self._met.add(node)
+            self._note('condition_held', node, condition=condition)
+
+    def _ready(self) -> None:
+        self._readiness_reported = True
+        self._start_status.end()
+        seconds = time.monotonic() - self._begin
+        self._note('ready', seconds=round(seconds, 3))
+        if self._steps:
+            self._console.log('INFO', LAUNCH, steps_text(self._steps))
+        next_steps = self._stack.all_next_steps
+        suffix = f': {next_steps}' if next_steps else ''
+        self._console.log('INFO', LAUNCH, f'ready in {seconds:.1f} s{suffix}')
+
+    def _never_starts(self, node: Node, why: str) -> None:
+        if node not in self._never_starting:
+            self._never_starting.add(node)
+            self._note('never', node, condition=self._condition_of(node))
+            self._console.log('WARNING', self._name_of(node), f'never starts: {why}')
+
+    def _never_ready(self, condition: Condition | None) -> None:
+        if condition is not None and not self._readiness_reported:
+            self._readiness_reported = True
+            text = condition.describe(self._name_of)
+            self._note('never_ready', condition=text)
+            self._console.log('WARNING', LAUNCH, f'never gets ready: needs that {text}')
+            self._start_status.end()
+
+    def _note(self, event: str, node: Node | None = None, **more: object) -> None:
+        self._events.note(event, self._name_of(node) if node else None, **more)
+
+    def _condition_of(self, node: Node) -> str | None:
+        condition = self._specs[node].resolved.start_when
+        return condition and condition.describe(self._name_of)
+
+    def _name_of(self, node: Node) -> str:
+        return self._specs[node].name
 
 
 class StartStatus:
-    """Looks at the progress again and again until the stack is up, or over."""
+    """Shows what a stack waits for, until it is up or over."""
 
     def __init__(
         self, console: Console, name_of: NameOf, clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """``clock``: s; never goes back."""
+        """
+        Show nothing yet.
+
+        Args:
+            console: where to show it.
+            name_of: returns the name of a node.
+            clock: returns s; never goes back.
+        """
         self._console = console
         self._name_of = name_of
         self._clock = clock
@@ -45,24 +268,24 @@ class StartStatus:
         self._since: dict[Node | None, float] = {}
         self._timer: asyncio.TimerHandle | None = None
 
-    def follow(self, progress: Scheduler) -> None:
-        """Tell of it from here on; called after each event, so that it is known since when."""
-        if _is_done(progress):
+    def follow(self, scheduler: Scheduler) -> None:
+        """Show it from now on; called after each event, so that the start of waits is known."""
+        if _is_done(scheduler):
             return
-        self._look(progress)
+        self._update(scheduler)
         if self._timer is None:
-            self._plan(progress)
+            self._schedule(scheduler)
 
     def end(self) -> None:
-        """Tell no more."""
+        """Stop, and erase the line."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
         self._console.status('')
 
-    def text(self, progress: Scheduler) -> str:
-        """Return the line; empty: nothing is waited for that could happen next."""
-        waits = self._look(progress)
+    def text(self, scheduler: Scheduler) -> str:
+        """Return the line; empty if no wait can end next."""
+        waits = self._update(scheduler)
         if not waits:
             return ''
         now = self._clock()
@@ -74,303 +297,103 @@ class StartStatus:
             f'({now - self._since[node]:.1f} s){more}'
         )
 
-    def _look(self, progress: Scheduler) -> list[Wait]:
-        """Return the waits that can be over next; note since when they are."""
-        states = progress.situation.states
+    def _update(self, scheduler: Scheduler) -> list[Wait]:
+        """Return the waits that can end next, and note since when they are pending."""
+        nodes = scheduler.state.nodes
         waits = [
             (node, condition)
-            for node, condition in progress.waits()
-            if all(states[other].started for other in condition.nodes)
+            for node, condition in scheduler.waits()
+            if all(nodes[other].started for other in condition.nodes)
         ]
         now = self._clock()
         self._since = {node: self._since.get(node, now) for node, _ in waits}
         return waits
 
-    def _plan(self, progress: Scheduler) -> None:
-        period = _REFRESH if self._console.erases else _PATIENCE
+    def _schedule(self, scheduler: Scheduler) -> None:
+        period = _REFRESH_PERIOD if self._console.erases else _LINE_PERIOD
         loop = asyncio.get_running_loop()
-        self._timer = loop.call_later(period, self._tell, progress)
+        self._timer = loop.call_later(period, self._show, scheduler)
 
-    def _tell(self, progress: Scheduler) -> None:
-        if _is_done(progress):
+    def _show(self, scheduler: Scheduler) -> None:
+        if _is_done(scheduler):
             self.end()
             return
-        text = self.text(progress)
+        text = self.text(scheduler)
         if self._console.erases:
             self._console.status(text)
         elif text:
-            self._console.say('INFO', LAUNCH, text)
-        self._plan(progress)
+            self._console.log('INFO', LAUNCH, text)
+        self._schedule(scheduler)
 
 
-def _is_done(progress: Scheduler) -> bool:
-    return progress.ready or progress.over
+def _is_done(scheduler: Scheduler) -> bool:
+    return scheduler.ready or scheduler.over
 
 
-_LONGEST_REASON = 500  # characters
-_ROS_LOG_PREFIX = re.compile(r'\[[A-Z]+\] \[[\d.]+\] \[\S+\]: ')
+def steps_text(steps: Mapping[str, float]) -> str:
+    """Return how long each step took, s, in their order; of many only the longest ones."""
+    shown = sorted(steps, key=steps.__getitem__, reverse=True)[:_MAX_STEPS]
+    texts = [f'{name} {took:.1f} s' for name, took in steps.items() if name in shown]
+    more = f' and {len(steps) - len(shown)} shorter ones' if len(steps) > len(shown) else ''
+    return f'steps: {", ".join(texts)}{more}'
 
 
 def failure_report(
     name: str, failure: Failure, last_lines: Collection[str], never_started: Sequence[str]
 ) -> list[str]:
     """
-    Return the texts to print: the last lines of the process, then one line that says it all.
+    Return the messages about a node that failed: its last lines, then one line with the reason.
 
-    :param last_lines: What the process wrote last.
-    :param never_started: The names of the nodes that were not started because of it.
+    Args:
+        name: the node.
+        failure: how its process ended.
+        last_lines: the last lines of its output.
+        never_started: the nodes that were not started because of it.
     """
-    texts = []
-    if len(last_lines) > 1:
-        texts.append('\n    '.join([f'the last lines of {name}:', *last_lines]))
-    spoken = [_ROS_LOG_PREFIX.sub('', line.strip()) for line in last_lines if line.strip()]
-    reason = f': {spoken[-1][:_LONGEST_REASON]}' if spoken else ', without a word'
+    messages = [_last_lines_of(name, last_lines)] if len(last_lines) > 1 else []
+    written = [_ROS_LOG_PREFIX.sub('', line.strip()) for line in last_lines if line.strip()]
+    reason = f': {written[-1][:_MAX_REASON]}' if written else ', without a word'
     missing = f' (never started: {", ".join(never_started)})' if never_started else ''
-    return [*texts, f'stopped because {name} {manner(failure)}{missing}{reason}']
+    return [*messages, f'stopped because {name} {_how_it_ended(failure)}{missing}{reason}']
 
 
-def expiry(
+def timeout_report(
     expired: Expired, name_of: NameOf, last_lines: Mapping[Node, Collection[str]]
 ) -> list[str]:
-    """Return the texts to print: the last lines of who was waited for, then one line."""
-    awaited = [node for node in expired.condition.nodes if expired.situation.states[node].running]
-    told = {name_of(node): last_lines.get(node) for node in awaited}
-    texts = [
-        '\n    '.join([f'the last lines of {name}:', *lines])
-        for name, lines in told.items()
-        if lines
-    ]
-    return [*texts, f'stopped because {expired.text(name_of)}']
+    """
+    Return the messages about a timeout: the last lines of the awaited nodes, then one line.
+
+    Args:
+        expired: the wait.
+        name_of: returns the name of a node.
+        last_lines: the last lines of the output of each node.
+    """
+    awaited = [node for node in expired.condition.nodes if expired.state.nodes[node].running]
+    lines_of = {name_of(node): last_lines.get(node) for node in awaited}
+    messages = [_last_lines_of(name, lines) for name, lines in lines_of.items() if lines]
+    return [*messages, f'stopped because {expired.text(name_of)}']
 
 
-def manner(failure: Failure) -> str:
-    """Return in words how the process ended."""
+def _last_lines_of(name: str, lines: Collection[str]) -> str:
+    return '\n    '.join([f'the last lines of {name}:', *lines])
+
+
+def _how_it_ended(failure: Failure) -> str:
     again = f', as did {failure.restarts} new starts' if failure.restarts else ''
     if failure.returncode >= 0:
         return f'ended with exit code {failure.returncode}{again}'
-    return f'died of {signal_name(-failure.returncode)}{again}'
+    return f'died of {_signal_name(-failure.returncode)}{again}'
 
 
-def signal_name(number: int) -> str:
-    """Return the name of a signal, ``SIGKILL``."""
+def _exit_fields(returncode: int) -> dict[str, object]:
+    """Return how a process ended, for the log of events."""
+    if returncode >= 0:
+        return {'exit_code': returncode}
+    return {'signal': _signal_name(-returncode)}
+
+
+def _signal_name(number: int) -> str:
     try:
         return signal.Signals(number).name
     except ValueError:  # a real-time signal
         return f'signal {number}'
-
-
-_POLITE = (signal.SIGINT, signal.SIGTERM)  # what a program may leave to its default
-_MOST_STEPS = 6  # on a line
-
-
-class Reporter:
-    """Tells each event of a stack once, on the console and to the log of events."""
-
-    def __init__(
-        self, stack: Stack, jobs: Sequence[ProcessSpec], console: Console, events: EventLog
-    ) -> None:
-        """``jobs``: the nodes of the stack."""
-        self._stack = stack
-        self._jobs = {job.node: job for job in jobs}
-        self._console = console
-        self._events = events
-        self._status = StartStatus(console, self._name_of)
-        self._started_at: dict[Node, float] = {}
-        self._steps: dict[str, float] = {}  # that came to their end, and how long they took, s
-        for node in self._jobs:
-            self._note('waiting', node, condition=self._condition_of(node))
-        self._begin = time.monotonic()
-        self._told: set[object] = set()
-        self._held_once: set[Node] = set()
-
-    def output(self, node: Node, line: str) -> None:
-        """Show a line that the process of the node wrote."""
-        self._console.output(self._name_of(node), line)
-
-    def started(self, node: Node, pid: int) -> None:
-        """Say that its process runs."""
-        self._started_at[node] = time.monotonic()
-        self._held(node)
-        self._note('started', node, pid=pid)
-        self._console.say('INFO', self._name_of(node), f'process started with pid [{pid}]')
-
-    def not_started(self, node: Node, reason: str) -> None:
-        """Say that its process could not be started."""
-        self._held(node)
-        self._note('not_started', node, reason=reason)
-        self._console.say('ERROR', self._name_of(node), f'process {reason}')
-
-    def _held(self, node: Node) -> None:
-        """Note that its condition held, at its first start."""
-        condition = self._condition_of(node)
-        if condition and node not in self._held_once:
-            self._held_once.add(node)
-            self._note('condition_held', node, condition=condition)
-
-    def ended(self, node: Node, child: RunningProcess) -> None:
-        """Say how its process ended; launch calls it an error, too, if it did as it was told."""
-        self._note('exited', node, pid=child.pid, **_end(child.returncode))
-        if child.returncode == 0:
-            self._steps[self._name_of(node)] = time.monotonic() - self._started_at[node]
-            text = f'process has finished cleanly [pid {child.pid}]'
-            self._console.say('INFO', self._name_of(node), text)
-        elif child.sent in _POLITE and child.returncode in (-child.sent, 128 + child.sent):
-            text = f'process has ended on {child.sent.name} [pid {child.pid}]'
-            self._console.say('INFO', self._name_of(node), text)
-        else:
-            command = ' '.join(self._jobs[node].command)
-            code = f'exit code {child.returncode}'
-            text = f"process has died [pid {child.pid}, {code}, cmd '{command}']."
-            self._console.say('ERROR', self._name_of(node), text)
-
-    def progress(self, progress: Scheduler) -> None:
-        """Say that the stack is ready, what it waits for, and what of it can never start."""
-        self._status.follow(progress)
-        for expired in progress.gave_up:
-            self._never_starts(expired.node, expired.text(self._name_of))
-        if not progress.over:
-            for node in progress.unreachable():
-                if not may_never_hold(progress.waits_for(node)):
-                    self._never_starts(node, f'needs that {self._condition_of(node)}')
-            self._never_ready(progress.never_ready)
-        if progress.ready and progress.failure is None and 'ready' not in self._told:
-            self._told.add('ready')
-            self._status.end()
-            took = time.monotonic() - self._begin
-            self._note('ready', seconds=round(took, 3))
-            if self._steps:
-                self._console.say('INFO', LAUNCH, steps_text(self._steps))
-            steps = f': {self._stack.all_next_steps}' if self._stack.all_next_steps else ''
-            self._console.say('INFO', LAUNCH, f'ready in {took:.1f} s{steps}')
-
-    def _never_starts(self, node: Node, why: str) -> None:
-        if node not in self._told:
-            self._told.add(node)
-            self._note('never', node, condition=self._condition_of(node))
-            self._console.say('WARNING', self._name_of(node), f'never starts: {why}')
-
-    def _never_ready(self, lost: Condition | None) -> None:
-        if lost is not None and 'ready' not in self._told:
-            self._told.add('ready')
-            needs = lost.describe(self._name_of)
-            self._note('never_ready', condition=needs)
-            self._console.say('WARNING', LAUNCH, f'never gets ready: needs that {needs}')
-            self._status.end()
-
-    def lends_terminal(self, node: Node) -> None:
-        """Say that from here on the screen is that of its process."""
-        log = self._console.log_of(LAUNCH)
-        text = f'has the terminal; what the others say goes to {log}, their warnings also here'
-        self._console.say('INFO', self._name_of(node), text)
-        self._console.lend(True)
-
-    def terminal_lent(self, is_lent: bool) -> None:
-        """Note whether a process has the terminal."""
-        self._console.lend(is_lent)
-
-    def respawn(self, node: Node, situation: StackState) -> None:
-        """Say that its process will be started again, if so."""
-        state, rule = situation.states[node], node.respawn
-        if state.restart_at is None or rule is None:
-            return
-        of = f' of {rule.limit}' if rule.limit is not None else ''
-        delay = state.restart_at - situation.time
-        self._note('respawn', node, seconds=round(delay, 3), restarts=state.restarts)
-        text = f'process is started again in {delay:.1f} s ({state.restarts}{of})'
-        self._console.say('WARNING', self._name_of(node), text)
-
-    def shutdown(self, shutdown: Shutdown) -> None:
-        """Say why a handler wants all to be stopped."""
-        self._note('shutdown', reason=shutdown.reason)
-        level = 'ERROR' if shutdown.exit_code else 'INFO'
-        self._console.say(level, LAUNCH, f'stopping: {shutdown.reason}')
-
-    def handler_failed(self, complaint: str) -> None:
-        """Say what became of a handler."""
-        self._console.say('ERROR', LAUNCH, complaint)
-
-    def graph_watch_said(self, line: str) -> None:
-        """Show what the process that sees the ROS graph has to tell a person."""
-        self._console.output(GRAPH_WATCH, line)
-
-    def guardian_replaced(self) -> None:
-        """Say that somebody ended the guardian."""
-        self._console.say('WARNING', LAUNCH, 'somebody ended the guardian; started it anew')
-
-    def stop_requested(self, number: signal.Signals, again: bool) -> None:
-        """Say that a signal asks for the end of all; ``again``: not for the first time."""
-        self._note('stop_requested', signal=number.name)
-        self._status.end()
-        how = 'user interrupted with ctrl-c (SIGINT)' if number == signal.SIGINT else number.name
-        suffix = ' again: not waiting any longer' if again else ''
-        self._console.say('WARNING', LAUNCH, how + suffix)
-
-    def signalled(
-        self,
-        node: Node,
-        pid: int,
-        number: signal.Signals,
-        before: signal.Signals | None,
-        elapsed: float,
-    ) -> None:
-        """
-        Say that its process is sent a signal.
-
-        :param pid: Its process id.
-        :param before: The signal that did not help, or None.
-        :param elapsed: s since the first signal.
-        """
-        name = self._name_of(node)
-        self._status.end()
-        self._note('signal_sent', node, pid=pid, signal=number.name)
-        if before is None:
-            self._console.say('INFO', name, f"sending signal '{number.name}' to process[{name}]")
-            return
-        seconds = f'{elapsed:.1f}'.removesuffix('.0')
-        text = (
-            f"process[{name}] failed to terminate '{seconds}' seconds after receiving "
-            f"'{before.name}', escalating to '{number.name}'"
-        )
-        self._console.say('ERROR', name, text)
-
-    def failure(self, progress: Scheduler, last_lines: Mapping[Node, Collection[str]]) -> None:
-        """Say, last of all, which failure stopped the stack, if one did, and why."""
-        failure, wish = progress.failure, progress.shutdown
-        if failure is None:
-            if wish and wish.exit_code:
-                self._console.say('ERROR', LAUNCH, f'stopped because {wish.reason}')
-            return
-        waiting = [self._name_of(node) for node in progress.waiting()]
-        if isinstance(failure, Expired):
-            texts = expiry(failure, self._name_of, last_lines)
-        else:
-            name = self._name_of(failure.node)
-            texts = failure_report(name, failure, last_lines[failure.node], waiting)
-        self._note('failure', failure.node, reason=texts[-1])
-        for text in texts:
-            self._console.say('ERROR', LAUNCH, text)
-
-    def _note(self, event: str, node: Node | None = None, **more: object) -> None:
-        self._events.note(event, self._name_of(node) if node else None, **more)
-
-    def _condition_of(self, node: Node) -> str | None:
-        condition = self._jobs[node].placed.start_when
-        return condition and condition.describe(self._name_of)
-
-    def _name_of(self, node: Node) -> str:
-        return self._jobs[node].name
-
-
-def steps_text(steps: Mapping[str, float]) -> str:
-    """Return how long each step took, in their order; of many only the longest."""
-    shown = sorted(steps, key=steps.__getitem__, reverse=True)[:_MOST_STEPS]
-    texts = [f'{name} {took:.1f} s' for name, took in steps.items() if name in shown]
-    more = f' and {len(steps) - len(shown)} shorter ones' if len(steps) > len(shown) else ''
-    return f'steps: {", ".join(texts)}{more}'
-
-
-def _end(returncode: int) -> dict[str, object]:
-    """Return how a process ended, for the log of events."""
-    if returncode >= 0:
-        return {'exit_code': returncode}
-    return {'signal': signal_name(-returncode)}

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""``bringup status`` and ``bringup stop``: look at the runs of this host, and end one."""
+"""The commands ``bringup status`` and ``bringup stop``: show the runs of this host, end one."""
 
 from argparse import ArgumentParser
 from collections.abc import Sequence
@@ -18,13 +18,13 @@ from amr_description.bringup.run_log import with_tilde
 from amr_description.bringup.run_registry import clock, registry_folder, runs, State
 from amr_description.errors import BringupError, UsageError
 
-_LOOK = 0.5  # s over which the use of the processor is measured
+_INTERVAL = 0.5  # s over which the CPU usage is measured
 _COLUMNS = '{:26} {:34} {:>8} {:>9} {:>6} {:>9}'
 _CPU, _MEMORY = '{:.0f} %', '{:.0f} MB'
 
 
 def status(args: Sequence[str]) -> int:
-    """Print who runs, since when, ready or waiting for what; exit code 1: nothing runs."""
+    """Print the runs: since when, ready or waiting for what; return 1 if there is none."""
     parser = ArgumentParser(
         prog='bringup status',
         description='Show the stacks that run on this host: who runs, since when, what of the '
@@ -37,7 +37,7 @@ def status(args: Sequence[str]) -> int:
     if not chosen:
         print('[]' if options.json else _nothing(), file=None if options.json else sys.stderr)
         return 1
-    used = usages([pid for run in chosen for pid in _roots(run)], _LOOK)
+    used = usages([pid for run in chosen for pid in _roots(run)], _INTERVAL)
     if options.json:
         print(json.dumps([_with_usage(run, used) for run in chosen], indent=2))
     else:
@@ -46,7 +46,7 @@ def status(args: Sequence[str]) -> int:
 
 
 def stop(args: Sequence[str]) -> int:
-    """End a run as Ctrl-C in its terminal does, and wait until all of it is gone."""
+    """End a run as Ctrl-C in its terminal does, and wait until all its processes are gone."""
     parser = ArgumentParser(
         prog='bringup stop',
         description='End a stack that runs on this host, as Ctrl-C in its terminal does, and '
@@ -70,7 +70,7 @@ def _nothing() -> str:
 
 
 def _chosen(name: str | None) -> list[State]:
-    """Return the runs of that name, stack or pid; all, if none is given."""
+    """Return the runs with that name, stack or pid; all if it is None. Raises BringupError."""
     found = runs(registry_folder(os.environ))
     if name is None:
         return found
@@ -95,7 +95,13 @@ def _numbers(usage: Usage | None) -> State:
 
 
 def table(run: State, used: dict[int, Usage]) -> list[str]:
-    """Return what ``status`` prints of a run; ``used``: what its processes use, by pid."""
+    """
+    Return the lines that ``status`` prints for a run.
+
+    Args:
+        run: its state.
+        used: usage by pid: of each node, and of the whole run by the pid of the bring-up.
+    """
     rows = [
         f'{run["stack"]}: {_phase(run)}, pid {run["pid"]}, ROS domain {run["domain"]}, '
         f'since {clock(run["since"])} ({_duration(time.time() - run["since"])})',
@@ -154,28 +160,28 @@ def _duration(seconds: float) -> str:
 
 
 def _stop(run: State) -> int:
-    """End one run; return 1 if something of it stays."""
-    told = f"'{run['stack']}' (pid {run['pid']})"
+    """End one run; return 1 if a process of it is left."""
+    title = f"'{run['stack']}' (pid {run['pid']})"
     try:
         descriptor = os.pidfd_open(run['pid'])
     except ProcessLookupError:
-        print(f'{told} has just ended')
+        print(f'{title} has just ended')
         return 0
     try:
-        print(f'stopping {told} …', flush=True)
+        print(f'stopping {title} …', flush=True)
         begin = time.monotonic()
         with contextlib.suppress(ProcessLookupError):
             signal.pidfd_send_signal(descriptor, signal.SIGINT)
-            signal.pidfd_send_signal(descriptor, signal.SIGCONT)  # somebody's Ctrl-Z
+            signal.pidfd_send_signal(descriptor, signal.SIGCONT)  # it may be stopped by Ctrl-Z
         select.select([descriptor], [], [])
     finally:
         os.close(descriptor)
     if left := [process.pid for process in processes(run['run']) if process.marked]:
-        print(f'{told} is gone, but not its processes {left}', file=sys.stderr)
+        print(f'{title} is gone, but not its processes {left}', file=sys.stderr)
         return 1
-    print(f'{told} is gone, and all that it started, after {time.monotonic() - begin:.1f} s')
+    print(f'{title} is gone, and all that it started, after {time.monotonic() - begin:.1f} s')
     return 0
 
 
 COMMANDS = {'status': status, 'stop': stop}
-"""What may stand in the place of a stack's name."""
+"""The words that may be given in place of a stack's name."""

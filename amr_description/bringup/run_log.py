@@ -1,12 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What happens in a run, one event a line, for programs: ``events.jsonl`` in its log folder.
+The logs of one run: its folder with ``launch.log`` and a file per process, and its events.
 
-Each line is a JSON object that is on disk, or with the kernel, as soon as the event was:
+``events.jsonl`` in that folder is for programs: one event a line, a JSON object that is written
+as soon as the event occurs.
 
 =============== ==========================================================================
-``time``        s since 1970 by the clock of the machine
+``time``        s since 1970, by the system clock
 ``since_start`` s since the start of the run; never goes back
 ``event``       one of those below
 ``node``        its name on the screen, ``create-3``; not in events of the whole run
@@ -17,15 +18,15 @@ event              of                                  more keys
 ================== =================================== ======================================
 ``begun``          the run                             ``stack``, ``run``, ``pid``, ``domain``,
                                                        ``log_folder``
-``waiting``        a node, at the begin                ``condition`` in words; ``null``: none
+``waiting``        a node, at the start                ``condition`` in words; ``null``: none
 ``condition_held`` a node                              ``condition``
 ``started``        a node                              ``pid``
 ``not_started``    a node                              ``reason``
 ``exited``         a node                              ``pid``, ``exit_code`` or ``signal``
-``respawn``        a node that is to be started again  in ``seconds``; ``restarts`` in a row
+``respawn``        a node that will be started again   in ``seconds``; ``restarts`` in a row
 ``never``          a node that can never start         ``condition``
 ``ready``          the run                             ``seconds`` it took
-``never_ready``    the run, which goes on              ``condition`` that it lacks
+``never_ready``    the run, which continues            ``condition`` that cannot hold
 ``stop_requested`` the run                             ``signal``
 ``shutdown``       the run, which a handler stops      ``reason``
 ``signal_sent``    a node                              ``pid``, ``signal``
@@ -33,9 +34,7 @@ event              of                                  more keys
 ``stopped``        the run, last of all                ``exit_code``
 ================== =================================== ======================================
 
-Signals are names, ``SIGINT``; more keys and events may come.
-
-The folder of log files of one run: ``launch.log``, a file per process, and ``latest``.
+Signals are names, ``SIGINT``; more keys and events may be added.
 """
 
 from collections.abc import Callable, Mapping
@@ -49,21 +48,29 @@ import tempfile
 import time
 from typing import TextIO
 
-FILE = 'events.jsonl'
+EVENTS_FILE = 'events.jsonl'
+_MIN_SPACE = 65_536  # bytes; a disk with less cannot take the parameters and the first lines
 
 type Event = Mapping[str, object]
 
 
 class EventLog:
-    """Hands each event to those who keep it, in their order."""
+    """Passes each event on to its listeners."""
 
     def __init__(self, *listeners: Callable[[Event], None]) -> None:
-        """``listeners``: called with each event, at once."""
+        """Store the listeners; each is called with each event at once, in this order."""
         self._listeners = listeners
         self._begin = time.monotonic()
 
     def note(self, event: str, node: str | None = None, **more: object) -> None:
-        """Note that something has happened just now."""
+        """
+        Pass on an event that has occurred just now.
+
+        Args:
+            event: its name, see the module's docstring.
+            node: the name of the node on the screen; None: it is of the whole run.
+            more: further keys.
+        """
         entry = {
             'time': round(time.time(), 6),
             'since_start': round(time.monotonic() - self._begin, 6),
@@ -76,7 +83,7 @@ class EventLog:
 
 
 def json_line(event: Event) -> str:
-    """Return the line of the file for an event."""
+    """Return an event as a line of ``events.jsonl``."""
     return json.dumps(event, ensure_ascii=False)
 
 
@@ -88,36 +95,33 @@ def log_base(environment: Mapping[str, str]) -> Path:
 
 
 def run_name(now: datetime) -> str:
-    """Return the name of a run, as launch names its log folders; unique by time and pid."""
+    """Return the name for a run, as launch names its log folders; unique by time and pid."""
     return f'{now:%Y-%m-%d-%H-%M-%S-%f}-{socket.gethostname()}-{os.getpid()}'
 
 
 def with_tilde(path: Path | str) -> str:
-    """Return a path as a person reads it, ``~`` for the home."""
+    """Return a path for a message, with ``~`` for the home folder."""
     path = Path(path)
     return f'~/{path.relative_to(Path.home())}' if path.is_relative_to(Path.home()) else str(path)
 
 
-_ROOM = 65_536  # bytes; a disk without so much cannot take the parameters and the first lines
-
-
 class LogFolder:
     """
-    Log files of one run, each opened at its first line.
+    The log files of one run, each opened at its first line.
 
-    A disk that is full costs the logs, never the robot: after the first failure nothing more is
-    written, and :attr:`failure` says why.
+    A full disk costs the logs, never the run: after the first error nothing more is written, and
+    :attr:`failure` is that error.
     """
 
     def __init__(self, base: Path, run: str) -> None:
-        """Make ``<base>/<run>``; where that cannot be, a folder that :meth:`close` removes."""
+        """Make ``<base>/<run>`` or, if it cannot be made, a folder that :meth:`close` removes."""
         self.failure: OSError | None = None
         self._files: dict[str, TextIO] = {}
         self._substitute: tempfile.TemporaryDirectory[str] | None = None
         try:
             self.path = base / run
             self.path.mkdir(parents=True)
-            _require_room(self.path)
+            _require_space(self.path)
             _point_to(base / 'latest', self.path)
         except OSError as error:
             self.failure = error
@@ -129,7 +133,7 @@ class LogFolder:
         self.append(f'{name}.log', line)
 
     def append(self, file: str, line: str) -> None:
-        """Append a line to a file of the folder; it is written at once."""
+        """Append a line to a file of the folder, unbuffered."""
         if self.failure is not None:
             return
         try:
@@ -140,7 +144,7 @@ class LogFolder:
             self.failure = error
 
     def close(self) -> None:
-        """Close the files."""
+        """Close the files; remove a substitute folder."""
         for file in self._files.values():
             with contextlib.suppress(OSError):
                 file.close()
@@ -149,14 +153,14 @@ class LogFolder:
             self._substitute.cleanup()
 
 
-def _require_room(folder: Path) -> None:
-    """Raise OSError if the disk is full: a folder can be made there all the same."""
+def _require_space(folder: Path) -> None:
+    """Raise OSError if the disk is full; making a folder may succeed all the same."""
     with tempfile.TemporaryFile(dir=folder) as file:
-        os.posix_fallocate(file.fileno(), 0, _ROOM)
+        os.posix_fallocate(file.fileno(), 0, _MIN_SPACE)
 
 
 def _point_to(link: Path, folder: Path) -> None:
-    """Point ``latest`` to the folder in one step; a ``latest`` that is no link is left alone."""
+    """Let ``latest`` point to the folder, atomically; one that is no link is left alone."""
     if link.exists() and not link.is_symlink():
         return
     fresh = link.with_name(f'.latest-{folder.name}')

@@ -3,16 +3,15 @@
 """
 The runs of this user on this host: a file of state for each, which any shell can read.
 
-The files are in ``$ROS_HOME/runs`` (``~/.ros/runs``), for the owner only. A run writes its own at
-each of its events, and removes it at its end. One that was killed leaves its file; that is told
-by its process being gone, or another one (the number of a process comes again, its time of start
-since the boot does not), and the next to look removes it.
+The files are in ``$ROS_HOME/runs`` (``~/.ros/runs``), readable by their owner only. A run writes
+its file at each of its events, and removes it at its end. The file of a killed run is recognised
+by its process, which is gone or another one (a pid is reused, a pid with its start time is not),
+and removed by the next reader.
 
-Which nodes of a stack there can be only one of in a ROS domain.
-
-Two of one name answer each other's services and publish the same topics. What is known to be so:
-a node that the stack names, and those programs of ours that go by a fixed name. Steps and tools
-may be there several times: they end soon, or name themselves.
+The registry also keeps two stacks from starting nodes of the same name in one ROS domain: they
+would answer each other's requests and publish the same topics. Considered are nodes that a stack
+names, and executables of this package with a fixed node name. Spawners and tools may run several
+times: they end soon, or choose unique names.
 """
 
 from argparse import ArgumentParser
@@ -36,20 +35,29 @@ if TYPE_CHECKING:
 
 
 type State = dict[str, Any]
+"""The content of a run's file."""
 
-_UNSEEN = ('waiting', 'condition_held')  # another event follows at once
+_NOT_WRITTEN = ('waiting', 'condition_held')  # events that another one follows at once
+
+# executable -> names of its nodes, the first of which `name=` changes
+_FIXED_NAMES = {
+    'mujoco_sim': ('mujoco_sim', 'controller_manager'),
+    'robot_state_publisher': ('robot_state_publisher',),
+    'ros2_control_node': ('controller_manager',),
+}
 
 
 def registry_folder(environment: Mapping[str, str]) -> Path:
-    """Return where the files are."""
+    """Return the folder of the files."""
     return Path(environment.get('ROS_HOME') or '~/.ros').expanduser() / 'runs'
 
 
 def runs(folder: Path) -> list[State]:
-    """Return the states of the runs that are there, oldest first; drop what the dead have left."""
+    """Return the states of the running runs, oldest first; remove the files of killed ones."""
     found = []
     for path in sorted(folder.glob('*.json')):
-        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):  # it ends, or foreign
+        # It may have ended just now, or not be ours.
+        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
             state = json.loads(path.read_text('utf-8'))
             if state['host'] != socket.gethostname():  # a home that hosts share
                 continue
@@ -63,7 +71,7 @@ def runs(folder: Path) -> list[State]:
 
 
 def _boot() -> str:
-    """Return what each boot of the machine has another of; empty: it cannot be told."""
+    """Return the id of the boot of this machine; '' if it cannot be read."""
     try:
         return Path('/proc/sys/kernel/random/boot_id').read_text().strip()
     except OSError:
@@ -71,49 +79,53 @@ def _boot() -> str:
 
 
 class RunRecord:
-    """The file of this run, kept up to date by its events."""
+    """The file of this run."""
 
     def __init__(self, folder: Path, run: str) -> None:
         """
         Write nothing yet.
 
-        :param folder: Of the registry.
-        :param run: Name of the run.
+        Args:
+            folder: that of the registry.
+            run: the name of the run.
         """
         self._folder = folder
         self._path = folder / f'{run}.json'
-        self._is_entered = False
+        self._is_registered = False
         pid = os.getpid()
         process = {'pid': pid, 'start_time': start_time(pid), 'boot': _boot()}
         identity = {**process, 'host': socket.gethostname()}
         self._state: State = {'run': run, **identity, 'phase': 'starting', 'nodes': {}}
 
-    def enter(
-        self, about: Mapping[str, object], *, names: Collection[str], anyway: bool = False
+    def register(
+        self, about: Mapping[str, object], *, names: Collection[str], force: bool = False
     ) -> None:
         """
-        Enter the run, unless it would be in the way of one that is there.
+        Write the file, unless another run has nodes of the same names.
 
-        :param about: ``stack`` and ``domain``.
-        :param names: Full names of nodes of which there can be one in a domain.
-        :param anyway: Enter it nevertheless.
-        :raises BringupError: Another run in the same domain has a node of the same name.
+        Args:
+            about: ``stack`` and ``domain``.
+            names: full names of the nodes that must be unique in the domain.
+            force: whether to write it in any case.
+
+        Raises:
+            BringupError: another run in the same domain has a node of the same name.
         """
         self._state |= {**about, 'log_folder': '', 'names': sorted(names), 'since': time.time()}
-        with self._alone():
-            if not anyway:
-                self._refuse_clash(runs(self._folder))
-            self._is_entered = True
+        with self._lock():
+            if not force:
+                self._require_unique(runs(self._folder))
+            self._is_registered = True
             self._write()
 
-    def take(self, event: Event) -> None:
-        """Take note of an event."""
+    def update(self, event: Event) -> None:
+        """Update the file after an event of the run."""
         name, nodes = event.get('node'), self._state['nodes']
         if name is not None:
             node = nodes.setdefault(name, {'state': 'waiting', 'pid': None})
-            if event['event'] == 'started':  # what was before, counts no more
+            if event['event'] == 'started':  # forget its former process
                 node = nodes[name] = {key: node[key] for key in ('condition',) if key in node}
-            node |= _news_of_node(event)
+            node |= _node_changes(event)
         match event['event']:
             case 'begun':
                 self._state['log_folder'] = event['log_folder']
@@ -123,17 +135,17 @@ class RunRecord:
                 self._state['needs'] = event['condition']
             case 'stop_requested' | 'shutdown' | 'failure' | 'signal_sent':
                 self._state['phase'] = 'stopping'
-        if self._is_entered and event['event'] not in _UNSEEN:
+        if self._is_registered and event['event'] not in _NOT_WRITTEN:
             self._write()
 
-    def leave(self) -> None:
+    def remove(self) -> None:
         """Remove the file."""
-        self._is_entered = False
+        self._is_registered = False
         with contextlib.suppress(OSError):
             self._path.unlink(missing_ok=True)
             _draft(self._path).unlink(missing_ok=True)
 
-    def _refuse_clash(self, others: Sequence[State]) -> None:
+    def _require_unique(self, others: Sequence[State]) -> None:
         for other in others:
             common = set(self._state['names']) & set(other['names'])
             if other['domain'] != self._state['domain'] or not common:
@@ -146,8 +158,8 @@ class RunRecord:
             )
 
     @contextlib.contextmanager
-    def _alone(self) -> Iterator[None]:
-        """Be the only one who enters a run; where nothing can be written do without."""
+    def _lock(self) -> Iterator[None]:
+        """Keep others from registering; without a lock where nothing can be written."""
         with contextlib.ExitStack() as stack:
             with contextlib.suppress(OSError):
                 self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -156,7 +168,7 @@ class RunRecord:
             yield
 
     def _write(self) -> None:
-        """Replace the file in one step; a full disk costs the state, not the run."""
+        """Replace the file atomically; a full disk costs the file, not the run."""
         draft = _draft(self._path)
         with contextlib.suppress(OSError):
             descriptor = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
@@ -166,12 +178,12 @@ class RunRecord:
 
 
 def _draft(path: Path) -> Path:
-    """Return where the next state is written, which no reader takes for a run."""
+    """Return the temporary file beside a run's file, which readers ignore."""
     return path.with_suffix('.draft')
 
 
-def _news_of_node(event: Event) -> State:
-    """Return what an event changes in the state of its node."""
+def _node_changes(event: Event) -> State:
+    """Return the changes of a node's state by an event."""
     match event['event']:
         case 'waiting':
             return {'state': 'waiting', 'condition': event['condition']}
@@ -190,21 +202,13 @@ def _news_of_node(event: Event) -> State:
 
 
 def clock(seconds: float) -> str:
-    """Return a time as a person reads it: of today the time only."""
+    """Return a time (s since 1970) for a person: without the date if it is today's."""
     then, now = datetime.fromtimestamp(seconds), datetime.now()
     return f'{then:%H:%M:%S}' if then.date() == now.date() else f'{then:%Y-%m-%d %H:%M}'
 
 
-# executable -> names of its nodes, the first of which `name=` changes
-_FIXED = {
-    'mujoco_sim': ('mujoco_sim', 'controller_manager'),
-    'robot_state_publisher': ('robot_state_publisher',),
-    'ros2_control_node': ('controller_manager',),
-}
-
-
 def add_option(parser: ArgumentParser) -> None:
-    """Add the option that lets them be there twice."""
+    """Add the option ``--force`` to a command."""
     parser.add_argument(
         '-f',
         '--force',
@@ -213,13 +217,13 @@ def add_option(parser: ArgumentParser) -> None:
     )
 
 
-def of(jobs: 'Sequence[ProcessSpec]') -> set[str]:
-    """Return their full names: ``/mujoco_sim``, ``/robot1/controller_manager``."""
-    pairs = ((job.placed.namespace or '', name) for job in jobs for name in _names(job))
+def unique_names(specs: 'Sequence[ProcessSpec]') -> set[str]:
+    """Return the full names that must be unique in a domain: ``/robot1/controller_manager``."""
+    pairs = ((spec.resolved.namespace or '', name) for spec in specs for name in _names(spec))
     return {f'{namespace.rstrip("/")}/{name}' for namespace, name in pairs}
 
 
-def _names(job: 'ProcessSpec') -> Sequence[str]:
-    node = job.node
-    fixed = _FIXED.get(node.executable, ()) if node.package == 'amr_description' else ()
+def _names(spec: 'ProcessSpec') -> Sequence[str]:
+    node = spec.node
+    fixed = _FIXED_NAMES.get(node.executable, ()) if node.package == 'amr_description' else ()
     return (node.name, *fixed[1:]) if node.name else fixed

@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How far a stack has come: what may start now, what failed, when it is ready or over.
+The state machine of a stack: what may start now, what failed, when it is ready or over.
 
-Pure: the orchestrator tells it of starts, ends, lines, the world outside and the time, and asks.
+Pure: the orchestrator reports starts, exits, lines, the ROS graph, files and the time, and asks
+what to do; no method blocks or reads a clock.
 
-Patience: how long each wait of a stack may take.
-
-A wait is counted from when all the nodes that it depends on were started: who waits for the end
-of a step has patience with that step alone, however long it took until the step could start. The
-seconds of an ``after`` come on top. Who waits for a failure or for a request waits for ever.
+Every wait has a timeout. It runs from the moment when all the nodes that the wait depends on were
+started: a node that waits for a step to end gives that step the whole timeout, however long it
+took until the step could start. The seconds of an ``after`` are added. A wait for a failure or
+for a request has no timeout.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -19,12 +19,12 @@ import math
 from amr_description.bringup.conditions import (
     After,
     Condition,
-    Graph,
     Logged,
     NameOf,
     NodeState,
     OnRequest,
-    PathLook,
+    PathState,
+    RosGraph,
     StackState,
     Verdict,
     waits_for_request,
@@ -36,242 +36,266 @@ from amr_description.bringup.placement import Placement
 from amr_description.errors import BringupError
 
 TIMED_OUT = 124
-"""The exit code, as that of ``timeout(1)``."""
+"""Exit code after a timeout, the one of ``timeout(1)``."""
 
 type Wait = tuple[Node | None, Condition]
-"""Who waits, and what for; None: the stack itself, to be ready."""
-
-
-@dataclass(frozen=True)
-class Expired:
-    """A wait that took too long."""
-
-    node: Node | None
-    """Who waited; None: the stack itself."""
-    condition: Condition
-    seconds: float
-    """How long it waited."""
-    situation: StackState
-    """How it was at the end."""
-
-    exit_code = TIMED_OUT
-
-    def text(self, name_of: NameOf) -> str:
-        """Say what was waited for, how long, and what is there instead."""
-        who = name_of(self.node) if self.node else 'the stack, to be ready,'
-        lack = self.condition.explain_unmet(self.situation, name_of)
-        told = f'{who} waited {self.seconds:.0f} s in vain: {lack}'
-        others = [
-            f'{name_of(node)} still runs'
-            for node, state in self.situation.states.items()
-            if state.running and f'{name_of(node)} still runs' not in told
-        ]
-        return '; '.join([told, *others])
-
-
-class Timeouts:
-    """When each wait began, and when it is over."""
-
-    def __init__(self, patience: Mapping[Node, float], patience_of_stack: float) -> None:
-        """``patience``: s that each node waits."""
-        self._patience: Mapping[Node | None, float] = {**patience, None: patience_of_stack}
-        self._began: dict[Node | None, float] = {}
-
-    def expired(self, waits: Iterable[Wait], situation: StackState) -> Expired | None:
-        """Return the first wait whose patience is over."""
-        for node, condition in waits:
-            deadline = self._deadline(node, condition, situation)
-            if deadline is not None and situation.time >= deadline:
-                seconds = situation.time - self._began[node]
-                return Expired(node, condition, seconds, situation)
-        return None
-
-    def deadlines(self, waits: Iterable[Wait], situation: StackState) -> list[float]:
-        """Return the times at which the patience of those waits is over that have begun."""
-        found = (self._deadline(node, condition, situation) for node, condition in waits)
-        return [deadline for deadline in found if deadline is not None]
-
-    def _deadline(
-        self, node: Node | None, condition: Condition, situation: StackState
-    ) -> float | None:
-        states = situation.states
-        if node not in self._began:
-            if condition.waits_forever(situation):
-                return None
-            if not all(states[n].started or states[n].never for n in condition.nodes):
-                return None
-            self._began[node] = situation.time
-        deadline = self._began[node] + self._patience[node] + condition.delay
-        return None if math.isinf(deadline) else deadline
+"""A node and the condition it waits for; None: the stack itself waits to be ready."""
 
 
 @dataclass(frozen=True)
 class Failure:
-    """The first end of a required node that stops the stack."""
+    """The first failure of a required node: it stops the stack."""
 
     node: Node
     returncode: int
-    """As in :class:`NodeState`; 0 only if it was to be started again, too often."""
+    """As in :class:`NodeState`; 0 only if the limit of its respawns was reached."""
     restarts: int = 0
-    """How often it was started again before."""
+    """How often it was respawned before."""
 
     @property
     def exit_code(self) -> int:
-        """The exit code of the whole, 1..255: the node's own, or 128 + signal as in shells."""
+        """The exit code of the bring-up, 1..255: the node's, or 128 + signal as in shells."""
         return (self.returncode or 1) if self.returncode >= 0 else 128 - self.returncode
 
 
-class Scheduler:
-    """The states of all nodes of a stack; owned by the orchestrator's event loop."""
+@dataclass(frozen=True)
+class Expired:
+    """A wait whose timeout has expired."""
 
-    def __init__(self, stack: Stack, begin: float = 0.0) -> None:
-        """Begin with nothing started; ``begin``: the time, s, of a clock that never goes back."""
+    node: Node | None
+    """The node that waited; None: the stack itself."""
+    condition: Condition
+    seconds: float
+    """How long it waited."""
+    state: StackState
+    """The state at that moment."""
+
+    exit_code = TIMED_OUT
+
+    def text(self, name_of: NameOf) -> str:
+        """Return what was waited for, how long, and what is there instead."""
+        who = name_of(self.node) if self.node else 'the stack, to be ready,'
+        unmet = self.condition.explain_unmet(self.state, name_of)
+        text = f'{who} waited {self.seconds:.0f} s in vain: {unmet}'
+        others = [
+            f'{name_of(node)} still runs'
+            for node, state in self.state.nodes.items()
+            if state.running and f'{name_of(node)} still runs' not in text
+        ]
+        return '; '.join([text, *others])
+
+
+class Timeouts:
+    """When each wait began, and when its timeout expires."""
+
+    def __init__(self, timeouts: Mapping[Node, float], of_stack: float) -> None:
+        """
+        Begin without any wait.
+
+        Args:
+            timeouts: that of each node, s.
+            of_stack: that of the stack for getting ready, s.
+        """
+        self._timeouts: Mapping[Node | None, float] = {**timeouts, None: of_stack}
+        self._began: dict[Node | None, float] = {}
+
+    def expired(self, waits: Iterable[Wait], state: StackState) -> Expired | None:
+        """Return the first wait whose timeout has expired."""
+        for node, condition in waits:
+            deadline = self._deadline(node, condition, state)
+            if deadline is not None and state.time >= deadline:
+                return Expired(node, condition, state.time - self._began[node], state)
+        return None
+
+    def deadlines(self, waits: Iterable[Wait], state: StackState) -> list[float]:
+        """Return the times, s, at which the timeouts that are running will expire."""
+        found = (self._deadline(node, condition, state) for node, condition in waits)
+        return [deadline for deadline in found if deadline is not None]
+
+    def _deadline(
+        self, node: Node | None, condition: Condition, state: StackState
+    ) -> float | None:
+        if node not in self._began:
+            if condition.waits_forever(state):
+                return None
+            needed = (state.nodes[each] for each in condition.nodes)
+            if not all(each.started or each.unreachable for each in needed):
+                return None
+            self._began[node] = state.time
+        deadline = self._began[node] + self._timeouts[node] + condition.delay
+        return None if math.isinf(deadline) else deadline
+
+
+class Scheduler:
+    """The states of all nodes of a stack; used by the orchestrator's event loop only."""
+
+    def __init__(self, stack: Stack, start_time: float = 0.0) -> None:
+        """
+        Begin with nothing started.
+
+        Args:
+            stack: what to schedule.
+            start_time: s, of the monotonic clock that all later times are of.
+        """
         placement = Placement(stack)
-        self._conditions = {placed.node: placed.start_when for placed in placement.nodes}
+        self._conditions = {each.node: each.start_when for each in placement.nodes}
         self._ready_when = placement.ready_when
         all_conditions = [*self._conditions.values(), self._ready_when]
         self._parts = dict.fromkeys(part for each in all_conditions for part in walk(each))
         self._logged = [part for part in self._parts if isinstance(part, Logged)]
-        self._states = {node: NodeState() for node in self._conditions}
+        self._nodes = {node: NodeState() for node in self._conditions}
         self._last_start: dict[Node, float] = {}
-        self._situation = StackState(self._states, time=begin, began=begin)
-        self._waits = Timeouts(
-            {placed.node: placed.patience for placed in placement.nodes}, stack.patience
+        self._state = StackState(self._nodes, time=start_time, start_time=start_time)
+        self._timeouts = Timeouts(
+            {each.node: each.timeout for each in placement.nodes}, stack.timeout
         )
         self._ready = False
         self.failure: Failure | Expired | None = None
-        self.gave_up: list[Expired] = []
-        """Waits of optional nodes whose patience is over: they are not started any more."""
+        self.abandoned: list[Expired] = []
+        """Expired waits of optional nodes, which will not be started any more."""
         self.shutdown: Shutdown | None = None
-        """Which handler wants all to be stopped, and why."""
+        """Set when a handler stops the stack."""
         self.over = False
-        """Whether nothing more is to be started and what runs is to be stopped."""
+        """Whether nothing more is started and what runs is to be stopped."""
 
     @property
-    def situation(self) -> StackState:
-        """What the conditions judge now."""
-        return self._situation
+    def state(self) -> StackState:
+        """What the conditions are evaluated against now."""
+        return self._state
 
-    def start(self, node: Node) -> None:
-        """Note that the process of the node was started."""
-        self._last_start[node] = self._situation.time
-        self._states[node] = NodeState(started=True, restarts=self._states[node].restarts)
-        self._changed()
+    def on_start(self, node: Node) -> None:
+        """Note that the process of a node was started."""
+        self._last_start[node] = self._state.time
+        self._nodes[node] = NodeState(started=True, restarts=self._nodes[node].restarts)
+        self._update()
 
-    def end(self, node: Node, returncode: int, last_lines: Sequence[str] = ()) -> None:
+    def on_exit(self, node: Node, returncode: int, last_lines: Sequence[str] = ()) -> None:
         """
-        Note that the process of the node ended; see :class:`NodeState` for the code.
+        Note that the process of a node has ended, and call its handler.
 
-        What ends after the stack is over ended because of that, and is no failure.
+        A process that ends when the stack is over ended because of that: it is no failure.
 
-        :param last_lines: What it wrote last, for the handler of its end.
+        Args:
+            node: whose process it was.
+            returncode: exit code, or minus the signal that ended it.
+            last_lines: the last lines of its output, for the handler.
         """
-        if not self.over and self._is_started_again(node):
+        if not self.over and self._plan_respawn(node):
             return
-        restarts = self._states[node].restarts
-        self._states[node] = NodeState(started=True, returncode=returncode, restarts=restarts)
-        self._changed()
+        restarts = self._nodes[node].restarts
+        self._nodes[node] = NodeState(started=True, returncode=returncode, restarts=restarts)
+        self._update()
         if self.over:
             return
         if callable(node.on_exit):
-            self._obey(call_exit_handler(node.on_exit, Exited(node, returncode, last_lines)))
+            self._apply(call_exit_handler(node.on_exit, Exited(node, returncode, last_lines)))
         failed = returncode != 0 or node.respawn is not None
         blocks_a_required_node = any(waiting.required for waiting in self.unreachable())
         if failed and (node.required or blocks_a_required_node):
             self.failure = Failure(node, returncode, restarts)
-        ended_for_all = returncode == 0 and node.on_exit == 'shutdown'
-        wished = self.shutdown is not None
-        self.over = self.failure is not None or wished or ended_for_all or self._is_idle()
+        ends_the_stack = returncode == 0 and node.on_exit == 'shutdown'
+        stopped_by_handler = self.shutdown is not None
+        self.over = bool(self.failure) or stopped_by_handler or ends_the_stack or self._is_idle()
 
-    def hear(self, node: Node, line: str) -> bool:
-        """Note a line that the process of the node wrote; return whether a condition asks."""
-        said = self._situation.said
-        heard = {c for c in self._asked_of(node) if c not in said and c.matches(line)}
-        if heard:
-            self._changed(said=said | heard)
-        return bool(heard)
+    def on_line(self, node: Node, line: str) -> bool:
+        """Note a line of a node's output; return whether it fulfils a condition."""
+        triggered = self._state.triggered
+        found = {
+            part
+            for part in self._logged
+            if part.node is node and part not in triggered and part.matches(line)
+        }
+        if found:
+            self._update(triggered=triggered | found)
+        return bool(found)
 
-    def see(
-        self, *, graph: Graph | None = None, paths: Mapping[str, PathLook] | None = None
+    def observe(
+        self, *, graph: RosGraph | None = None, paths: Mapping[str, PathState] | None = None
     ) -> None:
-        """Note what is seen of the world outside."""
+        """Note the ROS graph and files as they are now; None: not observed."""
         if graph is not None:
-            self._changed(graph=graph)
+            self._update(graph=graph)
         if paths is not None:
-            self._changed(paths=paths)
+            self._update(paths=paths)
 
-    def tick(self, time: float) -> None:
+    def set_time(self, time: float) -> None:
         """Note the time, s."""
-        self._changed(time=time)
+        self._update(time=time)
 
-    def at(self, time: float) -> None:
+    def advance_to(self, time: float) -> None:
         """
-        Note the time, s; what has waited too long ends the stack, or is given up.
+        Note the time, s, and expire timeouts; call it when all events until then are reported.
 
-        Called once all that has happened until then was told.
+        An expired timeout of a required node, or of the stack itself, ends the stack; an optional
+        node is abandoned.
         """
-        self.tick(time)
+        self.set_time(time)
         while not self.over:
-            expired = self._waits.expired(self._pending(), self._situation)
+            expired = self._timeouts.expired(self.waits(), self._state)
             if expired is None:
                 return
             if expired.node is None or expired.node.required:
                 self.failure, self.over = expired, True
                 return
-            self.gave_up.append(expired)
-            self._changed()
+            self.abandoned.append(expired)
+            self._update()
             self.over = self._is_idle()
 
     def next_time(self) -> float | None:
-        """Return the time at which :meth:`at` has something to say; None: only events matter."""
-        times = [state.restart_at for state in self._states.values()]
-        for _, condition in self._pending():
-            times += [p.due(self._situation) for p in walk(condition) if isinstance(p, After)]
-        times += self._waits.deadlines(self._pending(), self._situation)
-        return min((t for t in times if t is not None and t > self._situation.time), default=None)
+        """Return when :meth:`advance_to` has something to do, s; None: only after an event."""
+        times = [node.restart_at for node in self._nodes.values()]
+        for _, condition in self.waits():
+            times += [part.due(self._state) for part in walk(condition) if isinstance(part, After)]
+        times += self._timeouts.deadlines(self.waits(), self._state)
+        return min((t for t in times if t is not None and t > self._state.time), default=None)
 
     def startable(self) -> list[Node]:
-        """Return the nodes that are to be started now, in the order of the stack."""
-        return [node for node, state in self._states.items() if self._is_due(node, state)]
+        """Return the nodes to start now, in the order of the stack."""
+        return [node for node, state in self._nodes.items() if self._is_startable(node, state)]
 
     def unreachable(self) -> list[Node]:
-        """Return the nodes that wait, also through others, for what can no longer happen."""
-        return [node for node in self.waiting() if self._states[node].never]
+        """Return the nodes whose condition, directly or through others, can no longer hold."""
+        return [node for node in self.waiting() if self._nodes[node].unreachable]
 
     def waiting(self) -> list[Node]:
         """Return the nodes that were not started yet."""
-        return [node for node, state in self._states.items() if not state.started]
+        return [node for node, state in self._nodes.items() if not state.started]
 
-    def waits_for(self, node: Node) -> Condition | None:
-        """Return the condition of a node, its groups' with it; None: it starts at once."""
+    def waits(self) -> Iterator[Wait]:
+        """Yield all pending waits, in the order of the stack; that to be ready is the last."""
+        for node in self.waiting():
+            condition = self._conditions[node]
+            if condition is not None and not self._nodes[node].unreachable:
+                yield node, condition
+        if not self.ready and self._ready_when.evaluate(self._state) is Verdict.NOT_YET:
+            yield None, self._ready_when
+
+    def condition_of(self, node: Node) -> Condition | None:
+        """Return the condition of a node, with those of its groups; None: it starts at once."""
         return self._conditions[node]
 
-    def waits(self) -> list[Wait]:
-        """Return who waits, and what for, in the order of the stack."""
-        return list(self._pending())
-
-    def lookouts(self) -> Iterator[Condition]:
-        """Yield the parts of all conditions that somebody still waits for."""
-        for _, condition in self._pending():
+    def pending_conditions(self) -> Iterator[Condition]:
+        """Yield the conditions of all pending waits, with their parts."""
+        for _, condition in self.waits():
             yield from walk(condition)
 
     @property
     def ready(self) -> bool:
-        """Whether the stack came up: ``ready_when`` held, or every node was started."""
-        self._ready = self._ready or self._ready_when.evaluate(self._situation) is Verdict.HOLDS
+        """Whether the stack got ready; it stays so."""
+        self._ready = self._ready or self._ready_when.evaluate(self._state) is Verdict.HOLDS
         return self._ready
 
     @property
     def never_ready(self) -> Condition | None:
-        """What the stack needs to be ready and can no longer have; None: it still may."""
-        lost = not self.ready and self._ready_when.evaluate(self._situation) is Verdict.NEVER
-        return self._ready_when if lost else None
+        """The condition for being ready, if it can no longer hold; else None."""
+        is_lost = not self.ready and self._ready_when.evaluate(self._state) is Verdict.NEVER
+        return self._ready_when if is_lost else None
 
-    def _obey(self, wishes: HandlerResult) -> None:
-        """Note what a handler wants."""
-        self.shutdown = wishes.shutdown
+    def _apply(self, result: HandlerResult) -> None:
+        """Do what an exit handler has returned."""
+        self.shutdown = result.shutdown
         try:
-            nodes = list(nodes_of(wishes.members))
+            nodes = list(nodes_of(result.members))
         except BringupError as error:
             self.shutdown = Shutdown(f'on_exit returned what is no reaction: {error}', exit_code=1)
             return
@@ -285,72 +309,63 @@ class Scheduler:
                 return
         parts = (part for node in nodes for part in walk(self._conditions[node]))
         requests = {part for part in parts if isinstance(part, OnRequest)}
-        self._changed(said=self._situation.said | requests)
+        self._update(triggered=self._state.triggered | requests)
 
-    def _asked_of(self, node: Node) -> list[Logged]:
-        return [part for part in self._logged if part.node is node]
-
-    def _pending(self) -> Iterator[Wait]:
-        """Yield who waits and what for; None: the stack itself, to be ready."""
-        for node in self.waiting():
-            condition = self._conditions[node]
-            if condition is not None and not self._states[node].never:
-                yield node, condition
-        if not self.ready and self._ready_when.evaluate(self._situation) is Verdict.NOT_YET:
-            yield None, self._ready_when
-
-    def _is_due(self, node: Node, state: NodeState) -> bool:
+    def _is_startable(self, node: Node, state: NodeState) -> bool:
         if state.restart_at is not None:
-            return state.restart_at <= self._situation.time
-        return not state.started and not state.never and self._judge(node) is Verdict.HOLDS
+            return state.restart_at <= self._state.time
+        is_waiting = not state.started and not state.unreachable
+        return is_waiting and self._evaluate(node) is Verdict.HOLDS
 
-    def _judge(self, node: Node) -> Verdict:
+    def _evaluate(self, node: Node) -> Verdict:
         condition = self._conditions[node]
-        return Verdict.HOLDS if condition is None else condition.evaluate(self._situation)
+        return Verdict.HOLDS if condition is None else condition.evaluate(self._state)
 
-    def _is_started_again(self, node: Node) -> bool:
-        rule, now = node.respawn, self._situation.time
+    def _plan_respawn(self, node: Node) -> bool:
+        """Plan the next start of a node that has ended; return whether there will be one."""
+        rule, now = node.respawn, self._state.time
         if rule is None:
             return False
         was_steady = now - self._last_start[node] >= rule.steady
-        restarts = 0 if was_steady else self._states[node].restarts
+        restarts = 0 if was_steady else self._nodes[node].restarts
         if rule.limit is not None and restarts >= rule.limit:
             return False
-        at = now + rule.delay * rule.backoff**restarts
-        self._states[node] = NodeState(started=True, restarts=restarts + 1, restart_at=at)
-        self._changed()
+        restart_at = now + rule.delay * rule.backoff**restarts
+        self._nodes[node] = NodeState(started=True, restarts=restarts + 1, restart_at=restart_at)
+        self._update()
         return True
 
     def _is_idle(self) -> bool:
-        """Nothing runs, and nothing that waits will ever start."""
-        alive = any(s.running or s.restart_at is not None for s in self._states.values())
-        outlook = any(
-            condition.is_external for node, condition in self._pending() if node is not None
+        """Return whether nothing runs, and nothing that waits will ever start."""
+        is_alive = any(n.running or n.restart_at is not None for n in self._nodes.values())
+        may_start = any(
+            condition.is_external for node, condition in self.waits() if node is not None
         )
-        return not (alive or outlook or self.startable())
+        return not (is_alive or may_start or self.startable())
 
-    def _changed(self, **news: object) -> None:
-        """Make the new situation: what was given up, what it leads to, what holds since when."""
-        for expired in self.gave_up:
-            self._mark_never(expired.node)
-        self._situation = replace(self._situation, states=dict(self._states), **news)
-        while stuck := [n for n in self.waiting() if self._is_newly_stuck(n)]:
+    def _update(self, **changes: object) -> None:
+        """Make the new state: with all that has become unreachable, and since when what holds."""
+        for expired in self.abandoned:
+            self._mark_unreachable(expired.node)
+        self._state = replace(self._state, nodes=dict(self._nodes), **changes)
+        while stuck := [node for node in self.waiting() if self._is_newly_stuck(node)]:
             for node in stuck:
-                self._mark_never(node)
-            self._situation = replace(self._situation, states=dict(self._states))
-        for part in self._parts:
-            self._note_since(part)
+                self._mark_unreachable(node)
+            self._state = replace(self._state, nodes=dict(self._nodes))
+        for part in self._parts:  # inner ones first
+            if isinstance(part, After):
+                self._note_held_since(part.condition)
 
     def _is_newly_stuck(self, node: Node) -> bool:
-        return not self._states[node].never and self._judge(node) is Verdict.NEVER
+        return not self._nodes[node].unreachable and self._evaluate(node) is Verdict.NEVER
 
-    def _mark_never(self, node: Node) -> None:
-        self._states[node] = replace(self._states[node], never=True)
+    def _mark_unreachable(self, node: Node) -> None:
+        self._nodes[node] = replace(self._nodes[node], unreachable=True)
 
-    def _note_since(self, part: Condition) -> None:
-        """Note since when the condition holds that an ``after`` counts from; inner ones first."""
-        since, now = self._situation.held_since, self._situation
-        if not isinstance(part, After) or part.condition is None or part.condition in since:
+    def _note_held_since(self, condition: Condition | None) -> None:
+        """Note the time at which a condition that an ``after`` counts from holds first."""
+        state, since = self._state, self._state.held_since
+        if condition is None or condition in since:
             return
-        if part.condition.evaluate(now) is Verdict.HOLDS:
-            self._situation = replace(now, held_since={**since, part.condition: now.time})
+        if condition.evaluate(state) is Verdict.HOLDS:
+            self._state = replace(state, held_since={**since, condition: state.time})

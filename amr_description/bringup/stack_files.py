@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where stacks are: in the table of the ready-made ones, or in a Python file of a user."""
+"""Finds and calls the function of a stack: a ready-made one, or one in a user's Python file."""
 
 from collections.abc import Callable, Iterator, Mapping
 import contextlib
@@ -22,11 +22,20 @@ from amr_description.text import suggestion
 
 type StackFunction = Callable[..., Stack]
 
-_making: list[str] = []  # the stacks of which the function is being called
+_include_chain: list[str] = []  # the stacks whose functions are being called, outermost first
 
 
 def find_stack(name: str) -> StackFunction:
-    """Return the function of a stack of the table, or of a file ``<function>.py``."""
+    """
+    Return the function of a stack.
+
+    Args:
+        name: a ready-made stack, or the path of a file ``<function>.py``.
+
+    Raises:
+        UsageError: there is no such stack or file.
+        BringupError: the file raises, or contains no such function.
+    """
     if name in STACKS:
         return import_target(STACKS[name])
     path = Path(name)
@@ -38,7 +47,7 @@ def find_stack(name: str) -> StackFunction:
         raise BringupError(
             f"'{name}': a stack's file is called as its function, by letters, digits and _"
         )
-    with _blaming(name):
+    with _located_errors(name):
         module = _import(path)
     function = getattr(module, path.stem, None)
     if not callable(function) or inspect.isclass(function):
@@ -51,20 +60,20 @@ def find_stack(name: str) -> StackFunction:
 def _import(path: Path) -> ModuleType:
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
-    sys.modules.setdefault(path.stem, module)  # dataclasses look for the module of a class there
+    sys.modules.setdefault(path.stem, module)  # dataclasses look up the module of a class
     spec.loader.exec_module(module)
     return module
 
 
 @contextlib.contextmanager
-def _blaming(name: str) -> Iterator[None]:
-    """Have what the code of a user raises, and what it is refused, told in one line."""
+def _located_errors(name: str) -> Iterator[None]:
+    """Turn exceptions of a user's code into one line, with the innermost location in that code."""
     try:
         yield
     except AmrError as error:
-        if name not in STACKS and not getattr(error, 'is_placed', False):
+        if name not in STACKS and not getattr(error, 'is_located', False):
             error.args = (f'{error}{user_errors.location(error)}',)
-            error.is_placed = True
+            error.is_located = True
         raise
     except Exception as error:
         raise BringupError(f"'{name}' failed: {user_errors.describe(error)}") from error
@@ -72,7 +81,7 @@ def _blaming(name: str) -> Iterator[None]:
 
 def include(name: str | Path, **values: object) -> Stack:
     """
-    Return a stack to stand among the nodes of another one.
+    Return a stack that can be a member of another one.
 
     ::
 
@@ -80,8 +89,9 @@ def include(name: str | Path, **values: object) -> Stack:
         rviz = Node('rviz2', package='rviz2', start_when=ready(robot))
         return Stack([robot, rviz])
 
-    :param name: The name of a ready-made stack, a ``package://`` URI, or a path.
-    :param values: Its arguments; they are checked as if they were typed.
+    Args:
+        name: a ready-made stack, a ``package://`` URI, or a path.
+        values: its arguments; they are checked like those of a command line.
     """
     found = str(name) if name in STACKS else str(path_of(str(name)))
     for each, value in values.items():
@@ -90,18 +100,27 @@ def include(name: str | Path, **values: object) -> Stack:
 
 
 def make_stack(name: str, given: Mapping[str, str]) -> Stack:
-    """Return a stack, as :func:`find_stack` takes its name; ``given``: its arguments, as typed."""
-    if name in _making:
-        chain = ' includes '.join(f"'{each}'" for each in [*_making, name])
+    """
+    Call the function of a stack.
+
+    Args:
+        name: as :func:`find_stack` takes it.
+        given: its arguments, as a user typed them.
+
+    Raises:
+        AmrError: the stack cannot be found, does not take the arguments, or is invalid.
+    """
+    if name in _include_chain:
+        chain = ' includes '.join(f"'{each}'" for each in [*_include_chain, name])
         raise BringupError(f'a stack can not stand in itself: {chain}')
     function = find_stack(name)
     values = resolve(declared(function), given)
-    _making.append(name)
+    _include_chain.append(name)
     try:
-        with _blaming(name):
+        with _located_errors(name):
             stack = function(**values)
     finally:
-        _making.pop()
+        _include_chain.pop()
     if not isinstance(stack, Stack):
         raise BringupError(
             f"'{name}' returned {shortened(stack)}; a stack's function returns a Stack"

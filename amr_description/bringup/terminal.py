@@ -1,24 +1,26 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-One process of a stack with the terminal: it reads keys as if a shell had started it.
+The one process of a stack that has the terminal: it reads keys as if a shell had started it.
 
-The orchestrator does for it what an interactive shell does for a job: the process stays in the
-session of the terminal, leads a process group of its own, and that group gets the terminal. So its
-raw mode works, and Ctrl-C, Ctrl-Z and the size of the window are told to it alone.
+The orchestrator does for it what an interactive shell does for a foreground job: the process stays
+in the session of the terminal, leads a process group of its own, and that group becomes the
+foreground process group (tcsetpgrp). So raw mode works, and the signals of Ctrl-C, Ctrl-Z and of a
+resized window go to it alone.
 
 =====================================  ==========================================================
-what happens                           what is done
+event                                  action
 =====================================  ==========================================================
-it ends, in whatever way               the terminal is taken back, its settings as they were; of
-                                       one that died also the keys nobody read are dropped
-Ctrl-Z stops it                        the terminal is taken back and the orchestrator, with the
-                                       whole job that it is part of, stops too: the shell goes on
+it ends, in whatever way               the terminal is taken back with its former settings; after
+                                       a failure unread keys are dropped, too
+Ctrl-Z stops it                        the terminal is taken back, and the orchestrator stops with
+                                       the whole job that it is part of: the shell continues
 ``fg``                                 it gets the terminal again, with its own settings
-``bg``, or started in the background   it waits; once the job is in the foreground it gets it
+``bg``, or started in the background   it waits, and gets the terminal when the job comes to the
+                                       foreground
 =====================================  ==========================================================
 
-While it has the terminal the console shows only warnings and errors of the others.
+While it has the terminal, the console shows only warnings and errors of the other processes.
 """
 
 import asyncio
@@ -29,20 +31,26 @@ import signal
 import subprocess
 import termios
 
-from amr_description.bringup.process import held_back, RunningProcess
+from amr_description.bringup.process import RunningProcess, signal_blocked
 from amr_description.errors import UsageError
 
 type _Settings = list[int | list[bytes | int]]  # as termios.tcgetattr() returns them
 
 STDIN = 0  # sys.stdin is None where it was closed
-_LOOK_PERIOD = 0.5  # s: how soon it is seen that the shell has put the job into the foreground
-# What a program that died may have left on: the kitty keyboard protocol, an invisible cursor.
-_REPAIR = b'\x1b[<u\x1b[?25h'
-_MUTE_TERMINALS = ('', 'dumb', 'linux')  # values of TERM: those that may print it
+_POLL_PERIOD = 0.5  # s between two looks whether the shell has put the job into the foreground
+# Undoes what a program that died may have left on: kitty's keyboard protocol, a hidden cursor.
+_RESET_SEQUENCES = b'\x1b[<u\x1b[?25h'
+_WITHOUT_SEQUENCES = ('', 'dumb', 'linux')  # values of TERM: terminals that may print them
 
 
 def require_terminal(program: str, package: str) -> None:
-    """Raise UsageError, with what to do instead, if a program that reads keys can get none."""
+    """
+    Raise UsageError, with what to do instead, if standard input is not a terminal.
+
+    Args:
+        program: the executable that reads keys.
+        package: its package.
+    """
     if not os.isatty(STDIN):
         raise UsageError(
             f'standard input is not a terminal, and {program} reads keys from it: run this in a '
@@ -52,8 +60,8 @@ def require_terminal(program: str, package: str) -> None:
 
 
 def as_foreground() -> contextlib.AbstractContextManager[None]:
-    """Use the terminal, while inside, also as what it takes for a background job."""
-    return held_back(signal.SIGTTOU)
+    """Within this context, writing to the terminal does not stop a background process."""
+    return signal_blocked(signal.SIGTTOU)
 
 
 class TerminalChild(RunningProcess):
@@ -69,22 +77,27 @@ class TerminalChild(RunningProcess):
         """
         Start the process and give it the terminal.
 
-        :param inherit: A file descriptor that the child gets under the same number.
-        :param on_lent: Called with whether the process has the terminal, when that changes.
-        :raises OSError: The operating system cannot start it.
+        Args:
+            command: the command line.
+            environment: all its environment variables.
+            inherit: a file descriptor that the child gets under the same number.
+            on_lent: called with whether the process has the terminal, when that changes.
+
+        Raises:
+            OSError: the operating system cannot start it.
         """
         self._on_lent = on_lent
         self._is_lent = False
-        self._ours: _Settings | None = None
-        self._its: _Settings | None = None  # kept while it is stopped
-        self._look_again: asyncio.TimerHandle | None = None
+        self._our_settings: _Settings | None = None
+        self._its_settings: _Settings | None = None  # while it is stopped
+        self._retry: asyncio.TimerHandle | None = None
         process = subprocess.Popen(command, env=environment, pass_fds=(inherit,), process_group=0)
         super().__init__(process)
-        self.last_lines.append('what it said stands above')  # we hear nothing of it
+        self.last_lines.append('what it said stands above')  # its output is not piped to us
         self._give()
 
     def poll(self) -> bool:
-        """Return whether the process has ended; follow it when it was stopped."""
+        """Return whether the process has ended; if it was stopped, stop with it."""
         if super().poll():
             self._take_back()
             return True
@@ -93,35 +106,35 @@ class TerminalChild(RunningProcess):
         return False
 
     def send(self, number: signal.Signals) -> None:
-        """Signal its process group; a stopped one has to go on to hear it."""
+        """Signal its process group; a stopped one must be continued to handle the signal."""
         super().send(number)
         if not self._is_lent:
             self._continue()
 
     def close(self) -> None:
-        """Forget the terminal."""
-        if self._look_again is not None:
-            self._look_again.cancel()
+        """Wait for the terminal no longer."""
+        if self._retry is not None:
+            self._retry.cancel()
 
     def _give(self) -> None:
-        """Give it the terminal if it is ours to give, else look again."""
+        """Give it the terminal if we are in the foreground, else try again later."""
         if self.returncode is not None:
             return
-        owner = _foreground()
-        if owner not in (None, os.getpgrp()):
+        foreground = _foreground()
+        if foreground not in (None, os.getpgrp()):
             self._on_lent(False)
             loop = asyncio.get_running_loop()
-            self._look_again = loop.call_later(_LOOK_PERIOD, self._give)
+            self._retry = loop.call_later(_POLL_PERIOD, self._give)
             return
         self._is_lent = True
         self._on_lent(True)
         with as_foreground(), contextlib.suppress(OSError, termios.error):  # the terminal is gone
-            self._ours = termios.tcgetattr(STDIN)
-            if owner is not None:
+            self._our_settings = termios.tcgetattr(STDIN)
+            if foreground is not None:
                 os.tcsetpgrp(STDIN, self.pid)
-            if self._its is not None:
-                termios.tcsetattr(STDIN, termios.TCSADRAIN, self._its)
-        self._continue()  # it may have been stopped because it was too early
+            if self._its_settings is not None:
+                termios.tcsetattr(STDIN, termios.TCSADRAIN, self._its_settings)
+        self._continue()  # it may have been stopped for reading from the background
 
     def _take_back(self) -> None:
         if not self._is_lent:
@@ -131,21 +144,21 @@ class TerminalChild(RunningProcess):
                 os.tcsetpgrp(STDIN, os.getpgrp())
             if self.returncode:
                 termios.tcflush(STDIN, termios.TCIFLUSH)
-                if os.environ.get('TERM', '') not in _MUTE_TERMINALS:
-                    os.write(STDIN, _REPAIR)
-            if self._ours is not None:
-                termios.tcsetattr(STDIN, termios.TCSADRAIN, self._ours)
+                if os.environ.get('TERM', '') not in _WITHOUT_SEQUENCES:
+                    os.write(STDIN, _RESET_SEQUENCES)
+            if self._our_settings is not None:
+                termios.tcsetattr(STDIN, termios.TCSADRAIN, self._our_settings)
         self._is_lent = False
         self._on_lent(False)
 
     def _stop_with_it(self) -> None:
-        """Leave the terminal to the shell until it is given to this job again."""
+        """Leave the terminal to the shell until this job gets it again."""
         if not self._is_lent:
-            return  # _give() looks again and again
+            return  # _give() is being retried
         with contextlib.suppress(termios.error):
-            self._its = termios.tcgetattr(STDIN)
+            self._its_settings = termios.tcgetattr(STDIN)
         self._take_back()
-        os.killpg(os.getpgrp(), signal.SIGTSTP)  # without a shell, the kernel goes on at once
+        os.killpg(os.getpgrp(), signal.SIGTSTP)  # ignored if no shell controls us
         self._give()
 
     def _continue(self) -> None:
@@ -154,7 +167,7 @@ class TerminalChild(RunningProcess):
 
 
 def _foreground() -> int | None:
-    """Return the process group in the foreground; None: not our session's terminal, or gone."""
+    """Return the foreground process group; None: the terminal is gone or not our session's."""
     try:
         return os.tcgetpgrp(STDIN)
     except OSError:

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The text of the robot description that a stack is started with."""
+"""The text of the robot description for a stack; xacro runs in a child process."""
 
 import contextlib
 import resource
@@ -20,15 +20,21 @@ _EXPAND = (sys.executable, '-P', '-m', 'amr_description.model.description_file')
 
 def robot_description(urdf: str, xacro_args: str = '') -> str:
     """
-    Return the URDF in a file or, of a xacro file, what it expands to; relative paths of meshes
-    in it are made absolute.
+    Return the text of a URDF file, or what a xacro file expands to.
 
-    xacro runs in a process of its own, as launch's ``Command(['xacro ', …])`` has it: what a
-    stranger's expressions do cannot harm the supervisor, and has bounded time and memory.
+    Relative paths of meshes in it are made absolute.
 
-    :param urdf: The file, as :func:`path_of` takes it.
-    :param xacro_args: Arguments of a xacro file as a shell would take them, ``a:=1 b:=2``.
-    :raises BringupError: The file is not there, or cannot be read or expanded.
+    xacro runs in a child process, like launch's ``Command(['xacro ', …])``, with limits on time
+    and memory: third-party expressions cannot harm the supervisor.
+
+    Args:
+        urdf: the file, as :func:`path_of` takes it.
+        xacro_args: arguments of a xacro file as in a shell, ``a:=1 b:=2``.
+
+    Raises:
+        ResourceError: there is no such file.
+        BringupError: it cannot be read or expanded.
+        UsageError: ``xacro_args`` cannot be split, or the file is no xacro file.
     """
     path = path_of(urdf)
     if path.suffix == '.xacro':
@@ -56,9 +62,9 @@ def _expanded(words: list[str]) -> str:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     ) as process:
-        _bound(process.pid)
+        _limit(process.pid)
         try:
-            text, said = (stream.decode(errors='replace') for stream in process.communicate())
+            text, log = (stream.decode(errors='replace') for stream in process.communicate())
         except BaseException:  # Ctrl-C
             process.kill()
             raise
@@ -67,20 +73,20 @@ def _expanded(words: list[str]) -> str:
             f'xacro: {words[0]}: no end after {_PROCESSOR_TIME} s; does an expression of it end?'
         )
     if process.returncode:
-        reason = said.splitlines()[-1] if said else f'exit code {process.returncode}'
+        reason = log.splitlines()[-1] if log else f'exit code {process.returncode}'
         raise BringupError(f'xacro: {reason}')
-    print(said, end='', file=sys.stderr)
+    print(log, end='', file=sys.stderr)
     return text
 
 
-def _bound(pid: int) -> None:
-    """Limit what a process may take, so that it ends also if the supervisor is killed."""
+def _limit(pid: int) -> None:
+    """Limit time and memory of a process; it then ends even if the supervisor is killed."""
     limits = {
         resource.RLIMIT_CPU: (_PROCESSOR_TIME, _PROCESSOR_TIME + 1),
         resource.RLIMIT_AS: (_MEMORY, _MEMORY),
         resource.RLIMIT_CORE: (0, 0),
     }
     for kind, limit in limits.items():
-        # It has ended already, or a lower limit is set.
+        # It may have ended already, or a lower limit may be set.
         with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
             resource.prlimit(pid, kind, limit)

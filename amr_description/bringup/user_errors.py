@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is told of an error in the code of a user: one line, with its place there."""
+"""How an exception in a user's code is reported: one line, with its location in that code."""
 
 from pathlib import Path
 import sysconfig
@@ -17,7 +17,7 @@ _NOT_OF_USERS = (
 
 
 def describe(error: BaseException) -> str:
-    """Return ``ValueError: no such arm (my_arm.py, line 7)``; of errors on purpose no type."""
+    """Return ``ValueError: no such arm (my_arm.py, line 7)``; without the type for an AmrError."""
     text = unwrap(str(error))
     if isinstance(error, AmrError):
         return f'{text}{location(error)}'
@@ -26,9 +26,9 @@ def describe(error: BaseException) -> str:
 
 
 def location(error: BaseException) -> str:
-    """Return `` (my_arm.py, line 7)``: the innermost place that is not of a library."""
+    """Return `` (my_arm.py, line 7)``: the innermost frame outside of libraries; '' if none is."""
     if isinstance(error, SyntaxError) and error.filename:
-        return ''  # its text says it
+        return ''  # its text contains it
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
         if not frame.filename.startswith(_NOT_OF_USERS):
             return f' ({Path(frame.filename).name}, line {frame.lineno})'

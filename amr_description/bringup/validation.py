@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the words of a stack take: a value of a wrong kind is told where it stands.
+Type checks for what users write into a stack.
 
-A stack is written by hand, and ``parameters={…}`` or ``start_when=node`` is soon written. Python
-would notice it far from there, if at all.
+``parameters={…}`` instead of a list, or ``start_when=node`` instead of a condition, is easily
+written; without a check Python would notice it far from there, if at all.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -16,41 +16,82 @@ import reprlib
 from amr_description.errors import BringupError
 
 TOKEN = r'[A-Za-z_][A-Za-z0-9_]*'
-"""What names in ROS are made of, between slashes."""
+"""One part of a ROS name, between slashes."""
 
 _NAMESPACE = re.compile(f'/?({TOKEN}(/{TOKEN})*)?/?')
 
 
 @dataclass(frozen=True)
 class Validator:
-    """What a value can be."""
+    """A check of one value."""
 
     text: str
-    """As a person would say it."""
-    fits: Callable[[object], bool]
+    """What is expected, as the error message says it: ``it takes a number``."""
+    accepts: Callable[[object], bool]
 
     def or_none(self) -> 'Validator':
-        """Return the kind that has None, too."""
-        return Validator(self.text, lambda value: value is None or self.fits(value))
+        """Return a validator that accepts None as well."""
+        return Validator(self.text, lambda value: value is None or self.accepts(value))
 
 
-def require(what: str, value: object, kind: Validator) -> None:
-    """Raise BringupError unless the value is of the kind; ``what``: ``Node('arm', name=%s)``."""
-    if not kind.fits(value):
-        raise BringupError(f'{what.replace("%s", shortened(value), 1)}: it takes {kind.text}')
+def require(what: str, value: object, validator: Validator) -> None:
+    """
+    Check a value.
+
+    Args:
+        what: what it was given for, with ``%s`` in its place: ``Node('arm', name=%s)``.
+        value: the value.
+        validator: its check.
+
+    Raises:
+        BringupError: the validator does not accept it.
+    """
+    if not validator.accepts(value):
+        raise BringupError(f'{what.replace("%s", shortened(value), 1)}: it takes {validator.text}')
 
 
-def require_fields(begin: str, word: object, kinds: Mapping[str, Validator]) -> None:
-    """Require what each field of a word takes; ``begin``: ``Node('talker'``."""
-    for name, kind in kinds.items():
-        require(f'{begin}, {name}=%s)', getattr(word, name), kind)
+def require_fields(begin: str, owner: object, validators: Mapping[str, Validator]) -> None:
+    """
+    Check the fields of an object.
+
+    Args:
+        begin: begin of the error message, ``Node('talker'``.
+        owner: the object.
+        validators: that of each field, by its name.
+
+    Raises:
+        BringupError: a field is not accepted.
+    """
+    for name, validator in validators.items():
+        require(f'{begin}, {name}=%s)', getattr(owner, name), validator)
 
 
 def shortened(value: object) -> str:
-    """Return a value in few characters."""
+    """Return the repr of a value, shortened for a message."""
     short = reprlib.Repr()
     short.maxother = short.maxstring = 60
     return short.repr(value)
+
+
+def list_of(what: str, accepts: Callable[[object], bool] = lambda _: True) -> Validator:
+    """
+    Return a validator for lists and tuples; texts, tables and generators are not accepted.
+
+    Args:
+        what: the elements, as the error message names them.
+        accepts: the check of an element.
+    """
+
+    def is_list(value: object) -> bool:
+        is_sequence = isinstance(value, Sequence) and not isinstance(value, str)
+        return is_sequence and all(map(accepts, value))
+
+    return Validator(f'a list of {what}', is_list)
+
+
+def is_pair(value: object) -> bool:
+    """Return whether a value is a pair of texts."""
+    return isinstance(value, tuple | list) and len(value) == 2 and all(map(_is_text, value))
 
 
 def _is_text(value: object) -> bool:
@@ -65,15 +106,6 @@ def _is_word(value: object) -> bool:
     return isinstance(value, str | int | float | PathLike) and '\0' not in str(value)
 
 
-def list_of(of: str, fits: Callable[[object], bool] = lambda _: True) -> Validator:
-    """Return the kind of lists and tuples; a text or a table is none, nor is a generator."""
-
-    def is_list(value: object) -> bool:
-        return isinstance(value, Sequence) and not isinstance(value, str) and all(map(fits, value))
-
-    return Validator(f'a list of {of}', is_list)
-
-
 def _is_environment(value: object) -> bool:
     return isinstance(value, Mapping) and all(
         _is_text(name) and name and '=' not in name and _is_text(content)
@@ -81,14 +113,9 @@ def _is_environment(value: object) -> bool:
     )
 
 
-def is_pair(value: object) -> bool:
-    """Tell a pair of texts."""
-    return isinstance(value, tuple | list) and len(value) == 2 and all(map(_is_text, value))
-
-
 TEXT = Validator('a text', _is_text)
 NUMBER = Validator('a number', _is_number)
-TRUTH = Validator('True or False', lambda value: isinstance(value, bool))
+BOOLEAN = Validator('True or False', lambda value: isinstance(value, bool))
 FUNCTION = Validator('a function', callable)
 NAME = Validator(
     'a name of letters, digits and _', lambda v: _is_text(v) and bool(re.fullmatch(TOKEN, v))

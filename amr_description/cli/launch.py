@@ -102,7 +102,7 @@ def main(args: Namespace) -> int:
         f'--launch-prefix={args.launch_prefix}',
         f'--launch-prefix-filter={args.launch_prefix_filter}',
         *(['--force'] if args.force else []),
-        *environment.words(args),
+        *environment.as_arguments(args),
     ]
     sys.stdout.flush()
     return bringup([*options, stack, *arguments], prog='ros2 launch')

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The ready-made stacks; ``bringup`` without arguments lists them."""
+"""The ready-made stacks, which ``bringup --help`` lists."""
 
 STACKS = {
     'display': 'amr_description.bringup.stacks.display:display',

@@ -5,8 +5,8 @@
 from typing import Annotated
 
 from amr_description.bringup import Node, notes_on, path_of, robot_description, Stack, started
-from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page, rviz
 from amr_description.bringup.stacks.simulation import URDF
+from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page, rviz
 
 
 def display(
@@ -21,10 +21,10 @@ def display(
         parameters=[{'robot_description': robot_description(urdf, xacro_args)}],
     )
 
-    # 2. Where the joints are, as nobody moves them: what the sliders say.
+    # 2. The joint positions, set by sliders.
     joint_state_publisher = Node('joint_state_publisher')
 
-    # 3. What a person looks at.
+    # 3. The page, and RViz.
     return Stack(
         [
             robot_state_publisher,

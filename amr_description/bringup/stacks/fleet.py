@@ -3,9 +3,9 @@
 """
 The stack ``fleet``: several robots of one kind in one simulation.
 
-``robot1``, ``robot2`` … each have their topics, their controller manager and their frames in the
-namespace of their name. All of them are on one ``/tf``: a tree of frames each, ``robot1/odom`` and
-below, that hangs on ``world``.
+``robot1``, ``robot2`` … have their topics, controller managers and frames in namespaces of their
+names. All publish on one ``/tf``: each a tree of frames from ``robot1/odom`` down, below
+``world``.
 """
 
 from collections.abc import Iterator
@@ -23,28 +23,18 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.environment import other_shell
-from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
+from amr_description.bringup.environment import setup_command
+from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 from amr_description.model.shapes import horizontal_reach
 from amr_description.model.urdf import parse
 
-
-def grid(count: int, spacing: float) -> Iterator[tuple[float, float]]:
-    """Yield x and y (m) of ``count`` places in rows, as square as can be, about the origin."""
-    columns = math.ceil(math.sqrt(count))
-    rows = math.ceil(count / columns)
-    for number in range(count):
-        row, column = divmod(number, columns)
-        yield spacing * (column - (columns - 1) / 2.0), spacing * (row - (rows - 1) / 2.0)
-
-
-_ROOM = 1.0
-"""m between two robots, however they turn on the spot."""
+_GAP = 1.0
+"""m between two robots, whatever their headings."""
 
 _CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
 
-type _Place = tuple[float, float]
+type _Position = tuple[float, float]
 
 
 def fleet(
@@ -71,7 +61,7 @@ def fleet(
         not 0 < spacing <= needed,
         f'spacing:={spacing}: the robots would touch; they need more than {needed:.2f} m',
     )
-    places = dict(_places(robots, spacing or needed + _ROOM))
+    positions = dict(_positions(robots, spacing or needed + _GAP))
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(
         'mujoco_sim',
@@ -80,15 +70,15 @@ def fleet(
         ],
         on_exit='shutdown',
     )
-    # 2. Where each odometry begins, so that all robots are in one tree of frames.
+    # 2. The origins of the odometry frames: they join the robots in one tree of frames.
     map_publisher = Node(
         'robot_state_publisher',
         name='fleet_map',
         namespace='fleet',
-        parameters=[{'robot_description': _map_of(places), 'use_sim_time': True}],
+        parameters=[{'robot_description': _map_of(positions), 'use_sim_time': True}],
     )
     # 3. The robots, side by side.
-    members = [_robot(name, place, description) for name, place in places.items()]
+    members = [_robot(name, position, description) for name, position in positions.items()]
     up = all_of(*(exited_cleanly(spawner) for *_, spawner in members))
     return Stack(
         [
@@ -98,13 +88,13 @@ def fleet(
             *page(viewer, up),
         ],
         ready_when=up,
-        next_steps=_how_to_drive(list(places)),
+        next_steps=_how_to_drive(list(positions)),
         notes=notes_on([path_of(urdf), path_of(controllers)]),
     )
 
 
-def _robot(name: str, place: _Place, description: str) -> tuple[Node, Node, Node]:
-    """One robot: its URDF told, itself put into the world, then its controllers."""
+def _robot(name: str, position: _Position, description: str) -> tuple[Node, Node, Node]:
+    """Return the nodes that publish a robot's URDF, spawn it and spawn its controllers."""
     robot_state_publisher = Node(
         'robot_state_publisher',
         namespace=name,
@@ -116,28 +106,37 @@ def _robot(name: str, place: _Place, description: str) -> tuple[Node, Node, Node
             }
         ],
     )
-    x, y = place
+    x, y = position
     create = Node(
         'create',
         namespace=name,
         arguments=['-topic', 'robot_description', '-name', name, '-x', x, '-y', y, '-z', '0.2'],
     )
-    # One process for both controllers: with ten robots the start of a process is what counts.
+    # One process for both controllers: with ten robots, starting processes takes the time.
     spawner = Node(
         'spawner', namespace=name, arguments=_CONTROLLERS, start_when=exited_cleanly(create)
     )
     return robot_state_publisher, create, spawner
 
 
-def _places(count: int, spacing: float) -> Iterator[tuple[str, _Place]]:
-    for number, place in enumerate(grid(count, spacing), start=1):
-        yield f'robot{number}', place
+def grid(count: int, spacing: float) -> Iterator[tuple[float, float]]:
+    """Yield ``count`` positions (x, y), m, of a nearly square grid centred on the origin."""
+    columns = math.ceil(math.sqrt(count))
+    rows = math.ceil(count / columns)
+    for number in range(count):
+        row, column = divmod(number, columns)
+        yield spacing * (column - (columns - 1) / 2.0), spacing * (row - (rows - 1) / 2.0)
 
 
-def _map_of(places: dict[str, _Place]) -> str:
-    """A description of fixed joints only: robot_state_publisher says them all on /tf_static."""
+def _positions(count: int, spacing: float) -> Iterator[tuple[str, _Position]]:
+    for number, position in enumerate(grid(count, spacing), start=1):
+        yield f'robot{number}', position
+
+
+def _map_of(positions: dict[str, _Position]) -> str:
+    """Return a URDF of fixed joints, which robot_state_publisher publishes on /tf_static."""
     lines = ['<robot name="fleet">', '<link name="world"/>']
-    for name, (x, y) in places.items():
+    for name, (x, y) in positions.items():
         odom = quoteattr(f'{name}/odom')
         lines += [
             f'<link name={odom}/>',
@@ -148,10 +147,10 @@ def _map_of(places: dict[str, _Place]) -> str:
 
 
 def _how_to_drive(names: list[str]) -> str:
-    """What a person would type next."""
+    """Return the next steps of a user."""
     first, last = names[0], names[-1]
     return f"""drive {first} with, in another shell,
-    {other_shell('amr_description', os.environ)}
+    {setup_command('amr_description', os.environ)}
     ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
         -r /cmd_vel:=/{first}/diff_drive_controller/cmd_vel
 or {last} in a circle

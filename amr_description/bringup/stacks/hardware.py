@@ -1,13 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The stacks ``mock`` and ``serial``: the robot without the simulator, as on a real one.
+The stacks ``mock`` and ``serial``: the robot without the simulator, as on real hardware.
 
-Against ``simulation`` only the hardware interface is swapped: the same URDF with another
-``<plugin>``, the same controllers with the same parameters, the same topics.
-
-The same robot on other hardware: a description with another ``<hardware>`` element, and nothing
-else changed. The urdf of a robot stays the single source of truth.
+They differ from ``simulation`` in the hardware component only: the same URDF with another
+``<hardware>`` element, the same controllers with the same parameters, the same topics.
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,40 +26,13 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
 from amr_description.bringup.stacks.simulation import CONTROLLERS, how_to_drive, URDF
+from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
 
 _HARDWARE = re.compile(r'<hardware>.*?</hardware>', re.DOTALL)
-
-
-def swap_hardware(urdf: str, plugin: str, parameters: Mapping[str, str] | None = None) -> str:
-    """
-    Return the description with ``plugin`` and its ``parameters`` as its hardware.
-
-    Raises DescriptionError where it has no ``<ros2_control>`` block with a ``<hardware>``, or more
-    than one.
-    """
-    try:
-        blocks = ElementTree.fromstring(urdf).findall('ros2_control/hardware')
-    except ElementTree.ParseError as error:
-        raise DescriptionError(f'robot description: {error}') from error
-    found = _HARDWARE.findall(urdf)
-    if len(blocks) != 1 or len(found) != 1:
-        raise DescriptionError(
-            f'robot description: {len(blocks)} <ros2_control> blocks with a <hardware>; exactly '
-            f'one is needed to put {plugin} in its place'
-        )
-    lines = [f'<plugin>{escape(plugin)}</plugin>']
-    for name, value in (parameters or {}).items():
-        lines.append(f'<param name={quoteattr(name)}>{escape(value)}</param>')
-    inside = ''.join(f'\n      {line}' for line in lines)
-    element = f'<hardware>{inside}\n    </hardware>'
-    return _HARDWARE.sub(lambda _: element, urdf)
-
-
-_PATIENCE_WITH_PORT = 10.0
-"""s; a board that was just plugged in takes two or three."""
+_PORT_TIMEOUT = 10.0
+"""s; the port of a board that was just plugged in appears after two or three."""
 
 
 def mock(
@@ -94,9 +64,9 @@ def serial(
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot behind a serial port: a real motor board, or a simulated one."""
-    boards, patience = [], _PATIENCE_WITH_PORT
+    boards, timeout = [], _PORT_TIMEOUT
     if not port:
-        patience = None
+        timeout = None
         port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))
         boards = [Node('motor_board', arguments=['--link', port], required=False)]
     description = swap_hardware(
@@ -105,7 +75,7 @@ def serial(
         {'port': port, 'left_joints': left, 'right_joints': right},
     )
     files = [path_of(urdf), path_of(controllers)]
-    return _controlled(description, files, viewer, boards, path_exists(port), patience)
+    return _controlled(description, files, viewer, boards, path_exists(port), timeout)
 
 
 def _controlled(
@@ -114,23 +84,25 @@ def _controlled(
     viewer: bool,
     before: Sequence[Node] = (),
     start_when: Condition | None = None,
-    patience: float | None = None,
+    timeout: float | None = None,
 ) -> Stack:
     """
-    The manager by itself, the description, and the controllers one after the other.
+    Return the stack of a controller manager with its hardware, and the controllers in order.
 
-    :param files: That of the description and that of the controllers' parameters.
-    :param viewer: Whether to serve the page.
-    :param before: What is started first.
-    :param start_when: What the manager needs.
-    :param patience: How long that may take, s; None: as everything else.
+    Args:
+        description: the URDF.
+        files: that of the description and that of the controllers' parameters.
+        viewer: whether to serve the page.
+        before: nodes that are started first.
+        start_when: what the controller manager waits for.
+        timeout: of that wait, s; None: the default.
     """
     ros2_control_node = Node(
         'ros2_control_node',
         parameters=[files[1]],
         on_exit='shutdown',
         start_when=start_when,
-        patience=patience,
+        timeout=timeout,
     )
     robot_state_publisher = Node(
         'robot_state_publisher', parameters=[{'robot_description': description}]
@@ -156,3 +128,33 @@ def _controlled(
         next_steps=how_to_drive(viewer),
         notes=notes_on(files),
     )
+
+
+def swap_hardware(urdf: str, plugin: str, parameters: Mapping[str, str] | None = None) -> str:
+    """
+    Return a description with another hardware component.
+
+    Args:
+        urdf: the description.
+        plugin: the type of the component.
+        parameters: its ``<param>`` elements.
+
+    Raises:
+        DescriptionError: there is not exactly one ``<ros2_control>`` block with a ``<hardware>``.
+    """
+    try:
+        blocks = ElementTree.fromstring(urdf).findall('ros2_control/hardware')
+    except ElementTree.ParseError as error:
+        raise DescriptionError(f'robot description: {error}') from error
+    found = _HARDWARE.findall(urdf)
+    if len(blocks) != 1 or len(found) != 1:
+        raise DescriptionError(
+            f'robot description: {len(blocks)} <ros2_control> blocks with a <hardware>; exactly '
+            f'one is needed to put {plugin} in its place'
+        )
+    lines = [f'<plugin>{escape(plugin)}</plugin>']
+    for name, value in (parameters or {}).items():
+        lines.append(f'<param name={quoteattr(name)}>{escape(value)}</param>')
+    inside = ''.join(f'\n      {line}' for line in lines)
+    element = f'<hardware>{inside}\n    </hardware>'
+    return _HARDWARE.sub(lambda _: element, urdf)

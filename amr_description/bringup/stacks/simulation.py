@@ -13,8 +13,8 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.environment import other_shell
-from amr_description.bringup.stacks.screens import ABOUT_VIEWER, page
+from amr_description.bringup.environment import setup_command
+from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 
 URDF = 'package://amr_description/urdf/amr.urdf'
@@ -51,7 +51,7 @@ def simulation(
         parameters=[{'robot_description': description, 'use_sim_time': True}],
     )
 
-    # 3. The robot put into the world; its <ros2_control> block brings up /controller_manager.
+    # 3. The robot is spawned; its <ros2_control> block brings up /controller_manager.
     create = Node('create', arguments=['-topic', 'robot_description', '-name', 'amr', '-z', '0.2'])
 
     # 4. The controllers, one after the other, once there is a controller manager.
@@ -80,10 +80,10 @@ def simulation(
 
 
 def how_to_drive(viewer: bool) -> str:
-    """What a person would do next; ``viewer``: whether the page is served."""
+    """Return the next steps of a user; ``viewer``: whether the page is served."""
     page = 'open the page whose address comes below, or ' if viewer else ''
     return f"""{page}drive with, in another shell,
-    {other_shell('amr_description', os.environ)}
+    {setup_command('amr_description', os.environ)}
     ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
         -r /cmd_vel:=/diff_drive_controller/cmd_vel
 or for one command

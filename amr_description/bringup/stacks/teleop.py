@@ -22,7 +22,7 @@ def teleop(
         'teleop_twist_keyboard',
         terminal=True,
         arguments=['--latch'] if latch else [],
-        # Its stamps have to be of the simulated time, by which the controller tells old commands.
+        # The controller drops commands whose stamps, in simulated time, are old.
         parameters=[{'speed': speed, 'turn': turn, 'use_sim_time': True}],
         remappings=[('/cmd_vel', '/diff_drive_controller/cmd_vel')],
         start_when=robot.ready_when,

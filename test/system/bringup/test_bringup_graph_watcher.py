@@ -11,8 +11,8 @@ from fixtures.bringup.running import Bringup, STACKS
 import pytest
 
 from amr_description.bringup import path_exists, topic
-from amr_description.bringup.conditions import Graph, PathLook
-from amr_description.bringup.graph_watcher import ExternalState, GraphWatch, look_at
+from amr_description.bringup.conditions import PathState, RosGraph
+from amr_description.bringup.graph_watcher import ExternalState, GraphWatch, path_state
 from amr_description.bringup.guardian import processes
 from amr_description.nodes.graph_watch import changes
 
@@ -52,7 +52,7 @@ def test_each_starts_when_what_it_waits_for_is_there(tmp_path):
 
 
 def test_a_wait_in_vain_ends_all_and_says_what_there_is_instead(tmp_path):
-    with waiting(tmp_path, 'talks:=false', 'patience:=1') as bringup:
+    with waiting(tmp_path, 'talks:=false', 'timeout:=1') as bringup:
         assert bringup.end() == 124
         last = bringup.output.splitlines()[-1]
         assert last.startswith(
@@ -64,7 +64,7 @@ def test_a_wait_in_vain_ends_all_and_says_what_there_is_instead(tmp_path):
 
 
 def test_an_optional_wait_in_vain_is_told_and_the_stack_goes_on(tmp_path):
-    with waiting(tmp_path, 'talks:=false', 'patience:=1', 'optional:=true') as bringup:
+    with waiting(tmp_path, 'talks:=false', 'timeout:=1', 'optional:=true') as bringup:
         bringup.expect(r'\[step-2\]: never starts: step-2 waited 1 s in vain: nobody publishes')
         bringup.expect('ready in')
         assert bringup.end(signal.SIGINT) == 0
@@ -103,15 +103,15 @@ class Watched:
 
 def test_the_graph_is_what_the_lines_say():
     watched = Watched()
-    watched.watch.want(True, 0.0)
+    watched.watch.set_wanted(True, 0.0)
     (process,) = watched.processes
     for line in ('+ topic /a x/msg/Y', '+ topic /a x/msg/Z', '+ service /s', '+ node /n'):
-        process.say(line)
-    assert watched.watch.graph == Graph({'/a': {'x/msg/Y', 'x/msg/Z'}}, {'/s'}, {'/n'})
-    process.say('- topic /a x/msg/Y')
-    process.say('- node /n')
-    process.say('[RTPS_TRANSPORT_SHM Error] + node')
-    assert watched.watch.graph == Graph({'/a': {'x/msg/Z'}}, {'/s'}, frozenset())
+        process.log(line)
+    assert watched.watch.graph == RosGraph({'/a': {'x/msg/Y', 'x/msg/Z'}}, {'/s'}, {'/n'})
+    process.log('- topic /a x/msg/Y')
+    process.log('- node /n')
+    process.log('[RTPS_TRANSPORT_SHM Error] + node')
+    assert watched.watch.graph == RosGraph({'/a': {'x/msg/Z'}}, {'/s'}, frozenset())
     assert watched.woken == 6
     assert watched.said == ['[RTPS_TRANSPORT_SHM Error] + node']
 
@@ -120,54 +120,54 @@ def test_a_watch_that_dies_is_started_again_ever_later_and_forgets_what_it_saw()
     watched = Watched()
     now = 100.0
     for delay in (1.0, 2.0, 4.0, 8.0, 16.0, 30.0, 30.0):
-        assert watched.watch.want(True, now) is None
+        assert watched.watch.set_wanted(True, now) is None
         process = watched.processes[-1]
-        process.say('+ node /n')
+        process.log('+ node /n')
         process.returncode = 1
-        assert watched.watch.want(True, now) == now + delay
-        assert watched.watch.graph == Graph()
+        assert watched.watch.set_wanted(True, now) == now + delay
+        assert watched.watch.graph == RosGraph()
         assert watched.said[-1] == (
             f'ended with exit code 1; the ROS graph is not seen; next start in {delay:g} s'
         )
         count = len(watched.processes)
-        assert watched.watch.want(True, now + delay - 0.1) == now + delay
+        assert watched.watch.set_wanted(True, now + delay - 0.1) == now + delay
         assert len(watched.processes) == count
         now += delay
 
 
 def test_it_runs_only_while_somebody_asks():
     watched = Watched()
-    outlook = ExternalState(watched.watch)
-    outlook.look([], 0.0)
+    external = ExternalState(watched.watch)
+    external.update([], 0.0)
     assert watched.processes == []
-    outlook.look([topic('/a')], 1.0)
-    outlook.look([topic('/a')], 2.0)
+    external.update([topic('/a')], 1.0)
+    external.update([topic('/a')], 2.0)
     (process,) = watched.processes
-    outlook.look([], 3.0)
+    external.update([], 3.0)
     assert process.sent == signal.SIGINT
     process.returncode = 0
-    outlook.look([], 4.0)
+    external.update([], 4.0)
     assert not watched.watch.poll()
     assert watched.said == []
-    outlook.look([topic('/a')], 5.0)
+    external.update([topic('/a')], 5.0)
     assert len(watched.processes) == 2
 
 
 def test_paths_are_looked_at_while_somebody_asks(tmp_path):
-    outlook = ExternalState(Watched().watch)
+    external = ExternalState(Watched().watch)
     port = tmp_path / 'port'
     asked = [path_exists(port)]
-    outlook.look(asked, 1.0)
-    assert outlook.paths == {str(port): PathLook(False, frozenset())}
-    assert outlook.next_time == pytest.approx(1.1)
+    external.update(asked, 1.0)
+    assert external.paths == {str(port): PathState(False, frozenset())}
+    assert external.next_time == pytest.approx(1.1)
     (tmp_path / 'port1').touch()
-    assert look_at(port) == PathLook(False, {'port1'})
+    assert path_state(port) == PathState(False, {'port1'})
     port.touch()
-    outlook.look(asked, 1.1)
-    assert outlook.paths == {str(port): PathLook(True)}
-    outlook.look([], 1.2)
-    assert outlook.next_time is None
-    assert look_at(tmp_path / 'no' / 'folder') == PathLook(False)
+    external.update(asked, 1.1)
+    assert external.paths == {str(port): PathState(True)}
+    external.update([], 1.2)
+    assert external.next_time is None
+    assert path_state(tmp_path / 'no' / 'folder') == PathState(False)
 
 
 def test_the_watch_tells_what_came_and_went():

@@ -13,11 +13,11 @@ import pytest
 from amr_description.bringup.guardian import (
     end,
     family,
+    FamilySearch,
     Process,
     processes,
     remove_unused_segments,
     RUN_VARIABLE,
-    Search,
 )
 
 ROOT, GUARDIAN = 10, 11
@@ -65,7 +65,7 @@ def test_who_was_met_once_is_found_again_but_not_another_of_that_pid(monkeypatch
         ]
     )
     monkeypatch.setattr('amr_description.bringup.guardian.processes', lambda run: next(looks))
-    search = Search('run', ROOT, GUARDIAN)
+    search = FamilySearch('run', ROOT, GUARDIAN)
     assert [search(), search(), search()] == [[20, 21], [21], []]
 
 

@@ -31,30 +31,30 @@ def ended(on_exit, *others, code=0, required=False):
         return on_exit(event)
 
     node = Node('node', on_exit=handler, required=required)
-    progress = Scheduler(Stack([node, *others]))
-    progress.start(node)
-    progress.end(node, code, ['last words'])
+    scheduler = Scheduler(Stack([node, *others]))
+    scheduler.on_start(node)
+    scheduler.on_exit(node, code, ['last words'])
     assert events == [Exited(node, code, ['last words'])]
-    return progress
+    return scheduler
 
 
 @pytest.mark.parametrize('code', [0, 3, -9])
 def test_it_may_start_what_waits_for_that(code):
     helper, after_it = Node('helper', start_when=on_request()), Node('after')
     after_it = Node('after', start_when=exited_cleanly(helper))
-    progress = ended(lambda _: helper, helper, after_it, code=code)
-    assert progress.startable() == [helper]
-    assert not progress.over
-    progress.start(helper)
-    assert progress.startable() == []
+    scheduler = ended(lambda _: helper, helper, after_it, code=code)
+    assert scheduler.startable() == [helper]
+    assert not scheduler.over
+    scheduler.on_start(helper)
+    assert scheduler.startable() == []
 
 
 def test_it_may_start_several_and_whole_groups():
     first, second = (Node('n', start_when=on_request()) for _ in range(2))
     third = Node('third')
     group = Group([third], start_when=on_request())
-    progress = ended(lambda _: [first, group], first, second, group)
-    assert progress.startable() == [first, third]
+    scheduler = ended(lambda _: [first, group], first, second, group)
+    assert scheduler.startable() == [first, third]
 
 
 @pytest.mark.parametrize(
@@ -67,62 +67,62 @@ def test_it_may_start_several_and_whole_groups():
     ],
 )
 def test_what_is_no_reaction_stops_the_stack(reaction, text):
-    progress = ended(lambda _: reaction)
-    assert progress.over
-    assert progress.shutdown.exit_code == 1
-    assert progress.shutdown.reason.startswith('on_exit returned what is no reaction: ')
-    assert text in progress.shutdown.reason
+    scheduler = ended(lambda _: reaction)
+    assert scheduler.over
+    assert scheduler.shutdown.exit_code == 1
+    assert scheduler.shutdown.reason.startswith('on_exit returned what is no reaction: ')
+    assert text in scheduler.shutdown.reason
 
 
 def test_a_handler_that_leaves_python_stops_the_stack():
-    progress = ended(lambda _: sys.exit(9))
+    scheduler = ended(lambda _: sys.exit(9))
     assert re.fullmatch(
         r'on_exit failed: SystemExit: 9 \(test_bringup_handlers.py, line \d+\)',
-        progress.shutdown.reason,
+        scheduler.shutdown.reason,
     )
 
 
 def test_it_may_want_nothing():
     helper = Node('helper', start_when=on_request())
-    progress = ended(lambda _: None, helper)
-    assert progress.startable() == []
-    assert progress.over  # nobody is left who could ask
-    assert progress.failure is None
+    scheduler = ended(lambda _: None, helper)
+    assert scheduler.startable() == []
+    assert scheduler.over  # nobody is left who could ask
+    assert scheduler.failure is None
 
 
 def test_it_may_stop_all():
-    progress = ended(lambda event: Shutdown(f'code {event.returncode}', 5), Node('n'), code=2)
-    assert progress.over
-    assert progress.shutdown == Shutdown('code 2', 5)
+    scheduler = ended(lambda event: Shutdown(f'code {event.returncode}', 5), Node('n'), code=2)
+    assert scheduler.over
+    assert scheduler.shutdown == Shutdown('code 2', 5)
 
 
 def test_a_required_node_that_failed_stops_all_whatever_it_wants():
     helper = Node('helper', start_when=on_request())
-    progress = ended(lambda _: helper, helper, code=4, required=True)
-    assert progress.over
-    assert progress.failure.exit_code == 4
+    scheduler = ended(lambda _: helper, helper, code=4, required=True)
+    assert scheduler.over
+    assert scheduler.failure.exit_code == 4
 
 
 def test_one_that_raises_stops_all_and_the_place_is_told():
-    progress = ended(lambda _: 1 / 0, Node('n'))
+    scheduler = ended(lambda _: 1 / 0, Node('n'))
     text = r'on_exit failed: ZeroDivisionError: division by zero \(test_bringup_handlers.py, line'
-    assert re.match(text, progress.shutdown.reason)
-    assert progress.shutdown.exit_code == 1
+    assert re.match(text, scheduler.shutdown.reason)
+    assert scheduler.shutdown.exit_code == 1
 
 
 def test_it_may_start_only_what_waits_for_it():
     plain = Node('plain')
     for other in (plain, Node('stranger', start_when=on_request())):
-        progress = ended(lambda _, other=other: other, plain)
-        assert f"on_exit asks for Node('{other.executable}'), which" in progress.shutdown.reason
+        scheduler = ended(lambda _, other=other: other, plain)
+        assert f"on_exit asks for Node('{other.executable}'), which" in scheduler.shutdown.reason
 
 
 def test_who_waits_to_be_asked_has_time_and_is_not_missed():
-    progress = Scheduler(Stack([Node('n'), Node('helper', start_when=on_request())]))
-    progress.start(progress.startable()[0])
-    assert progress.ready
-    progress.at(1e9)
-    assert not progress.over
+    scheduler = Scheduler(Stack([Node('n'), Node('helper', start_when=on_request())]))
+    scheduler.on_start(scheduler.startable()[0])
+    assert scheduler.ready
+    scheduler.advance_to(1e9)
+    assert not scheduler.over
 
 
 def handled(folder, wish):

@@ -8,7 +8,7 @@ import json
 from fixtures.bringup.running import Bringup, install_toys, STACKS
 
 from amr_description.bringup import Node, Stack, started
-from amr_description.bringup.command_line import jobs_of
+from amr_description.bringup.command_line import process_specs
 from amr_description.bringup.console import Console
 from amr_description.bringup.reporter import Reporter
 from amr_description.bringup.run_log import EventLog, json_line, LogFolder
@@ -91,11 +91,11 @@ def test_a_condition_comes_to_hold_once_however_often_its_node_is_started(tmp_pa
     stack = Stack([worker, Node('step', package='toys', start_when=started(worker))])
     console = Console(io.StringIO(), LogFolder(tmp_path, 'run'), colour=False)
     events = []
-    narrator = Reporter(stack, jobs_of(stack, tmp_path), console, EventLog(events.append))
+    reporter = Reporter(stack, process_specs(stack, tmp_path), console, EventLog(events.append))
     _, step = stack.nodes
-    narrator.not_started(step, 'was busy')
-    narrator.started(step, 5)
-    narrator.started(step, 6)
+    reporter.not_started(step, 'was busy')
+    reporter.started(step, 5)
+    reporter.started(step, 6)
     assert [event['event'] for event in events if event.get('node') == 'step-2'] == [
         'waiting', 'condition_held', 'not_started', 'started', 'started',
     ]  # fmt: skip

@@ -15,8 +15,8 @@ import pytest
 from support.running_programs import PATIENCE
 
 from amr_description.bringup import Group, Node, run_commands, run_registry, Stack
-from amr_description.bringup.command_line import jobs_of
-from amr_description.bringup.process_usage import Process, start_time, tree, usages
+from amr_description.bringup.command_line import process_specs
+from amr_description.bringup.process_usage import ProcessStat, start_time, tree, usages
 from amr_description.bringup.run_registry import RunRecord, runs
 from amr_description.errors import BringupError
 
@@ -134,7 +134,7 @@ def test_what_a_killed_run_left_is_in_nobodys_way(tmp_path):
 
 def record(folder, name, **about):
     run = RunRecord(folder, name)
-    run.enter({'stack': name, 'domain': 0} | about, names=['/a'])
+    run.register({'stack': name, 'domain': 0} | about, names=['/a'])
     return run
 
 
@@ -150,7 +150,7 @@ def test_only_the_same_name_in_the_same_domain_clashes(tmp_path):
     record(tmp_path, 'second', domain=1)
     with pytest.raises(BringupError, match="/a would be there twice: the stack 'first'"):
         record(tmp_path, 'third')
-    first.leave()
+    first.remove()
     record(tmp_path, 'third')
     assert {state['run'] for state in runs(tmp_path)} == {'second', 'third'}
 
@@ -165,11 +165,11 @@ def test_a_state_that_is_being_written_is_no_second_run(tmp_path, monkeypatch):
     run = record(tmp_path, 'run')
     with monkeypatch.context() as disk:
         disk.setattr(Path, 'replace', lambda *_: (_ for _ in ()).throw(OSError('full')))
-        run.take({'event': 'ready', 'seconds': 1.0})
+        run.update({'event': 'ready', 'seconds': 1.0})
     assert len(list(tmp_path.iterdir())) == 3  # with the lock
     (state,) = runs(tmp_path)
     assert state['phase'] == 'starting'
-    run.leave()
+    run.remove()
     assert [path.name for path in tmp_path.iterdir()] == ['.lock']
 
 
@@ -185,8 +185,8 @@ def test_a_pid_that_came_again_is_another_process(tmp_path, other):
 def test_a_registry_that_cannot_be_written_costs_the_status_only(tmp_path):
     (tmp_path / 'file').touch()
     run = record(tmp_path / 'file/runs', 'run')
-    run.take({'event': 'ready', 'seconds': 1.0})
-    run.leave()
+    run.update({'event': 'ready', 'seconds': 1.0})
+    run.remove()
 
 
 def rows(folder):
@@ -198,28 +198,28 @@ def rows(folder):
 def test_what_a_node_does_is_told_also_between_two_starts(tmp_path):
     run = record(tmp_path, 'run')
     ended = {'event': 'exited', 'node': 'a-1', 'pid': 5, 'time': 1.0}
-    run.take({'event': 'begun', 'log_folder': '/logs'})
-    run.take({'event': 'waiting', 'node': 'a-1', 'condition': None, 'time': 0.0})
+    run.update({'event': 'begun', 'log_folder': '/logs'})
+    run.update({'event': 'waiting', 'node': 'a-1', 'condition': None, 'time': 0.0})
     for end, told in (({'signal': 'SIGKILL'}, 'died of SIGKILL'), ({'exit_code': 0}, 'done')):
-        run.take({'event': 'started', 'node': 'a-1', 'pid': 5, 'time': 0.0})
+        run.update({'event': 'started', 'node': 'a-1', 'pid': 5, 'time': 0.0})
         (state,) = runs(tmp_path)
         assert state['nodes']['a-1'] == {
             'state': 'running', 'condition': None, 'pid': 5, 'since': 0.0,
         }  # fmt: skip
-        run.take(ended | end)
+        run.update(ended | end)
         assert re.search(rf'^a-1 +{told}$', '\n'.join(rows(tmp_path)), re.MULTILINE)
-        run.take({'event': 'respawn', 'node': 'a-1', 'seconds': 2.0, 'restarts': 1, 'time': 1.0})
+        run.update({'event': 'respawn', 'node': 'a-1', 'seconds': 2.0, 'restarts': 1, 'time': 1.0})
         again = rf'^a-1 +{told}, starts again at 1970-01-01 \d\d:\d\d$'
         assert re.search(again, '\n'.join(rows(tmp_path)), re.MULTILINE)
 
 
 def test_a_run_that_never_gets_ready_says_so_until_it_stops(tmp_path):
     run = record(tmp_path, 'run')
-    run.take({'event': 'begun', 'log_folder': '/logs'})
+    run.update({'event': 'begun', 'log_folder': '/logs'})
     assert rows(tmp_path)[0].startswith('run: starting, pid')
-    run.take({'event': 'never_ready', 'condition': 'a-1 failed'})
+    run.update({'event': 'never_ready', 'condition': 'a-1 failed'})
     assert rows(tmp_path)[0].startswith('run: never gets ready (needs that a-1 failed), pid')
-    run.take({'event': 'shutdown', 'reason': 'enough'})
+    run.update({'event': 'shutdown', 'reason': 'enough'})
     assert rows(tmp_path)[0].startswith('run: stopping, pid')
 
 
@@ -229,7 +229,7 @@ def test_names_that_there_can_be_only_one_of(tmp_path, monkeypatch):
     named = Node('worker', package='toys', name='left', namespace='arm')
     nodes = [Node('mujoco_sim'), named, Node('worker', package='toys'), Node('spawner')]
     robot = Group([Node('ros2_control_node'), Node('robot_state_publisher')], namespace='r1')
-    assert run_registry.of(jobs_of(Stack([*nodes, robot]), tmp_path)) == {
+    assert run_registry.unique_names(process_specs(Stack([*nodes, robot]), tmp_path)) == {
         '/mujoco_sim', '/controller_manager', '/arm/left',
         '/r1/controller_manager', '/r1/robot_state_publisher',
     }  # fmt: skip
@@ -237,7 +237,7 @@ def test_names_that_there_can_be_only_one_of(tmp_path, monkeypatch):
 
 def test_a_tree_is_a_process_its_session_and_all_their_descendants():
     def process(pid, parent, session):
-        return Process(pid, parent, session, 0.0, 0)
+        return ProcessStat(pid, parent, session, 0.0, 0)
 
     table = [
         process(1, 0, 1), process(10, 1, 10), process(11, 10, 10), process(12, 11, 12),

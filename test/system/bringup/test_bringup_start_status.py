@@ -26,30 +26,30 @@ class Watched:
         self.two = Node('two', start_when=exited_cleanly(self.one))
         self.three = Node('three', start_when=exited_cleanly(self.two))
         nodes = [self.one, self.two, self.three]
-        self.progress = Scheduler(Stack(nodes, ready_when=exited_cleanly(self.three)))
+        self.scheduler = Scheduler(Stack(nodes, ready_when=exited_cleanly(self.three)))
         self.now = 100.0
         console = Console(io.StringIO(), LogFolder(folder, 'run'), colour=False)
         self.status = StartStatus(console, lambda node: node.executable, lambda: self.now)
 
     def at(self, seconds):
         self.now = 100.0 + seconds
-        return self.status.text(self.progress)
+        return self.status.text(self.scheduler)
 
 
 def test_it_names_what_can_happen_next_and_since_when_it_is_waited_for(tmp_path):
     watched = Watched(tmp_path)
-    watched.progress.start(watched.one)
+    watched.scheduler.on_start(watched.one)
     assert watched.at(0.0) == '0.0 s: two waits until one exited with code 0 (0.0 s)'
     assert watched.at(1.5) == '1.5 s: two waits until one exited with code 0 (1.5 s)'
-    watched.progress.end(watched.one, 0)
-    watched.progress.start(watched.two)
+    watched.scheduler.on_exit(watched.one, 0)
+    watched.scheduler.on_start(watched.two)
     watched.at(2.0)
     assert watched.at(2.5) == '2.5 s: three waits until two exited with code 0 (0.5 s)'
-    watched.progress.end(watched.two, 0)
-    watched.progress.start(watched.three)
+    watched.scheduler.on_exit(watched.two, 0)
+    watched.scheduler.on_start(watched.three)
     watched.at(3.0)
     assert watched.at(4.0) == '4.0 s: the stack waits until three exited with code 0 (1.0 s)'
-    watched.progress.end(watched.three, 0)
+    watched.scheduler.on_exit(watched.three, 0)
     assert watched.at(5.0) == ''
 
 

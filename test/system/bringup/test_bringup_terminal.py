@@ -175,11 +175,11 @@ def test_with_its_output_in_a_pipe_it_still_gets_the_keys(tmp_path):
 def test_a_lent_screen_is_written_without_erasing_where_it_cannot(tmp_path):
     with (tmp_path / 'screen').open('w+') as screen:
         console = Console(screen, LogFolder(tmp_path, 'run'), colour=False)
-        console.lend(True)
-        console.say('INFO', 'a', 'unseen')
-        console.say('WARNING', 'a', 'seen')
-        console.lend(False)
+        console.set_lent(True)
+        console.log('INFO', 'a', 'unseen')
+        console.log('WARNING', 'a', 'seen')
+        console.set_lent(False)
         console.status('no status here')
-        console.say('INFO', 'a', 'seen again')
+        console.log('INFO', 'a', 'seen again')
         screen.seek(0)
         assert screen.read() == '[WARNING] [a]: seen\n[INFO] [a]: seen again\n'

@@ -14,7 +14,7 @@ from support.doc_pages import Page, ROOT
 from amr_description import bringup
 from amr_description.bringup import Exited, exited_cleanly, Shutdown, topic
 from amr_description.bringup.conditions import walk
-from amr_description.bringup.description import nodes_of, PATIENCE
+from amr_description.bringup.description import DEFAULT_TIMEOUT, nodes_of
 from amr_description.bringup.placement import Placement
 from amr_description.bringup.scheduler import TIMED_OUT
 from amr_description.bringup.stack_files import make_stack
@@ -61,9 +61,9 @@ def test_the_driver_has_its_fallback(folder):
 @pytest.mark.parametrize(('listen', 'count'), [('true', 2), ('false', 1)])
 def test_the_lab_is_in_its_namespace(folder, listen, count):
     stack = make_stack(str(folder / 'my_lab.py'), {'listen': listen})
-    *arm, _ = placed = Placement(stack).nodes
-    assert [each.namespace for each in placed] == 4 * [None] + count * ['/lab']
-    waits = {leaf for each in placed[4:] for leaf in walk(each.start_when)}
+    *arm, _ = nodes = Placement(stack).nodes
+    assert [each.namespace for each in nodes] == 4 * [None] + count * ['/lab']
+    waits = {leaf for each in nodes[4:] for leaf in walk(each.start_when)}
     assert exited_cleanly(arm[3].node) in waits
     assert (topic('/lab/topic') in waits) == (count == 2)
 
@@ -74,5 +74,5 @@ def test_what_the_page_names_is_there():
     names = {name for row in table for name in re.findall(r'`(\w+)\(', row)}
     assert len(names) == 13
     assert names <= set(bringup.__all__)
-    assert f'After {PATIENCE:.0f} seconds' in PAGE.text
+    assert f'After {DEFAULT_TIMEOUT:.0f} seconds' in PAGE.text
     assert f'exit code {TIMED_OUT}' in PAGE.text

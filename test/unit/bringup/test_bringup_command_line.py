@@ -6,7 +6,7 @@ from fixtures.bringup.running import install_toys
 import pytest
 
 from amr_description.bringup import Node, path_of, Stack
-from amr_description.bringup.command_line import jobs_of, LaunchPrefix
+from amr_description.bringup.command_line import LaunchPrefix, process_specs
 from amr_description.errors import BringupError, ResourceError, UsageError
 
 
@@ -31,7 +31,7 @@ def test_command_line(prefix, tmp_path):
         arguments=['-z', 0.2],
     )
     plain = Node('step', package='toys')
-    first, second = jobs_of(Stack([node, plain]), tmp_path)
+    first, second = process_specs(Stack([node, plain]), tmp_path)
     assert (first.name, second.name) == ('worker-1', 'step-2')
     assert first.command == [
         f'{prefix}/lib/toys/worker', '-z', '0.2', '--ros-args',
@@ -52,26 +52,26 @@ def test_only_programs_of_ours_take_sigint_later(prefix):
     nodes = [
         Node('step'), Node('step', package='toys'), Node('step', prefix='nice'),
     ]  # fmt: skip
-    jobs = jobs_of(Stack(nodes), prefix)
-    assert [job.takes_sigint_later for job in jobs] == [True, False, False]
-    (job,) = jobs_of(Stack(nodes[:1]), prefix, LaunchPrefix('nice'))
-    assert not job.takes_sigint_later
+    specs = process_specs(Stack(nodes), prefix)
+    assert [spec.unblocks_sigint for spec in specs] == [True, False, False]
+    (spec,) = process_specs(Stack(nodes[:1]), prefix, LaunchPrefix('nice'))
+    assert not spec.unblocks_sigint
 
 
 def test_of_a_script_the_missing_interpreter_is_named(prefix):
     step = prefix / 'lib/toys/step'
-    (job,) = jobs_of(Stack([Node('step', package='toys')]), prefix)
+    (spec,) = process_specs(Stack([Node('step', package='toys')]), prefix)
     missing = FileNotFoundError(2, 'No such file or directory', str(step))
-    assert job.why_not(missing) == str(missing)
+    assert spec.explain(missing) == str(missing)
     step.write_text('#!/nowhere/python3\n')
-    assert job.why_not(missing) == f'{step} begins with #!/nowhere/python3, which is not there'
+    assert spec.explain(missing) == f'{step} begins with #!/nowhere/python3, which is not there'
     step.unlink()
-    assert job.why_not(missing) == str(missing)
+    assert spec.explain(missing) == str(missing)
 
 
 def refuses(text, **changes):
     with pytest.raises((BringupError, ResourceError), match=text):
-        jobs_of(Stack([Node(**{'executable': 'step', 'package': 'toys', **changes})]), None)
+        process_specs(Stack([Node(**{'executable': 'step', 'package': 'toys', **changes})]), None)
 
 
 def test_what_is_missing_is_told_before_anything_starts(prefix, monkeypatch):
@@ -96,10 +96,10 @@ def test_what_is_missing_is_told_before_anything_starts(prefix, monkeypatch):
 )
 def test_a_prefix_for_all_or_some_of_the_command_lines(prefix, pattern, own, expected):
     stack = Stack([Node('worker', package='toys', prefix=own), Node('step', package='toys')])
-    jobs = jobs_of(stack, None, LaunchPrefix('env -i', pattern))
+    specs = process_specs(stack, None, LaunchPrefix('env -i', pattern))
     folder = f'{prefix}/lib/toys'
     paths = [f'{folder}/worker', f'{folder}/step']
-    assert [job.command for job in jobs] == [
+    assert [spec.command for spec in specs] == [
         [*words, path, '--ros-args'] for words, path in zip(expected, paths, strict=True)
     ]
 

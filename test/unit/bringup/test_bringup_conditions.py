@@ -21,7 +21,7 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.conditions import Graph, NodeState, PathLook, StackState, Verdict
+from amr_description.bringup.conditions import NodeState, PathState, RosGraph, StackState, Verdict
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.errors import BringupError
 
@@ -41,7 +41,7 @@ def name(node):
     return f'{node.executable}-1'
 
 
-WAITING, RUNNING, STUCK = NodeState(), NodeState(started=True), NodeState(never=True)
+WAITING, RUNNING, STUCK = NodeState(), NodeState(started=True), NodeState(unreachable=True)
 WELL, BADLY = (NodeState(started=True, returncode=code) for code in (0, 3))
 RESTARTS = NodeState(started=True, restart_at=9.0)
 
@@ -74,26 +74,26 @@ def test_all_and_any_are_each_others_mirror(verdicts):
 
 def test_a_line_counts_though_the_node_ended_since():
     node = Node('n')
-    progress = Scheduler(Stack([node, Node('next', start_when=logged(node, r'port \d+'))]))
-    progress.start(node)
-    assert not progress.hear(node, 'port closed')
-    assert [n.executable for n in progress.startable()] == []
-    assert progress.hear(node, 'listens on port 8000.')
-    assert not progress.hear(node, 'listens on port 8001.')
-    progress.end(node, 0)
-    assert [n.executable for n in progress.startable()] == ['next']
+    scheduler = Scheduler(Stack([node, Node('next', start_when=logged(node, r'port \d+'))]))
+    scheduler.on_start(node)
+    assert not scheduler.on_line(node, 'port closed')
+    assert [n.executable for n in scheduler.startable()] == []
+    assert scheduler.on_line(node, 'listens on port 8000.')
+    assert not scheduler.on_line(node, 'listens on port 8001.')
+    scheduler.on_exit(node, 0)
+    assert [n.executable for n in scheduler.startable()] == ['next']
 
 
 def test_the_same_line_of_another_node_does_not_count():
     one, other = Node('one'), Node('other')
-    progress = Scheduler(Stack([one, other, Node('next', start_when=logged(one, 'up'))]))
+    scheduler = Scheduler(Stack([one, other, Node('next', start_when=logged(one, 'up'))]))
     for node in (one, other):
-        progress.start(node)
-    assert not progress.hear(other, 'up')
-    assert progress.startable() == []
+        scheduler.on_start(node)
+    assert not scheduler.on_line(other, 'up')
+    assert scheduler.startable() == []
 
 
-GRAPH = Graph(
+GRAPH = RosGraph(
     topics={'/odom': {'nav_msgs/msg/Odometry'}, '/tf': {'tf2_msgs/msg/TFMessage'}},
     services={'/robot/list', '/robot/get_parameters'},
     nodes={'/robot/sim'},
@@ -137,27 +137,27 @@ def test_what_is_no_pattern_or_no_time_is_refused():
 def test_a_path():
     condition = path_exists('/dev/ttyUSB0')
     assert judge(condition) == NOT_YET
-    assert judge(condition, paths={'/dev/ttyUSB0': PathLook(False)}) == NOT_YET
-    assert judge(condition, paths={'/dev/ttyUSB0': PathLook(True)}) == HOLDS
+    assert judge(condition, paths={'/dev/ttyUSB0': PathState(False)}) == NOT_YET
+    assert judge(condition, paths={'/dev/ttyUSB0': PathState(True)}) == HOLDS
 
 
 def test_time_after_the_begin_and_after_a_condition():
     node = Node('n')
     late, later = Node('late', start_when=after(5)), Node('later')
     later = Node('later', start_when=after(2, after(1, exited_cleanly(node))))
-    progress = Scheduler(Stack([node, late, later]), begin=100.0)
-    progress.start(node)
-    assert progress.next_time() == 105.0
-    progress.at(101.0)
-    progress.end(node, 0)
-    assert progress.next_time() == 102.0
-    progress.at(102.5)  # a little late, which the two seconds count from
-    assert progress.startable() == []
-    assert progress.next_time() == 104.5
-    progress.at(104.5)
-    assert progress.startable() == [later]
-    progress.at(105.0)
-    assert progress.startable() == [late, later]
+    scheduler = Scheduler(Stack([node, late, later]), start_time=100.0)
+    scheduler.on_start(node)
+    assert scheduler.next_time() == 105.0
+    scheduler.advance_to(101.0)
+    scheduler.on_exit(node, 0)
+    assert scheduler.next_time() == 102.0
+    scheduler.advance_to(102.5)  # a little late, which the two seconds count from
+    assert scheduler.startable() == []
+    assert scheduler.next_time() == 104.5
+    scheduler.advance_to(104.5)
+    assert scheduler.startable() == [later]
+    scheduler.advance_to(105.0)
+    assert scheduler.startable() == [late, later]
 
 
 def test_time_after_what_never_happens_never_passes():
@@ -192,13 +192,13 @@ def test_time_after_what_never_happens_never_passes():
     ],
 )
 def test_what_is_lacking_and_what_is_there_instead(condition, state, text):
-    dev = PathLook(False, frozenset({'ttyUSB1', 'null'}))
+    dev = PathState(False, frozenset({'ttyUSB1', 'null'}))
     paths = {'/dev/ttyUSB0': dev, '/dev/board': dev}
     assert lack(condition, state, graph=GRAPH, paths=paths) == text
 
 
 def test_many_names_are_cut_to_the_nearest():
-    graph = Graph(services={f'/s{n}/list' for n in range(20)} | {'/listen'})
+    graph = RosGraph(services={f'/s{n}/list' for n in range(20)} | {'/listen'})
     text = lack(service('/list'), graph=graph)
     assert text.startswith('the service /list is not there; there are /listen, ')
     assert text.endswith(' and 13 more')

@@ -7,7 +7,13 @@ import os
 
 import pytest
 
-from amr_description.bringup.environment import add_options, exports, told, variables, words
+from amr_description.bringup.environment import (
+    add_options,
+    as_arguments,
+    discovery_text,
+    exports,
+    variables,
+)
 from amr_description.bringup.main import main as bringup_main
 from amr_description.cli import ros2
 from amr_description.errors import UsageError
@@ -47,7 +53,7 @@ def options(*typed):
 )
 def test_each_option_stands_for_a_variable(typed, expected):
     assert variables(options(*typed), {}) == expected
-    assert options(*words(options(*typed))) == options(*typed), 'ros2 launch hands them on'
+    assert options(*as_arguments(options(*typed))) == options(*typed), 'ros2 launch hands them on'
 
 
 def test_an_option_wins_over_the_shell_which_may_be_wrong_then():
@@ -112,7 +118,7 @@ def test_right_variables_are_left_alone():
     ],
 )
 def test_what_a_person_is_told_and_types_next(environment, text, lines):
-    assert told(environment) == text
+    assert discovery_text(environment) == text
     assert exports(environment) == lines
 
 

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from amr_description.bringup.environment import child_environment, other_shell, WHEELS_GUARD
+from amr_description.bringup.environment import child_environment, setup_command, WHEELS_GUARD
 
 OURS = f'{sys.prefix}/lib'
 BASE = {'PATH': os.environ['PATH'], WHEELS_GUARD: '1', 'LD_LIBRARY_PATH': f'/opt/x:{OURS}'}
@@ -65,14 +65,14 @@ def test_what_to_type_in_another_shell(tmp_path, monkeypatch):
     marker.parent.mkdir(parents=True)
     marker.touch()
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(prefix))
-    assert other_shell('robot', {}) == ''
+    assert setup_command('robot', {}) == ''
     (tmp_path / 'ws/install/setup.bash').touch()
-    assert other_shell('robot', {}) == f'source {tmp_path}/ws/install/setup.bash'
+    assert setup_command('robot', {}) == f'source {tmp_path}/ws/install/setup.bash'
     activate = tmp_path / 'ws/scripts/activate'
     activate.parent.mkdir()
     activate.touch()
     monkeypatch.chdir(tmp_path / 'ws')
     assert Path.cwd() == tmp_path / 'ws'
-    assert other_shell('robot', {'ROS_DOMAIN_ID': '0'}) == 'source scripts/activate'
+    assert setup_command('robot', {'ROS_DOMAIN_ID': '0'}) == 'source scripts/activate'
     text = 'source scripts/activate && export ROS_DOMAIN_ID=7'
-    assert other_shell('robot', {'ROS_DOMAIN_ID': '7'}) == text
+    assert setup_command('robot', {'ROS_DOMAIN_ID': '7'}) == text

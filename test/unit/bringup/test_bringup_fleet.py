@@ -52,20 +52,20 @@ def test_every_robot_has_its_own_of_everything_in_its_namespace():
 
 def test_each_waits_for_its_own_robot_only():
     made = stack(robots='2')
-    progress = Scheduler(made)
-    for node in progress.startable():
-        progress.start(node)
+    scheduler = Scheduler(made)
+    for node in scheduler.startable():
+        scheduler.on_start(node)
     first, second = of(made.nodes, 'create')
     for create, namespace in ((second, 'robot2'), (first, 'robot1')):
-        progress.end(create, 0)
-        (spawner,) = progress.startable()
+        scheduler.on_exit(create, 0)
+        (spawner,) = scheduler.startable()
         assert spawner.namespace == namespace
-        progress.start(spawner)
+        scheduler.on_start(spawner)
     one, other = of(made.nodes, 'spawner')
-    progress.end(other, 0)
-    assert not progress.ready
-    progress.end(one, 0)
-    assert progress.ready
+    scheduler.on_exit(other, 0)
+    assert not scheduler.ready
+    scheduler.on_exit(one, 0)
+    assert scheduler.ready
 
 
 @pytest.mark.parametrize('count', [1, 2, 3, 10, 20])

@@ -17,14 +17,14 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.command_line import jobs_of
+from amr_description.bringup.command_line import process_specs
 from amr_description.bringup.placement import Placement
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.errors import BringupError
 
 
-def place_of(node, *members):
-    return {placed.node: placed for placed in Placement(Stack(members)).nodes}[node]
+def resolve(node, *members):
+    return {resolved.node: resolved for resolved in Placement(Stack(members)).nodes}[node]
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,7 @@ def place_of(node, *members):
 )
 def test_namespaces_nest_unless_they_begin_with_a_slash(outer, inner, own, namespace):
     node = Node('n', namespace=own)
-    assert place_of(node, Group([Group([node], namespace=inner)], namespace=outer)).namespace == (
+    assert resolve(node, Group([Group([node], namespace=inner)], namespace=outer)).namespace == (
         namespace
     )
 
@@ -55,24 +55,24 @@ def test_what_stands_further_inside_comes_later():
     )
     inner = Group([node], environment={'A': 'i', 'B': 'i'}, parameters=[{'x': 1}])
     outer = Group([inner], environment={'A': 'o'}, parameters=['o.yaml'], remappings=[('a', 'o')])
-    placed = place_of(node, outer)
-    assert placed.environment == {'A': 'i', 'B': 'n', 'C': 'n'}
-    assert placed.parameters == ('o.yaml', {'x': 1}, 'n.yaml')
-    assert placed.remappings == (('a', 'o'), ('a', 'n'))
+    resolved = resolve(node, outer)
+    assert resolved.environment == {'A': 'i', 'B': 'n', 'C': 'n'}
+    assert resolved.parameters == ('o.yaml', {'x': 1}, 'n.yaml')
+    assert resolved.remappings == (('a', 'o'), ('a', 'n'))
 
 
 def test_what_a_group_has_its_neighbour_has_not():
     node = Node('n')
-    placed = place_of(node, Group([Node('m')], namespace='a', environment={'A': '1'}), node)
-    assert (placed.namespace, placed.environment) == (None, {})
+    resolved = resolve(node, Group([Node('m')], namespace='a', environment={'A': '1'}), node)
+    assert (resolved.namespace, resolved.environment) == (None, {})
 
 
 @pytest.mark.parametrize('condition', [topic, service, ros_node])
 @pytest.mark.parametrize(('name', 'full'), [('odom', '/robot1/odom'), ('/odom', '/odom')])
 def test_names_in_conditions_are_of_the_group(condition, name, full):
     node = Node('n', namespace='arm', start_when=condition(name))
-    assert place_of(node, Group([node], namespace='robot1')).start_when == condition(full)
-    assert place_of(node, node).start_when == condition(f'/{name.lstrip("/")}')
+    assert resolve(node, Group([node], namespace='robot1')).start_when == condition(full)
+    assert resolve(node, node).start_when == condition(f'/{name.lstrip("/")}')
 
 
 def robot(**options):
@@ -84,7 +84,7 @@ def robot(**options):
 def test_a_stack_in_a_group_looks_in_its_namespace():
     first, second = robot(), robot()
     stack = Stack([Group([first], namespace='one'), Group([second], namespace='two')])
-    assert [str(placed.start_when.name) for placed in Placement(stack).nodes[1::2]] == [
+    assert [str(resolved.start_when.name) for resolved in Placement(stack).nodes[1::2]] == [
         '/one/list',
         '/two/list',
     ]
@@ -94,46 +94,46 @@ def test_ready_is_when_the_stack_says_wherever_it_is_asked():
     inner = Stack([Node('sim')], ready_when=topic('odom'))
     after_it = Node('rviz', start_when=ready(inner))
     stack = Stack([Group([inner], namespace='robot1'), Group([after_it], namespace='screens')])
-    placed = Placement(stack)
-    assert placed.nodes[1].start_when == topic('/robot1/odom')
+    placement = Placement(stack)
+    assert placement.nodes[1].start_when == topic('/robot1/odom')
 
 
 def test_a_stack_is_ready_once_those_in_it_are():
     inner, last = robot(), Node('last')
-    progress = Scheduler(Stack([inner, Group([last])]))
+    scheduler = Scheduler(Stack([inner, Group([last])]))
     for node in (inner.nodes[0], last, inner.nodes[1]):
-        progress.start(node)
-    assert not progress.ready
-    progress.end(inner.nodes[1], 0)
-    assert progress.ready
+        scheduler.on_start(node)
+    assert not scheduler.ready
+    scheduler.on_exit(inner.nodes[1], 0)
+    assert scheduler.ready
 
 
 def test_an_optional_node_that_never_starts_does_not_keep_a_stack_from_being_ready():
     fails = Node('fails', required=False)
     waits = Node('waits', required=False, start_when=exited_cleanly(fails))
-    progress = Scheduler(Stack([fails, waits, Node('worker')]))
-    for node in progress.startable():
-        progress.start(node)
-    assert not progress.ready
-    progress.end(fails, 1)
-    assert progress.ready
+    scheduler = Scheduler(Stack([fails, waits, Node('worker')]))
+    for node in scheduler.startable():
+        scheduler.on_start(node)
+    assert not scheduler.ready
+    scheduler.on_exit(fails, 1)
+    assert scheduler.ready
 
 
 def test_all_of_a_group_wait_for_what_the_group_waits_for():
     first = Node('first')
     second, third = Node('second'), Node('third', start_when=logged(first, 'up'))
-    progress = Scheduler(Stack([first, Group([second, third], start_when=exited_cleanly(first))]))
-    progress.start(first)
-    progress.hear(first, 'up')
-    assert progress.startable() == []
-    progress.end(first, 0)
-    assert progress.startable() == [second, third]
+    scheduler = Scheduler(Stack([first, Group([second, third], start_when=exited_cleanly(first))]))
+    scheduler.on_start(first)
+    scheduler.on_line(first, 'up')
+    assert scheduler.startable() == []
+    scheduler.on_exit(first, 0)
+    assert scheduler.startable() == [second, third]
 
 
-def test_patience_is_that_of_the_stack_around_a_node():
-    inner = Stack([Node('a'), Node('b', patience=3.0)], patience=5.0)
-    placed = Placement(Stack([Node('c'), Group([inner])], patience=9.0)).nodes
-    assert {p.node.executable: p.patience for p in placed} == {'a': 5.0, 'b': 3.0, 'c': 9.0}
+def test_the_timeout_is_that_of_the_stack_around_a_node():
+    inner = Stack([Node('a'), Node('b', timeout=3.0)], timeout=5.0)
+    nodes = Placement(Stack([Node('c'), Group([inner])], timeout=9.0)).nodes
+    assert {each.node.executable: each.timeout for each in nodes} == {'a': 5.0, 'b': 3.0, 'c': 9.0}
 
 
 def test_numbers_and_command_lines(tmp_path, monkeypatch):
@@ -142,10 +142,10 @@ def test_numbers_and_command_lines(tmp_path, monkeypatch):
     one = Node('worker', package='toys', name='w', prefix="nice -n '10'")
     two = Node('step', package='toys')
     group = Group([one], namespace='robot1', parameters=[{'a': 1}], remappings=[('/tf', 'tf')])
-    first, second, third = jobs_of(
+    first, second, third = process_specs(
         Stack([Stack([two]), group, Node('step', package='toys')]), tmp_path
     )
-    assert [job.name for job in (first, second, third)] == ['step-1', 'worker-2', 'step-3']
+    assert [spec.name for spec in (first, second, third)] == ['step-1', 'worker-2', 'step-3']
     assert second.command == [
         'nice', '-n', '10', f'{tmp_path}/lib/toys/worker', '--ros-args',
         '-r', '__node:=w', '-r', '__ns:=/robot1',
@@ -167,7 +167,7 @@ def test_what_cannot_be_is_refused():
         Stack([node], ready_when=ready(inner))
     with pytest.raises(BringupError, match="'talker' stands in a stack; there can be"):
         Stack([Group(['talker'])])
-    for patience in (0, -1, float('nan')):
+    for timeout in (0, -1, float('nan')):
         for kind in (Node, lambda _, **options: Stack([node], **options)):
             with pytest.raises(BringupError, match='takes more than 0 s'):
-                kind('a', patience=patience)
+                kind('a', timeout=timeout)

@@ -6,7 +6,7 @@ import pytest
 from support.paths import ROOT
 
 from amr_description.bringup.arguments import declared, resolve
-from amr_description.bringup.conditions import PathLook
+from amr_description.bringup.conditions import PathState
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.hardware import mock, serial
 from amr_description.errors import AmrError
@@ -30,18 +30,18 @@ def stack(function, **given):
 
 
 def waves(stack):
-    progress = Scheduler(stack)
+    scheduler = Scheduler(stack)
     port = hardware(stack).parameters.get('port')
     if port:
-        yield [node.executable for node in progress.startable()]
-        progress.see(paths={port: PathLook(True)})
-    while wave := progress.startable():
+        yield [node.executable for node in scheduler.startable()]
+        scheduler.observe(paths={port: PathState(True)})
+    while wave := scheduler.startable():
         for node in wave:
-            progress.start(node)
+            scheduler.on_start(node)
         yield [node.executable for node in wave]
-        assert not progress.ready
-        progress.end(wave[-1], 0)
-    assert progress.ready
+        assert not scheduler.ready
+        scheduler.on_exit(wave[-1], 0)
+    assert scheduler.ready
 
 
 def hardware(stack):
@@ -75,12 +75,12 @@ def test_a_real_board():
 
 
 def test_a_port_that_is_not_there_is_told_soon():
-    progress = Scheduler(stack(serial, port='/dev/nonsense'))
-    progress.at(0.0)
-    assert progress.next_time() == 10.0
-    progress.see(paths={'/dev/nonsense': PathLook(False, frozenset({'ttyACM0', 'null'}))})
-    progress.at(10.0)
-    assert progress.failure.text(lambda node: node.executable) == (
+    scheduler = Scheduler(stack(serial, port='/dev/nonsense'))
+    scheduler.advance_to(0.0)
+    assert scheduler.next_time() == 10.0
+    scheduler.observe(paths={'/dev/nonsense': PathState(False, frozenset({'ttyACM0', 'null'}))})
+    scheduler.advance_to(10.0)
+    assert scheduler.failure.text(lambda node: node.executable) == (
         'ros2_control_node waited 10 s in vain: there is no /dev/nonsense; /dev has ttyACM0'
     )
 

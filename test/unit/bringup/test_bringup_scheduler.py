@@ -23,90 +23,90 @@ def chain(length, **options):
 @pytest.mark.parametrize('order', list(itertools.permutations(range(3))))
 def test_the_order_of_the_list_does_not_matter(order):
     nodes = chain(3)
-    progress = Scheduler(Stack([nodes[i] for i in order]))
+    scheduler = Scheduler(Stack([nodes[i] for i in order]))
     for node in nodes:
-        assert progress.startable() == [node]
-        progress.start(node)
-        assert progress.startable() == []
-        assert not progress.over
-        progress.end(node, 0)
-    assert progress.over
-    assert progress.failure is None
-    assert progress.ready
+        assert scheduler.startable() == [node]
+        scheduler.on_start(node)
+        assert scheduler.startable() == []
+        assert not scheduler.over
+        scheduler.on_exit(node, 0)
+    assert scheduler.over
+    assert scheduler.failure is None
+    assert scheduler.ready
 
 
 @pytest.mark.parametrize(('returncode', 'exit_code'), [(1, 1), (255, 255), (-9, 137), (-2, 130)])
 def test_a_failure_ends_the_stack_with_the_code_of_the_failed(returncode, exit_code):
     first, second, third = chain(3)
-    progress = Scheduler(Stack([first, second, third]))
-    progress.start(first)
-    progress.end(first, returncode)
-    assert progress.over
-    assert progress.failure == Failure(first, returncode)
-    assert progress.failure.exit_code == exit_code
-    assert progress.unreachable() == [second, third]
-    assert progress.startable() == []
-    assert not progress.ready
+    scheduler = Scheduler(Stack([first, second, third]))
+    scheduler.on_start(first)
+    scheduler.on_exit(first, returncode)
+    assert scheduler.over
+    assert scheduler.failure == Failure(first, returncode)
+    assert scheduler.failure.exit_code == exit_code
+    assert scheduler.unreachable() == [second, third]
+    assert scheduler.startable() == []
+    assert not scheduler.ready
 
 
 def test_only_the_first_failure_counts():
     one, other = Node('a'), Node('b')
-    progress = Scheduler(Stack([one, other]))
-    progress.start(one)
-    progress.start(other)
-    progress.end(other, 7)
-    progress.end(one, -15)
-    assert progress.failure == Failure(other, 7)
+    scheduler = Scheduler(Stack([one, other]))
+    scheduler.on_start(one)
+    scheduler.on_start(other)
+    scheduler.on_exit(other, 7)
+    scheduler.on_exit(one, -15)
+    assert scheduler.failure == Failure(other, 7)
 
 
 def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
     optional = chain(3, required=False)
-    progress = Scheduler(Stack([*optional, Node('worker')]))
-    for node in progress.startable():
-        progress.start(node)
-    progress.end(optional[0], 1)
-    assert progress.unreachable() == optional[1:]
-    assert not progress.over
+    scheduler = Scheduler(Stack([*optional, Node('worker')]))
+    for node in scheduler.startable():
+        scheduler.on_start(node)
+    scheduler.on_exit(optional[0], 1)
+    assert scheduler.unreachable() == optional[1:]
+    assert not scheduler.over
 
     required = Node('required', start_when=exited_cleanly(optional[2]))
-    progress = Scheduler(Stack([*optional, required]))
-    progress.start(optional[0])
-    progress.end(optional[0], 1)
-    assert progress.failure == Failure(optional[0], 1)
-    assert progress.unreachable() == [*optional[1:], required]
+    scheduler = Scheduler(Stack([*optional, required]))
+    scheduler.on_start(optional[0])
+    scheduler.on_exit(optional[0], 1)
+    assert scheduler.failure == Failure(optional[0], 1)
+    assert scheduler.unreachable() == [*optional[1:], required]
 
 
 def test_a_clean_end_may_end_all():
     boss, worker = Node('boss', on_exit='shutdown'), Node('worker')
-    progress = Scheduler(Stack([boss, worker]))
-    progress.start(boss)
-    progress.start(worker)
-    progress.end(boss, 0)
-    assert progress.over
-    assert progress.failure is None
+    scheduler = Scheduler(Stack([boss, worker]))
+    scheduler.on_start(boss)
+    scheduler.on_start(worker)
+    scheduler.on_exit(boss, 0)
+    assert scheduler.over
+    assert scheduler.failure is None
 
 
 def test_started_and_all_of():
     one, other = Node('one'), Node('other')
     both = Node('both', start_when=all_of(started(one), exited_cleanly(other)))
-    progress = Scheduler(Stack([one, other, both]))
-    progress.start(one)
-    progress.start(other)
-    assert progress.startable() == []
-    progress.end(other, 0)
-    assert progress.startable() == [both]
+    scheduler = Scheduler(Stack([one, other, both]))
+    scheduler.on_start(one)
+    scheduler.on_start(other)
+    assert scheduler.startable() == []
+    scheduler.on_exit(other, 0)
+    assert scheduler.startable() == [both]
     words = both.start_when.describe(lambda node: node.executable)
     assert words == 'one was started and other exited with code 0'
 
 
 def test_ready_without_a_condition_is_when_all_were_started():
     first, second = chain(2)
-    progress = Scheduler(Stack([first, second]))
-    progress.start(first)
-    progress.end(first, 0)
-    assert not progress.ready
-    progress.start(second)
-    assert progress.ready
+    scheduler = Scheduler(Stack([first, second]))
+    scheduler.on_start(first)
+    scheduler.on_exit(first, 0)
+    assert not scheduler.ready
+    scheduler.on_start(second)
+    assert scheduler.ready
 
 
 def test_a_stack_that_cannot_run_is_refused():

@@ -21,10 +21,10 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.conditions import Graph, Verdict
+from amr_description.bringup.conditions import RosGraph, Verdict
 from amr_description.bringup.scheduler import Scheduler
 
-PATIENCE = 10.0
+TIMEOUT = 10.0
 """s"""
 SEEDS = [range(first, first + 100) for first in range(0, 500, 100)]
 
@@ -56,7 +56,7 @@ def stack(chance):
         nodes.append(node)
     members = [chance.choice([node, Group([node])]) for node in nodes]
     ready_when = condition(chance, nodes) if chance.random() < 0.5 else None
-    return Stack(members, ready_when=ready_when, patience=PATIENCE)
+    return Stack(members, ready_when=ready_when, timeout=TIMEOUT)
 
 
 class Run:
@@ -64,19 +64,19 @@ class Run:
 
     def __init__(self, seed):
         self.chance = random.Random(seed)
-        self.progress = Scheduler(stack(self.chance), begin=5.0)
+        self.scheduler = Scheduler(stack(self.chance), start_time=5.0)
         self.running, self.starts, self.time = [], {}, 5.0
 
     def start_all(self):
-        while not self.progress.over and (nodes := self.progress.startable()):
+        while not self.scheduler.over and (nodes := self.scheduler.startable()):
             (node, *_) = nodes
-            condition = self.progress.waits_for(node)
+            condition = self.scheduler.condition_of(node)
             first = node not in self.starts
             if first and condition is not None:
-                assert condition.evaluate(self.progress.situation) is Verdict.HOLDS
+                assert condition.evaluate(self.scheduler.state) is Verdict.HOLDS
             self.starts[node] = self.starts.get(node, 0) + 1
             assert node not in self.running
-            self.progress.start(node)
+            self.scheduler.on_start(node)
             self.running.append(node)
 
     def happen(self):
@@ -86,21 +86,21 @@ class Run:
             case 'end':
                 node = self.chance.choice(self.running)
                 self.running.remove(node)
-                self.progress.end(node, self.chance.choice([0, 1, -9]))
+                self.scheduler.on_exit(node, self.chance.choice([0, 1, -9]))
             case 'say':
-                self.progress.hear(self.chance.choice(self.running), 'up')
+                self.scheduler.on_line(self.chance.choice(self.running), 'up')
             case 'topic':
                 there = {'/odom': {'a/msg/B'}} if self.chance.random() < 0.5 else {}
-                self.progress.see(graph=Graph(topics=there))
+                self.scheduler.observe(graph=RosGraph(topics=there))
             case _:
                 self.pass_time()
 
     def pass_time(self):
-        next_time = self.progress.next_time()
+        next_time = self.scheduler.next_time()
         if next_time is not None:
             assert next_time > self.time
             self.time = next_time
-        self.progress.at(self.time)
+        self.scheduler.advance_to(self.time)
 
 
 @pytest.mark.parametrize('seeds', SEEDS, ids=str)
@@ -113,12 +113,12 @@ def check(run):
     events = run.chance.randint(0, 20)
     for count in itertools.count():
         run.start_all()
-        if run.progress.over:
+        if run.scheduler.over:
             break
-        assert run.running or run.progress.next_time() is not None
+        assert run.running or run.scheduler.next_time() is not None
         if count < events:
             run.happen()
-        elif run.progress.next_time() is not None:
+        elif run.scheduler.next_time() is not None:
             run.pass_time()
         else:
             break  # it is up, and all that will ever start was started
@@ -132,6 +132,6 @@ def test_a_failure_of_a_required_node_is_never_lost(seeds):
         run.start_all()
         required = [node for node in run.running if node.required and not node.respawn]
         for node in required[:1]:
-            run.progress.end(node, 3)
-            assert run.progress.over
-            assert run.progress.failure.exit_code == 3
+            run.scheduler.on_exit(node, 3)
+            assert run.scheduler.over
+            assert run.scheduler.failure.exit_code == 3

@@ -33,31 +33,31 @@ def stack(**given):
 
 
 def test_the_order_of_the_tutorial():
-    progress = Scheduler(stack())
+    scheduler = Scheduler(stack())
     waves = []
-    while wave := progress.startable():
+    while wave := scheduler.startable():
         for node in wave:
-            progress.start(node)
+            scheduler.on_start(node)
         waves.append([[node.executable, *node.arguments[:1]] for node in wave])
-        progress.end(wave[-1], 0)
+        scheduler.on_exit(wave[-1], 0)
     assert waves == [
         [['mujoco_sim'], ['robot_state_publisher'], ['create', '-topic']],
         [['spawner', 'joint_state_broadcaster']],
         [['spawner', 'diff_drive_controller']],
         [['viewer']],
     ]
-    assert progress.ready
+    assert scheduler.ready
 
 
 def test_it_is_ready_only_with_the_last_controller():
-    progress = Scheduler(stack())
+    scheduler = Scheduler(stack())
     for _ in range(3):
-        assert not progress.ready
-        *_, last = progress.startable()
-        for node in progress.startable():
-            progress.start(node)
-        progress.end(last, 0)
-    assert progress.ready
+        assert not scheduler.ready
+        *_, last = scheduler.startable()
+        for node in scheduler.startable():
+            scheduler.on_start(node)
+        scheduler.on_exit(last, 0)
+    assert scheduler.ready
 
 
 def test_parameters(installed):

@@ -16,7 +16,7 @@ from amr_description.bringup import (
     Respawn,
     Stack,
 )
-from amr_description.bringup.command_line import jobs_of
+from amr_description.bringup.command_line import process_specs
 from amr_description.bringup.main import listing
 from amr_description.bringup.placement import Placement
 from amr_description.errors import BringupError, ResourceError, UsageError
@@ -145,7 +145,7 @@ def test_the_tree_is_printed_with_full_names_and_in_words(tmp_path):
     robot = Group([Stack([chatty]), worker], namespace='robot1')
     stack = Stack([robot], ready_when=exited_cleanly(chatty.nodes[0]))
     folder = f'{tmp_path}/lib/toys'
-    assert listing(stack, jobs_of(stack, tmp_path)).splitlines() == [
+    assert listing(stack, process_specs(stack, tmp_path)).splitlines() == [
         'group robot1:',
         '    stack:',
         '        stack:',
@@ -163,4 +163,4 @@ def test_ready_made_stacks_can_be_included(tmp_path):
     root = STACKS.parents[3]
     files = {'urdf': root / 'urdf/amr.urdf', 'controllers': root / 'config/controllers.yaml'}
     stack = Stack([Group([include('mock', **files)], namespace='robot1')])
-    assert {placed.namespace for placed in Placement(stack).nodes} == {'/robot1'}
+    assert {resolved.namespace for resolved in Placement(stack).nodes} == {'/robot1'}

@@ -24,7 +24,7 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.command_line import jobs_of
+from amr_description.bringup.command_line import process_specs
 from amr_description.errors import BringupError
 
 NODE = Node('talker')
@@ -55,7 +55,7 @@ NODE = Node('talker')
         ({'prefix': ['gdb']}, 'a text'),
         ({'start_when': NODE}, 'a condition, as exited_cleanly(node)'),
         ({'start_when': exited_cleanly}, 'a condition, as exited_cleanly(node)'),
-        ({'patience': '5'}, 'a number'),
+        ({'timeout': '5'}, 'a number'),
         ({'required': 'no'}, 'True or False'),
         ({'terminal': 1}, 'True or False'),
         ({'respawn': True}, 'Respawn(…)'),
@@ -85,8 +85,8 @@ def test_an_executable_has_a_name(executable):
         (lambda: Stack(node for node in [NODE]), 'it takes a list of nodes, groups'),
         (lambda: Stack([[NODE]]), "[Node('talker')] stands in a stack; there can be Node"),
         (lambda: Stack([NODE], ready_when=NODE), "Stack(…, ready_when=Node('talker')): it takes"),
-        (lambda: Stack([NODE], patience=None), 'Stack(…, patience=None): it takes a number'),
-        (lambda: Stack([NODE], patience=math.nan), 'patience=nan: it takes more than 0 s'),
+        (lambda: Stack([NODE], timeout=None), 'Stack(…, timeout=None): it takes a number'),
+        (lambda: Stack([NODE], timeout=math.nan), 'timeout=nan: it takes more than 0 s'),
         (lambda: Stack([NODE], on_shutdown='x'), 'it takes a function'),
         (lambda: Stack([NODE], next_steps=5), 'it takes a text'),
         (lambda: Stack([NODE], notes=['hello']), "pairs, as [('INFO', 'a text')]"),
@@ -119,7 +119,16 @@ def test_a_wrong_parameter_is_told_with_its_node(tmp_path, monkeypatch, table):
     install_toys(tmp_path)
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
     with pytest.raises(BringupError, match=r'^step-1: .*parameter'):
-        jobs_of(Stack([Node('step', package='toys', parameters=[table])]), tmp_path)
+        process_specs(Stack([Node('step', package='toys', parameters=[table])]), tmp_path)
+
+
+def test_patience_is_an_alias_of_timeout():
+    assert Node('arm', patience=5).timeout == 5
+    assert Stack([NODE], patience=math.inf).timeout == math.inf
+    with pytest.raises(BringupError, match=r"Node\('arm', timeout='5'\): it takes a number"):
+        Node('arm', patience='5')
+    with pytest.raises(BringupError, match='timeout=0: it takes more than 0 s'):
+        Stack([NODE], patience=0)
 
 
 def test_what_can_be_meant_is_taken(tmp_path):
@@ -131,6 +140,6 @@ def test_what_can_be_meant_is_taken(tmp_path):
         remappings=[['a', 'b']],
         on_exit=lambda _: None,
         respawn=Respawn(limit=None),
-        patience=math.inf,
+        timeout=math.inf,
     )
     all_of()

@@ -55,13 +55,13 @@ def test_no_page_where_it_is_not_wanted(function):
 
 def test_display_shows_the_robot_and_moves_its_joints():
     stack = made(display)
-    progress = Scheduler(stack)
+    scheduler = Scheduler(stack)
     for wave in (['robot_state_publisher', 'joint_state_publisher'], ['viewer']):
-        startable = progress.startable()
+        startable = scheduler.startable()
         assert [node.executable for node in startable] == wave
         for node in startable:
-            progress.start(node)
-    assert progress.ready
+            scheduler.on_start(node)
+    assert scheduler.ready
     assert stack.nodes[0].parameters == [
         {'robot_description': (ROOT / 'urdf/amr.urdf').read_text()}
     ]

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a person looks at beside a stack: the page in the browser; RViz where it is installed."""
+"""What a stack shows its user: the page in the browser, and RViz where it is installed."""
 
 from amr_description.ament_index import is_installed
 from amr_description.bringup import Node, path_of
@@ -12,18 +12,20 @@ ABOUT_VIEWER = 'whether to serve the page in the browser: the robot, its values,
 
 def page(wanted: bool, start_when: Condition | None = None) -> list[Node]:
     """
-    Return the node that serves the page, if it is wanted; its failure stops nothing.
+    Return the node that serves the page, if it is wanted; its failure does not stop the stack.
 
-    :param start_when: When: best once the stack is ready, since it has nothing to show before.
+    Args:
+        wanted: the stack's argument ``viewer``.
+        start_when: best the readiness of the stack, since there is nothing to show before.
     """
     return [Node('viewer', required=False, start_when=start_when)] if wanted else []
 
 
 def rviz(config: str) -> list[Node]:
     """
-    Return RViz with a configuration of ``config/rviz``, if it is installed.
+    Return RViz, if it is installed, with a configuration of ``config/rviz``.
 
-    Its end stops nothing: a window may be closed.
+    Closing its window does not stop the stack.
     """
     if not is_installed('rviz2'):
         return []
