@@ -10,12 +10,11 @@ import itertools
 import re
 import shutil
 import time
-from typing import Literal, TextIO
+from typing import TextIO
 
+from amr_description.bringup.description import Level
 from amr_description.bringup.run_log import LogFolder, with_tilde
 from amr_description.bringup.terminal import as_foreground
-
-type Level = Literal['INFO', 'WARNING', 'ERROR']
 
 LAUNCH = 'launch'
 """The name under which the orchestrator itself logs."""

@@ -25,13 +25,14 @@ from amr_description.bringup.conditions import (
     StackState,
     Verdict,
 )
-from amr_description.bringup.console import Level
 from amr_description.bringup.handlers import ExitHandler, StopHandler
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
 type ParameterValue = Scalar | Sequence[Scalar] | Mapping[str, ParameterValue]
 type Parameters = Sequence[Mapping[str, ParameterValue] | str | Path]
+type Level = Literal['INFO', 'WARNING', 'ERROR']
+"""The severity of a message, as launch writes it."""
 
 DEFAULT_TIMEOUT = 60.0
 """s"""

@@ -9,16 +9,15 @@ RViz. So whatever reads the file and passes the text on writes ``file://`` URIs 
 of them understand. The standard library is enough: the launcher does so, too.
 """
 
+from html import unescape
 from pathlib import Path
 import re
 from urllib.parse import quote
-from xml.sax.saxutils import unescape
 
 _FILE_NAME = re.compile(
     r'(<(?:mesh|texture)\s(?:[^<>"\']|"[^"]*"|\'[^\']*\')*?\bfilename\s*=\s*)("[^"<]*"|\'[^\'<]*\')'
 )
 _SCHEME = re.compile(r'[A-Za-z][A-Za-z0-9+.-]*:')
-_ENTITIES = {'&quot;': '"', '&apos;': "'"}
 
 
 def with_absolute_paths(text: str, folder: Path) -> str:
@@ -36,7 +35,7 @@ def with_absolute_paths(text: str, folder: Path) -> str:
 
     def absolute(match: re.Match[str]) -> str:
         before, quoted = match.groups()
-        path = unescape(quoted[1:-1], _ENTITIES).strip()
+        path = unescape(quoted[1:-1]).strip()
         if not path or path.startswith(('/', '~', '$')) or _SCHEME.match(path):
             return match[0]
         file = folder / path

@@ -74,7 +74,7 @@ class Process:
     """What stands in for the process of the watch."""
 
     def __init__(self, on_line):
-        self.say, self.sent, self.returncode = on_line, None, None
+        self.write, self.sent, self.returncode = on_line, None, None
 
     def poll(self):
         return self.returncode is not None
@@ -106,11 +106,11 @@ def test_the_graph_is_what_the_lines_say():
     watched.watch.set_wanted(True, 0.0)
     (process,) = watched.processes
     for line in ('+ topic /a x/msg/Y', '+ topic /a x/msg/Z', '+ service /s', '+ node /n'):
-        process.log(line)
+        process.write(line)
     assert watched.watch.graph == RosGraph({'/a': {'x/msg/Y', 'x/msg/Z'}}, {'/s'}, {'/n'})
-    process.log('- topic /a x/msg/Y')
-    process.log('- node /n')
-    process.log('[RTPS_TRANSPORT_SHM Error] + node')
+    process.write('- topic /a x/msg/Y')
+    process.write('- node /n')
+    process.write('[RTPS_TRANSPORT_SHM Error] + node')
     assert watched.watch.graph == RosGraph({'/a': {'x/msg/Z'}}, {'/s'}, frozenset())
     assert watched.woken == 6
     assert watched.said == ['[RTPS_TRANSPORT_SHM Error] + node']
@@ -122,7 +122,7 @@ def test_a_watch_that_dies_is_started_again_ever_later_and_forgets_what_it_saw()
     for delay in (1.0, 2.0, 4.0, 8.0, 16.0, 30.0, 30.0):
         assert watched.watch.set_wanted(True, now) is None
         process = watched.processes[-1]
-        process.log('+ node /n')
+        process.write('+ node /n')
         process.returncode = 1
         assert watched.watch.set_wanted(True, now) == now + delay
         assert watched.watch.graph == RosGraph()

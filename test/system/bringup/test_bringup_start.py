@@ -61,7 +61,7 @@ def test_a_node_gets_the_command_line_that_launch_builds(tmp_path):
         words = ['-z', '0.2', '--ros-args', '-r', '__node:=hand', '-r', '__ns:=/left']
         bringup.expect(re.escape(f'arguments {words}\n'))
         path = bringup.expect(r"'--params-file', '([^']+)'")[1]
-        assert '"speed": 1.5' in Path(path).read_text()
+        assert 'speed: 1.5' in Path(path).read_text()
 
 
 def test_a_failed_step_stops_the_rest_and_says_which_and_why(tmp_path):

@@ -5,12 +5,13 @@
 from itertools import combinations
 import math
 
+from hypothesis import given, strategies as st
 import pytest
 from support.paths import ROOT
 
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.scheduler import Scheduler
-from amr_description.bringup.stacks.fleet import fleet
+from amr_description.bringup.stacks.fleet import fleet, grid
 from amr_description.errors import AmrError
 from amr_description.model.shapes import horizontal_reach
 from amr_description.model.urdf import load, parse
@@ -21,8 +22,8 @@ FILES = {
 }
 
 
-def stack(**given):
-    return fleet(**resolve(declared(fleet), FILES | given))
+def stack(**arguments):
+    return fleet(**resolve(declared(fleet), FILES | arguments))
 
 
 def of(nodes, executable):
@@ -106,3 +107,15 @@ def test_the_next_steps_are_for_two_of_them():
 def test_bad_arguments_are_told_before_anything_starts(given, text):
     with pytest.raises(AmrError, match=text):
         stack(**given)
+
+
+@given(st.integers(1, 60), st.floats(0.1, 10.0))
+def test_positions_keep_their_distance_and_are_centred_on_the_origin(count, spacing):
+    positions = list(grid(count, spacing))
+    assert len(positions) == count
+    for one, other in combinations(positions, 2):
+        assert math.dist(one, other) >= spacing * (1.0 - 1e-9)
+    for axis in range(2):
+        along = [position[axis] for position in positions]
+        assert min(along) == pytest.approx(-max(along))
+        assert max(along) <= spacing * math.sqrt(count) / 2.0

@@ -1,15 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""How much of the floor a robot takes, and places for several of them."""
+"""How much of the floor a robot takes."""
 
-from itertools import combinations
 import math
 
-from hypothesis import given, strategies as st
 import pytest
 from support.paths import ROOT
 
-from amr_description.bringup.stacks.fleet import grid
 from amr_description.model.shapes import horizontal_reach, REACH_OF_A_MESH
 from amr_description.model.urdf import load, parse
 
@@ -35,15 +32,3 @@ def test_the_shipped_robot_turns_within_its_reach():
     robot = load(ROOT / 'urdf/amr.urdf')
     # Its wheels, of radius 0.1 m, are 0.25 m from the middle.
     assert 0.35 < horizontal_reach(robot) < 0.6
-
-
-@given(st.integers(1, 60), st.floats(0.1, 10.0))
-def test_places_keep_their_distance_and_lie_about_the_origin(count, spacing):
-    places = list(grid(count, spacing))
-    assert len(places) == count
-    for one, other in combinations(places, 2):
-        assert math.dist(one, other) >= spacing * (1.0 - 1e-9)
-    for axis in range(2):
-        along = [place[axis] for place in places]
-        assert min(along) == pytest.approx(-max(along))
-        assert max(along) <= spacing * math.sqrt(count) / 2.0
