@@ -30,7 +30,7 @@ def robot(package):
 
 
 def test_the_test_of_the_page_passes(package, capsys):
-    PAGE.run(TEST)['test_it_turns_as_told'](mocked(MOCK))
+    PAGE.run(TEST)['test_it_turns_as_commanded'](mocked(MOCK))
 
 
 def test_the_yaml_of_the_page_loads_the_class(robot):
