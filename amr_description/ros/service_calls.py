@@ -3,6 +3,7 @@
 """What a program needs that asks others and then ends: waiting in words, and calling services."""
 
 from collections.abc import Callable
+import re
 import time
 from typing import Any
 
@@ -29,6 +30,11 @@ def client_node(name: str) -> Node:
     with argument_errors():
         validate_node_name(name)  # Node() does so too, but leaves a warning behind
         return Node(name)
+
+
+def name_of_type(interface_type: type) -> str:
+    """Return the usual name of a service or action of a type: ``GetState`` → ``get_state``."""
+    return re.sub('(?<!^)(?=[A-Z])', '_', interface_type.__name__).lower()
 
 
 def wait_until[Result](

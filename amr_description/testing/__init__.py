@@ -11,17 +11,16 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
         sim.drive(0.5, 0.0, seconds=2)
         assert sim.truth.x == pytest.approx(1.0, rel=0.01)
 
-====================  =========================================================================
-simulation.py         what a test holds in its hand
-fixtures.py           the same as pytest fixtures
-lock_step.py          the simulator's services, and commands that are known to have arrived
-robot.py              the robot: spawned, controlled, and found by its topics
-latest.py             the newest message of a topic
-program.py            the simulator's process: its start, its words, its end
-domains.py            ROS domains that nobody else is in
-readings.py           pure: what is read of a robot
-message_readings.py   messages → readings
-recorded_drive.py     a controller that drives a course and writes down every tick
-determinism.py        two runs of it, compared byte by byte
-====================  =========================================================================
+======================  ==========================================================================
+``simulation.py``       Simulation: what a test uses
+``fixtures.py``         the same as a pytest fixture
+
+``robot.py``            one robot: spawned, controlled, and read by its topics
+``readings.py``         its motion and joint states, from messages
+``lock_step.py``        services of a paused simulator; commands that are known to have arrived
+``program.py``          the simulator's process and its ROS domain
+
+``recorded_drive.py``   a controller that drives a course and records every state
+``determinism.py``      two runs of it, compared byte by byte
+======================  ==========================================================================
 """

@@ -4,7 +4,7 @@
 Drive twice, in real time and as fast as possible on a busy machine: are the bits the same.
 
 ``python -m amr_description.testing.determinism --seconds 30`` drives the robot of this package
-twice, prints what came of it, and ends with 0 if the two logs are equal byte by byte.
+twice, prints the digests of the two logs, and exits with 0 if they are equal byte by byte.
 """
 
 import argparse
@@ -41,15 +41,15 @@ _IMU = f"""
       </imu>
     </sensor>
   </gazebo>"""
-"""What by chance differs, if anything does."""
+"""A noisy sensor: the first thing that differs, if anything does."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """One drive."""
+    """The result of one drive."""
 
     log: bytes
-    """Every tick, see :mod:`amr_description.testing.recorded_drive`."""
+    """The log of :mod:`amr_description.testing.recorded_drive`."""
     factor: float
     """Simulated over wall time."""
 
@@ -60,7 +60,14 @@ class Run:
 
 
 def record(seconds: float, rtf: float, *, busy: int = 0) -> Run:
-    """Drive for so long, s, at a real-time factor, beside ``busy`` processes that never rest."""
+    """
+    Drive the course and return its log.
+
+    Args:
+        seconds: Of simulated time.
+        rtf: Real-time factor; 0: as fast as possible.
+        busy: The number of processes that load the machine meanwhile.
+    """
     with tempfile.TemporaryDirectory(prefix='amr-determinism-') as name, load(busy):
         folder = Path(name)
         log = folder / 'drive.log'
@@ -76,7 +83,7 @@ def record(seconds: float, rtf: float, *, busy: int = 0) -> Run:
 
 @contextmanager
 def load(count: int) -> Iterator[None]:
-    """So many processes that take a core each, while inside."""
+    """Run ``count`` processes that take a core each, while inside."""
     endless = [sys.executable, '-c', 'while True: pass']
     processes = [subprocess.Popen(endless, start_new_session=True) for _ in range(count)]
     try:
@@ -88,7 +95,7 @@ def load(count: int) -> Iterator[None]:
 
 
 def _files(folder: Path, log: Path, seconds: float) -> tuple[Path, Path]:
-    """The shipped parameters with the recording controller, and the shipped robot with an IMU."""
+    """Write the shipped parameters with the recording controller, and the robot with an IMU."""
     share = package_share('amr_description')
     urdf = folder / 'amr.urdf'
     text = (share / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')

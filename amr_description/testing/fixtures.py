@@ -7,8 +7,8 @@ In your ``conftest.py``::
 
     pytest_plugins = ['amr_description.testing.fixtures']
 
-They are no plugin of every pytest in this environment (an entry point ``pytest11`` would be): who
-does not ask for them pays nothing, and no name of theirs gets in anybody's way.
+They are not registered by an entry point ``pytest11``: that would load them, with their names,
+into every pytest of the environment.
 """
 
 from collections.abc import Callable, Iterator
@@ -27,11 +27,11 @@ type MakeSimulation = Callable[..., Simulation]
 @pytest.fixture(scope='module')
 def simulation() -> Iterator[MakeSimulation]:
     """
-    A function that gives a robot at time 0; it takes what :class:`Simulation` takes.
+    A function that returns a simulation at time 0; it takes the arguments of :class:`Simulation`.
 
-    Started once in a module and reset at every further call with the same arguments; started
-    again if it has ended meanwhile. All end with the module. The controllers stay as a test has
-    switched them.
+    A simulation is started once in a module, reset by every further call with the same arguments,
+    and started again if it has ended. All end with the module. The controllers stay as the last
+    test has switched them.
     """
     running: dict[str, tuple[Simulation, ExitStack]] = {}
 

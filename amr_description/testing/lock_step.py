@@ -1,18 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A simulator that stands still but for what it is asked: its services, and commands that are known
-to have arrived.
+A client of a paused simulator: its services, commands that are known to have arrived, and the
+newest message of a topic.
 
-A command is published with the present simulated time as its stamp, and is waited for until the
-simulator has confirmed it (:mod:`amr_description.control.ros.loop_publisher`). As time stands still meanwhile,
-the next step acts on it, at the same instant with the same bits in every run.
-
-The newest message of a topic, taken when it is asked for.
+A command is published with the present simulated time as its stamp. The client then waits until
+the simulator has acknowledged it (:mod:`amr_description.control.ros.loop_publisher`). No time
+passes meanwhile, so the next step acts on the command: at the same instant and with the same bits
+in every run.
 """
 
 from collections.abc import Callable, Mapping
-import re
 from typing import Any
 
 from builtin_interfaces.msg import Time
@@ -21,6 +19,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
 from simulation_interfaces.msg import EntityState, Result
 from simulation_interfaces.srv import (
     GetEntityState,
@@ -32,51 +31,59 @@ from simulation_interfaces.srv import (
 from amr_description.clock import NANOSECONDS
 from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
-from amr_description.ros.service_calls import ask_until_answered, wait_until
+from amr_description.ros.messages import nanoseconds
+from amr_description.ros.polled_topic import PolledTopic
+from amr_description.ros.service_calls import ask_until_answered, name_of_type, wait_until
 from amr_description.testing.program import SimulatorProcess
-from amr_description.testing.readings import nanoseconds
 
-PATIENCE = 30.0
-"""s: how long anything is waited for."""
-_AGAIN = 0.05
-"""s: then a command counts as lost and is published again; twice as long the next time."""
-_STRETCH = 1000
+TIMEOUT = 30.0
+"""s of the wall clock, for every wait."""
+_RETRY_DELAY = 0.05
+"""s until a command counts as lost and is published again; doubled after each attempt."""
+_MAX_STEPS = 1000
 """Physics steps in one request, so that none takes long."""
 
 type Condition = Callable[[], Any]
 
 
 class LockStep:
-    """Asks one simulator, in the thread that calls."""
+    """The client of one simulator; not thread-safe."""
 
-    def __init__(self, node: Node, program: SimulatorProcess, name: str = '/mujoco_sim') -> None:
-        """``node`` is served by its executor here, and by nobody else."""
+    def __init__(self, node: Node, process: SimulatorProcess, name: str = '/mujoco_sim') -> None:
+        """
+        Subscribe to the acknowledgements; :meth:`connect` waits for the simulator.
+
+        Args:
+            node: Its executor is spun here and nowhere else.
+            process: The simulator, checked while waiting.
+            name: The simulator's node.
+        """
         self.node = node
-        self._program = program
+        self._process = process
         self._name = name
         self._clients: dict[Any, Client] = {}
         self._publishers: dict[str, Publisher] = {}
-        self._counts: dict[str, int] = {}
-        self._received: dict[str, int] = {}
+        self._published: dict[str, int] = {}
+        self._acknowledged: dict[str, int] = {}
         self.time = 0
         """Simulated time, ns."""
         self.timestep = 0
-        """A physics step, ns; known after :meth:`measure`."""
+        """A physics step, ns; set by :meth:`measure_timestep`."""
         topic = loop_publisher.ACKNOWLEDGEMENT_TOPIC.replace('~', name)
         node.create_subscription(
-            KeyValue, topic, self._note_receipt, loop_publisher.ACKNOWLEDGEMENT_QOS
+            KeyValue, topic, self._on_acknowledgement, loop_publisher.ACKNOWLEDGEMENT_QOS
         )
 
     # --- services -----------------------------------------------------------------------------
 
     def connect(self) -> None:
-        """Wait until the simulator is there and answers. Raises SimulationError."""
+        """Wait until the simulator responds. Raises SimulationError."""
         client = self._client(GetSimulationState)
         self.wait(client.service_is_ready, 'the simulator')
-        ask_until_answered(self.node, client, GetSimulationState.Request(), timeout=PATIENCE)
+        ask_until_answered(self.node, client, GetSimulationState.Request(), timeout=TIMEOUT)
 
-    def measure(self, entity: str) -> None:
-        """See how long a physics step is, by any entity's stamp; then begin as resets begin."""
+    def measure_timestep(self, entity: str) -> None:
+        """Measure the physics step, by the stamps of an entity; then reset."""
         before = nanoseconds(self.state(entity).header.stamp)
         self.step(1)
         self.timestep = nanoseconds(self.state(entity).header.stamp) - before
@@ -84,11 +91,16 @@ class LockStep:
 
     def ask(self, service_type: Any, **fields: Any) -> Any:
         """
-        Call a service of the simulator, whose name follows from its type; return the response.
+        Call a service of the simulator and return the response.
 
-        Raises SimulationError: it refuses, in its words, or it has ended.
+        Args:
+            service_type: Type of the service; its name follows from that.
+            **fields: Of the request.
+
+        Raises:
+            SimulationError: The simulator reports an error, or has ended.
         """
-        client, name = self._client(service_type), _snake(service_type)
+        client, name = self._client(service_type), name_of_type(service_type)
         self.wait(client.service_is_ready, f"the simulator's service {name}")
         future = client.call_async(service_type.Request(**fields))
         self.wait(future.done, f'the answer of {name}')
@@ -99,18 +111,18 @@ class LockStep:
         return response
 
     def state(self, entity: str) -> EntityState:
-        """Where an entity is at the present instant."""
+        """Return the present state of an entity."""
         return self.ask(GetEntityState, entity=entity).state
 
     def step(self, count: int) -> None:
-        """Let ``count`` physics steps be made; return when they are."""
+        """Make ``count`` physics steps."""
         while count > 0:
-            stretch = min(count, _STRETCH)
-            self.ask(StepSimulation, steps=stretch)
-            count -= stretch
+            steps = min(count, _MAX_STEPS)
+            self.ask(StepSimulation, steps=steps)
+            count -= steps
 
     def reset(self) -> None:
-        """Let time be 0 and all robots where they were spawned; controllers stay as they are."""
+        """Reset time and robots; the controllers stay as they are."""
         request = ResetSimulation.Request
         self.ask(ResetSimulation, scope=request.SCOPE_TIME | request.SCOPE_STATE)
         self.time = 0
@@ -119,51 +131,57 @@ class LockStep:
 
     def send_all(self, messages: Mapping[str, Any]) -> None:
         """
-        Publish messages to controllers, by topic, and wait until all have been taken.
+        Publish messages to controllers and wait until all are acknowledged.
 
-        A header without a stamp gets that of the present simulated time. What is lost, as best
-        effort allows, is published again. Nobody else may publish there: receipts do not tell
-        whose message it was. Raises SimulationError: no controller takes it.
+        A header without a stamp gets the present simulated time. A message that is lost, as best
+        effort allows, is published again. Nobody else may publish on these topics:
+        acknowledgements do not name the publisher.
+
+        Args:
+            messages: Topic → message.
+
+        Raises:
+            SimulationError: No controller accepts a message.
         """
         waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
         for topic, message in waiting.items():
             self._prepare(topic, message)
 
         def has_arrived() -> bool | None:
-            # The last one, so that none is on its way still when time goes on, or back.
+            # Wait for the last one: none may arrive after time has gone on, or back.
             for topic in list(waiting):
-                if self._received.get(topic, 0) >= self._counts[topic]:
+                if self._acknowledged.get(topic, 0) >= self._published[topic]:
                     del waiting[topic]
             return not waiting or None
 
-        again = _AGAIN
-        while again < PATIENCE:
+        delay = _RETRY_DELAY
+        while delay < TIMEOUT:
             for topic, message in waiting.items():
-                self._counts[topic] += 1
+                self._published[topic] += 1
                 self._publishers[topic].publish(message)
-            if wait_until(self.node, has_arrived, timeout=again):
+            if wait_until(self.node, has_arrived, timeout=delay):
                 return
-            self._program.check()
-            again *= 2
+            self._process.check()
+            delay *= 2
         topics = ', '.join(f"'{topic}'" for topic in waiting)
         raise SimulationError(
             f'no controller takes what is sent on {topics}; is the one that hears it active?'
         )
 
     def forget(self, namespace: str) -> None:
-        """Remove the publishers on topics in a namespace: whoever heard them is gone."""
+        """Remove the publishers on topics in a namespace, whose subscribers are gone."""
         inside = f'/{namespace.strip("/")}/'
         for topic in [each for each in self._publishers if each.startswith(inside)]:
             self.node.destroy_publisher(self._publishers.pop(topic))
-            self._received.pop(topic, None)
+            self._acknowledged.pop(topic, None)
 
     def _prepare(self, topic: str, message: Any) -> None:
-        """Stamp a message, and wait until somebody hears its topic."""
+        """Stamp a message, and wait until its topic has a subscriber."""
         publisher = self._publishers.get(topic)
         if publisher is None:
             publisher = self.node.create_publisher(type(message), topic, QoSProfile(depth=10))
             self._publishers[topic] = publisher
-            self._counts[topic] = 0
+            self._published[topic] = 0
         if hasattr(message, 'header') and message.header.stamp == Time():
             stamp = message.header.stamp
             stamp.sec, stamp.nanosec = divmod(self.time, NANOSECONDS)
@@ -174,14 +192,20 @@ class LockStep:
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
-        Serve the node until ``condition()`` holds; return what it returned.
+        Spin the node until a condition holds; return what it returned.
 
-        ``timeout``: s of the wall clock, :data:`PATIENCE` by default. Raises SimulationError.
+        Args:
+            condition: Called repeatedly; holds when its result is true.
+            what: What is waited for, for the error.
+            timeout: s of the wall clock, :data:`TIMEOUT` by default.
+
+        Raises:
+            SimulationError: It does not hold in time, or the simulator has ended.
         """
-        timeout = PATIENCE if timeout is None else timeout
+        timeout = TIMEOUT if timeout is None else timeout
 
         def holds() -> Any:
-            self._program.check()
+            self._process.check()
             return condition() or None
 
         found = wait_until(self.node, holds, timeout=timeout)
@@ -189,59 +213,49 @@ class LockStep:
             raise SimulationError(f'waited {timeout:g} s for {what}, in vain')
         return found
 
-    def _note_receipt(self, message: KeyValue) -> None:
+    def _on_acknowledgement(self, message: KeyValue) -> None:
         number = int(message.value)
-        self._received[message.key] = max(number, self._received.get(message.key, 0))
+        self._acknowledged[message.key] = max(number, self._acknowledged.get(message.key, 0))
 
     def _client(self, service_type: Any) -> Client:
         client = self._clients.get(service_type)
         if client is None:
-            name = f'{self._name}/{_snake(service_type)}'
+            name = f'{self._name}/{name_of_type(service_type)}'
             client = self._clients[service_type] = self.node.create_client(service_type, name)
         return client
 
 
-def _snake(service_type: Any) -> str:
-    return re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()
-
-
-class Latest:
+class LatestMessage:
     """
-    The newest message on one topic.
+    The newest message of a topic, which no executor takes.
 
-    ``node`` must not be in an executor: so what is published at a thousand hertz while a
-    simulation runs as fast as it can costs this process nothing.
+    What is published at a thousand hertz while a simulation runs as fast as it can costs this
+    process nothing until it is taken.
     """
 
-    def __init__(self, node: Node, message_type: Any, topic: str) -> None:
-        self._node = node
-        self._subscription = node.create_subscription(
-            message_type, topic, self._never_called, QoSProfile(depth=1)
-        )
+    def __init__(self, node: Node, message_type: type, topic: str) -> None:
+        def read(data: bytes) -> Any:
+            return deserialize_message(data, message_type)
+
+        self._topic = PolledTopic(node, message_type, topic, read, qos=QoSProfile(depth=1))
         self._message: Any = None
 
     @property
     def topic(self) -> str:
-        """Its full name."""
-        return self._subscription.topic_name
+        """Its name."""
+        return self._topic.topic
 
     def take(self) -> Any | None:
-        """The newest that has come, since :meth:`forget`; None: nothing yet."""
-        subscription = self._subscription
-        with subscription.handle:
-            while taken := subscription.handle.take_message(subscription.msg_type, False):
-                self._message = taken[0]
+        """Return the newest message since :meth:`forget`; None: there is none."""
+        while (message := self._topic.take()) is not None:
+            self._message = message
         return self._message
 
     def forget(self) -> None:
-        """Drop what has come."""
+        """Drop the messages so far."""
         self.take()
         self._message = None
 
     def close(self) -> None:
         """Remove the subscription."""
-        self._node.destroy_subscription(self._subscription)
-
-    @staticmethod
-    def _never_called(_: Any) -> None:
-        raise AssertionError('the node is in an executor')
+        self._topic.destroy()

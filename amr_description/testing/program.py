@@ -1,11 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The simulator as a process of a test: it ends with the test, whatever becomes of that.
+The simulator as a process of a test, in a ROS domain of its own.
 
-ROS domains that nobody else is in, as far as they ask here.
-
-So several tests can run side by side: of several checkouts, or of one.
+The process ends with the test, in whatever way that ends. Domains are taken by lock files, so that
+several tests can run side by side: of one checkout, or of several.
 """
 
 from collections.abc import Iterator, Mapping
@@ -25,15 +24,21 @@ from amr_description.bringup.command_line import yaml_text
 from amr_description.errors import SimulationError
 from amr_description.ros.signals import LIFELINE_VARIABLE
 
-PATIENCE = 15.0
+STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""
+
+DOMAINS = range(1, 102)
+"""ROS domains whose ports are below the ephemeral ports of the system; 0 is the default one."""
+LOCKS = Path(tempfile.gettempdir())
+"""The folder of the lock files, one for each domain."""
 
 _MODULE = 'amr_description.nodes.mujoco_sim'
 _LINE = re.compile(r'^\[(?:ERROR|FATAL)\] (?:\[[^]]*\] ?)*:? ?(.*)', re.MULTILINE)
+_DOMAIN, _RANGE = 'ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 
 
 class SimulatorProcess:
-    """The running process, and what it has said."""
+    """The running process and its log."""
 
     def __init__(self, process: subprocess.Popen[bytes], log: Path) -> None:
         self.process = process
@@ -41,46 +46,46 @@ class SimulatorProcess:
 
     @property
     def log(self) -> str:
-        """What it has said so far."""
+        """Its output so far."""
         return self._log.read_text(encoding='utf-8', errors='replace')
 
     def check(self) -> None:
-        """Raises SimulationError, with its last error, if it has ended."""
+        """Raise SimulationError, with its last error, if it has ended."""
         code = self.process.poll()
         if code is not None:
-            raise SimulationError(self._ended(code))
+            raise SimulationError(self._describe_end(code))
 
-    def _ended(self, code: int) -> str:
+    def _describe_end(self, code: int) -> str:
         if code < 0:
             return f'the simulator was killed by {signal.Signals(-code).name}'
-        said = _LINE.findall(self.log) or self.log.split('\n') or ['']
-        return f'the simulator ended with {code}: {said[-1].strip()}'
+        lines = _LINE.findall(self.log) or self.log.split('\n') or ['']
+        return f'the simulator ended with {code}: {lines[-1].strip()}'
 
     def stop(self) -> None:
         """
-        End it as Ctrl-C does, or else kill it.
+        Send SIGINT and wait for the end.
 
-        Raises SimulationError: it had ended already, did not end, or ended badly.
+        Raises SimulationError: it had ended already, does not end, or ends with an error.
         """
         self.check()
         self.process.send_signal(signal.SIGINT)
         try:
-            code = self.process.wait(PATIENCE)
+            code = self.process.wait(STOP_TIMEOUT)
         except subprocess.TimeoutExpired:
             raise SimulationError(
-                f'the simulator has not ended within {PATIENCE:g} s of SIGINT; it is killed'
+                f'the simulator has not ended within {STOP_TIMEOUT:g} s of SIGINT; it is killed'
             ) from None
         if code:
-            raise SimulationError(self._ended(code))
+            raise SimulationError(self._describe_end(code))
 
 
 @contextmanager
 def simulator(parameters: Mapping[str, Any]) -> Iterator[SimulatorProcess]:
     """
-    Run ``mujoco_sim`` with these parameters while inside.
+    Run ``mujoco_sim`` with parameters, while inside.
 
-    It finds what this process can import. It ends with this process, even when that is killed:
-    it holds the other end of a pipe. Raises SimulationError at the end if it did not end well.
+    It can import what this process can. It ends with this process, even when that is killed: it
+    watches the other end of a pipe. Raises SimulationError at the end if it ended with an error.
     """
     reader, writer = os.pipe()
     with tempfile.TemporaryDirectory(prefix='amr-simulation-') as folder:
@@ -95,12 +100,12 @@ def simulator(parameters: Mapping[str, Any]) -> Iterator[SimulatorProcess]:
                     stderr=stream,
                     env=_environment(reader, folder),
                     pass_fds=(reader,),
-                    start_new_session=True,  # Ctrl-C is for the test, which ends it then
+                    start_new_session=True,  # Ctrl-C is for the test, which then ends it
                 )
-            program = SimulatorProcess(process, log)
+            simulator_process = SimulatorProcess(process, log)
             try:
-                yield program
-                program.stop()
+                yield simulator_process
+                simulator_process.stop()
             finally:
                 _end(process)
         finally:
@@ -120,31 +125,24 @@ def _environment(lifeline: int, folder: str) -> dict[str, str]:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """In every way out: first as Ctrl-C does, so that its shared memory goes with it."""
+    """End it, first by SIGINT, so that its shared memory is removed."""
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
         try:
-            process.wait(PATIENCE)
+            process.wait(STOP_TIMEOUT)
         except subprocess.TimeoutExpired:
             process.kill()
     process.wait()
 
 
-# Domains whose ports lie below the system's ephemeral ones; 0 is everybody's.
-DOMAINS = range(1, 102)
-LOCKS = Path(tempfile.gettempdir())
-
-DOMAIN = 'ROS_DOMAIN_ID'
-RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
-
-
 def take_domain() -> tuple[int, int]:
     """
-    Return a domain that no other test holds, and the open file that holds it.
+    Return a domain that no other test uses, and the open file that reserves it.
 
-    Never the one of the shell: a robot may be listening there. Raises SimulationError.
+    Never the domain of the environment: a robot may be in it. Raises SimulationError: none is
+    free.
     """
-    forbidden = os.environ.get(DOMAIN)
+    forbidden = os.environ.get(_DOMAIN)
     start = os.getpid() % len(DOMAINS)
     for domain in (*DOMAINS[start:], *DOMAINS[:start]):
         if str(domain) == forbidden:
@@ -165,15 +163,15 @@ def take_domain() -> tuple[int, int]:
 @contextmanager
 def own_domain() -> Iterator[int]:
     """
-    Be, with all that is started inside, in a free domain on this host; yield its number.
+    Set a free domain, on this host only, in the environment while inside; yield its number.
 
-    Contexts of rclpy that are initialised inside are in it; those from before stay where they
-    are. Raises SimulationError.
+    It applies to processes and rclpy contexts that are started inside. Raises SimulationError:
+    none is free.
     """
-    before = {name: os.environ.get(name) for name in (DOMAIN, RANGE)}
+    before = {name: os.environ.get(name) for name in (_DOMAIN, _RANGE)}
     domain, lock = take_domain()
     try:
-        os.environ |= {DOMAIN: str(domain), RANGE: 'LOCALHOST'}
+        os.environ |= {_DOMAIN: str(domain), _RANGE: 'LOCALHOST'}
         yield domain
     finally:
         for name, value in before.items():

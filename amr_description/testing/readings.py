@@ -1,9 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a test reads of a robot, in SI units and without ROS.
-
-Messages → readings.
+What a test reads of a robot, in SI units, and how it is made of messages.
 """
 
 from dataclasses import dataclass
@@ -12,12 +10,12 @@ from typing import Any
 
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import conjugate, rotate, rpy_from_quaternion, Transform, Vector
-from amr_description.ros.messages import transform_of, vector_of
+from amr_description.ros.messages import nanoseconds, transform_of, vector_of
 
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """Where a robot is and how it moves: in truth, or as its odometry says."""
+    """Pose and velocity of a robot: ground truth, or its odometry."""
 
     time: float
     """s, simulated."""
@@ -61,20 +59,15 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A joint as /joint_states has it; rad and N·m for what turns, m and N for what slides."""
+    """The state of a joint: rad, rad/s and N·m, or m, m/s and N."""
 
     position: float
     velocity: float
     effort: float
 
 
-def nanoseconds(stamp: Any) -> int:
-    """A builtin_interfaces/msg/Time, ns."""
-    return stamp.sec * NANOSECONDS + stamp.nanosec
-
-
 def motion_of_entity(state: Any) -> Motion:
-    """A simulation_interfaces/msg/EntityState, whose twist is in the axes of the world."""
+    """Read a simulation_interfaces/msg/EntityState, whose twist is in the axes of the world."""
     pose = transform_of(state.pose)
     back = conjugate(pose.rotation)
     return Motion(
@@ -86,7 +79,7 @@ def motion_of_entity(state: Any) -> Motion:
 
 
 def motion_of_odometry(message: Any) -> Motion:
-    """A nav_msgs/msg/Odometry, whose twist is in the robot's own axes."""
+    """Read a nav_msgs/msg/Odometry, whose twist is in the robot's own axes."""
     return Motion(
         time=nanoseconds(message.header.stamp) / NANOSECONDS,
         pose=transform_of(message.pose.pose),
@@ -96,7 +89,7 @@ def motion_of_odometry(message: Any) -> Motion:
 
 
 def joints_of(message: Any) -> dict[str, Joint]:
-    """A sensor_msgs/msg/JointState by names; NaN for what it leaves out."""
+    """Read a sensor_msgs/msg/JointState: joint → state; NaN for missing values."""
     columns = (message.position, message.velocity, message.effort)
     padded = ([*column] or [math.nan] * len(message.name) for column in columns)
     rows = zip(message.name, *padded, strict=True)

@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A controller that drives a winding course and writes down, bit by bit, what the robot feels.
+A controller that drives a winding course and records every state interface, bit by bit.
 
 It commands a diff_drive_controller in the control loop itself, at the simulated times of its
-ticks, so that runs at any real-time factor have the same commands at the same instants::
+updates, so that runs at any real-time factor have the same commands at the same instants::
 
     recorded_drive:
       ros__parameters:
@@ -42,30 +42,30 @@ class RecordedDriveParameters:
 
 
 class RecordedDrive(Controller):
-    """Each tick is a record: time (ns, int64), then every state interface (double)."""
+    """Each update is a record: time (ns, int64), then every state interface (double)."""
 
     parameters_type = RecordedDriveParameters
     _file: BinaryIO | None = None
 
     def configure(self, parameters: RecordedDriveParameters) -> None:
-        """Keep them."""
+        """Store the parameters."""
         self._parameters = parameters
 
     def command_interfaces(self) -> InterfaceRequest:
-        """The references of the follower."""
+        """Request the references of the follower."""
         follower = self._parameters.follower
         return InterfaceRequest.individual(
             [f'{follower}/linear/{VELOCITY}', f'{follower}/angular/{VELOCITY}']
         )
 
     def state_interfaces(self) -> InterfaceRequest:
-        """Every one that the hardware has: of joints and of sensors."""
+        """Request all of the hardware: of joints and of sensors."""
         return ALL_INTERFACES
 
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
-        """Begin the log."""
+        """Open the log."""
         self._linear, self._angular = commands
         self._states = states
         self._begin = time
@@ -73,7 +73,7 @@ class RecordedDrive(Controller):
         self._file = self._path('.part').open('wb')
 
     def update(self, time: int, period: int) -> None:
-        """Write the tick down; then drive: weave, to and fro."""
+        """Record the states; then command a weaving drive, to and fro."""
         passed = (time - self._begin) / NANOSECONDS
         if self._file is None:
             return
@@ -85,7 +85,7 @@ class RecordedDrive(Controller):
             self._path('.part').rename(self._path(''))
 
     def reset(self, time: int) -> None:
-        """Begin the log anew."""
+        """Start the log again."""
         self._begin = time
         if self._file is not None:
             self._file.seek(0)

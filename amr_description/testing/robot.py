@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A robot in a simulation that stands still: spawned, controlled, and found by its topics."""
+"""A robot of a simulation in lock-step: spawned, controlled, and read by its topics."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_pose
-from amr_description.testing.lock_step import Latest, LockStep, PATIENCE
+from amr_description.testing.lock_step import LatestMessage, LockStep, TIMEOUT
 from amr_description.testing.readings import (
     Joint,
     joints_of,
@@ -29,30 +29,30 @@ from amr_description.testing.readings import (
 )
 
 DRIVE = 'DiffDriveController'
-"""How the types of drives end whose topics are looked for."""
+"""The end of the type of the controllers whose odometry and command topics are used."""
 _BROADCASTER = 'JointStateBroadcaster'
 _STILL = 1e-3
-"""m/s and rad/s: slower is taken for standing."""
+"""m/s and rad/s; a slower robot counts as standing."""
 
-type Found = Sequence[tuple[str, Sequence[str]]]
+type TopicTypes = Sequence[tuple[str, Sequence[str]]]
 """Names of topics, and their types."""
 
 
 @dataclass(frozen=True)
 class Topics:
-    """Of the active controllers, whatever they are remapped to; empty: there is none."""
+    """Topics of the active controllers, after remapping; empty: there is none."""
 
     command: str = ''
-    """geometry_msgs/msg/TwistStamped, of the first drive."""
+    """geometry_msgs/msg/TwistStamped, of the first diff_drive_controller."""
     odometry: str = ''
-    """nav_msgs/msg/Odometry, of the same."""
+    """nav_msgs/msg/Odometry, of the same controller."""
     joints: str = ''
     """sensor_msgs/msg/JointState."""
 
 
 class Robot:
     """
-    One robot of a simulation: what it says, and where it really is.
+    One robot of a simulation: its odometry, its joint states, and the ground truth.
 
     Every method raises SimulationError, in one line, when the simulator refuses or has ended.
     """
@@ -60,12 +60,12 @@ class Robot:
     def __init__(
         self, lock_step: LockStep, readings: Node, name: str, namespace: str, topics: Topics
     ) -> None:
-        """``readings``: a node that is in no executor."""
+        """Subscribe to the topics; ``readings``: the node of the subscriptions."""
         self.name = name
-        """As the simulator knows it."""
+        """The name of the entity."""
         self.namespace = namespace
         self.command_topic = topics.command
-        """Of the drive; empty: there is none."""
+        """Of the diff_drive_controller; empty: there is none."""
         self._lock_step = lock_step
         self._odometry = _latest(readings, Odometry, topics.odometry)
         self._joints = _latest(readings, JointState, topics.joints)
@@ -77,39 +77,39 @@ class Robot:
 
     @property
     def odometry(self) -> Motion:
-        """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
+        """The last odometry of the drive, with its own stamp (:attr:`Motion.time`)."""
         return motion_of_odometry(self._newest(self._odometry, DRIVE))
 
     @property
     def joints(self) -> dict[str, Joint]:
-        """What the JointStateBroadcaster said last, by the names of the joints."""
+        """The last state of each joint, by name, from the JointStateBroadcaster."""
         return joints_of(self._newest(self._joints, _BROADCASTER))
 
     @property
-    def moves(self) -> bool:
-        """Whether it does more than stand."""
+    def is_moving(self) -> bool:
+        """Whether it moves, by the ground truth."""
         truth = self.truth
         return math.hypot(*truth.linear) > _STILL or math.hypot(*truth.angular) > _STILL
 
-    def unheard(self) -> list[str]:
-        """Return the topics from which nothing has come since :meth:`forget`."""
+    def silent_topics(self) -> list[str]:
+        """Return the topics without a message since :meth:`forget`."""
         return [topic.topic for topic in self._topics if topic.take() is None]
 
     def forget(self) -> None:
-        """Drop what has come: time went back."""
+        """Drop the messages so far: time went back."""
         for topic in self._topics:
             topic.forget()
 
     def close(self) -> None:
-        """Listen no more."""
+        """Remove the subscriptions."""
         for topic in self._topics:
             topic.close()
 
     @property
-    def _topics(self) -> list[Latest]:
+    def _topics(self) -> list[LatestMessage]:
         return [topic for topic in (self._joints, self._odometry) if topic is not None]
 
-    def _newest(self, topic: Latest | None, controller: str) -> Any:
+    def _newest(self, topic: LatestMessage | None, controller: str) -> Any:
         if topic is None:
             raise SimulationError(f"'{self.name}' began without an active {controller}")
         if not self._lock_step.time:
@@ -124,7 +124,17 @@ def spawn(
     lock_step: LockStep, description: str, pose: Transform, name: str = '', namespace: str = ''
 ) -> str:
     """
-    Put a robot into the world; return its name, that of the URDF by default. SimulationError.
+    Spawn a robot; return the name of the entity.
+
+    Args:
+        lock_step: The simulator.
+        description: The URDF.
+        pose: Transform from the root link to the world.
+        name: Of the entity; empty: that of the URDF.
+        namespace: Of the controller manager; empty: what the URDF says, or none.
+
+    Raises:
+        SimulationError: The simulator rejects the robot.
     """
     request = SpawnEntity.Request()
     fill_pose(pose, request.initial_pose.pose)
@@ -138,23 +148,29 @@ def spawn(
     return response.entity_name
 
 
-def _latest(readings: Node, message_type: Any, topic: str) -> Latest | None:
-    return Latest(readings, message_type, topic) if topic else None
+def _latest(readings: Node, message_type: Any, topic: str) -> LatestMessage | None:
+    return LatestMessage(readings, message_type, topic) if topic else None
 
 
 def spawn_controllers(
     lock_step: LockStep, names: Sequence[str] | None, namespace: str = ''
 ) -> Topics:
     """
-    Load, configure and activate controllers, in order; None: all that the manager has a type for.
+    Load, configure and activate controllers; return the topics of the active ones.
 
-    Return the topics of those that are active then. Raises ControllerError, ParameterError.
+    Args:
+        lock_step: The simulator.
+        names: The controllers, in order; None: all that the manager has a type for.
+        namespace: Of the controller manager.
+
+    Raises:
+        ControllerError, ParameterError: A controller cannot be spawned.
     """
     inside = f'/{namespace.strip("/")}'
     manager = ManagerClient(
         lock_step.node,
         f'{inside.rstrip("/")}/controller_manager',
-        timeout=PATIENCE,
+        timeout=TIMEOUT,
         silent=5.0,
     )
     wanted = manager.typed_controllers() if names is None else [*names]
@@ -166,17 +182,19 @@ def spawn_controllers(
     broadcaster = next((name for kind, name in active if kind.endswith(_BROADCASTER)), None)
     node = lock_step.node
 
-    def topic(owner: str | None, find: Callable[[str, str], Found], message_type: str) -> str:
-        """The one that a node has of a type."""
-        if owner is None:
+    def topic(
+        controller: str | None, find: Callable[[str, str], TopicTypes], message_type: str
+    ) -> str:
+        """Return the topic of a type that the node of a controller has."""
+        if controller is None:
             return ''
 
         def found() -> list[str]:
-            if (owner, inside) not in node.get_node_names_and_namespaces():
+            if (controller, inside) not in node.get_node_names_and_namespaces():
                 return []
-            return [name for name, types in find(owner, inside) if message_type in types]
+            return [name for name, types in find(controller, inside) if message_type in types]
 
-        return lock_step.wait(found, f"the {message_type} of '{owner}'")[0]
+        return lock_step.wait(found, f"the {message_type} of '{controller}'")[0]
 
     publishers = node.get_publisher_names_and_types_by_node
     subscribers = node.get_subscriber_names_and_types_by_node

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A robot in simulation, in the hands of a test.
+A simulation in lock-step with a test.
 
 ::
 
@@ -10,10 +10,10 @@ A robot in simulation, in the hands of a test.
         assert sim.truth.x == pytest.approx(1.0, rel=0.01)
         assert sim.odometry.x == pytest.approx(sim.truth.x, abs=0.02)
 
-The simulator is the real one, in a process of its own and a ROS domain of its own; all goes over
-DDS. Time stands still but in :meth:`Simulation.drive`, :meth:`Simulation.run` and
-:meth:`Simulation.step`: the same calls give the same bits, on a busy machine too. When the block
-is left, in whatever way, everything has ended.
+The simulator is the real one, in a process and a ROS domain of its own, used over DDS. Time
+passes only in :meth:`Simulation.drive`, :meth:`Simulation.run` and :meth:`Simulation.step`: the
+same calls give the same bits, on a busy machine too. At the end of the block, in whatever way it
+is left, everything has ended.
 
 Several robots, each in the namespace of its name::
 
@@ -54,20 +54,21 @@ from amr_description.testing.robot import DRIVE, Robot, spawn, spawn_controllers
 
 _AT_ORIGIN = Transform()
 _COMMAND_PERIOD = 0.1
-"""s between two commands of a drive: well below the usual time-out of 0.5 s."""
-_PACED = 0.02
-"""s of simulated time between two looks at the wall clock, where it counts."""
-_LISTENING = 20
-"""Physics steps between two looks for the first messages, at the beginning."""
-_BRAKING = 10.0
-"""s: the longest time in which a drive is waited to stand."""
+"""s between two commands of a drive: well below the usual command timeout of 0.5 s."""
+_PACING_PERIOD = 0.02
+"""s of simulated time between two readings of the wall clock, with a real-time factor."""
+_DISCOVERY_STEPS = 20
+"""Physics steps between two checks for the first messages, at the beginning."""
+_BRAKING_TIMEOUT = 10.0
+"""s; the longest braking at the end of a drive."""
 
 
 class Simulation:
     """
-    A robot in a world, or several, ready to drive while inside the ``with`` block, at time 0.
+    One robot or several in a world, ready to drive inside the ``with`` block, at time 0.
 
-    Every method raises SimulationError, in one line, when the simulator refuses or has ended.
+    Every method raises SimulationError, in one line, when the simulator reports an error or has
+    ended.
     """
 
     def __init__(
@@ -83,15 +84,20 @@ class Simulation:
         parameters: Mapping[str, Any] | None = None,
     ) -> None:
         """
-        ``urdf``: a URDF or xacro file, a ``package://`` URI, or the text itself.
+        Describe the simulation; it is started by ``with``.
 
-        ``controllers``: parameter file of the controller manager; None: what the URDF names, else
-        that of this package. ``world``: a shipped name or an MJCF file. ``rtf``: simulated
-        seconds per second of the wall clock, to watch it; 0: as fast as possible; the results are
-        the same. ``activate``: the controllers to spawn, in order; None: all of the parameter
-        file. ``pose``: from the robot's root link to the world. ``robots``: instead of one, name →
-        pose of several, each in the namespace of its name, for which the parameter file has to
-        speak (``/**/controller_manager: …``). ``parameters``: further ones of ``mujoco_sim``.
+        Args:
+            urdf: A URDF or xacro file, a ``package://`` URI, or the text itself.
+            controllers: Parameter file of the controller manager; None: that which the URDF
+                names, else that of this package.
+            world: A shipped name or an MJCF file.
+            rtf: Real-time factor, to watch the simulation; 0: as fast as possible. The results
+                are the same.
+            activate: The controllers to spawn, in order; None: all of the parameter file.
+            pose: Transform from the robot's root link to the world.
+            robots: Several robots instead of one: name → pose. Each is in the namespace of its
+                name, which the parameter file has to cover (``/**/controller_manager: …``).
+            parameters: Further parameters of ``mujoco_sim``.
         """
         if not (math.isfinite(rtf) and rtf >= 0.0):
             raise SimulationError(f'rtf is {rtf}; a real-time factor is 0 or above')
@@ -116,9 +122,9 @@ class Simulation:
         with ExitStack() as stack:
             self._description = self._read_description()
             stack.enter_context(own_domain())
-            self._program = stack.enter_context(simulator(self._parameters))
+            self._process = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack)
-            self._lock_step = LockStep(self.node, self._program)
+            self._lock_step = LockStep(self.node, self._process)
             self._running.connect()
             self._readings = Node(
                 'simulation_readings', context=context, use_global_arguments=False
@@ -148,7 +154,7 @@ class Simulation:
         return self._lock_step
 
     def _ros(self, stack: ExitStack) -> Context:
-        """A context of its own: the test may have rclpy initialised, or not, for itself."""
+        """Make a context and a node; the test may have initialised rclpy itself, or not."""
         use_quick_discovery()
         use_whole_graph()
         context = Context()
@@ -157,7 +163,7 @@ class Simulation:
         executor = SingleThreadedExecutor(context=context)
         stack.callback(executor.shutdown)
         self.node = Node('simulation_client', context=context, use_global_arguments=False)
-        """For the test's own subscriptions, publishers and clients; :meth:`wait` serves it."""
+        """For the test's own subscriptions, publishers and clients; :meth:`wait` spins it."""
         stack.callback(self.node.destroy_node)
         executor.add_node(self.node)
         return context
@@ -168,7 +174,7 @@ class Simulation:
         return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=5))
 
     def _spawn(self, name: str, pose: Transform) -> Robot:
-        """``name``: its namespace too; empty: that of the URDF, without a namespace."""
+        """``name``: of the entity and its namespace; empty: that of the URDF, no namespace."""
         lock_step, namespace = self._running, name
         name = spawn(lock_step, self._description, pose, name, namespace)
         topics = Topics()
@@ -178,25 +184,25 @@ class Simulation:
         return self._robots[name]
 
     def _begin(self) -> None:
-        """Let time pass until every topic is heard, as that may take DDS a while; then reset."""
+        """Let time pass until every topic has been received (discovery takes a while); reset."""
         lock_step = self._running
-        lock_step.measure(next(iter(self._robots)))
+        lock_step.measure_timestep(next(iter(self._robots)))
 
-        def unheard() -> list[str]:
-            return [topic for robot in self._robots.values() for topic in robot.unheard()]
+        def silent_topics() -> list[str]:
+            return [topic for robot in self._robots.values() for topic in robot.silent_topics()]
 
-        def is_heard() -> bool:
-            lock_step.step(_LISTENING)
-            return not unheard()
+        def all_received() -> bool:
+            lock_step.step(_DISCOVERY_STEPS)
+            return not silent_topics()
 
-        lock_step.wait(is_heard, ' and '.join(unheard()))
+        lock_step.wait(all_received, ' and '.join(silent_topics()))
         self.reset()
 
     # --- robots -------------------------------------------------------------------------------
 
     @property
     def robots(self) -> Mapping[str, Robot]:
-        """All of them, by name."""
+        """All robots, by name."""
         _ = self._running  # raises outside of the block
         return MappingProxyType(self._robots)
 
@@ -210,15 +216,15 @@ class Simulation:
 
     @property
     def name(self) -> str:
-        """That of the robot, as the simulator knows it."""
+        """The name of the robot's entity."""
         return self.robot.name
 
     def spawn(self, name: str, pose: Transform = _AT_ORIGIN) -> Robot:
         """
         Add a robot, in the namespace ``name``; no time passes.
 
-        DDS may take some milliseconds until it is heard, so that its very first messages may be
-        missed where the name is new.
+        Discovery may take some milliseconds, so that the very first messages of a new name may be
+        missed.
         """
         if name in self.robots or not name:
             raise SimulationError(
@@ -228,7 +234,7 @@ class Simulation:
         return self._spawn(name, pose)
 
     def remove(self, name: str) -> None:
-        """Take a robot out of the world; its controller manager and its topics go with it."""
+        """Remove a robot, with its controller manager and its topics."""
         robot = self._find(name)
         self.ask(DeleteEntity, entity=name)
         self._running.forget(robot.namespace)
@@ -256,90 +262,101 @@ class Simulation:
             raise SimulationError(f'{count} steps are asked; time goes on, and back by reset()')
         begin, start = self._running.time, wall.monotonic()
         while count > 0:
-            stretch = count
+            steps = count
             if self._rtf:
-                stretch = min(count, max(1, round(_PACED * NANOSECONDS / self._running.timestep)))
-            self._running.step(stretch)
-            count -= stretch
-            self._running.time += stretch * self._running.timestep
+                steps = min(
+                    count, max(1, round(_PACING_PERIOD * NANOSECONDS / self._running.timestep))
+                )
+            self._running.step(steps)
+            count -= steps
+            self._running.time += steps * self._running.timestep
             if self._rtf:
                 passed = (self._running.time - begin) / NANOSECONDS
-                self._serve_until(start + passed / self._rtf)
+                self._spin_until(start + passed / self._rtf)
 
     def run(self, seconds: float) -> None:
-        """Let time pass, to the nearest physics step; commands in force stay until they expire."""
+        """Let time pass, to the nearest physics step; the last commands stay until they expire."""
         self.step(self._steps_in(seconds))
 
     def drive(self, linear: float, angular: float, *, seconds: float, stop: bool = True) -> None:
         """
-        Command ``linear`` (m/s, forward) and ``angular`` (rad/s, to the left) for a time.
+        Drive the robot, with ten commands a second of simulated time, then stop it.
 
-        As a teleoperator does: ten commands a second of simulated time. Then, with ``stop``, rest
-        is commanded until the robot stands, ten seconds at most: what is lost in speeding up is
-        made good in braking, so that it goes as far as the command says. Without, the last
-        command stays in force until the controller's time-out.
+        The distance lost by accelerating is made up by braking, so that the robot goes as far as
+        the command says.
+
+        Args:
+            linear: m/s, forward.
+            angular: rad/s, to the left.
+            seconds: Duration of the command.
+            stop: Then command rest until the robot stands, for ten seconds at most; False: the
+                last command stays until the controller's timeout.
         """
         self.drive_all({self.robot.name: (linear, angular)}, seconds=seconds, stop=stop)
 
     def drive_all(
         self, commands: Mapping[str, tuple[float, float]], *, seconds: float, stop: bool = True
     ) -> None:
-        """
-        Do as :meth:`drive` with several robots at once: name → ``linear``, ``angular``.
-        """
+        """Drive several robots at once, as by :meth:`drive`: name → ``linear``, ``angular``."""
         robots = {self._find(name): twist for name, twist in commands.items()}
         self._command(robots, self._steps_in(seconds))
-        end = self.time + _BRAKING
-        while stop and self.time < end and any(robot.moves for robot in robots):
+        end = self.time + _BRAKING_TIMEOUT
+        while stop and self.time < end and any(robot.is_moving for robot in robots):
             self._command(dict.fromkeys(robots, (0.0, 0.0)), self._steps_in(_COMMAND_PERIOD))
 
     def _command(self, commands: Mapping[Robot, tuple[float, float]], count: int) -> None:
-        """For ``count`` physics steps."""
+        """Command robots for ``count`` physics steps."""
         for robot in commands:
             if not robot.command_topic:
                 raise SimulationError(
                     f"no {DRIVE} of '{robot.name}' is active; send() commands other controllers"
                 )
-        stretch = max(1, self._steps_in(_COMMAND_PERIOD))
+        steps = max(1, self._steps_in(_COMMAND_PERIOD))
         while count > 0:
             self.send_all(
                 {robot.command_topic: _twist(*twist) for robot, twist in commands.items()}
             )
-            self.step(min(stretch, count))
-            count -= stretch
+            self.step(min(steps, count))
+            count -= steps
 
     def send(self, topic: str, message: Any) -> None:
         """
-        Send a message to a controller; return when it has it: it counts from the next step on.
+        Send a message to a controller; it has arrived on return and acts from the next step on.
 
-        A header without a stamp gets that of the simulated time.
+        A header without a stamp gets the simulated time.
         """
         self.send_all({topic: message})
 
     def send_all(self, messages: Mapping[str, Any]) -> None:
-        """Send as :meth:`send` on several topics, to all at the same instant."""
+        """Send messages on several topics at the same instant, as by :meth:`send`."""
         self._running.send_all(messages)
 
     def ask(self, service_type: Any, **fields: Any) -> Any:
         """
         Call a service of the simulator, of ``simulation_interfaces``; return the response.
 
-        Its name follows from its type; ``fields``: of the request. Whoever lets time go on by it
-        calls :meth:`reset` before the next step.
+        After time has passed by it, call :meth:`reset` before the next step.
+
+        Args:
+            service_type: Type of the service; its name follows from that.
+            **fields: Of the request.
         """
         return self._running.ask(service_type, **fields)
 
     def reset(self) -> None:
-        """Begin anew: time 0, the robot where it was spawned, odometry at zero; a few ms."""
+        """Reset: time 0, robots where they were spawned, odometry at zero; takes a few ms."""
         self._running.reset()
         for robot in self._robots.values():
             robot.forget()
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
-        Serve the callbacks of :attr:`node`, time standing still, until ``condition()`` holds.
+        Spin :attr:`node` until a condition holds; return what it returned. No time passes.
 
-        Return what it returned. ``what``: for the error; ``timeout``: s of the wall clock (30).
+        Args:
+            condition: Called repeatedly; holds when its result is true.
+            what: What is waited for, for the error.
+            timeout: s of the wall clock; 30 by default.
         """
         return self._running.wait(condition, what, timeout)
 
@@ -357,31 +374,31 @@ class Simulation:
 
     @property
     def odometry(self) -> Motion:
-        """What the drive's odometry said last, by its own stamp (:attr:`Motion.time`)."""
+        """The last odometry of the drive, with its own stamp (:attr:`Motion.time`)."""
         return self.robot.odometry
 
     @property
     def joints(self) -> dict[str, Joint]:
-        """What the JointStateBroadcaster said last, by the names of the joints."""
+        """The last state of each joint, by name, from the JointStateBroadcaster."""
         return self.robot.joints
 
     @property
     def log(self) -> str:
-        """What the simulator has said so far."""
-        return self._program.log
+        """The output of the simulator so far."""
+        return self._process.log
 
     @property
     def is_alive(self) -> bool:
         """Whether the simulator runs."""
-        return self._program.process.poll() is None
+        return self._process.process.poll() is None
 
     def _steps_in(self, seconds: float) -> int:
         if not (math.isfinite(seconds) and seconds >= 0.0):
             raise SimulationError(f'{seconds} s are asked; a finite time, not below 0, will do')
         return round(seconds * NANOSECONDS / self._running.timestep)
 
-    def _serve_until(self, instant: float) -> None:
-        """Keep to the wall clock (``time.monotonic``, s)."""
+    def _spin_until(self, instant: float) -> None:
+        """Spin the node until an instant of ``time.monotonic``, s."""
         while (delay := instant - wall.monotonic()) > 0.0:
             self.node.executor.spin_once(timeout_sec=delay)
 
@@ -393,5 +410,5 @@ def _twist(linear: float, angular: float) -> TwistStamped:
 
 
 def _absolute(world: str | Path) -> str:
-    """The simulator runs in the same folder, but a Path is meant as a file all the same."""
+    """Return a name as it is, and the absolute path of a Path, which is always a file."""
     return str(world.absolute()) if isinstance(world, Path) else world

@@ -3,7 +3,6 @@
 """A simulator as a process, and a client that knows only its services and topics."""
 
 from contextlib import contextmanager
-import re
 
 import rclpy
 from rclpy.action import ActionClient
@@ -14,7 +13,7 @@ from simulation_interfaces.msg import Result
 from support.ros_processes import PATIENCE, ROOT, running
 
 from amr_description.clock import NANOSECONDS
-from amr_description.ros.service_calls import call_with, wait_until
+from amr_description.ros.service_calls import call_with, name_of_type, wait_until
 
 URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
 SIMULATOR = '/mujoco_sim'
@@ -42,7 +41,7 @@ class Simulator:
         """The response, whatever its result."""
         client = self._clients.get(service_type)
         if client is None:
-            name = f'{SIMULATOR}/{_snake(service_type)}'
+            name = f'{SIMULATOR}/{name_of_type(service_type)}'
             client = self.node.create_client(service_type, name)
             self._clients[service_type] = client
         request = service_type.Request(**fields)
@@ -70,7 +69,7 @@ class Simulator:
 
     def action(self, action_type):
         """A client whose server is there; destroy it at the end."""
-        client = ActionClient(self.node, action_type, f'{SIMULATOR}/{_snake(action_type)}')
+        client = ActionClient(self.node, action_type, f'{SIMULATOR}/{name_of_type(action_type)}')
         self.wait(client.server_is_ready)
         return client
 
@@ -88,10 +87,6 @@ class Simulator:
         ended = handle.get_result_async()
         self.wait(ended.done)
         return ended.result().status, ended.result().result.result
-
-
-def _snake(interface_type):
-    return re.sub('(?<!^)(?=[A-Z])', '_', interface_type.__name__).lower()
 
 
 @contextmanager

@@ -3,7 +3,6 @@
 """A controller manager as seen by a program that asks it for something, ours or a C++ one."""
 
 from collections.abc import Mapping, Sequence
-import re
 import time
 from typing import Any
 
@@ -19,7 +18,13 @@ from rclpy.parameter import Parameter
 from amr_description.control.ros.absence_diagnosis import errors_of, ManagerProbe
 from amr_description.errors import ControllerError
 from amr_description.ros.runtime import argument_errors
-from amr_description.ros.service_calls import ask_until_answered, call, NoAnswerError, wait_until
+from amr_description.ros.service_calls import (
+    ask_until_answered,
+    call,
+    name_of_type,
+    NoAnswerError,
+    wait_until,
+)
 
 _EVERY = 10.0
 """s: how often it is said that the manager is still not there."""
@@ -255,15 +260,10 @@ class ManagerClient:
             raise self._explained(error) from error
 
     def _service(self, service_type: Any) -> str:
-        return f'{self.name}/{_service_name(service_type)}'
+        return f'{self.name}/{name_of_type(service_type)}'
 
     def _explained(self, error: NoAnswerError) -> NoAnswerError:
         if not self.is_there():
             return error
         fault = self._search.clock_fault() or f'{self.name} may be stopped, or busy: see its log'
         return NoAnswerError(f'{error} {fault}')
-
-
-def _service_name(service_type: Any) -> str:
-    """Return the name that a service has by its type: ``LoadController`` → load_controller."""
-    return re.sub('(?<!^)(?=[A-Z])', '_', service_type.__name__).lower()

@@ -117,7 +117,7 @@ def test_of_many_commands_at_an_instant_the_last_counts(sim):
 
 
 def test_a_command_is_sent_to_somebody_who_takes_it(sim, monkeypatch):
-    monkeypatch.setattr('amr_description.testing.lock_step.PATIENCE', 0.5)
+    monkeypatch.setattr('amr_description.testing.lock_step.TIMEOUT', 0.5)
     with pytest.raises(SimulationError, match='waited 0.5 s for a subscriber of .* in vain'):
         sim.send('/nobody/cmd_vel', Twist())
 
