@@ -92,15 +92,17 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
         raise ParameterError(f"parameter file '{path}': not UTF-8 text ({error})") from error
     try:
         content = load_yaml(text)
-        if not isinstance(content, dict) or not content:
-            raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
-        for _ in sections(content):
+        for _ in sections(content if isinstance(content, dict) else {}):
             pass
     except YamlError as error:
         line = ''.join(f':{number}' for number in error.where or ())
         raise ParameterError(f'{path}{line}: {error}') from error
+    except ParameterError as error:
+        raise ParameterError(f"parameter file '{path}': {error}") from error
     except RecursionError as error:  # an anchor that holds itself
-        raise ParameterError(f'{path}: nested too deeply') from error
+        raise ParameterError(f"parameter file '{path}': it is nested too deeply") from error
+    if not isinstance(content, dict) or not content:
+        raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
     return content
 
 

@@ -82,10 +82,10 @@ def main(argv: list[str]) -> int:
         return _print_inertial(text, source, find_file, arguments)
     if arguments.mass or arguments.density:
         raise UsageError('--mass and --density are of the link that --inertia LINK names')
-    surroundings = CheckInputs(
-        is_there=lambda uri: _is_there(find_file, uri), find_file=find_file, drives=drives
+    inputs = CheckInputs(
+        file_exists=lambda uri: _is_there(find_file, uri), find_file=find_file, drives=drives
     )
-    examination = examine(text, source, surroundings)
+    examination = examine(text, source, inputs)
     drop = _drop(examination) if arguments.drop else None
     code = exit_code(examination, drop, strict=arguments.strict)
     if arguments.json:

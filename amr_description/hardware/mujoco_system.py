@@ -25,7 +25,7 @@ from amr_description.control.interfaces import (
 from amr_description.control.world import JointGroup, World
 from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware.simulated_imu import imus_of
-from amr_description.model.gazebo import GAZEBOS_GAIN, ros2_control_host_of
+from amr_description.model.gazebo import GAZEBO_POSITION_GAIN, ros2_control_host_of
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
 from amr_description.text import truth
 
@@ -87,7 +87,7 @@ class MujocoSystem(HardwareComponent):
         simulated = [imu.info for imu in self._imus]
         others = [sensor for sensor in self.info.sensors if sensor not in simulated]
         host = ros2_control_host_of(self._world.description)
-        if host.position_proportional_gain != GAZEBOS_GAIN:
+        if host.position_proportional_gain != GAZEBO_POSITION_GAIN:
             self.log(
                 Severity.WARN,
                 f"hardware component '{self.info.name}': <position_proportional_gain> is left "

@@ -57,7 +57,7 @@ class SimulatedImu:
                     f'has: {", ".join(IMU_INTERFACES)}'
                 )
         self._link = _link_of(info, world, mounted)
-        self._mount_pose = Transform() if mounted is None else mounted.place
+        self._mount_pose = Transform() if mounted is None else mounted.pose
         self.states = [StateInterface(info.name, each.name) for each in info.state_interfaces]
         self._indices = [IMU_INTERFACES.index(state.interface) for state in self.states]
         noises = () if mounted is None else mounted.noise
@@ -144,7 +144,7 @@ class SensorNoise:
         draws = self._generator.standard_normal(2 * count).tolist()
         measured = []
         for index, (noise, value) in enumerate(zip(self._noises, values, strict=True)):
-            if noise.wanders:
+            if noise.has_dynamic_bias:
                 self._drift_bias(index, noise, period, draws[count + index])
             value += self._biases[index] + noise.mean + noise.stddev * draws[index]
             if noise.precision:

@@ -1,44 +1,34 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a robot is, in plain frozen data. Knows no ROS, no simulator, no clock.
+What a robot is, in frozen dataclasses, and how it is read and checked. No ROS, no simulator.
 
-=================================== ==============================================================
-``frames.py``                       SE(3): transforms, quaternion orders, forward kinematics
-``robot.py``                        Robot, Link, Joint, Inertial, shapes: the result of reading
-``hardware_info.py``                HardwareInfo and its interfaces: likewise
+=======================  =========================================================================
+module                   what it holds
+=======================  =========================================================================
+``frames.py``            rigid transforms (SE(3)), quaternions, rotation conventions
+``robot.py``             Robot, Link, Joint, Inertial, shapes: the result of reading a URDF
+``kinematics.py``        forward kinematics: the poses of links for joint positions
+``hardware_info.py``     HardwareInfo and its interfaces: the result of reading ``<ros2_control>``
 
-``description_file.py``             file -> URDF text, xacro expanded
-``urdf.py``                         URDF -> Robot: ``parse(text, source)``, ``load(path)``
-``urdf_links.py``                   … its ``<link>`` and ``<material>`` elements
-``urdf_joints.py``                  … its ``<joint>`` elements
-``tree.py``                         … the rules that make them one tree
-``ros2_control_tag.py``             ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
-``ros2_control_interfaces.py``      … its inner elements
-``gazebo_tag.py``                   ``<gazebo>`` plugins: ``gazebo_plugins_of(robot)``
-``gazebo_sensors.py``               ``<gazebo>`` sensors: ``gazebo_sensors_of(robot)``
+``description_file.py``  file -> URDF text, xacro expanded
+``urdf.py``              URDF -> Robot: ``parse(text, source)``, ``load(path)``
+``urdf_links.py``        its ``<link>`` and ``<material>`` elements
+``urdf_joints.py``       its ``<joint>`` elements
+``ros2_control_tag.py``  ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
+``gazebo.py``            ``<gazebo>`` plugins and sensors
+``findings.py``          Finding: severity, line, what, found, expected, fix
+``xml_reader.py``        XML of unknown origin, and attributes with true line numbers
 
-``transform_buffer.py``             frames over time, as tf2's buffer: ``lookup(target, source)``
-``frame_tree.py``                   … which frame is in which
-``transform_cache.py``              … where one frame was, and interpolation
-``transform_input.py``              … what is taken in, and who quarrels about a frame
+``wheels.py``            which links are wheels
+``shapes.py``            primitive shapes as solids: inertia, extent, overlap
+``meshes.py``            mesh files as triangles: ``load_mesh(path, scale)``
+``collada.py``           what meshes.py needs to know of COLLADA files
+``mesh_solids.py``       meshes as solids: closed or not, mass, inertia, hull
+``convex_hull.py``       the volume of a convex hull
+``mesh_paths.py``        relative mesh paths made absolute
+``mesh_uses.py``         the meshes of a robot, each file read once
 
-``checks.py``                       the checker: ``RULES``, ``examine``, ``require_sound``
-``rules_mass.py`` …                 … its rules, by what they judge
-``subject.py``                      … what a rule may look at: ``Subject``, ``Surroundings``
-``drive_settings.py``               … what controllers believe of the robot
-``urdf_grammar.py``                 … the elements and attributes that there are
-``wheels.py``                       … which links are wheels
-``shapes.py``, ``convex.py``        … shapes as solids: inertia, extent, overlap
-``meshes.py``, ``collada.py``       mesh files as triangles: ``load_mesh(path, scale)``
-``mesh_solids.py``                  … as solids: closed or not, mass, inertia, hull
-``convex_hull.py``                  … the volume of a convex hull
-``mesh_paths.py``                   … relative paths made absolute, where the file is known
-``mesh_uses.py``                    … those of a robot, each file read once
-``nearest.py``                      … the word that was meant
-
-``findings.py``                     Finding: severity, place, what, found, expected, fix
-``xml_source.py``                   files and XML from strangers, safely, with true line numbers
-``element_reader.py``               attributes of XML elements, read with a clear word on faults
-=================================== ==============================================================
+``checks/``              the checker: ``RULES``, ``examine``, ``require_sound``
+=======================  =========================================================================
 """

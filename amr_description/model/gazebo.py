@@ -1,14 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The plugins that ``<gazebo>`` blocks ask for, above all the one that hosts ros2_control.
+``<gazebo>`` blocks: the plugin that hosts ros2_control, and the sensors on links with their noise.
 
-A URDF made for Gazebo runs here unchanged: the simulator takes the place of the plugin and reads
-its parameters files, namespace and remappings from this block.
-
-The noise that ``<noise type="gaussian">`` of a Gazebo sensor asks for.
-
-The sensors that ``<gazebo reference="link">`` blocks mount on links.
+A URDF made for Gazebo runs here unchanged: the simulator replaces the plugin and reads its
+parameter files, namespace and remappings from the block.
 """
 
 from collections.abc import Iterator
@@ -27,8 +23,20 @@ _ROS2_CONTROL_PLUGINS = (
     'gz_ros2_control::GazeboSimROS2ControlPlugin',
     'ign_ros2_control::IgnitionROS2ControlPlugin',
 )
+GAZEBO_POSITION_GAIN = 0.1
+"""1/period: the default gain of Gazebo's position servo."""
 
-GAZEBOS_GAIN = 0.1
+GAUSSIAN_TYPES = ('gaussian', 'gaussian_quantized')
+TYPES = ('none', *GAUSSIAN_TYPES)
+IMU_QUANTITIES = ('angular_velocity', 'linear_acceleration')
+"""The quantities of an ``<imu>`` that may have noise, each along x, y and z."""
+_NEVER_NEGATIVE = (
+    'stddev',
+    'bias_stddev',
+    'dynamic_bias_stddev',
+    'dynamic_bias_correlation_time',
+    'precision',
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +45,7 @@ class GazeboPlugin:
     One ``<plugin>``; the fields after ``line`` are read only for a plugin that hosts ros2_control.
 
     ``parameters`` are the paths of YAML files as written, ``remappings`` rules such as
-    ``odom:=/odom``. ``hold_joints`` keeps joints that nobody commands in place.
+    ``odom:=/odom``. ``hold_joints`` keeps joints where they are that no controller commands.
     ``position_proportional_gain`` is that of Gazebo's position servo (1/period).
     """
 
@@ -49,7 +57,7 @@ class GazeboPlugin:
     namespace: str = ''
     remappings: tuple[str, ...] = ()
     hold_joints: bool = True
-    position_proportional_gain: float = GAZEBOS_GAIN
+    position_proportional_gain: float = GAZEBO_POSITION_GAIN
 
     @property
     def hosts_ros2_control(self) -> bool:
@@ -58,15 +66,16 @@ class GazeboPlugin:
 
 
 def gazebo_plugins_of(robot: Robot) -> tuple[GazeboPlugin, ...]:
-    """Return the plugins of all ``<gazebo>`` blocks; DescriptionError at the first fault."""
+    """Return the plugins of all ``<gazebo>`` blocks. Raises DescriptionError."""
     xml = parse_xml(robot.text, robot.source, raise_error)
     return () if xml is None else read_gazebo_plugins(xml, robot.source, raise_error)
 
 
 def ros2_control_host_of(robot: Robot) -> GazeboPlugin:
     """
-    Return the plugin that hosts ros2_control, the first if there are several; with all defaults
-    if there is none. DescriptionError at the first fault.
+    Return the first plugin that hosts ros2_control, or one with all defaults if there is none.
+
+    Raises DescriptionError at the first fault.
     """
     hosts = (plugin for plugin in gazebo_plugins_of(robot) if plugin.hosts_ros2_control)
     return next(hosts, GazeboPlugin(filename='', name='', line=0))
@@ -75,13 +84,76 @@ def ros2_control_host_of(robot: Robot) -> GazeboPlugin:
 def read_gazebo_plugins(
     xml: etree._Element, source: str, report: Report
 ) -> tuple[GazeboPlugin, ...]:
-    """Return what can be read of the plugins below ``xml``, reporting every fault."""
+    """Return the plugins below ``xml`` as far as they can be read; report every fault."""
     reader = ElementReader(source, report)
     return tuple(
         _read_plugin(plugin, reader.of(f'gazebo plugin {quote(plugin.get("name", ""))}'))
         for gazebo in xml.iterchildren('gazebo')
         for plugin in gazebo.iterchildren('plugin')
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """
+    The ``<noise>`` of a sensor, as in SDF; all in the unit of the measured quantity, times in s.
+
+    The sensor reports ``value + bias + normal(mean, stddev)``. The bias is drawn once, from
+    ``normal(bias_mean, bias_stddev)``, with either sign alike. A dynamic bias then changes as a
+    Gauss–Markov process: ``bias' = exp(-dt / tau) bias + normal(0, s)`` with
+    ``s² = dynamic_bias_stddev² tau / 2 (1 - exp(-2 dt / tau))``.
+    """
+
+    mean: float = 0.0
+    stddev: float = 0.0
+    bias_mean: float = 0.0
+    bias_stddev: float = 0.0
+    dynamic_bias_stddev: float = 0.0
+    dynamic_bias_correlation_time: float = 0.0
+    precision: float = 0.0
+    """The reported value is a multiple of it; 0: it is not rounded."""
+
+    @property
+    def has_dynamic_bias(self) -> bool:
+        """Whether the bias changes over time."""
+        return self.dynamic_bias_stddev > 0.0 and self.dynamic_bias_correlation_time > 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboSensor:
+    """One ``<sensor>``; ``pose`` is ``transform_sensor_to_link``."""
+
+    name: str
+    type: str
+    link: str
+    pose: Transform
+    line: int
+    noise: tuple[tuple[str, Noise], ...] = ()
+    """For an IMU: (state interface, such as ``angular_velocity.x``, its noise)."""
+
+
+def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
+    """Return the sensors of all ``<gazebo>`` blocks. Raises DescriptionError."""
+    xml = parse_xml(robot.text, robot.source, raise_error)
+    if xml is None:
+        return ()
+    reader = ElementReader(robot.source, raise_error)
+    return tuple(
+        _read_sensor(sensor, gazebo.get('reference', ''), reader)
+        for gazebo in xml.iterchildren('gazebo')
+        for sensor in gazebo.iterchildren('sensor')
+    )
+
+
+def read_imu_noise(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
+    """Yield the noise of each state interface that has some, such as ``angular_velocity.x``."""
+    for quantity in IMU_QUANTITIES:
+        for axis in 'xyz':
+            element = sensor.find(f'imu/{quantity}/{axis}/noise')
+            if element is not None:
+                noise = _read_noise(element, reader.of(f'{reader.label}: {quantity}.{axis}'))
+                if noise is not None:
+                    yield f'{quantity}.{axis}', noise
 
 
 def _read_plugin(element: etree._Element, reader: ElementReader) -> GazeboPlugin:
@@ -118,7 +190,7 @@ def _read_hold_joints(element: etree._Element, reader: ElementReader) -> bool:
 
 
 def _read_gain(element: etree._Element, reader: ElementReader) -> float:
-    text = element.findtext('position_proportional_gain', str(GAZEBOS_GAIN)).strip()
+    text = element.findtext('position_proportional_gain', str(GAZEBO_POSITION_GAIN)).strip()
     gain = parse_number(text)
     if not 0.0 < gain < float('inf'):
         reader.error(
@@ -127,61 +199,32 @@ def _read_gain(element: etree._Element, reader: ElementReader) -> float:
             found=quote(text),
             expected='a finite number above 0',
         )
-        return GAZEBOS_GAIN
+        return GAZEBO_POSITION_GAIN
     return gain
 
 
-GAUSSIAN_TYPES = ('gaussian', 'gaussian_quantized')
-TYPES = ('none', *GAUSSIAN_TYPES)
-
-IMU_QUANTITIES = ('angular_velocity', 'linear_acceleration')
-"""What an ``<imu>`` may have noise on, each along x, y and z."""
-
-
-@dataclass(frozen=True, slots=True)
-class Noise:
-    """
-    As in SDF; all in the unit of what is measured, times in s.
-
-    What is measured comes out as ``value + bias + normal(mean, stddev)``. The bias is drawn once,
-    of ``normal(bias_mean, bias_stddev)``, with either sign alike. With a dynamic bias it then
-    wanders as a Gauss–Markov process: ``bias' = exp(-dt / tau) bias + normal(0, s)`` with
-    ``s² = dynamic_bias_stddev² tau / 2 (1 - exp(-2 dt / tau))``.
-    """
-
-    mean: float = 0.0
-    stddev: float = 0.0
-    bias_mean: float = 0.0
-    bias_stddev: float = 0.0
-    dynamic_bias_stddev: float = 0.0
-    dynamic_bias_correlation_time: float = 0.0
-    precision: float = 0.0
-    """What comes out is a multiple of it; 0: it is not rounded."""
-
-    @property
-    def wanders(self) -> bool:
-        """Whether it has a dynamic bias."""
-        return self.dynamic_bias_stddev > 0.0 and self.dynamic_bias_correlation_time > 0.0
+def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> GazeboSensor:
+    name = reader.required(element, 'name')
+    reader = reader.of(f'gazebo sensor {quote(name)}')
+    if not link:
+        reader.error(
+            element,
+            'its <gazebo> has no attribute "reference"',
+            expected='the link that the sensor is mounted on',
+        )
+    pose = _read_pose(element, reader)
+    noise = tuple(read_imu_noise(element, reader))
+    return GazeboSensor(name, element.get('type', ''), link, pose, line_of(element), noise)
 
 
-_NEVER_NEGATIVE = (
-    'stddev',
-    'bias_stddev',
-    'dynamic_bias_stddev',
-    'dynamic_bias_correlation_time',
-    'precision',
-)
-
-
-def read_imu_noise(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
-    """Yield the noise of each state interface that has some, such as ``angular_velocity.x``."""
-    for quantity in IMU_QUANTITIES:
-        for axis in 'xyz':
-            element = sensor.find(f'imu/{quantity}/{axis}/noise')
-            if element is not None:
-                noise = _read_noise(element, reader.of(f'{reader.label}: {quantity}.{axis}'))
-                if noise is not None:
-                    yield f'{quantity}.{axis}', noise
+def _read_pose(element: etree._Element, reader: ElementReader) -> Transform:
+    text = element.findtext('pose', '0 0 0 0 0 0')
+    values = [parse_number(word) for word in text.split()]
+    if len(values) != 6 or not all(map(math.isfinite, values)):
+        reader.error(element, '<pose>', found=quote(text.strip()), expected='6 numbers, finite')
+        return Transform()
+    x, y, z, *rpy = values
+    return Transform.from_xyz_rpy((x, y, z), (rpy[0], rpy[1], rpy[2]))
 
 
 def _read_noise(element: etree._Element, reader: ElementReader) -> Noise | None:
@@ -203,53 +246,3 @@ def _read_noise(element: etree._Element, reader: ElementReader) -> Noise | None:
             expected = 'a finite number' if least else 'a finite number from 0 on'
             reader.error(element, f'<{name}>', found=quote(text.strip()), expected=expected)
     return Noise(**values)
-
-
-@dataclass(frozen=True, slots=True)
-class GazeboSensor:
-    """One ``<sensor>``; ``place`` (its ``<pose>``) is ``transform_sensor_to_link``."""
-
-    name: str
-    type: str
-    link: str
-    place: Transform
-    line: int
-    noise: tuple[tuple[str, Noise], ...] = ()
-    """Of an IMU: state interface, such as ``angular_velocity.x``, and its noise."""
-
-
-def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
-    """Return the sensors of all ``<gazebo>`` blocks; DescriptionError at the first fault."""
-    xml = parse_xml(robot.text, robot.source, raise_error)
-    if xml is None:
-        return ()
-    reader = ElementReader(robot.source, raise_error)
-    return tuple(
-        _read_sensor(sensor, gazebo.get('reference', ''), reader)
-        for gazebo in xml.iterchildren('gazebo')
-        for sensor in gazebo.iterchildren('sensor')
-    )
-
-
-def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> GazeboSensor:
-    name = reader.required(element, 'name')
-    reader = reader.of(f'gazebo sensor {quote(name)}')
-    if not link:
-        reader.error(
-            element,
-            'its <gazebo> has no attribute "reference"',
-            expected='the link that the sensor is mounted on',
-        )
-    place = _read_pose(element, reader)
-    noise = tuple(read_imu_noise(element, reader))
-    return GazeboSensor(name, element.get('type', ''), link, place, line_of(element), noise)
-
-
-def _read_pose(element: etree._Element, reader: ElementReader) -> Transform:
-    text = element.findtext('pose', '0 0 0 0 0 0')
-    values = [parse_number(word) for word in text.split()]
-    if len(values) != 6 or not all(map(math.isfinite, values)):
-        reader.error(element, '<pose>', found=quote(text.strip()), expected='6 numbers, finite')
-        return Transform()
-    x, y, z, *rpy = values
-    return Transform.from_xyz_rpy((x, y, z), (rpy[0], rpy[1], rpy[2]))

@@ -129,9 +129,9 @@ def solid_mesh(mesh: TriangleMesh, pose: Transform, name: str) -> SolidBody:
 def solid_primitive(solid: Solid) -> SolidBody:
     """Return a box, cylinder or sphere as a body."""
     volume = primitive_volume(solid.shape)
-    rotation = np.array(matrix_from_quaternion(solid.place.rotation))
+    rotation = np.array(matrix_from_quaternion(solid.pose.rotation))
     inertia = rotation @ np.diag(solid_moments(solid.shape, volume)) @ rotation.T
-    return SolidBody(volume, np.array(solid.place.translation), inertia)
+    return SolidBody(volume, np.array(solid.pose.translation), inertia)
 
 
 def joined(bodies: Sequence[SolidBody], density: float) -> MassProperties:

@@ -3,9 +3,7 @@
 """
 ``<ros2_control>`` blocks -> :class:`~amr_description.model.hardware_info.HardwareInfo`.
 
-Errors begin with the words of ros2_control where it has some (``Joint 'x' not found in URDF``).
-
-The inner elements of ``<ros2_control>``: components, interfaces, parameters, transmissions.
+Errors begin with the text of ros2_control where it has one (``Joint 'x' not found in URDF``).
 """
 
 from collections.abc import Iterator
@@ -44,35 +42,174 @@ _COMPONENT_CHILDREN = {
 }
 _NUMERIC_PARAMETERS = ('min', 'max', 'initial_value')
 _TRUTH_VALUES = {'true': 1.0, 'false': 0.0}
+_CHILDREN = ('hardware', 'properties', 'joint', 'sensor', 'gpio', 'transmission')
 
 
-def refuse_unknown_children(
-    element: etree._Element, known: tuple[str, ...], reader: ElementReader
+def hardware_of(robot: Robot) -> tuple[HardwareInfo, ...]:
+    """
+    Return the hardware components of a robot in the order of the file; () if it has none.
+
+    Raises DescriptionError (``file:line: …``) at the first fault of a block.
+    """
+    xml = parse_xml(robot.text, robot.source, raise_error)
+    return () if xml is None else read_hardware(xml, robot, raise_error)
+
+
+def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[HardwareInfo, ...]:
+    """Return the blocks below ``xml`` as far as they can be read; report every fault."""
+    reader = ElementReader(robot.source, report)
+    found: dict[str, HardwareInfo] = {}
+    for element in xml.iterchildren('ros2_control'):
+        info = _read_block(element, robot, reader)
+        if info.name in found:
+            reader.error(
+                element,
+                f'Hardware name {info.name} is duplicated',
+                found=f'the first on line {found[info.name].line}',
+                fix="provide a unique 'name' in the URDF",
+            )
+        found.setdefault(info.name, info)
+    return tuple(found.values())
+
+
+def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) -> HardwareInfo:
+    name = element.get('name', '')
+    reader = reader.of(f'ros2_control {quote(name)}')
+    if not name:
+        reader.error(element, '<ros2_control> has no attribute "name"')
+    refuse_unknown_children(element, _CHILDREN, reader)
+    kind = _read_type(element, reader)
+    hardware = _read_hardware_element(element, reader)
+    joints = tuple(_read_joints(element, robot, reader))
+    _check_mimicked(element, joints, reader)
+    return HardwareInfo(
+        name=name,
+        type=kind,
+        plugin='' if hardware is None else read_text(hardware, 'plugin', reader),
+        group='' if hardware is None else hardware.findtext('group', '').strip(),
+        parameters={} if hardware is None else read_parameters(hardware, reader),
+        rw_rate=_read_rate(element, reader),
+        is_async=reader.flag(element, 'is_async', False),
+        joints=joints,
+        sensors=_read_components(element, ComponentType.SENSOR, reader),
+        gpios=_read_components(element, ComponentType.GPIO, reader),
+        transmissions=tuple(
+            read_transmission(child, reader) for child in element.iterchildren('transmission')
+        ),
+        line=line_of(element),
+    )
+
+
+def _read_type(element: etree._Element, reader: ElementReader) -> HardwareType:
+    text = element.get('type', '')
+    if text in HardwareType:
+        return HardwareType(text)
+    reader.error(
+        element,
+        'type of <ros2_control>',
+        found=quote(text),
+        expected=f'one of {", ".join(HardwareType)}',
+    )
+    return HardwareType.SYSTEM
+
+
+def _read_hardware_element(
+    element: etree._Element, reader: ElementReader
+) -> etree._Element | None:
+    hardware = element.find('hardware')
+    if hardware is None:
+        reader.error(
+            element,
+            'no <hardware>',
+            fix='add <hardware><plugin>amr_description/MujocoSystem</plugin></hardware>',
+        )
+        return None
+    refuse_unknown_children(hardware, ('plugin', 'group', 'param'), reader)
+    return hardware
+
+
+def _read_rate(element: etree._Element, reader: ElementReader) -> int:
+    """Return ``rw_rate`` in Hz, 0 when it is not given."""
+    text = element.get('rw_rate')
+    if text is None:
+        return 0
+    if not (text.isascii() and text.isdigit() and 0 < len(text) <= 6 and int(text) > 0):
+        reader.error(
+            element, 'rw_rate', found=quote(text), expected='a non-zero positive integer, in Hz'
+        )
+        return 0
+    return int(text)
+
+
+def _read_joints(
+    element: etree._Element, robot: Robot, reader: ElementReader
+) -> Iterator[ComponentInfo]:
+    seen: set[str] = set()
+    for child in element.iterchildren('joint'):
+        name = child.get('name', '')
+        if name in seen:
+            reader.error(child, f"Joint '{name}' is listed twice", fix='list it once')
+            continue
+        seen.add(name)
+        if name and not robot.has_joint(name):
+            moving = quote_all([joint.name for joint in robot.joints if joint.has_position])
+            reader.error(
+                child,
+                f"Joint '{name}' not found in URDF",
+                expected=f'one of {moving}',
+            )
+        joint = robot.joint(name) if robot.has_joint(name) else None
+        if joint is not None and joint.type is JointType.FIXED:
+            reader.error(
+                child,
+                f"Joint '{name}' is of type 'fixed'",
+                expected='a joint that moves: fixed joints do not make sense in ros2_control',
+            )
+        yield read_component(child, ComponentType.JOINT, reader, _read_mimic(child, joint, reader))
+
+
+def _read_mimic(
+    element: etree._Element, joint: Joint | None, reader: ElementReader
+) -> Mimic | None:
+    """Return how the URDF makes the joint follow another; None if the tag switches it off."""
+    mimic = None if joint is None else joint.mimic
+    if not reader.flag(element, 'mimic', mimic is not None):
+        return None
+    name = element.get('name', '')
+    if mimic is None and joint is not None:
+        reader.error(
+            element,
+            f'Joint \'{name}\' has mimic="true", but no <mimic> in the URDF',
+            fix='add <mimic joint="…"/> to the <joint>, or remove the attribute',
+        )
+    if mimic is not None and element.find('command_interface') is not None:
+        reader.error(
+            element,
+            f"Joint '{name}' has mimic attribute not set to false: activated mimic joints cannot "
+            'have command interfaces',
+            fix='remove its command interfaces or write mimic="false"',
+        )
+    return mimic
+
+
+def _check_mimicked(
+    element: etree._Element, joints: tuple[ComponentInfo, ...], reader: ElementReader
 ) -> None:
-    """Report every child element whose tag is not in ``known``."""
-    for child in element.iterchildren(etree.Element):
-        if child.tag not in known:
-            expected = ', '.join(f'<{tag}>' for tag in known)
-            reader.error(child, f'invalid tag name {quote(child.tag)}', expected=expected)
+    names = [joint.name for joint in joints]
+    for joint in joints:
+        if joint.mimic is not None and joint.mimic.joint not in names:
+            reader.error(
+                element,
+                f"Joint '{joint.name}' mimics a joint that is not in this tag",
+                found=quote(joint.mimic.joint),
+                expected=f'one of {quote_all(names)}',
+            )
 
 
-def read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
-    """Return the text of a child that must be there; '' after a report."""
-    text = (element.findtext(tag) or '').strip()
-    if not text:
-        reader.error(element, f'no {tag} in <{element.tag}>', fix=f'add <{tag}>…</{tag}>')
-    return text
-
-
-def read_parameters(element: etree._Element, reader: ElementReader) -> dict[str, str]:
-    """Return the ``<param name="…">text</param>`` children of an element."""
-    parameters = {}
-    for child in element.iterchildren('param'):
-        name = reader.required(child, 'name')
-        if name in parameters:
-            reader.error(child, f'parameter {quote(name)} is set twice', fix='set it once')
-        parameters.setdefault(name, (child.text or '').strip())
-    return parameters
+def _read_components(
+    element: etree._Element, kind: ComponentType, reader: ElementReader
+) -> tuple[ComponentInfo, ...]:
+    return tuple(read_component(child, kind, reader) for child in element.iterchildren(kind))
 
 
 def read_component(
@@ -162,7 +299,7 @@ def _check_range(
 def _check_initial(
     element: etree._Element, data_type: str, value: float | None, reader: ElementReader
 ) -> None:
-    """Report a first value that an integer type cannot hold."""
+    """Report an initial value that an integer type cannot hold."""
     if value is None or data_type not in _INTEGER_RANGES:
         return
     low, high = _INTEGER_RANGES[data_type]
@@ -225,171 +362,30 @@ def _read_end(element: etree._Element, reader: ElementReader) -> TransmissionEnd
     )
 
 
-_CHILDREN = ('hardware', 'properties', 'joint', 'sensor', 'gpio', 'transmission')
-
-
-def hardware_of(robot: Robot) -> tuple[HardwareInfo, ...]:
-    """
-    Return the hardware components of a robot, in the order of the file; () when it has none.
-
-    DescriptionError (``file:line: …``) at the first fault of a block.
-    """
-    xml = parse_xml(robot.text, robot.source, raise_error)
-    return () if xml is None else read_hardware(xml, robot, raise_error)
-
-
-def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[HardwareInfo, ...]:
-    """Return what can be read of the blocks below ``xml``, reporting every fault."""
-    reader = ElementReader(robot.source, report)
-    found: dict[str, HardwareInfo] = {}
-    for element in xml.iterchildren('ros2_control'):
-        info = _read_block(element, robot, reader)
-        if info.name in found:
-            reader.error(
-                element,
-                f'Hardware name {info.name} is duplicated',
-                found=f'the first on line {found[info.name].line}',
-                fix="provide a unique 'name' in the URDF",
-            )
-        found.setdefault(info.name, info)
-    return tuple(found.values())
-
-
-def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) -> HardwareInfo:
-    name = element.get('name', '')
-    reader = reader.of(f'ros2_control {quote(name)}')
-    if not name:
-        reader.error(element, '<ros2_control> has no attribute "name"')
-    refuse_unknown_children(element, _CHILDREN, reader)
-    kind = _read_type(element, reader)
-    hardware = _read_hardware_element(element, reader)
-    joints = tuple(_read_joints(element, robot, reader))
-    _check_mimicked(element, joints, reader)
-    return HardwareInfo(
-        name=name,
-        type=kind,
-        plugin='' if hardware is None else read_text(hardware, 'plugin', reader),
-        group='' if hardware is None else hardware.findtext('group', '').strip(),
-        parameters={} if hardware is None else read_parameters(hardware, reader),
-        rw_rate=_read_rate(element, reader),
-        is_async=reader.flag(element, 'is_async', False),
-        joints=joints,
-        sensors=_read_components(element, ComponentType.SENSOR, reader),
-        gpios=_read_components(element, ComponentType.GPIO, reader),
-        transmissions=tuple(
-            read_transmission(child, reader) for child in element.iterchildren('transmission')
-        ),
-        line=line_of(element),
-    )
-
-
-def _read_type(element: etree._Element, reader: ElementReader) -> HardwareType:
-    text = element.get('type', '')
-    if text in HardwareType:
-        return HardwareType(text)
-    reader.error(
-        element,
-        'type of <ros2_control>',
-        found=quote(text),
-        expected=f'one of {", ".join(HardwareType)}',
-    )
-    return HardwareType.SYSTEM
-
-
-def _read_hardware_element(
-    element: etree._Element, reader: ElementReader
-) -> etree._Element | None:
-    hardware = element.find('hardware')
-    if hardware is None:
-        reader.error(
-            element,
-            'no <hardware>',
-            fix='add <hardware><plugin>amr_description/MujocoSystem</plugin></hardware>',
-        )
-        return None
-    refuse_unknown_children(hardware, ('plugin', 'group', 'param'), reader)
-    return hardware
-
-
-def _read_rate(element: etree._Element, reader: ElementReader) -> int:
-    """Return ``rw_rate`` in Hz, 0 when it is not given."""
-    text = element.get('rw_rate')
-    if text is None:
-        return 0
-    if not (text.isascii() and text.isdigit() and 0 < len(text) <= 6 and int(text) > 0):
-        reader.error(
-            element, 'rw_rate', found=quote(text), expected='a non-zero positive integer, in Hz'
-        )
-        return 0
-    return int(text)
-
-
-def _read_components(
-    element: etree._Element, kind: ComponentType, reader: ElementReader
-) -> tuple[ComponentInfo, ...]:
-    return tuple(read_component(child, kind, reader) for child in element.iterchildren(kind))
-
-
-def _read_joints(
-    element: etree._Element, robot: Robot, reader: ElementReader
-) -> Iterator[ComponentInfo]:
-    seen: set[str] = set()
-    for child in element.iterchildren('joint'):
-        name = child.get('name', '')
-        if name in seen:
-            reader.error(child, f"Joint '{name}' is listed twice", fix='list it once')
-            continue
-        seen.add(name)
-        if name and not robot.has_joint(name):
-            moving = quote_all([joint.name for joint in robot.joints if joint.has_position])
-            reader.error(
-                child,
-                f"Joint '{name}' not found in URDF",
-                expected=f'one of {moving}',
-            )
-        joint = robot.joint(name) if robot.has_joint(name) else None
-        if joint is not None and joint.type is JointType.FIXED:
-            reader.error(
-                child,
-                f"Joint '{name}' is of type 'fixed'",
-                expected='a joint that moves: fixed joints do not make sense in ros2_control',
-            )
-        yield read_component(child, ComponentType.JOINT, reader, _read_mimic(child, joint, reader))
-
-
-def _read_mimic(
-    element: etree._Element, joint: Joint | None, reader: ElementReader
-) -> Mimic | None:
-    """Return how the URDF makes the joint follow another; None if the tag switches it off."""
-    mimic = None if joint is None else joint.mimic
-    if not reader.flag(element, 'mimic', mimic is not None):
-        return None
-    name = element.get('name', '')
-    if mimic is None and joint is not None:
-        reader.error(
-            element,
-            f'Joint \'{name}\' has mimic="true", but no <mimic> in the URDF',
-            fix='add <mimic joint="…"/> to the <joint>, or remove the attribute',
-        )
-    if mimic is not None and element.find('command_interface') is not None:
-        reader.error(
-            element,
-            f"Joint '{name}' has mimic attribute not set to false: activated mimic joints cannot "
-            'have command interfaces',
-            fix='remove its command interfaces or write mimic="false"',
-        )
-    return mimic
-
-
-def _check_mimicked(
-    element: etree._Element, joints: tuple[ComponentInfo, ...], reader: ElementReader
+def refuse_unknown_children(
+    element: etree._Element, known: tuple[str, ...], reader: ElementReader
 ) -> None:
-    names = [joint.name for joint in joints]
-    for joint in joints:
-        if joint.mimic is not None and joint.mimic.joint not in names:
-            reader.error(
-                element,
-                f"Joint '{joint.name}' mimics a joint that is not in this tag",
-                found=quote(joint.mimic.joint),
-                expected=f'one of {quote_all(names)}',
-            )
+    """Report every child element whose tag is not in ``known``."""
+    for child in element.iterchildren(etree.Element):
+        if child.tag not in known:
+            expected = ', '.join(f'<{tag}>' for tag in known)
+            reader.error(child, f'invalid tag name {quote(child.tag)}', expected=expected)
+
+
+def read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
+    """Return the text of a child that must be there; '' after a report."""
+    text = (element.findtext(tag) or '').strip()
+    if not text:
+        reader.error(element, f'no {tag} in <{element.tag}>', fix=f'add <{tag}>…</{tag}>')
+    return text
+
+
+def read_parameters(element: etree._Element, reader: ElementReader) -> dict[str, str]:
+    """Return the ``<param name="…">text</param>`` children of an element."""
+    parameters = {}
+    for child in element.iterchildren('param'):
+        name = reader.required(child, 'name')
+        if name in parameters:
+            reader.error(child, f'parameter {quote(name)} is set twice', fix='set it once')
+        parameters.setdefault(name, (child.text or '').strip())
+    return parameters

@@ -118,7 +118,7 @@ def judge(text: str, *, drop: bool = False) -> int:
     ``drop``: drop it, too, if it is sound.
     """
     drives = DRIVES if DRIVES[0].left_wheels[0] in text else ()
-    beside = CheckInputs(is_there=lambda uri: 'wedge' in uri, drives=drives)
+    beside = CheckInputs(file_exists=lambda uri: 'wedge' in uri, drives=drives)
     examination = checks.examine(text, 'f', beside)
     for finding in examination.findings:
         assert FINDING.fullmatch(str(finding)), str(finding)

@@ -1,13 +1,25 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The checker of robot descriptions.
+The checker of robot descriptions, ``check_urdf``.
 
-A fault of the text (XML, names, numbers, the tree, the ``<ros2_control>`` block) is found where it
-is read. What can be read and is still broken is found by the rules: one function each, one line in
-:data:`RULES`, or in :data:`RULES_OF_THE_WHOLE`. A rule is pure, takes a
-:class:`~amr_description.model.checks.context.CheckContext`, which need not be sound, and yields findings; it
-keeps silent on what a reader has reported already, such as a number that is none (NaN).
+Faults of the text (XML, names, numbers, the tree, the ``<ros2_control>`` blocks) are found where
+it is read. Rules find what can be read and is still broken. A rule is a pure function that takes a
+:class:`~amr_description.model.checks.context.CheckContext`, which may be unsound, and yields
+findings; it is listed in :data:`RULES` or :data:`RULES_OF_THE_WHOLE`. It ignores what a reader has
+already reported, such as a text that is not a number (NaN).
+
+===================  =============================================================================
+module               what it holds
+===================  =============================================================================
+``context.py``       what a rule gets: ``CheckContext``, ``CheckInputs``, ``DriveSettings``
+``markup.py``        unknown elements and attributes, names, files
+``meshes.py``        mesh files: units, axes, closed surfaces
+``shapes.py``        sizes, colours, missing and overlapping collision shapes
+``inertia.py``       mass, inertia, and whether the robot tips over
+``joints.py``        limits, axes, mimics, wheels
+``ros2_control.py``  ``<ros2_control>`` blocks, and what controllers assume about the robot
+===================  =============================================================================
 """
 
 from dataclasses import dataclass
@@ -23,7 +35,7 @@ from amr_description.model.ros2_control_tag import read_hardware
 from amr_description.model.urdf import read_robot
 from amr_description.model.xml_reader import parse_xml
 
-# Nobody reads more; and a made-up file may hold a million.
+# Limits the time and the output for files with absurdly many faults.
 MAX_FINDINGS = 1000
 MAX_FINDINGS_OF_A_RULE = 100
 
@@ -62,7 +74,7 @@ RULES: tuple[Rule, ...] = (
     ros2_control.wheel_names_are_joints,
     ros2_control.base_frame_is_the_root,
 )
-"""What is true of each part, whatever the others are."""
+"""The rules on single parts."""
 
 RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
     shapes.shapes_do_not_overlap,
@@ -73,9 +85,9 @@ RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
     ros2_control.wheel_separation_agrees,
     ros2_control.scrubbing_is_accounted_for,
 )
-"""What shows in the parts together; only of a robot without errors, or one fault brings many."""
+"""The rules on the whole robot; checked only without errors, as one fault would cause many."""
 
-NO_SURROUNDINGS = CheckInputs()
+NO_INPUTS = CheckInputs()
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +95,7 @@ class Examination:
     """
     The outcome of a check: all findings, and the robot as far as it could be read.
 
-    ``robot`` is None when the text is no XML at all; it is sound when there are no errors.
+    ``robot`` is None if the text is not XML; it is sound if there are no errors.
     """
 
     findings: tuple[Finding, ...]
@@ -91,27 +103,29 @@ class Examination:
 
     @property
     def errors(self) -> tuple[Finding, ...]:
-        """The findings that forbid use."""
+        """The findings that make the description unusable."""
         return tuple(f for f in self.findings if f.severity is Severity.ERROR)
 
     @property
     def warnings(self) -> tuple[Finding, ...]:
-        """The findings that do not."""
+        """The other findings."""
         return tuple(f for f in self.findings if f.severity is Severity.WARNING)
 
 
 class _TooManyFindingsError(Exception):
-    """Ends the reading of a file that is wrong all over."""
+    """Stops the reading of a file after :data:`MAX_FINDINGS`."""
 
 
-def examine(
-    text: str, source: str = '<string>', surroundings: CheckInputs = NO_SURROUNDINGS
-) -> Examination:
+def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS) -> Examination:
     """
-    Return everything that is wrong with a URDF; ``source`` names the file in messages.
+    Return everything that is wrong with a URDF.
 
-    ``surroundings``: what it is checked against beyond itself, such as its controllers.
-    Beyond :data:`MAX_FINDINGS` the file is not read on, and there is no robot.
+    After :data:`MAX_FINDINGS` the file is not read further, and there is no robot.
+
+    Args:
+        text: the URDF.
+        source: names the file in messages.
+        inputs: what it is checked against, such as its controllers.
     """
     findings: list[Finding] = []
 
@@ -121,31 +135,29 @@ def examine(
             raise _TooManyFindingsError
 
     try:
-        subject = _read(text, source, surroundings, report)
+        context = _read(text, source, inputs, report)
     except _TooManyFindingsError:
         last = findings[-1].line
         findings.append(Finding.error(source, last, f'{MAX_FINDINGS} findings; reading ends here'))
         return Examination(tuple(findings), None)
-    if subject is None:
+    if context is None:
         return Examination(tuple(findings), None)
     for rules in (RULES, RULES_OF_THE_WHOLE):
         if rules is RULES or not any(each.severity is Severity.ERROR for each in findings):
             for rule in rules:
-                findings += islice(rule(subject), MAX_FINDINGS_OF_A_RULE)
-    return Examination(tuple(findings), subject.robot)
+                findings += islice(rule(context), MAX_FINDINGS_OF_A_RULE)
+    return Examination(tuple(findings), context.robot)
 
 
-def _read(
-    text: str, source: str, surroundings: CheckInputs, report: Report
-) -> CheckContext | None:
-    """Return what the rules look at; None when the text is no XML."""
+def _read(text: str, source: str, inputs: CheckInputs, report: Report) -> CheckContext | None:
+    """Return the context of the rules; None if the text is not XML."""
     xml = parse_xml(text, source, report)
     if xml is None:
         return None
     robot = read_robot(xml, text, source, report)
     hardware = read_hardware(xml, robot, report)
     plugins = read_gazebo_plugins(xml, source, report)
-    return CheckContext(robot, hardware, plugins, xml, surroundings)
+    return CheckContext(robot, hardware, plugins, xml, inputs)
 
 
 def check(text: str, source: str = '<string>') -> list[Finding]:
@@ -155,9 +167,10 @@ def check(text: str, source: str = '<string>') -> list[Finding]:
 
 def require_sound(text: str, source: str = '<string>') -> tuple[Robot, tuple[Finding, ...]]:
     """
-    Return the robot of a URDF without errors and the warnings about it, for the simulator.
+    Return the robot of a URDF without errors, and the warnings about it.
 
-    DescriptionError with the first error, and how many more there are, if there is any.
+    Raises:
+        DescriptionError: there are errors: the first one, and how many more.
     """
     examination = examine(text, source)
     if examination.robot is None or examination.errors:

@@ -1,9 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a rule of the checker may look at.
-
-What parameter files tell a differential drive controller of the robot that it drives.
+What the rules of the checker get: the description, and what it is checked against.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -33,10 +31,9 @@ class SourceLocation(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class DriveSettings:
     """
-    One diff_drive_controller of some parameter files; lengths in m.
+    The parameters of one diff_drive_controller; lengths in m.
 
-    ``location`` is where the controller's parameters begin, ``locations`` where each of them stands, by
-    its name.
+    ``location`` is the line of the controller, ``locations`` that of each parameter by its name.
     """
 
     name: str
@@ -54,7 +51,7 @@ class DriveSettings:
     locations: Mapping[str, SourceLocation] = field(default_factory=dict)
 
     def location_of(self, parameter: str) -> SourceLocation:
-        """Return where a parameter stands, or the controller when no file sets it."""
+        """Return the line of a parameter, or of the controller if no file sets it."""
         return self.locations.get(parameter, self.location)
 
     def error(self, parameter: str, what: str, **details: str) -> Finding:
@@ -66,38 +63,39 @@ class DriveSettings:
         return Finding.warning(*self.location_of(parameter), f'{self.name}: {what}', **details)
 
 
-type IsThere = Callable[[str], bool]
-"""Whether the file that a URI or path means is there; AmrError when that cannot be told."""
+type FileExists = Callable[[str], bool]
+"""Return whether the file of a URI or path exists. Raises AmrError: that is not known."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckInputs:
     """
-    What a description is checked against, beyond itself.
+    What a description is checked against.
 
-    ``is_there`` looks for the files that it names; without it nobody looks. ``find_file`` gives
-    the file of a mesh; without it no mesh is read. ``drives`` are the controllers that shall
-    drive the robot.
+    Attributes:
+        file_exists: looks for the files that the description names; None: they are not checked.
+        find_file: returns the file of a mesh; None: no mesh is read.
+        drives: the controllers of the robot.
     """
 
-    is_there: IsThere | None = None
+    file_exists: FileExists | None = None
     find_file: FindFile | None = None
     drives: tuple[DriveSettings, ...] = ()
 
 
 @dataclass(frozen=True)
 class CheckContext:
-    """A description as far as it could be read; the robot's tree need not be sound."""
+    """A description as far as it could be read; the tree of the robot may be broken."""
 
     robot: Robot
     hardware: tuple[HardwareInfo, ...]
     gazebo_plugins: tuple[GazeboPlugin, ...]
     xml: etree._Element
-    surroundings: CheckInputs
+    inputs: CheckInputs
 
     @cached_property
     def poses(self) -> dict[str, Transform]:
-        """``transform_link_to_root`` of each link that hangs on a root, all joints at 0."""
+        """``transform_link_to_root`` of each link that is below a root, with all joints at 0."""
         return link_poses(self.robot)
 
     @cached_property
@@ -109,7 +107,7 @@ class CheckContext:
         return top
 
     @cached_property
-    def standing_links(self) -> frozenset[str]:
+    def fixed_links(self) -> frozenset[str]:
         """The links that are rigidly joined to a root called ``world``."""
         return frozenset(link for link, top in self.bodies.items() if top == WORLD_LINK)
 
@@ -132,13 +130,13 @@ class CheckContext:
 
     @cached_property
     def meshes(self) -> tuple[MeshUse, ...]:
-        """The meshes whose files are at hand; none when nobody finds them."""
-        find_file = self.surroundings.find_file
+        """The meshes whose files are found; none without :attr:`CheckInputs.find_file`."""
+        find_file = self.inputs.find_file
         return () if find_file is None else find_meshes(self.robot, find_file)
 
     @cached_property
     def wheels(self) -> tuple[Wheel, ...]:
-        """The wheels: round about the axle of a joint that takes a velocity command."""
+        """The wheels: links that are round about the axis of a joint with a velocity command."""
         return find_wheels(self.robot, {joint.name for joint in self.speed_joints})
 
     def error(self, line: int, what: str, **details: str) -> Finding:

@@ -1,14 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rules of the checker on how a robot on wheels stands.
+Rules on mass and inertia, and on whether a robot on wheels stands.
 
-Rules of the checker on inertia that is possible, and still not that of the link.
-
-Rules of the checker on mass and inertia: without them a model passes urdfdom and then explodes.
-
-Links joined by fixed joints are one rigid body. What is rigidly joined to a root link called
-``world`` never moves and needs no mass.
+Without sound mass properties a model passes urdfdom and then explodes in a simulation. Links
+joined by fixed joints are one rigid body. What is rigidly joined to a root link called ``world``
+never moves and needs no mass.
 """
 
 from collections.abc import Iterator, Sequence
@@ -29,40 +26,186 @@ from amr_description.model.shapes import (
 )
 from amr_description.text import quote
 
-# m; shapes whose lowest points are this near to the ground stand on it.
+# m; shapes whose lowest points are this close to the ground stand on it.
 _STANDS = 0.005
-# m; the centre of mass may be so far outside: an axle has no breadth in the model.
+# m; the centre of mass may be this far outside: an axle has no width in the model.
 _TOLERANCE = 0.002
 _DOWN: Vector = (0.0, 0.0, -1.0)
 _TILTS = (-1e-3, 1e-3)
 _SIGNS = (-1.0, 1.0)
-# A made-up file may hold more shapes than anything stands on.
+# Limits the time for files with absurdly many shapes.
 _MOST_POINTS = 10_000
-
 type _Point = tuple[float, float]
+# A hollow sphere has 5/3 of the moment of a solid one, a thin ring twice that of a disc, a heavy
+# core a fraction; typing errors (g or mm, a diameter for a radius) exceed this factor.
+_FACTOR = 3.0
+# Moments that agree this closely after two axes are exchanged, and not before, were swapped.
+_SWAPPED, _NOT_SWAPPED = 1.1, 1.5
+# By this share moments may violate the triangle inequality, as the file rounds its numbers.
+_ROUNDING = 0.01
+# kg and kg·m²; solvers fail beyond.
+_HEAVIEST, _LARGEST_MOMENT = 1e9, 1e12
+# kg and kg·m²; ten times the least that MuJoCo accepts.
+_LIGHTEST, _SMALLEST_MOMENT = 1e-14, 1e-14
+_FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
 
 
-def mass_is_supported(subject: CheckContext) -> Iterator[Finding]:
+def inertial_is_present(context: CheckContext) -> Iterator[Finding]:
+    """A link with a collision shape, or that a moving joint carries, has an ``<inertial>``."""
+    robot = context.robot
+    static = context.fixed_links
+    massive = _bodies_with_inertial(context)
+    for link in robot.links:
+        if link.inertial is not None or link.name in static:
+            continue
+        joint = robot.parent_joint(link.name)
+        if link.collisions:
+            # A part fixed to one with mass moves with it, but its own mass is missing.
+            is_carried = context.bodies.get(link.name) in massive
+            report = context.warning if is_carried else context.error
+            yield report(
+                link.line,
+                f'link {quote(link.name)} has a collision shape and no <inertial>',
+                fix=_FIX,
+            )
+        elif joint is not None and joint.is_moving and link.name not in massive:
+            yield context.error(
+                link.line,
+                f'link {quote(link.name)} moves with {quote(joint.name)} and has no <inertial>',
+                fix=_FIX,
+            )
+
+
+def base_has_mass(context: CheckContext) -> Iterator[Finding]:
+    """The rigid body of the root has mass if the robot has moving joints."""
+    robot = context.robot
+    massive, static = _bodies_with_inertial(context), context.fixed_links
+    if not any(joint.is_moving for joint in robot.joints):
+        return
+    for root in robot.roots[:1]:
+        if root.name not in massive and root.name not in static:
+            yield context.error(
+                root.line,
+                f'nothing that is rigidly joined to the root {quote(root.name)} has mass',
+                fix=f'{_FIX} to a link fixed to it; for a robot bolted down, a root link "world"',
+            )
+
+
+def mass_is_positive(context: CheckContext) -> Iterator[Finding]:
+    """Mass is above 0 and within what a solver can handle."""
+    for link in context.robot.links:
+        if link.inertial is None or _LIGHTEST < link.inertial.mass < _HEAVIEST:
+            continue
+        if not math.isnan(link.inertial.mass):
+            least = _LIGHTEST if 0.0 < link.inertial.mass < _HEAVIEST else 0.0
+            yield context.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: mass',
+                found=f'{link.inertial.mass:g} kg',
+                expected=f'more than {least:g} and less than {_HEAVIEST:g}',
+            )
+
+
+def inertia_is_possible(context: CheckContext) -> Iterator[Finding]:
     """
-    The centre of mass is above the support polygon: the robot does not tip over.
+    The inertia is that of some distribution of mass.
 
-    All joints at 0. The polygon is the convex hull of where wheels, casters and whatever else is
-    lowest touch the ground. A robot without two wheels, one that stands fixed and one that
-    collides as a mesh are left alone.
+    Its principal moments are positive, and none exceeds the sum of the two others (their sum
+    minus the third is twice the second moment of the mass along the third axis).
     """
-    robot = subject.robot
+    for link in context.robot.links:
+        if link.inertial is None or not _is_finite(link.inertial.inertia):
+            continue
+        low, middle, high = principal_moments(link.inertial.inertia)
+        found = f'principal moments {low:.4g}, {middle:.4g}, {high:.4g} kg·m²'
+        if low <= 0.0:
+            yield context.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: the inertia is not positive definite',
+                found=found,
+                expected='each above 0',
+            )
+        elif low < _SMALLEST_MOMENT:
+            yield context.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: the inertia is too small for any solver',
+                found=found,
+                expected=f'each above {_SMALLEST_MOMENT:g}',
+            )
+        elif high > (low + middle) * (1.0 + _ROUNDING) or high > _LARGEST_MOMENT:
+            yield context.error(
+                link.inertial.line,
+                f'link {quote(link.name)}: no body has this inertia',
+                found=found,
+                expected='none above the sum of the two others (triangle inequality)'
+                if high < _LARGEST_MOMENT
+                else f'less than {_LARGEST_MOMENT:g}',
+            )
+
+
+def inertia_fits_the_shape(context: CheckContext) -> Iterator[Finding]:
+    """
+    The inertia is close to that of a homogeneous solid of the link's mass and collision shape.
+
+    Formulas: :func:`~amr_description.model.shapes.solid_moments`, several shapes together by the
+    parallel axis theorem. Links with collision meshes are not checked.
+    """
+    for link in context.robot.links:
+        solid = _solid_moments(link)
+        if link.inertial is None or solid is None:
+            continue
+        given = moments_along_axes(link.inertial.inertia, link.inertial.origin)
+        if not all(0.0 < moment < math.inf for moment in given):
+            continue
+        name = quote(link.name)
+        if _factor(given, solid) > _FACTOR:
+            what = f'link {name}: the inertia is not that of its collision shape'
+        elif _is_swapped(given, solid):
+            what = f'link {name}: the moments of inertia stand on the wrong axes'
+        else:
+            continue
+        yield context.warning(
+            link.inertial.line,
+            what,
+            found=f'{_list(given)} kg·m² about x, y, z',
+            expected=f'about {_list(solid)}, as a solid of {link.inertial.mass:g} kg has',
+            fix='correct <inertia>, or the mass or the shape',
+        )
+
+
+def root_has_no_inertial(context: CheckContext) -> Iterator[Finding]:
+    """The root of a robot that moves has no inertia, which KDL would ignore."""
+    root = context.robot.roots[0] if context.robot.roots else None
+    if root is not None and root.inertial is not None and context.robot.child_joints(root.name):
+        yield context.warning(
+            root.inertial.line,
+            f'the root link {quote(root.name)} has an inertia, which KDL does not support',
+            fix='add a root link without mass, such as <link name="base_footprint"/>, and a fixed '
+            'joint from it to this one',
+        )
+
+
+def mass_is_supported(context: CheckContext) -> Iterator[Finding]:
+    """
+    The centre of mass is above the support polygon, so that the robot does not tip over.
+
+    All joints are at 0. The polygon is the convex hull of the points where the lowest shapes touch
+    the ground. Robots with fewer than two wheels, with a fixed base or with collision meshes are
+    not checked.
+    """
+    robot = context.robot
     meshes = any(
         isinstance(part.geometry, Mesh) for link in robot.links for part in link.collisions
     )
-    centre = _centre_of_mass(subject)
-    if len(subject.wheels) < 2 or meshes or subject.standing_links or centre is None:
+    centre = _centre_of_mass(context)
+    if len(context.wheels) < 2 or meshes or context.fixed_links or centre is None:
         return
-    points = _ground_points(subject)
+    points = _ground_points(context)
     outside = _distance_outside(centre, convex_hull(points)) if points else 0.0
     if outside > _TOLERANCE:
-        wheel = robot.joint(subject.wheels[0].joint)
+        wheel = robot.joint(context.wheels[0].joint)
         xs, ys = [point[0] for point in points], [point[1] for point in points]
-        yield subject.warning(
+        yield context.warning(
             wheel.line,
             'the robot tips over: its centre of mass is outside the polygon on which it stands',
             found=f'x {centre[0]:.3g}, y {centre[1]:.3g} m, {outside * 1000.0:.0f} mm outside',
@@ -72,29 +215,90 @@ def mass_is_supported(subject: CheckContext) -> Iterator[Finding]:
         )
 
 
-def _centre_of_mass(subject: CheckContext) -> _Point | None:
-    """Return x and y of the centre of mass in the root's frame; None when there is none."""
+def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
+    """Return the eigenvalues of the inertia matrix, ascending (kg·m²)."""
+    import numpy as np  # not at import: a description without <inertial> needs no numpy
+
+    matrix = [
+        [inertia.ixx, inertia.ixy, inertia.ixz],
+        [inertia.ixy, inertia.iyy, inertia.iyz],
+        [inertia.ixz, inertia.iyz, inertia.izz],
+    ]
+    low, middle, high = np.linalg.eigvalsh(matrix).tolist()
+    return low, middle, high
+
+
+def convex_hull(points: Sequence[_Point]) -> list[_Point]:
+    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    ordered = sorted(set(points))
+    if len(ordered) < 3:
+        return ordered
+    return _half_hull(ordered)[:-1] + _half_hull(ordered[::-1])[:-1]
+
+
+def _bodies_with_inertial(context: CheckContext) -> set[str]:
+    """Return the topmost links of the rigid bodies in which some link has an ``<inertial>``."""
+    links = (link.name for link in context.robot.links if link.inertial is not None)
+    return {context.bodies.get(link, '') for link in links}
+
+
+def _is_finite(inertia: Inertia) -> bool:
+    moments = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
+    return all(map(math.isfinite, moments))
+
+
+def _solid_moments(link: Link) -> Vector | None:
+    """Return the moments of the link as a solid, or None if they are not known."""
+    solids = solids_of(link.collisions, Transform())
+    mass = _mass(link.inertial)
+    if not solids or len(solids) != len(link.collisions) or not 0.0 < mass < _HEAVIEST:
+        return None
+    moments = moments_of_solids(solids, mass)
+    return moments if min(moments) > 0.0 else None
+
+
+def _mass(inertial: Inertial | None) -> float:
+    return math.nan if inertial is None else inertial.mass
+
+
+def _factor(one: Vector, other: Vector) -> float:
+    """Return the largest ratio between two triples of moments, 1 or above."""
+    return max(max(a / b, b / a) for a, b in zip(one, other, strict=True))
+
+
+def _is_swapped(given: Vector, solid: Vector) -> bool:
+    return _factor(given, solid) > _NOT_SWAPPED and any(
+        _factor(given, (a, b, c)) < _SWAPPED for a, b, c in permutations(solid)
+    )
+
+
+def _list(moments: Vector) -> str:
+    return ', '.join(f'{moment:.3g}' for moment in moments)
+
+
+def _centre_of_mass(context: CheckContext) -> _Point | None:
+    """Return x and y of the centre of mass in the frame of the root; None without mass."""
     total, moment_x, moment_y = 0.0, 0.0, 0.0
-    for link in subject.robot.links:
-        if link.inertial is None or link.name not in subject.poses:
+    for link in context.robot.links:
+        if link.inertial is None or link.name not in context.poses:
             continue
-        place = subject.poses[link.name].apply(link.inertial.origin.translation)
+        point = context.poses[link.name].apply(link.inertial.origin.translation)
         total += link.inertial.mass
-        moment_x += link.inertial.mass * place[0]
-        moment_y += link.inertial.mass * place[1]
+        moment_x += link.inertial.mass * point[0]
+        moment_y += link.inertial.mass * point[1]
     if not 0.0 < total < math.inf:
         return None
     centre = (moment_x / total, moment_y / total)
     return centre if all(map(math.isfinite, centre)) else None
 
 
-def _ground_points(subject: CheckContext) -> list[_Point]:
+def _ground_points(context: CheckContext) -> list[_Point]:
     """Return where the lowest collision shapes touch the ground, x and y in the root's frame."""
     solids = [
         solid
-        for link in subject.robot.links
-        if link.name in subject.poses
-        for solid in solids_of(link.collisions, subject.poses[link.name])
+        for link in context.robot.links
+        if link.name in context.poses
+        for solid in solids_of(link.collisions, context.poses[link.name])
     ]
     lowest = [farthest(solid, _DOWN) for solid in solids[:_MOST_POINTS]]
     ground = min((point[2] for point in lowest), default=0.0)
@@ -107,7 +311,7 @@ def _ground_points(subject: CheckContext) -> list[_Point]:
 
 
 def _footprint(solid: Solid, ground: float) -> list[_Point]:
-    """Return the corners of a shape that are on the ground, of a round one its lowest line."""
+    """Return the corners of a shape that are on the ground; for a round one its lowest line."""
     match solid.shape:
         case Sphere():
             corners = [farthest(solid, _DOWN)]
@@ -117,17 +321,9 @@ def _footprint(solid: Solid, ground: float) -> list[_Point]:
         case Box():
             x, y, z = half_sizes(solid.shape)
             corners = [
-                solid.place.apply((i * x, j * y, k * z)) for i, j, k in product(_SIGNS, repeat=3)
+                solid.pose.apply((i * x, j * y, k * z)) for i, j, k in product(_SIGNS, repeat=3)
             ]
     return [(a, b) for a, b, height in corners if height < ground + _STANDS]
-
-
-def convex_hull(points: Sequence[_Point]) -> list[_Point]:
-    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
-    ordered = sorted(set(points))
-    if len(ordered) < 3:
-        return ordered
-    return _half_hull(ordered)[:-1] + _half_hull(ordered[::-1])[:-1]
 
 
 def _half_hull(points: list[_Point]) -> list[_Point]:
@@ -140,7 +336,7 @@ def _half_hull(points: list[_Point]) -> list[_Point]:
 
 
 def _turn(a: _Point, b: _Point, c: _Point) -> float:
-    """Return twice the area of a triangle: positive when it goes round to the left."""
+    """Return twice the area of a triangle; positive if it is counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
@@ -158,207 +354,3 @@ def _distance_to_edge(point: _Point, a: _Point, b: _Point) -> float:
     to_point = (point[0] - a[0], point[1] - a[1])
     share = min(1.0, max(0.0, math.sumprod(to_point, along) / square)) if square else 0.0
     return math.dist(point, (a[0] + share * along[0], a[1] + share * along[1]))
-
-
-# A hollow sphere has 5/3 of the moment of a solid one, a thin ring twice that of a disc, a heavy
-# core a fraction; slips of the pen (g or mm, a diameter for a radius) are beyond this factor.
-_FACTOR = 3.0
-# Moments that are this close when two axes change places, and not before, were swapped.
-_SWAPPED, _NOT_SWAPPED = 1.1, 1.5
-
-
-def inertia_fits_the_shape(subject: CheckContext) -> Iterator[Finding]:
-    """
-    The inertia is about that of a solid of the link's mass and collision shape.
-
-    Formulas: :func:`~amr_description.model.shapes.solid_moments`, several shapes together by the
-    parallel axis theorem. A link that collides as a mesh is left alone.
-    """
-    for link in subject.robot.links:
-        solid = _solid_moments(link)
-        if link.inertial is None or solid is None:
-            continue
-        given = moments_along_axes(link.inertial.inertia, link.inertial.origin)
-        if not all(0.0 < moment < math.inf for moment in given):
-            continue
-        name = quote(link.name)
-        if _factor(given, solid) > _FACTOR:
-            what = f'link {name}: the inertia is not that of its collision shape'
-        elif _is_swapped(given, solid):
-            what = f'link {name}: the moments of inertia stand on the wrong axes'
-        else:
-            continue
-        yield subject.warning(
-            link.inertial.line,
-            what,
-            found=f'{_list(given)} kg·m² about x, y, z',
-            expected=f'about {_list(solid)}, as a solid of {link.inertial.mass:g} kg has',
-            fix='correct <inertia>, or the mass or the shape',
-        )
-
-
-def root_has_no_inertial(subject: CheckContext) -> Iterator[Finding]:
-    """The root of a robot that moves is a mere frame: KDL takes no inertia of it."""
-    root = subject.robot.roots[0] if subject.robot.roots else None
-    if root is not None and root.inertial is not None and subject.robot.child_joints(root.name):
-        yield subject.warning(
-            root.inertial.line,
-            f'the root link {quote(root.name)} has an inertia, which KDL does not support',
-            fix='add a root link without mass, such as <link name="base_footprint"/>, and a fixed '
-            'joint from it to this one',
-        )
-
-
-def _solid_moments(link: Link) -> Vector | None:
-    """Return the moments of the link as a solid, or None when they cannot be told."""
-    solids = solids_of(link.collisions, Transform())
-    mass = _mass(link.inertial)
-    if not solids or len(solids) != len(link.collisions) or not 0.0 < mass < _HEAVIEST:
-        return None
-    moments = moments_of_solids(solids, mass)
-    return moments if min(moments) > 0.0 else None
-
-
-def _mass(inertial: Inertial | None) -> float:
-    return math.nan if inertial is None else inertial.mass
-
-
-def _factor(one: Vector, other: Vector) -> float:
-    """Return by how much two triples of moments differ at most, 1 or above."""
-    return max(max(a / b, b / a) for a, b in zip(one, other, strict=True))
-
-
-def _is_swapped(given: Vector, solid: Vector) -> bool:
-    return _factor(given, solid) > _NOT_SWAPPED and any(
-        _factor(given, (a, b, c)) < _SWAPPED for a, b, c in permutations(solid)
-    )
-
-
-def _list(moments: Vector) -> str:
-    return ', '.join(f'{moment:.3g}' for moment in moments)
-
-
-# How far rounding of the digits in the file may carry the moments over the triangle inequality.
-_ROUNDING = 0.01
-# kg and kg·m²; beyond it no solver finds its way.
-_HEAVIEST, _LARGEST_MOMENT = 1e9, 1e12
-# kg and kg·m²; ten times what MuJoCo takes at least, and nothing that anybody weighs.
-_LIGHTEST, _SMALLEST_MOMENT = 1e-14, 1e-14
-_FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
-
-
-def inertial_is_present(subject: CheckContext) -> Iterator[Finding]:
-    """Whatever touches something, and whatever a moving joint carries, has an ``<inertial>``."""
-    robot = subject.robot
-    static = subject.standing_links
-    massive = _bodies_with_inertial(subject)
-    for link in robot.links:
-        if link.inertial is not None or link.name in static:
-            continue
-        joint = robot.parent_joint(link.name)
-        if link.collisions:
-            # A part that is bolted to one with mass can do without, at the cost of its own.
-            is_carried = subject.bodies.get(link.name) in massive
-            judge = subject.warning if is_carried else subject.error
-            yield judge(
-                link.line,
-                f'link {quote(link.name)} has a collision shape and no <inertial>',
-                fix=_FIX,
-            )
-        elif joint is not None and joint.is_moving and link.name not in massive:
-            yield subject.error(
-                link.line,
-                f'link {quote(link.name)} moves with {quote(joint.name)} and has no <inertial>',
-                fix=_FIX,
-            )
-
-
-def base_has_mass(subject: CheckContext) -> Iterator[Finding]:
-    """The body of the root has mass when something moves on it: it falls and is pushed around."""
-    robot = subject.robot
-    massive, static = _bodies_with_inertial(subject), subject.standing_links
-    if not any(joint.is_moving for joint in robot.joints):
-        return
-    for root in robot.roots[:1]:
-        if root.name not in massive and root.name not in static:
-            yield subject.error(
-                root.line,
-                f'nothing that is rigidly joined to the root {quote(root.name)} has mass',
-                fix=f'{_FIX} to a link fixed to it; for a robot bolted down, a root link "world"',
-            )
-
-
-def mass_is_positive(subject: CheckContext) -> Iterator[Finding]:
-    """Mass is above 0, and that of a thing on earth."""
-    for link in subject.robot.links:
-        if link.inertial is None or _LIGHTEST < link.inertial.mass < _HEAVIEST:
-            continue
-        if not math.isnan(link.inertial.mass):
-            least = _LIGHTEST if 0.0 < link.inertial.mass < _HEAVIEST else 0.0
-            yield subject.error(
-                link.inertial.line,
-                f'link {quote(link.name)}: mass',
-                found=f'{link.inertial.mass:g} kg',
-                expected=f'more than {least:g} and less than {_HEAVIEST:g}',
-            )
-
-
-def inertia_is_possible(subject: CheckContext) -> Iterator[Finding]:
-    """
-    Some distribution of mass has this inertia.
-
-    Its principal moments are positive, and none exceeds the sum of the two others (their sum
-    minus the third is twice the second moment of the mass along the third axis).
-    """
-    for link in subject.robot.links:
-        if link.inertial is None or not _is_finite(link.inertial.inertia):
-            continue
-        low, middle, high = principal_moments(link.inertial.inertia)
-        found = f'principal moments {low:.4g}, {middle:.4g}, {high:.4g} kg·m²'
-        if low <= 0.0:
-            yield subject.error(
-                link.inertial.line,
-                f'link {quote(link.name)}: the inertia is not positive definite',
-                found=found,
-                expected='each above 0',
-            )
-        elif low < _SMALLEST_MOMENT:
-            yield subject.error(
-                link.inertial.line,
-                f'link {quote(link.name)}: the inertia is too small for any solver',
-                found=found,
-                expected=f'each above {_SMALLEST_MOMENT:g}',
-            )
-        elif high > (low + middle) * (1.0 + _ROUNDING) or high > _LARGEST_MOMENT:
-            yield subject.error(
-                link.inertial.line,
-                f'link {quote(link.name)}: no body has this inertia',
-                found=found,
-                expected='none above the sum of the two others (triangle inequality)'
-                if high < _LARGEST_MOMENT
-                else f'less than {_LARGEST_MOMENT:g}',
-            )
-
-
-def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
-    """Return the eigenvalues of the inertia matrix, ascending (kg·m²)."""
-    import numpy as np  # not at import: a description without <inertial> needs no numpy
-
-    matrix = [
-        [inertia.ixx, inertia.ixy, inertia.ixz],
-        [inertia.ixy, inertia.iyy, inertia.iyz],
-        [inertia.ixz, inertia.iyz, inertia.izz],
-    ]
-    low, middle, high = np.linalg.eigvalsh(matrix).tolist()
-    return low, middle, high
-
-
-def _is_finite(inertia: Inertia) -> bool:
-    moments = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
-    return all(map(math.isfinite, moments))
-
-
-def _bodies_with_inertial(subject: CheckContext) -> set[str]:
-    """Return the topmost links of the rigid bodies in which some link has an ``<inertial>``."""
-    links = (link.name for link in subject.robot.links if link.inertial is not None)
-    return {subject.bodies.get(link, '') for link in links}

@@ -1,9 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rules of the checker on joints, one by one.
-
-Rules of the checker on the wheels of a robot.
+Rules on joints: each by itself, those that mimic others, and those that carry wheels.
 """
 
 from collections.abc import Iterator
@@ -19,28 +17,33 @@ from amr_description.text import quote, quote_all
 
 # An axis written with three digits, as 0.707 0.707 0, counts as a unit vector.
 _UNIT_TOLERANCE = 1e-3
-# Beyond this factor no solver knows the direction any more.
+# Beyond this factor solvers lose the direction.
 _EXTREME = 1e6
-# Joints that mimic each other in a row: nobody builds more, and a made-up file may.
+# Joints of a chain of mimics; limits the time for absurd files.
 _LONGEST_CHAIN = 100
+# An axle within this cosine of the robot's y axis is that of a wheel that rolls along x; others
+# (a turning lidar, the wheels of an omnidirectional robot) are not checked.
+_ALONG_Y = 0.9
+# m; two sides may differ by this much, and a wheel this close to the middle is on neither.
+_TOLERANCE = 0.001
 
 
-def limits_are_ordered(subject: CheckContext) -> Iterator[Finding]:
+def limits_are_ordered(context: CheckContext) -> Iterator[Finding]:
     """The lower limit of a joint that has limits is below the upper one."""
-    for joint in subject.robot.joints:
+    for joint in context.robot.joints:
         if joint.type not in (JointType.REVOLUTE, JointType.PRISMATIC) or joint.limit is None:
             continue
         lower, upper = joint.limit.lower, joint.limit.upper
         found = f'lower {lower:g}, upper {upper:g}'
         if lower > upper:
-            yield subject.error(
+            yield context.error(
                 joint.line,
                 f'joint {quote(joint.name)}: the lower limit is above the upper one',
                 found=found,
                 fix='swap them',
             )
         elif lower == upper:
-            yield subject.warning(
+            yield context.warning(
                 joint.line,
                 f'joint {quote(joint.name)} cannot move',
                 found=found,
@@ -49,16 +52,16 @@ def limits_are_ordered(subject: CheckContext) -> Iterator[Finding]:
             )
 
 
-def limits_let_it_move(subject: CheckContext) -> Iterator[Finding]:
+def limits_let_it_move(context: CheckContext) -> Iterator[Finding]:
     """Limits of effort and velocity are above 0."""
-    for joint in subject.robot.joints:
+    for joint in context.robot.joints:
         if joint.limit is None or not joint.is_moving:
             continue
         for name in ('effort', 'velocity'):
             value = getattr(joint.limit, name)
             if value <= 0.0:
-                judge = subject.error if value < 0.0 else subject.warning
-                yield judge(
+                report = context.error if value < 0.0 else context.warning
+                yield report(
                     joint.line,
                     f'joint {quote(joint.name)}: the {name} limit leaves nothing to move it with',
                     found=f'{value:g}',
@@ -66,13 +69,13 @@ def limits_let_it_move(subject: CheckContext) -> Iterator[Finding]:
                 )
 
 
-def damping_takes_energy(subject: CheckContext) -> Iterator[Finding]:
-    """Damping and friction are not negative: such a joint would drive itself."""
-    for joint in subject.robot.joints:
+def damping_takes_energy(context: CheckContext) -> Iterator[Finding]:
+    """Damping and friction are not negative, which would drive the joint."""
+    for joint in context.robot.joints:
         for name in ('damping', 'friction') if joint.dynamics is not None else ():
             value = getattr(joint.dynamics, name)
             if value < 0.0:
-                yield subject.error(
+                yield context.error(
                     joint.line,
                     f'joint {quote(joint.name)}: {name}',
                     found=f'{value:g}',
@@ -80,9 +83,9 @@ def damping_takes_energy(subject: CheckContext) -> Iterator[Finding]:
                 )
 
 
-def axis_is_a_unit_vector(subject: CheckContext) -> Iterator[Finding]:
-    """The axis is written with length 1: programs differ in what they make of another."""
-    for element in subject.xml.iterchildren('joint'):
+def axis_is_a_unit_vector(context: CheckContext) -> Iterator[Finding]:
+    """The axis has length 1; programs treat other lengths differently."""
+    for element in context.xml.iterchildren('joint'):
         axis = element.find('axis')
         kind = element.get('type')
         if axis is None or kind in (JointType.FIXED, JointType.FLOATING):
@@ -90,8 +93,8 @@ def axis_is_a_unit_vector(subject: CheckContext) -> Iterator[Finding]:
         length = _length(axis.get('xyz', '1 0 0'))
         if 0.0 < length < math.inf and abs(length - 1.0) > _UNIT_TOLERANCE:
             parts = (float(part) / length for part in axis.get('xyz', '').split())
-            judge = subject.warning if 1.0 / _EXTREME < length < _EXTREME else subject.error
-            yield judge(
+            report = context.warning if 1.0 / _EXTREME < length < _EXTREME else context.error
+            yield report(
                 line_of(axis),
                 f'joint {quote(element.get("name", ""))}: the axis is no unit vector',
                 found=f'length {length:.4g}',
@@ -100,8 +103,73 @@ def axis_is_a_unit_vector(subject: CheckContext) -> Iterator[Finding]:
             )
 
 
+def mimicked_joint_exists(context: CheckContext) -> Iterator[Finding]:
+    """A mimic joint follows another joint of the robot, one that moves and is no mimic itself."""
+    robot = context.robot
+    known = quote_all([joint.name for joint in robot.joints])
+    for joint in robot.joints:
+        source = '' if joint.mimic is None else joint.mimic.joint
+        if source and (source == joint.name or not robot.has_joint(source)):
+            yield context.error(
+                joint.line,
+                f'joint {quote(joint.name)} mimics a joint that is not there',
+                found='itself' if source == joint.name else quote(source),
+                expected=f'another one of {known}',
+            )
+        elif source:
+            yield from _check_source(context, joint, robot.joint(source))
+
+
+def wheels_roll_forward(context: CheckContext) -> Iterator[Finding]:
+    """
+    A positive speed of a wheel moves the robot to +x.
+
+    A wheel on the ground that turns about its axle moves the robot along axle × z, so the axle
+    must point to the robot's left, +y of the root at zero pose (REP 103: x forward). Wheels are
+    the continuous joints with a velocity command. There is one finding for all wheels.
+    """
+    backwards = [
+        joint for joint in context.speed_joints if _axle_to_the_left(context, joint) < -_ALONG_Y
+    ]
+    if not backwards:
+        return
+    names = quote_all([joint.name for joint in backwards])
+    plural = 's' if len(backwards) > 1 else ''
+    yield context.warning(
+        backwards[0].line,
+        f'wheel joint{plural} {names}: a positive speed drives the robot backwards',
+        found='the axle along -y of the root frame',
+        expected='+y',
+        fix=_reversed_axes(backwards),
+    )
+
+
+def sides_are_symmetric(context: CheckContext) -> Iterator[Finding]:
+    """
+    Each wheel on the left has a mirror image on the right, in position and in size.
+
+    Otherwise the robot pulls to one side. Wheels in the middle, and those that do not roll along
+    x, are not checked.
+    """
+    sides: dict[bool, list[Wheel]] = {True: [], False: []}
+    for wheel in context.wheels:
+        y = _hub(context, wheel)[1]
+        along_y = abs(_axle_to_the_left(context, context.robot.joint(wheel.joint)))
+        if abs(y) > _TOLERANCE and along_y > _ALONG_Y:
+            sides[y > 0.0].append(wheel)
+    left, right = (
+        sorted(sides[is_left], key=lambda wheel: _hub(context, wheel)[0])
+        for is_left in (True, False)
+    )
+    if len(left) != len(right):
+        yield _uneven(context, left, right)
+        return
+    for one, other in zip(left, right, strict=True):
+        yield from _check_pair(context, one, other)
+
+
 def _length(text: str) -> float:
-    """Return the length of the vector that a text writes, NaN when it writes none."""
+    """Return the length of the vector that a text stands for; NaN if it is not a vector."""
     words = text.split()
     try:
         return math.hypot(*map(float, words)) if len(words) == 3 else math.nan
@@ -109,37 +177,20 @@ def _length(text: str) -> float:
         return math.nan
 
 
-def mimicked_joint_exists(subject: CheckContext) -> Iterator[Finding]:
-    """A mimic joint follows another joint of the robot, one that moves and is no mimic itself."""
-    robot = subject.robot
-    known = quote_all([joint.name for joint in robot.joints])
-    for joint in robot.joints:
-        source = '' if joint.mimic is None else joint.mimic.joint
-        if source and (source == joint.name or not robot.has_joint(source)):
-            yield subject.error(
-                joint.line,
-                f'joint {quote(joint.name)} mimics a joint that is not there',
-                found='itself' if source == joint.name else quote(source),
-                expected=f'another one of {known}',
-            )
-        elif source:
-            yield from _judge_source(subject, joint, robot.joint(source))
-
-
-def _judge_source(subject: CheckContext, joint: Joint, source: Joint) -> Iterator[Finding]:
-    """Judge a joint that is followed and exists."""
+def _check_source(context: CheckContext, joint: Joint, source: Joint) -> Iterator[Finding]:
+    """Check a joint that is mimicked and exists."""
     name = f'joint {quote(joint.name)}'
     if not (source.has_position and joint.has_position):
         odd = joint if source.has_position else source
-        yield subject.error(
+        yield context.error(
             joint.line,
             f'{name} cannot mimic {quote(source.name)}',
             found=f'{quote(odd.name)} of type {odd.type}',
             expected='two joints of type revolute, continuous or prismatic',
         )
     elif source.mimic is not None:
-        end = _end_of_chain(subject.robot, joint)
-        yield subject.warning(
+        end = _end_of_chain(context.robot, joint)
+        yield context.warning(
             joint.line,
             f'{name} mimics {quote(source.name)}, which is a mimic itself',
             expected='one step, as programs take it',
@@ -148,7 +199,7 @@ def _judge_source(subject: CheckContext, joint: Joint, source: Joint) -> Iterato
 
 
 def _end_of_chain(robot: Robot, joint: Joint) -> str:
-    """Return the joint at the end of a chain of mimics; '' when it has none."""
+    """Return the joint at the end of a chain of mimics; '' if there is none."""
     seen: set[str] = set()
     while joint.mimic is not None and joint.name not in seen and len(seen) < _LONGEST_CHAIN:
         seen.add(joint.name)
@@ -158,81 +209,25 @@ def _end_of_chain(robot: Robot, joint: Joint) -> str:
     return '' if joint.mimic is not None else joint.name
 
 
-# An axle within this cosine of the robot's y axis is that of a wheel that rolls along x; others
-# (a turning lidar, the wheels of an omnidirectional robot) are left alone.
-_ALONG_Y = 0.9
-# m; by as much two sides may differ, and a wheel this near to the middle belongs to neither.
-_TOLERANCE = 0.001
-
-
-def wheels_roll_forward(subject: CheckContext) -> Iterator[Finding]:
-    """
-    A positive speed of a wheel carries the robot to +x.
-
-    A wheel on the ground that turns by ω about its axle moves the robot along axle × z, so the
-    axle has to point to the robot's left, +y of the root at zero pose (REP 103: x forward).
-    Wheels are the continuous joints with a velocity command. One finding for all wheels that
-    share the fault.
-    """
-    backwards = [
-        joint for joint in subject.speed_joints if _axle_to_the_left(subject, joint) < -_ALONG_Y
-    ]
-    if not backwards:
-        return
-    names = quote_all([joint.name for joint in backwards])
-    plural = 's' if len(backwards) > 1 else ''
-    yield subject.warning(
-        backwards[0].line,
-        f'wheel joint{plural} {names}: a positive speed drives the robot backwards',
-        found='the axle along -y of the root frame',
-        expected='+y',
-        fix=_turn_round(backwards),
-    )
-
-
-def _axle_to_the_left(subject: CheckContext, joint: Joint) -> float:
+def _axle_to_the_left(context: CheckContext, joint: Joint) -> float:
     """Return the part of a joint's axis along +y of the root."""
-    return rotate(subject.poses[joint.child].rotation, joint.axis)[1]
+    return rotate(context.poses[joint.child].rotation, joint.axis)[1]
 
 
-def _turn_round(joints: list[Joint]) -> str:
+def _reversed_axes(joints: list[Joint]) -> str:
     """Return what to write instead of the axes of these joints."""
     axes = {' '.join(f'{0.0 - part:g}' for part in joint.axis) for joint in joints}
     return f'write <axis xyz="{axes.pop()}"/>' if len(axes) == 1 else 'turn each <axis> round'
 
 
-def sides_are_symmetric(subject: CheckContext) -> Iterator[Finding]:
-    """
-    Each wheel on the left has one on the right: as far out, as far ahead, as high, as large.
-
-    Otherwise the robot pulls to one side. Wheels in the middle, and those that do not roll along
-    x, are left alone.
-    """
-    sides: dict[bool, list[Wheel]] = {True: [], False: []}
-    for wheel in subject.wheels:
-        y = _hub(subject, wheel)[1]
-        along_y = abs(_axle_to_the_left(subject, subject.robot.joint(wheel.joint)))
-        if abs(y) > _TOLERANCE and along_y > _ALONG_Y:
-            sides[y > 0.0].append(wheel)
-    left, right = (
-        sorted(sides[is_left], key=lambda wheel: _hub(subject, wheel)[0])
-        for is_left in (True, False)
-    )
-    if len(left) != len(right):
-        yield _uneven(subject, left, right)
-        return
-    for one, other in zip(left, right, strict=True):
-        yield from _judge_pair(subject, one, other)
+def _hub(context: CheckContext, wheel: Wheel) -> tuple[float, float, float]:
+    return context.poses[wheel.link].translation
 
 
-def _hub(subject: CheckContext, wheel: Wheel) -> tuple[float, float, float]:
-    return subject.poses[wheel.link].translation
-
-
-def _uneven(subject: CheckContext, left: list[Wheel], right: list[Wheel]) -> Finding:
+def _uneven(context: CheckContext, left: list[Wheel], right: list[Wheel]) -> Finding:
     named = [quote_all([wheel.joint for wheel in side]) for side in (left, right)]
-    lines = [subject.robot.joint(wheel.joint).line for wheel in max(left, right, key=len)]
-    return subject.warning(
+    lines = [context.robot.joint(wheel.joint).line for wheel in max(left, right, key=len)]
+    return context.warning(
         min(lines),
         'the driven wheels are not the same on both sides',
         found=f'on the left (y > 0) {named[0]}, on the right {named[1]}',
@@ -241,9 +236,9 @@ def _uneven(subject: CheckContext, left: list[Wheel], right: list[Wheel]) -> Fin
     )
 
 
-def _judge_pair(subject: CheckContext, left: Wheel, right: Wheel) -> Iterator[Finding]:
+def _check_pair(context: CheckContext, left: Wheel, right: Wheel) -> Iterator[Finding]:
     """Report the first way in which two wheels are not each other's mirror image."""
-    (x, y, z), (x2, y2, z2) = _hub(subject, left), _hub(subject, right)
+    (x, y, z), (x2, y2, z2) = _hub(context, left), _hub(context, right)
     measures = (
         ('are not as far out', 'y', y, -y2),
         ('are not as far ahead', 'x', x, x2),
@@ -254,8 +249,8 @@ def _judge_pair(subject: CheckContext, left: Wheel, right: Wheel) -> Iterator[Fi
     for what, name, one, other in measures:
         if math.isfinite(one - other) and abs(one - other) > _TOLERANCE:
             sign = -1.0 if name == 'y' else 1.0
-            yield subject.warning(
-                subject.robot.joint(right.joint).line,
+            yield context.warning(
+                context.robot.joint(right.joint).line,
                 f'wheels {quote(left.joint)} and {quote(right.joint)} {what}',
                 found=f'{name} {one:g} m and {sign * other:g} m',
                 expected='a left and a right side that mirror each other',

@@ -1,15 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rules of the checker on the files that a description names.
+The elements and attributes of URDF and ros2_control, and rules on markup, names and files.
 
-Rules of the checker on markup that readers pass over in silence.
-
-Rules of the checker on names.
-
-The elements and attributes that URDF and ros2_control know, as one table.
-
-Readers pass over what they do not know; the checker looks here whether it was meant.
+Readers ignore elements and attributes that they do not know. The rules compare a description with
+the grammar :data:`ROBOT` and report what is probably a mistake.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -19,113 +14,29 @@ import re
 from lxml import etree
 
 from amr_description.errors import AmrError
-from amr_description.model.checks.context import CheckContext, IsThere
+from amr_description.model.checks.context import CheckContext, FileExists
 from amr_description.model.findings import Finding
 from amr_description.model.xml_reader import line_of
 from amr_description.text import closest_match, quote, quote_all
 
 _SHARE = re.compile(r'/share/[^/]+/')
 _ABSOLUTE = re.compile(r'(?:file://)?/|file:/|~|[A-Za-z]:[\\/]')
-
-
-@dataclass(frozen=True, slots=True)
-class _NamedFile:
-    """A file that the description names; ``what`` says of what."""
-
-    path: str
-    what: str
-    line: int
-    touches: bool
-    takes_package: bool = True
-
-
-def files_are_there(subject: CheckContext) -> Iterator[Finding]:
-    """Meshes and textures exist; without that of a collision no simulator takes the robot."""
-    is_there = subject.surroundings.is_there
-    for file in _meshes_and_textures(subject) if is_there is not None else ():
-        if not file.path or _ABSOLUTE.match(file.path):
-            continue
-        try:
-            if is_there(file.path):
-                continue
-        except (AmrError, ValueError) as error:
-            yield subject.warning(
-                file.line,
-                f'{file.what} cannot be looked up',
-                found=quote(file.path),
-                fix=str(error),
-            )
-            continue
-        judge = subject.error if file.touches else subject.warning
-        yield judge(
-            file.line,
-            f'{file.what} is not there',
-            found=quote(file.path),
-            expected='package://<package>/<path>, or a path from the folder of this file',
-        )
-
-
-def paths_hold_everywhere(subject: CheckContext) -> Iterator[Finding]:
-    """
-    No path is that of one machine.
-
-    What xacro's ``$(find package)`` has become is left alone: the file is there, in the package's
-    share folder.
-    """
-    is_there = subject.surroundings.is_there
-    for file in _named_files(subject) if is_there is not None else ():
-        if _ABSOLUTE.match(file.path) and not _is_of_a_package(file.path, is_there):
-            yield subject.warning(
-                file.line,
-                f'{file.what} has a path of this machine only',
-                found=quote(file.path),
-                fix='write package://<package>/<path below its share folder>'
-                if file.takes_package
-                else 'let xacro find the file: $(find <package>)/config/<file>.yaml',
-            )
-
-
-def _is_of_a_package(path: str, is_there: IsThere) -> bool:
-    try:
-        return _SHARE.search(path) is not None and is_there(path)
-    except (AmrError, ValueError):
-        return False
-
-
-def _named_files(subject: CheckContext) -> Iterator[_NamedFile]:
-    """Yield the files of which a description may give the path of this machine."""
-    yield from _meshes_and_textures(subject)
-    for element in subject.xml.iterfind('gazebo/plugin/parameters'):
-        plugin = element.getparent().get('name', '')
-        yield _NamedFile(
-            path=(element.text or '').strip(),
-            what=f'gazebo plugin {quote(plugin)}: <parameters>',
-            line=line_of(element),
-            touches=False,
-            takes_package=False,
-        )
-
-
-def _meshes_and_textures(subject: CheckContext) -> Iterator[_NamedFile]:
-    for element in subject.xml.iter('mesh', 'texture'):
-        part = next(element.iterancestors('visual', 'collision', 'link'), None)
-        above = next(element.iterancestors('link', 'robot'), None)
-        if above is None or (element.tag == 'mesh' and part is None):
-            continue
-        owner = '' if above.tag == 'robot' else f' of link {quote(above.get("name", ""))}'
-        kind = f'the {element.tag}{owner}'
-        touches = part is not None and part.tag == 'collision'
-        path = element.get('filename', '').strip()
-        yield _NamedFile(path, kind, line_of(element), touches)
+_XACRO = ('http://www.ros.org/wiki/xacro', 'http://ros.org/wiki/xacro')
+# Elements that only set values; some expanded files keep a few.
+_MAKES_NOTHING = ('arg', 'property')
+_EXPRESSION = re.compile(r'=\s*["\'][^"\'<]*\$[{(]')
+# Elements whose unknown children are refused where they are read.
+_READ_STRICTLY = ('ros2_control', 'geometry')
+_ODD = re.compile(r'\A/|\s')
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
     """
-    What an element may hold.
+    The grammar of an element.
 
-    ``children`` by tag; of those in ``single`` only the first counts. An ``open`` element may hold
-    anything: other programs read it.
+    ``children`` are by tag; of those in ``single`` only the first counts. An ``open`` element may
+    contain anything, as other programs read it.
     """
 
     attributes: tuple[str, ...] = ()
@@ -224,7 +135,6 @@ _ROS2_CONTROL = Element(
     },
     ('hardware',),
 )
-
 ROBOT = Element(
     ('name', 'version'),
     {
@@ -238,20 +148,12 @@ ROBOT = Element(
 """``<robot>`` and all below it."""
 
 
-_XACRO = ('http://www.ros.org/wiki/xacro', 'http://ros.org/wiki/xacro')
-# What only sets values; of these some files keep a few, expanded or not.
-_MAKES_NOTHING = ('arg', 'property')
-_EXPRESSION = re.compile(r'=\s*["\'][^"\'<]*\$[{(]')
-# Elements whose unknown children are refused where they are read.
-_READ_STRICTLY = ('ros2_control', 'geometry')
-
-
-def xacro_is_expanded(subject: CheckContext) -> Iterator[Finding]:
-    """No element of xacro is left, and nothing that it would evaluate."""
-    left = [element for uri in _XACRO for element in subject.xml.iter(f'{{{uri}}}*')]
+def xacro_is_expanded(context: CheckContext) -> Iterator[Finding]:
+    """No element and no expression of xacro is left."""
+    left = [element for uri in _XACRO for element in context.xml.iter(f'{{{uri}}}*')]
     making = [each for each in left if etree.QName(each).localname not in _MAKES_NOTHING]
-    if left and (making or _EXPRESSION.search(subject.robot.text)):
-        yield subject.error(
+    if left and (making or _EXPRESSION.search(context.robot.text)):
+        yield context.error(
             min(map(line_of, left)),
             'this is a xacro file, not yet a URDF',
             found=f'<xacro:{etree.QName((making or left)[0]).localname}>',
@@ -259,26 +161,26 @@ def xacro_is_expanded(subject: CheckContext) -> Iterator[Finding]:
         )
 
 
-def markup_is_known(subject: CheckContext) -> Iterator[Finding]:
+def markup_is_known(context: CheckContext) -> Iterator[Finding]:
     """
-    No element and no attribute is unknown, and none is there twice where only one counts.
+    Every element and attribute is known, and is there once where only one counts.
 
-    What has a namespace of its own, and what stands in ``<gazebo>``, is left to others.
+    Those with an XML namespace, and the content of ``<gazebo>``, are not checked.
     """
-    stack = [(subject.xml, ROBOT)]
+    stack = [(context.xml, ROBOT)]
     while stack:
         element, grammar = stack.pop()
-        yield from _judge_attributes(subject, element, grammar)
+        yield from _check_attributes(context, element, grammar)
         seen: set[str] = set()
         children = []
         for child in element.iterchildren(etree.Element):
             tag = child.tag
             known = grammar.children.get(tag)
             if known is None:
-                yield from _judge_tag(subject, child, grammar)
+                yield from _check_tag(context, child, grammar)
                 continue
             if tag in seen and tag in grammar.single:
-                yield subject.warning(
+                yield context.warning(
                     line_of(child),
                     f'a second <{tag}> in <{element.tag}> is ignored',
                     fix='leave one',
@@ -289,38 +191,118 @@ def markup_is_known(subject: CheckContext) -> Iterator[Finding]:
         stack.extend(reversed(children))
 
 
-def one_shape_counts(subject: CheckContext) -> Iterator[Finding]:
-    """A geometry holds one shape; all but the first are ignored."""
-    for geometry in subject.xml.iterfind('link/*/geometry'):
+def one_shape_counts(context: CheckContext) -> Iterator[Finding]:
+    """A geometry has one shape; all but the first are ignored."""
+    for geometry in context.xml.iterfind('link/*/geometry'):
         shapes = list(geometry.iterchildren(etree.Element))
         for shape in shapes[1:]:
-            yield subject.warning(
+            yield context.warning(
                 line_of(shape),
                 f'a second shape, <{shape.tag}>, in one <geometry> is ignored',
                 fix=f'give it a <{geometry.getparent().tag}> of its own',
             )
 
 
-def _judge_attributes(
-    subject: CheckContext, element: etree._Element, grammar: Element
+def names_are_usable(context: CheckContext) -> Iterator[Finding]:
+    """Names have no blanks and no leading slash: tf2 refuses such frames."""
+    robot = context.robot
+    parts = [('link', each.name, each.line) for each in robot.links]
+    parts += [('joint', each.name, each.line) for each in robot.joints]
+    for kind, name, line in parts:
+        if _ODD.search(name):
+            yield context.warning(
+                line,
+                f'the {kind} has a name that ROS tools trip over',
+                found=quote(name),
+                expected='letters, digits and _, such as '
+                + quote(re.sub(r'\W+', '_', name.strip('/ '))),
+            )
+
+
+def gazebo_refers_to_something(context: CheckContext) -> Iterator[Finding]:
+    """The ``reference`` of a ``<gazebo>`` is a link or a joint."""
+    robot = context.robot
+    known = [link.name for link in robot.links] + [joint.name for joint in robot.joints]
+    for element in context.xml.iterchildren('gazebo'):
+        name = element.get('reference')
+        if name is None or robot.has_link(name) or robot.has_joint(name):
+            continue
+        meant = closest_match(name, known)
+        yield context.warning(
+            line_of(element),
+            '<gazebo> refers to what is not there, and is ignored',
+            found=quote(name),
+            expected=f'a link or a joint: {quote_all(known)}',
+            fix=f'write reference="{meant}"' if meant else '',
+        )
+
+
+def files_are_there(context: CheckContext) -> Iterator[Finding]:
+    """Meshes and textures exist; a missing collision mesh is an error, as simulators refuse it."""
+    file_exists = context.inputs.file_exists
+    for file in _meshes_and_textures(context) if file_exists is not None else ():
+        if not file.path or _ABSOLUTE.match(file.path):
+            continue
+        try:
+            if file_exists(file.path):
+                continue
+        except (AmrError, ValueError) as error:
+            yield context.warning(
+                file.line,
+                f'{file.what} cannot be looked up',
+                found=quote(file.path),
+                fix=str(error),
+            )
+            continue
+        report = context.error if file.touches else context.warning
+        yield report(
+            file.line,
+            f'{file.what} is not there',
+            found=quote(file.path),
+            expected='package://<package>/<path>, or a path from the folder of this file',
+        )
+
+
+def paths_hold_everywhere(context: CheckContext) -> Iterator[Finding]:
+    """
+    No path is valid on this machine only.
+
+    Expanded ``$(find package)`` expressions of xacro are accepted: such a file exists in the share
+    folder of its package.
+    """
+    file_exists = context.inputs.file_exists
+    for file in _named_files(context) if file_exists is not None else ():
+        if _ABSOLUTE.match(file.path) and not _is_of_a_package(file.path, file_exists):
+            yield context.warning(
+                file.line,
+                f'{file.what} has a path of this machine only',
+                found=quote(file.path),
+                fix='write package://<package>/<path below its share folder>'
+                if file.takes_package
+                else 'let xacro find the file: $(find <package>)/config/<file>.yaml',
+            )
+
+
+def _check_attributes(
+    context: CheckContext, element: etree._Element, grammar: Element
 ) -> Iterator[Finding]:
     for name in element.attrib:
         if name not in grammar.attributes and not name.startswith('{'):
-            yield subject.warning(
+            yield context.warning(
                 line_of(element),
                 f'<{element.tag}> has no attribute {quote(name)} in URDF: it is ignored',
                 **_hint(name, grammar.attributes, '{}="…"'),
             )
 
 
-def _judge_tag(
-    subject: CheckContext, element: etree._Element, grammar: Element
+def _check_tag(
+    context: CheckContext, element: etree._Element, grammar: Element
 ) -> Iterator[Finding]:
     parent = element.getparent()
     strict = next(element.iterancestors(*_READ_STRICTLY), None) is not None
     if parent is None or strict or element.tag.startswith('{'):
         return
-    yield subject.warning(
+    yield context.warning(
         line_of(element),
         f'<{parent.tag}> has no element {quote(f"<{element.tag}>")} in URDF: it is ignored',
         **_hint(element.tag, grammar.children, '<{}>'),
@@ -328,7 +310,7 @@ def _judge_tag(
 
 
 def _hint(name: str, known: Collection[str], form: str) -> dict[str, str]:
-    """Return what is expected and the fix, where one of the known names is near."""
+    """Return the expected names, and the fix if one of them is similar."""
     if not known:
         return {'expected': 'none', 'fix': 'remove it'}
     meant = closest_match(name, known)
@@ -338,38 +320,46 @@ def _hint(name: str, known: Collection[str], form: str) -> dict[str, str]:
     }
 
 
-_ODD = re.compile(r'\A/|\s')
+@dataclass(frozen=True, slots=True)
+class _NamedFile:
+    """A file that the description names; ``what`` says what it is for."""
+
+    path: str
+    what: str
+    line: int
+    touches: bool
+    takes_package: bool = True
 
 
-def names_are_usable(subject: CheckContext) -> Iterator[Finding]:
-    """Names hold no blanks and begin with no slash: tf2 refuses such frames."""
-    robot = subject.robot
-    parts = [('link', each.name, each.line) for each in robot.links]
-    parts += [('joint', each.name, each.line) for each in robot.joints]
-    for kind, name, line in parts:
-        if _ODD.search(name):
-            yield subject.warning(
-                line,
-                f'the {kind} has a name that ROS tools trip over',
-                found=quote(name),
-                expected='letters, digits and _, such as '
-                + quote(re.sub(r'\W+', '_', name.strip('/ '))),
-            )
+def _is_of_a_package(path: str, file_exists: FileExists) -> bool:
+    try:
+        return _SHARE.search(path) is not None and file_exists(path)
+    except (AmrError, ValueError):
+        return False
 
 
-def gazebo_refers_to_something(subject: CheckContext) -> Iterator[Finding]:
-    """What a ``<gazebo reference="…">`` names is a link or a joint."""
-    robot = subject.robot
-    known = [link.name for link in robot.links] + [joint.name for joint in robot.joints]
-    for element in subject.xml.iterchildren('gazebo'):
-        name = element.get('reference')
-        if name is None or robot.has_link(name) or robot.has_joint(name):
-            continue
-        meant = closest_match(name, known)
-        yield subject.warning(
-            line_of(element),
-            '<gazebo> refers to what is not there, and is ignored',
-            found=quote(name),
-            expected=f'a link or a joint: {quote_all(known)}',
-            fix=f'write reference="{meant}"' if meant else '',
+def _named_files(context: CheckContext) -> Iterator[_NamedFile]:
+    """Yield the files that a description may name by a path of this machine."""
+    yield from _meshes_and_textures(context)
+    for element in context.xml.iterfind('gazebo/plugin/parameters'):
+        plugin = element.getparent().get('name', '')
+        yield _NamedFile(
+            path=(element.text or '').strip(),
+            what=f'gazebo plugin {quote(plugin)}: <parameters>',
+            line=line_of(element),
+            touches=False,
+            takes_package=False,
         )
+
+
+def _meshes_and_textures(context: CheckContext) -> Iterator[_NamedFile]:
+    for element in context.xml.iter('mesh', 'texture'):
+        part = next(element.iterancestors('visual', 'collision', 'link'), None)
+        above = next(element.iterancestors('link', 'robot'), None)
+        if above is None or (element.tag == 'mesh' and part is None):
+            continue
+        owner = '' if above.tag == 'robot' else f' of link {quote(above.get("name", ""))}'
+        kind = f'the {element.tag}{owner}'
+        touches = part is not None and part.tag == 'collision'
+        path = element.get('filename', '').strip()
+        yield _NamedFile(path, kind, line_of(element), touches)

@@ -28,8 +28,8 @@ def meshes_can_be_read(context: CheckContext) -> Iterator[Finding]:
     """No mesh is empty or broken; without that of a collision no simulator takes the robot."""
     for use in context.meshes:
         if use.error:
-            judge = context.error if use.touches else context.warning
-            yield judge(use.part.line, f'{_name(use)} cannot be used', found=use.error)
+            report = context.error if use.touches else context.warning
+            yield report(use.part.line, f'{_name(use)} cannot be used', found=use.error)
 
 
 def meshes_are_in_metres(context: CheckContext) -> Iterator[Finding]:

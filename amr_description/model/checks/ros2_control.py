@@ -1,13 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rules of the checker on what the controllers believe of the robot.
+Rules on ``<ros2_control>`` blocks, and on what controllers assume about the robot.
 
-Their findings are about the parameter file, and name its lines.
-
-Rules of the checker on ``<ros2_control>`` blocks whose text is right.
-
-That their joints exist and that their tags are known is seen to where they are read.
+Findings about controllers name lines of their parameter files. Unknown joints and tags of a block
+are reported where it is read (:mod:`amr_description.model.ros2_control_tag`).
 """
 
 from collections.abc import Iterator
@@ -19,147 +16,99 @@ from amr_description.model.hardware_info import ComponentInfo, ComponentType, Ha
 from amr_description.model.robot import JointType
 from amr_description.text import closest_match, quote, quote_all
 
-# Beyond this share a measure is wrong, not rounded: 1 %.
+# A difference of more than this share is an error, not rounding.
 _TOLERANCE = 0.01
-# m; wheels of one side that stand farther apart along x than this scrub in a turn.
+# m; wheels of one side that are farther apart along x scrub sideways in a turn.
 _SCRUBBING = 0.01
+_MANY_COORDINATES = (JointType.PLANAR, JointType.FLOATING)
+_OF_JOINTS = ('position', 'velocity', 'acceleration', 'effort', 'torque', 'force', 'current')
+# Between a typing error ("velocty", 0.93) and another word ("speed", 0.15).
+_MISSPELT = 0.8
 
 
-def wheel_names_are_joints(subject: CheckContext) -> Iterator[Finding]:
-    """Each wheel that a controller names is a joint, takes a velocity and tells what it does."""
-    for drive in subject.surroundings.drives:
+def commanded_joints_have_a_position(context: CheckContext) -> Iterator[Finding]:
+    """Commanded joints have a position that is one number: they are not planar or floating."""
+    for hardware, component in _components(context):
+        if component.type is not ComponentType.JOINT or not component.command_interfaces:
+            continue
+        robot, name = context.robot, component.name
+        if robot.has_joint(name) and robot.joint(name).type in _MANY_COORDINATES:
+            yield context.error(
+                component.line,
+                f'joint {quote(name)} of ros2_control {quote(hardware.name)} takes commands',
+                found=f'type {robot.joint(name).type} in the URDF',
+                expected='revolute, continuous or prismatic: a position that is one number',
+            )
+
+
+def components_offer_interfaces(context: CheckContext) -> Iterator[Finding]:
+    """Every component of a block has an interface; commanded joints have a state interface."""
+    for hardware, component in _components(context):
+        where = f'{component.type} {quote(component.name)} of ros2_control {quote(hardware.name)}'
+        if not component.command_interfaces and not component.state_interfaces:
+            yield context.warning(
+                component.line,
+                f'{where} has no interface',
+                fix='add <state_interface name="…"/>, or remove it',
+            )
+        elif component.type is ComponentType.JOINT and not component.state_interfaces:
+            yield context.warning(
+                component.line,
+                f'{where} takes commands, and nobody can read what it does',
+                fix='add <state_interface name="position"/> and <state_interface '
+                'name="velocity"/>',
+            )
+
+
+def interface_names_are_spelt_right(context: CheckContext) -> Iterator[Finding]:
+    """No interface of a joint has a misspelt name of a standard one."""
+    for hardware, component in _components(context):
+        if component.type is not ComponentType.JOINT:
+            continue
+        for interface in (*component.command_interfaces, *component.state_interfaces):
+            name = interface.name
+            meant = closest_match(name, _OF_JOINTS, _MISSPELT) if name.isalpha() else ''
+            if meant and name != meant:
+                yield context.warning(
+                    component.line,
+                    f'joint {quote(component.name)} of ros2_control {quote(hardware.name)}: an '
+                    'interface that no controller asks for',
+                    found=quote(name),
+                    fix=f'write name="{meant}"',
+                )
+
+
+def one_block_commands(context: CheckContext) -> Iterator[Finding]:
+    """No command interface is offered by two blocks."""
+    first: dict[tuple[str, str], str] = {}
+    for hardware, component in _components(context):
+        for interface in component.command_interfaces:
+            key = (component.name, interface.name)
+            if first.setdefault(key, hardware.name) != hardware.name:
+                yield context.error(
+                    component.line,
+                    f'command interface "{component.name}/{interface.name}" is offered twice',
+                    found=f'by ros2_control {quote(first[key])} and {quote(hardware.name)}',
+                    fix='remove one',
+                )
+
+
+def wheel_names_are_joints(context: CheckContext) -> Iterator[Finding]:
+    """Each wheel of a controller is a joint with a velocity command and a state interface."""
+    for drive in context.inputs.drives:
         for parameter, names in _named_wheels(drive):
             for name in names:
-                yield from _judge_wheel(subject, drive, parameter, name)
+                yield from _check_wheel(context, drive, parameter, name)
 
 
-def _named_wheels(drive: DriveSettings) -> tuple[tuple[str, tuple[str, ...]], ...]:
-    return (
-        ('left_wheel_names', drive.left_wheels),
-        ('right_wheel_names', drive.right_wheels),
-    )
-
-
-def _judge_wheel(
-    subject: CheckContext, drive: DriveSettings, parameter: str, name: str
-) -> Iterator[Finding]:
-    robot = subject.robot
-    what = f'{parameter} holds {quote(name)}'
-    if not robot.has_joint(name):
-        moving = [joint.name for joint in robot.joints if joint.has_position]
-        meant = closest_match(name, moving)
-        yield drive.error(
-            parameter,
-            f'{what}, which is no joint of the robot',
-            expected=f'joints of {robot.source}: {quote_all(moving)}',
-            fix=f'write "{meant}"' if meant else '',
-        )
-        return
-    feedback = 'position' if drive.position_feedback else 'velocity'
-    for kind, interface, offered in (
-        ('command', 'velocity', _offered(subject, name, 'command_interfaces')),
-        ('state', feedback, _offered(subject, name, 'state_interfaces')),
-    ):
-        if interface not in offered and not (kind == 'state' and drive.open_loop):
-            yield drive.error(
-                parameter,
-                f'{what}, which has no {kind} interface "{interface}"',
-                found=quote_all(sorted(offered)),
-                fix=f'add <{kind}_interface name="{interface}"/> to it in <ros2_control>',
-            )
-
-
-def _offered(subject: CheckContext, joint: str, interfaces: str) -> set[str]:
-    """Return the names of the command or state interfaces that blocks offer of a joint."""
-    components: list[ComponentInfo] = [
-        component
-        for hardware in subject.hardware
-        for component in hardware.joints
-        if component.name == joint
-    ]
-    return {each.name for component in components for each in getattr(component, interfaces)}
-
-
-def sides_are_not_swapped(subject: CheckContext) -> Iterator[Finding]:
-    """The left wheels are on the left (y > 0), the right ones on the right."""
-    for drive in subject.surroundings.drives:
-        left, right = _mean_y(subject, drive.left_wheels), _mean_y(subject, drive.right_wheels)
-        if left < right:
-            yield drive.warning(
-                'left_wheel_names',
-                'left and right wheels are swapped: turns are inverted',
-                found=f'the left wheels at y = {left:g} m, the right ones at y = {right:g} m',
-                expected='the left wheels at the greater y',
-                fix='swap left_wheel_names and right_wheel_names',
-            )
-
-
-def wheel_radius_agrees(subject: CheckContext) -> Iterator[Finding]:
-    """The radius is that of the wheels' collision shapes."""
-    radii = {wheel.joint: wheel.radius for wheel in subject.wheels}
-    for drive in subject.surroundings.drives:
-        for name in (*drive.left_wheels, *drive.right_wheels):
-            radius = radii.get(name, math.nan)
-            if abs(radius - drive.radius) > _TOLERANCE * radius:
-                yield drive.warning(
-                    'wheel_radius',
-                    f'wheel_radius is not that of {quote(name)}',
-                    found=f'{drive.radius:g} m',
-                    expected=f'{radius:g} m, the radius of its collision shape',
-                    fix=f'write wheel_radius: {_decimal(radius)}',
-                )
-                break
-
-
-def wheel_separation_agrees(subject: CheckContext) -> Iterator[Finding]:
-    """The separation is the distance between the left and the right wheels along y."""
-    for drive in subject.surroundings.drives:
-        apart = _track(subject, drive)
-        if abs(apart - drive.separation) > _TOLERANCE * apart:
-            yield drive.warning(
-                'wheel_separation',
-                'wheel_separation is not that of the wheels',
-                found=f'{drive.separation:g} m',
-                expected=f'{apart:g} m between the joints on the left and on the right',
-                fix=f'write wheel_separation: {_decimal(apart)}',
-            )
-
-
-def scrubbing_is_accounted_for(subject: CheckContext) -> Iterator[Finding]:
-    """
-    A robot with fixed wheels one behind the other has a separation multiplier.
-
-    Such wheels scrub sideways in a turn, and the robot turns less than they say; by Coulomb
-    friction of four equal wheels, L apart along x and W along y, by the factor 1 + (L / W)².
-    """
-    for drive in subject.surroundings.drives:
-        x = [
-            subject.poses[joint.child].translation[0]
-            for joint in subject.speed_joints
-            if joint.name in drive.left_wheels
-        ]
-        length = max(x, default=0.0) - min(x, default=0.0)
-        width = _track(subject, drive)
-        if drive.separation_multiplier == 1.0 and length > _SCRUBBING and width > 0.0:
-            guess = 1.0 + length / width * (length / width)
-            yield drive.warning(
-                'wheel_separation',
-                'wheels one behind the other scrub in a turn; odometry will turn '
-                'more than the robot',
-                found='wheel_separation_multiplier 1.0',
-                expected=f'about 1 + (L/W)² = {guess:.2f}',
-                fix=f'write wheel_separation_multiplier: {guess:.2f}, then measure a full turn',
-            )
-
-
-def base_frame_is_the_root(subject: CheckContext) -> Iterator[Finding]:
-    """A frame has one parent in TF: what odometry moves is the root of the robot."""
-    roots = subject.robot.roots
-    for drive in subject.surroundings.drives if roots else ():
+def base_frame_is_the_root(context: CheckContext) -> Iterator[Finding]:
+    """The base frame of odometry is the root of the robot: a frame has one parent in TF."""
+    roots = context.robot.roots
+    for drive in context.inputs.drives if roots else ():
         base, root = drive.base_frame, roots[0].name
         if not drive.publishes_transform or base == root:
             continue
-        joint = subject.robot.parent_joint(base)
+        joint = context.robot.parent_joint(base)
         yield drive.warning(
             'base_frame_id',
             f'{quote(base)} gets two parents in TF'
@@ -173,101 +122,147 @@ def base_frame_is_the_root(subject: CheckContext) -> Iterator[Finding]:
         )
 
 
-def _mean_y(subject: CheckContext, names: tuple[str, ...]) -> float:
-    """Return the mean y of the wheels that are there (m); NaN when none is."""
+def sides_are_not_swapped(context: CheckContext) -> Iterator[Finding]:
+    """The left wheels are on the left (y > 0), the right ones on the right."""
+    for drive in context.inputs.drives:
+        left, right = _mean_y(context, drive.left_wheels), _mean_y(context, drive.right_wheels)
+        if left < right:
+            yield drive.warning(
+                'left_wheel_names',
+                'left and right wheels are swapped: turns are inverted',
+                found=f'the left wheels at y = {left:g} m, the right ones at y = {right:g} m',
+                expected='the left wheels at the greater y',
+                fix='swap left_wheel_names and right_wheel_names',
+            )
+
+
+def wheel_radius_agrees(context: CheckContext) -> Iterator[Finding]:
+    """The radius is that of the wheels' collision shapes."""
+    radii = {wheel.joint: wheel.radius for wheel in context.wheels}
+    for drive in context.inputs.drives:
+        for name in (*drive.left_wheels, *drive.right_wheels):
+            radius = radii.get(name, math.nan)
+            if abs(radius - drive.radius) > _TOLERANCE * radius:
+                yield drive.warning(
+                    'wheel_radius',
+                    f'wheel_radius is not that of {quote(name)}',
+                    found=f'{drive.radius:g} m',
+                    expected=f'{radius:g} m, the radius of its collision shape',
+                    fix=f'write wheel_radius: {_decimal(radius)}',
+                )
+                break
+
+
+def wheel_separation_agrees(context: CheckContext) -> Iterator[Finding]:
+    """The separation is the distance between the left and the right wheels along y."""
+    for drive in context.inputs.drives:
+        apart = _track(context, drive)
+        if abs(apart - drive.separation) > _TOLERANCE * apart:
+            yield drive.warning(
+                'wheel_separation',
+                'wheel_separation is not that of the wheels',
+                found=f'{drive.separation:g} m',
+                expected=f'{apart:g} m between the joints on the left and on the right',
+                fix=f'write wheel_separation: {_decimal(apart)}',
+            )
+
+
+def scrubbing_is_accounted_for(context: CheckContext) -> Iterator[Finding]:
+    """
+    A robot with fixed wheels one behind the other has a separation multiplier.
+
+    Such wheels scrub sideways in a turn, and the robot turns less than their speeds say: for the
+    Coulomb friction of four equal wheels, L apart along x and W along y, by 1 + (L / W)².
+    """
+    for drive in context.inputs.drives:
+        x = [
+            context.poses[joint.child].translation[0]
+            for joint in context.speed_joints
+            if joint.name in drive.left_wheels
+        ]
+        length = max(x, default=0.0) - min(x, default=0.0)
+        width = _track(context, drive)
+        if drive.separation_multiplier == 1.0 and length > _SCRUBBING and width > 0.0:
+            guess = 1.0 + length / width * (length / width)
+            yield drive.warning(
+                'wheel_separation',
+                'wheels one behind the other scrub in a turn; odometry will turn '
+                'more than the robot',
+                found='wheel_separation_multiplier 1.0',
+                expected=f'about 1 + (L/W)² = {guess:.2f}',
+                fix=f'write wheel_separation_multiplier: {guess:.2f}, then measure a full turn',
+            )
+
+
+def _components(context: CheckContext) -> Iterator[tuple[HardwareInfo, ComponentInfo]]:
+    for hardware in context.hardware:
+        for component in hardware.components:
+            yield hardware, component
+
+
+def _named_wheels(drive: DriveSettings) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    return (
+        ('left_wheel_names', drive.left_wheels),
+        ('right_wheel_names', drive.right_wheels),
+    )
+
+
+def _check_wheel(
+    context: CheckContext, drive: DriveSettings, parameter: str, name: str
+) -> Iterator[Finding]:
+    robot = context.robot
+    what = f'{parameter} holds {quote(name)}'
+    if not robot.has_joint(name):
+        moving = [joint.name for joint in robot.joints if joint.has_position]
+        meant = closest_match(name, moving)
+        yield drive.error(
+            parameter,
+            f'{what}, which is no joint of the robot',
+            expected=f'joints of {robot.source}: {quote_all(moving)}',
+            fix=f'write "{meant}"' if meant else '',
+        )
+        return
+    feedback = 'position' if drive.position_feedback else 'velocity'
+    for kind, interface, offered in (
+        ('command', 'velocity', _offered(context, name, 'command_interfaces')),
+        ('state', feedback, _offered(context, name, 'state_interfaces')),
+    ):
+        if interface not in offered and not (kind == 'state' and drive.open_loop):
+            yield drive.error(
+                parameter,
+                f'{what}, which has no {kind} interface "{interface}"',
+                found=quote_all(sorted(offered)),
+                fix=f'add <{kind}_interface name="{interface}"/> to it in <ros2_control>',
+            )
+
+
+def _offered(context: CheckContext, joint: str, interfaces: str) -> set[str]:
+    """Return the names of the command or state interfaces of a joint in all blocks."""
+    components: list[ComponentInfo] = [
+        component
+        for hardware in context.hardware
+        for component in hardware.joints
+        if component.name == joint
+    ]
+    return {each.name for component in components for each in getattr(component, interfaces)}
+
+
+def _mean_y(context: CheckContext, names: tuple[str, ...]) -> float:
+    """Return the mean y of the wheels that exist (m); NaN if none does."""
     y = [
-        subject.poses[joint.child].translation[1]
-        for joint in subject.robot.joints
-        if joint.name in names and joint.child in subject.poses
+        context.poses[joint.child].translation[1]
+        for joint in context.robot.joints
+        if joint.name in names and joint.child in context.poses
     ]
     return math.fsum(y) / len(y) if y and all(map(math.isfinite, y)) else math.nan
 
 
-def _track(subject: CheckContext, drive: DriveSettings) -> float:
-    """Return how far apart left and right wheels are along y (m); NaN when it cannot be told."""
-    return abs(_mean_y(subject, drive.left_wheels) - _mean_y(subject, drive.right_wheels))
+def _track(context: CheckContext, drive: DriveSettings) -> float:
+    """Return the distance of left and right wheels along y (m); NaN if it is not known."""
+    return abs(_mean_y(context, drive.left_wheels) - _mean_y(context, drive.right_wheels))
 
 
 def _decimal(value: float) -> str:
     """Return a number as a parameter of type double is written."""
     text = f'{value:.4g}'
     return text if '.' in text or 'e' in text else f'{text}.0'
-
-
-_MANY_COORDINATES = (JointType.PLANAR, JointType.FLOATING)
-_OF_JOINTS = ('position', 'velocity', 'acceleration', 'effort', 'torque', 'force', 'current')
-# Between a slip of the pen ("velocty", 0.93) and another word ("speed", 0.15).
-_MISSPELT = 0.8
-
-
-def commanded_joints_have_a_position(subject: CheckContext) -> Iterator[Finding]:
-    """What takes commands is one number: no planar and no floating joint."""
-    for hardware, component in _components(subject):
-        if component.type is not ComponentType.JOINT or not component.command_interfaces:
-            continue
-        robot, name = subject.robot, component.name
-        if robot.has_joint(name) and robot.joint(name).type in _MANY_COORDINATES:
-            yield subject.error(
-                component.line,
-                f'joint {quote(name)} of ros2_control {quote(hardware.name)} takes commands',
-                found=f'type {robot.joint(name).type} in the URDF',
-                expected='revolute, continuous or prismatic: a position that is one number',
-            )
-
-
-def components_offer_interfaces(subject: CheckContext) -> Iterator[Finding]:
-    """Every joint, sensor and GPIO of a block has an interface; what is commanded can be read."""
-    for hardware, component in _components(subject):
-        where = f'{component.type} {quote(component.name)} of ros2_control {quote(hardware.name)}'
-        if not component.command_interfaces and not component.state_interfaces:
-            yield subject.warning(
-                component.line,
-                f'{where} has no interface',
-                fix='add <state_interface name="…"/>, or remove it',
-            )
-        elif component.type is ComponentType.JOINT and not component.state_interfaces:
-            yield subject.warning(
-                component.line,
-                f'{where} takes commands, and nobody can read what it does',
-                fix='add <state_interface name="position"/> and <state_interface '
-                'name="velocity"/>',
-            )
-
-
-def interface_names_are_spelt_right(subject: CheckContext) -> Iterator[Finding]:
-    """No interface of a joint has nearly the name of a standard one."""
-    for hardware, component in _components(subject):
-        if component.type is not ComponentType.JOINT:
-            continue
-        for interface in (*component.command_interfaces, *component.state_interfaces):
-            name = interface.name
-            meant = closest_match(name, _OF_JOINTS, _MISSPELT) if name.isalpha() else ''
-            if meant and name != meant:
-                yield subject.warning(
-                    component.line,
-                    f'joint {quote(component.name)} of ros2_control {quote(hardware.name)}: an '
-                    'interface that no controller asks for',
-                    found=quote(name),
-                    fix=f'write name="{meant}"',
-                )
-
-
-def one_block_commands(subject: CheckContext) -> Iterator[Finding]:
-    """No command interface is offered by two blocks."""
-    first: dict[tuple[str, str], str] = {}
-    for hardware, component in _components(subject):
-        for interface in component.command_interfaces:
-            key = (component.name, interface.name)
-            if first.setdefault(key, hardware.name) != hardware.name:
-                yield subject.error(
-                    component.line,
-                    f'command interface "{component.name}/{interface.name}" is offered twice',
-                    found=f'by ros2_control {quote(first[key])} and {quote(hardware.name)}',
-                    fix='remove one',
-                )
-
-
-def _components(subject: CheckContext) -> Iterator[tuple[HardwareInfo, ComponentInfo]]:
-    for hardware in subject.hardware:
-        for component in hardware.components:
-            yield hardware, component

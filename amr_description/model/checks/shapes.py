@@ -17,16 +17,16 @@ _DEPTH = 0.002
 _MOST_PAIRS = 20_000
 
 
-def sizes_are_positive(subject: CheckContext) -> Iterator[Finding]:
+def sizes_are_positive(context: CheckContext) -> Iterator[Finding]:
     """No shape has a side, radius, length or scale of 0 or below; a mirrored mesh may."""
-    for link in subject.robot.links:
+    for link in context.robot.links:
         parts: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
         for part in parts:
             wrong = [size for size in _sizes(part.geometry) if size <= 0.0]
             if wrong:
                 kind = 'visual' if isinstance(part, Visual) else 'collision'
                 shape = type(part.geometry).__name__.lower()
-                yield subject.error(
+                yield context.error(
                     part.line,
                     f'link {quote(link.name)}: the {shape} of its {kind} has no volume',
                     found=' '.join(f'{size:g}' for size in _sizes(part.geometry)),
@@ -40,11 +40,11 @@ def _sizes(geometry: Geometry) -> tuple[float, ...]:
     return sizes(geometry)
 
 
-def collision_is_present(subject: CheckContext) -> Iterator[Finding]:
+def collision_is_present(context: CheckContext) -> Iterator[Finding]:
     """What has mass and is seen can be touched."""
-    for link in subject.robot.links:
+    for link in context.robot.links:
         if link.inertial is not None and link.visuals and not link.collisions:
-            yield subject.warning(
+            yield context.warning(
                 link.line,
                 f'link {quote(link.name)} has mass and is seen, but has no <collision>',
                 expected='a shape that touches; without one it falls through the ground',
@@ -52,9 +52,9 @@ def collision_is_present(subject: CheckContext) -> Iterator[Finding]:
             )
 
 
-def colors_are_visible(subject: CheckContext) -> Iterator[Finding]:
+def colors_are_visible(context: CheckContext) -> Iterator[Finding]:
     """Colours are within 0..1, and a material of the robot's own list has one."""
-    for element in subject.xml.iter('material'):
+    for element in context.xml.iter('material'):
         parent = element.getparent()
         if parent is None or parent.tag not in ('robot', 'visual'):
             continue
@@ -62,12 +62,12 @@ def colors_are_visible(subject: CheckContext) -> Iterator[Finding]:
         line = line_of(element)
         color, texture = element.find('color'), element.find('texture')
         if parent.tag == 'robot' and color is None and texture is None:
-            yield subject.warning(
+            yield context.warning(
                 line, f'{name} has neither color nor texture', fix='add <color rgba="r g b a"/>'
             )
         text = '' if color is None else color.get('rgba', '')
         if any(not 0.0 <= part <= 1.0 for part in _numbers(text)):
-            yield subject.warning(
+            yield context.warning(
                 line_of(color),
                 f'{name}: color',
                 found=quote(text),
@@ -83,7 +83,7 @@ def _numbers(text: str) -> list[float]:
         return []
 
 
-def shapes_do_not_overlap(subject: CheckContext) -> Iterator[Finding]:
+def shapes_do_not_overlap(context: CheckContext) -> Iterator[Finding]:
     """
     Collision shapes of links that are not neighbours are apart, all joints at 0.
 
@@ -91,15 +91,15 @@ def shapes_do_not_overlap(subject: CheckContext) -> Iterator[Finding]:
     the chassis. Meshes are left out.
     """
     told: set[tuple[str, str]] = set()
-    neighbours = _neighbours(subject)
-    for one, other in _near_pairs(_placed_solids(subject)):
+    neighbours = _neighbours(context)
+    for one, other in _near_pairs(_placed_solids(context)):
         (link, solid), (other_link, other_solid) = one, other
-        pair = (subject.bodies[link.name], subject.bodies[other_link.name])
+        pair = (context.bodies[link.name], context.bodies[other_link.name])
         if pair[0] == pair[1] or pair in neighbours or (link.name, other_link.name) in told:
             continue
         if overlap(solid, other_solid, _DEPTH):
             told.add((link.name, other_link.name))
-            yield subject.warning(
+            yield context.warning(
                 max(link.line, other_link.line),
                 f'the collision shapes of links {quote(link.name)} and {quote(other_link.name)} '
                 'overlap, all joints at 0',
@@ -111,21 +111,21 @@ def shapes_do_not_overlap(subject: CheckContext) -> Iterator[Finding]:
 type _Placed = tuple[Link, Solid]
 
 
-def _placed_solids(subject: CheckContext) -> list[_Placed]:
+def _placed_solids(context: CheckContext) -> list[_Placed]:
     """Return the primitive collision shapes of all links, placed in the root's frame."""
     return [
         (link, solid)
-        for link in subject.robot.links
-        if link.name in subject.poses
-        for solid in solids_of(link.collisions, subject.poses[link.name])
+        for link in context.robot.links
+        if link.name in context.poses
+        for solid in solids_of(link.collisions, context.poses[link.name])
     ]
 
 
-def _neighbours(subject: CheckContext) -> set[tuple[str, str]]:
+def _neighbours(context: CheckContext) -> set[tuple[str, str]]:
     """Return the pairs of rigid bodies that a joint connects, either way round."""
     pairs = {
-        (subject.bodies.get(joint.parent, ''), subject.bodies.get(joint.child, ''))
-        for joint in subject.robot.joints
+        (context.bodies.get(joint.parent, ''), context.bodies.get(joint.child, ''))
+        for joint in context.robot.joints
     }
     return pairs | {(child, parent) for parent, child in pairs}
 
@@ -134,7 +134,7 @@ def _near_pairs(placed: list[_Placed]) -> Iterator[tuple[_Placed, _Placed]]:
     """Yield pairs whose extents along x meet, the leftmost first, as many as are looked at."""
     spans = []
     for item in placed:
-        x, radius = item[1].place.translation[0], reach(item[1].shape)
+        x, radius = item[1].pose.translation[0], reach(item[1].shape)
         spans.append((x - radius, x + radius, item))
     spans.sort(key=lambda span: span[0])
     left = _MOST_PAIRS

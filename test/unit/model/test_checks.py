@@ -52,7 +52,7 @@ def test_arm_is_faultless():
 
 
 def test_tutorial_robot_is_told_its_two_faults_once():
-    beside = CheckInputs(is_there=lambda uri: False)
+    beside = CheckInputs(file_exists=lambda uri: False)
     path, warning = map(str, checks.examine(TUTORIAL, 'f', beside).findings)
     line = TUTORIAL.splitlines().index(
         '      <parameters>/absolute/path/to/config/controllers.yaml</parameters>'
@@ -78,7 +78,7 @@ def test_tutorial_robot_is_told_its_two_faults_once():
 def test_a_path_that_xacro_found_is_no_path_of_one_machine():
     """$(find package) becomes the absolute path of a share folder."""
     text = AMR.replace('<box size="0.5 0.3 0.1"/>', '<mesh filename="{}"/>', 1)
-    there = CheckInputs(is_there=lambda uri: uri.startswith('/opt/ws'))
+    there = CheckInputs(file_exists=lambda uri: uri.startswith('/opt/ws'))
     for path, count in (
         ('/opt/ws/share/amr/base.stl', 0),
         ('/opt/ws/src/amr/base.stl', 1),

@@ -28,8 +28,8 @@ def found(tmp_path):
         )
         text = f'<robot name="r"><link name="a"/><link name="b">{inertial}{parts}</link>'
         text += '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
-        surroundings = CheckInputs(find_file=lambda uri: tmp_path / uri)
-        told = examine(text, 'r.urdf', surroundings).findings
+        inputs = CheckInputs(find_file=lambda uri: tmp_path / uri)
+        told = examine(text, 'r.urdf', inputs).findings
         return [str(each) for each in told if 'mesh' in each.what]
 
     return found

@@ -40,7 +40,7 @@ def geom(solid, name):
     kind = type(solid.shape).__name__.lower()
     size = half_sizes(solid.shape)
     size = size[1:] if kind == 'cylinder' else size
-    place = solid.place
+    place = solid.pose
     attributes = {
         'name': name,
         'type': kind,
@@ -99,7 +99,7 @@ def test_farthest_point_is_on_the_shape_and_none_is_farther(seed):
     for _ in range(50):
         other = farthest(solid, tuple(chance.gauss() for _ in range(3)))
         assert math.sumprod(other, direction) <= best + 1e-12
-        local = solid.place.inverse().apply(other)
+        local = solid.pose.inverse().apply(other)
         assert all(abs(a) <= half + 1e-9 for a, half in zip(local, (x, y, z), strict=True))
 
 
