@@ -19,6 +19,8 @@ import os
 import signal
 
 INTERRUPTED = 128 + signal.SIGINT
+LIFELINE_VARIABLE = 'AMR_LIFELINE_FD'
+"""By which the bring-up hands its lifeline (``bringup/lifeline.py``) to the programs it starts."""
 
 
 class LazyEntryPoint:

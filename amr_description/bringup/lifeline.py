@@ -24,8 +24,8 @@ import subprocess
 import sys
 
 from amr_description.bringup import guardian
+from amr_description.entry import LIFELINE_VARIABLE
 
-LIFELINE_VARIABLE = 'AMR_LIFELINE_FD'
 _PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 

@@ -33,7 +33,6 @@ graph.py              who is there: topics, types, nodes
 services.py           who is there: services with their types
 actions.py            who is there: actions with their types, clients and servers
 names.py              names of topics, services and actions, as they are typed
-message_types.py      message, service and action classes by their names
 qos.py                QoS from flags, and matched to the publishers there are
 mismatch.py           tells who is there, but with another type
 message_filter.py     ``--filter``

@@ -13,6 +13,7 @@ from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from amr_description.cli.local_participants import count_local_participants
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
+from amr_description.ros.endpoints import endpoint_node
 
 _QUIET = 0.4  # s without news before discovery counts as done; Fast DDS asks again after 0.28 s
 _QUIET_WITH_SERVER = 1.5  # s; a discovery server is asked step by step, each 0.45 s later
@@ -21,7 +22,6 @@ _PATIENCE = 2.0  # s for something asked for by its name
 
 _NODE_LISTS = 'ros_discovery_info'  # each participant publishes its nodes there (rmw_dds_common)
 _OF_EVERY_NODE = '/parameter_events'
-_NOT_NAMED_YET = '_NODE_NAME_UNKNOWN_'
 
 
 @dataclass(frozen=True, order=True)
@@ -92,7 +92,7 @@ def _all_local_found(node: Node) -> bool:
     if any(len(found) < there for found in ends):
         return False
     announcers = node.get_publishers_info_by_topic(_OF_EVERY_NODE)
-    return all(publisher.node_name != _NOT_NAMED_YET for publisher in announcers)
+    return all(endpoint_node(publisher) is not None for publisher in announcers)
 
 
 def topics(node: Node, *, hidden: bool = False) -> list[tuple[str, list[str]]]:

@@ -20,8 +20,8 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from amr_description.cli.message_types import message_type
 from amr_description.errors import AmrError
+from amr_description.ros.message_types import message_type
 from amr_description.text import shorten
 
 Stamp = Callable[[Any], None]

@@ -6,14 +6,15 @@ Tells who is on a topic but uses another type: DDS connects only what has the sa
 The classic is Twist where a controller wants TwistStamped; without a word nothing moves.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 import sys
 from typing import Any
 
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from amr_description.cli.message_types import type_name
+from amr_description.ros.message_types import type_name
+from amr_description.ros.type_mismatch import mismatches
 
 
 class Mismatch:
@@ -39,19 +40,3 @@ class Mismatch:
             if line not in self._told:
                 self._told.add(line)
                 print(line, file=sys.stderr)
-
-
-def mismatches(
-    ours: str, topic: str, endpoints: Iterable[TopicEndpointInfo], publishing: bool
-) -> list[str]:
-    """Return a line for each node whose endpoint has another type."""
-    here, there = ('publish', 'expects') if publishing else ('subscribe to', 'publishes')
-    return sorted(
-        {
-            f'WARNING: you {here} {ours} on {topic}, but '
-            f'{e.node_namespace.rstrip("/")}/{e.node_name} {there} {e.topic_type} there: '
-            f'nothing will arrive; use {e.topic_type}'
-            for e in endpoints
-            if e.topic_type != ours
-        }
-    )

@@ -34,8 +34,9 @@ import threading
 from types import FrameType, TracebackType
 from typing import Self
 
+from amr_description.entry import LIFELINE_VARIABLE
+
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-LIFELINE_VARIABLE = 'AMR_LIFELINE_FD'
 _END_OF_WATCH = 0  # a byte for the wake-up pipe; no signal has this number
 
 

@@ -1,35 +1,55 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Twist or TwistStamped: what those who listen for velocity commands want.
+Who uses a topic with another message type: DDS connects only equal types, and tells nobody.
 
-DDS connects only what has the same type, and nobody is told that it does not. So a publisher of
-commands looks at the subscriptions on its topic, and this module says what is to be said of them.
+The classic is Twist where a controller wants TwistStamped; without a word nothing moves. So a
+publisher of velocity commands looks at the subscriptions on its topic, and follows their type.
 """
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
+from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.service_calls import wait_until
 
 TYPE_NAMES = {False: 'geometry_msgs/msg/Twist', True: 'geometry_msgs/msg/TwistStamped'}
 """By whether it is stamped."""
-MESSAGES: dict[bool, type[Twist] | type[TwistStamped]] = {False: Twist, True: TwistStamped}
-"""By whether it is stamped."""
-
 
 NAMELESS = 'a listener'
-"""A node is heard of a moment after its subscriptions, and one without ROS never."""
-_UNKNOWN = '_NODE_NAME_UNKNOWN_'  # of rmw
+"""A node is discovered a moment after its subscriptions, and one without ROS never."""
+
+
+def mismatches(
+    ours: str, topic: str, endpoints: Iterable[TopicEndpointInfo], publishing: bool
+) -> list[str]:
+    """
+    Return a warning for each node whose endpoint has another type.
+
+    Args:
+        ours: The type that this program uses.
+        topic: Its full name.
+        endpoints: Those of the other side.
+        publishing: Whether this program publishes, or else subscribes.
+    """
+    here, there = ('publish', 'expects') if publishing else ('subscribe to', 'publishes')
+    return sorted(
+        {
+            f'WARNING: you {here} {ours} on {topic}, but '
+            f'{e.node_namespace.rstrip("/")}/{e.node_name} {there} {e.topic_type} there: '
+            f'nothing will arrive; use {e.topic_type}'
+            for e in endpoints
+            if e.topic_type != ours
+        }
+    )
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Listener:
-    """A node that subscribes to the topic, by its full name, and the type that it wants."""
+    """A node that subscribes to the topic, by its full name, and the type of its subscription."""
 
     node: str
     type_name: str
@@ -38,7 +58,7 @@ class Listener:
 def listeners(node: Node, topic: str) -> list[Listener]:
     """Return who subscribes to a topic of ``node``, before remapping, each once."""
     found = node.get_subscriptions_info_by_topic(topic)
-    return sorted({Listener(_name(each), each.topic_type) for each in found})
+    return sorted({Listener(endpoint_node(each) or NAMELESS, each.topic_type) for each in found})
 
 
 def await_listeners(node: Node, topic: str, timeout: float) -> list[Listener]:
@@ -52,7 +72,7 @@ def await_listeners(node: Node, topic: str, timeout: float) -> list[Listener]:
 
 
 def other_topics(node: Node) -> list[str]:
-    """Return the topics on which somebody listens for commands, of either type."""
+    """Return the topics on which somebody subscribes to commands, of either type."""
     return [
         name
         for name, types in node.get_topic_names_and_types()
@@ -61,26 +81,26 @@ def other_topics(node: Node) -> list[str]:
 
 
 def wants_stamped(found: Iterable[Listener], *, otherwise: bool) -> bool:
-    """Return the type that all of them want who want one; ``otherwise``: for both, and none."""
+    """Whether all subscribe to the stamped type; ``otherwise``: there are both, or none."""
     wanted = {each.type_name for each in found}
     kinds = [stamped for stamped, name in TYPE_NAMES.items() if name in wanted]
     return kinds[0] if len(kinds) == 1 else otherwise
 
 
 def is_wanted(found: Iterable[Listener], stamped: bool) -> bool:
-    """Whether somebody wants this type."""
+    """Whether somebody subscribes to this type."""
     return any(each.type_name == TYPE_NAMES[stamped] for each in found)
 
 
 def choice(topic: str, found: Iterable[Listener], *, stamped: bool) -> str:
-    """Say which type is published, for whom."""
+    """Return the line that says which type is published, for whom."""
     ours = TYPE_NAMES[stamped]
     served = ' and '.join(each.node for each in found if each.type_name == ours)
     return f'publishing {_short(ours)} on {topic}: {served} wants it'
 
 
 def warnings(topic: str, found: Iterable[Listener], *, stamped: bool) -> list[str]:
-    """Say of each who wants the other type that nothing reaches it."""
+    """Return a line for each that subscribes to the other type: nothing reaches it."""
     return [
         f'WARNING: {each.node} wants {_short(each.type_name)} on {topic}, but this publishes '
         f'{_short(TYPE_NAMES[stamped])}: nothing will arrive; use '
@@ -91,18 +111,12 @@ def warnings(topic: str, found: Iterable[Listener], *, stamped: bool) -> list[st
 
 
 def nobody(topic: str, others: Sequence[str], *, stamped: bool) -> str:
-    """Say that a topic has no listeners, and which topics have some."""
+    """Return the line that a topic has no listeners, and which topics have some."""
     elsewhere = f'; -r cmd_vel:={" or ".join(others)} has' if others else ''
     return (
         f'publishing {_short(TYPE_NAMES[stamped])} on {topic}, which has no listener '
         f'yet{elsewhere}'
     )
-
-
-def _name(endpoint: TopicEndpointInfo) -> str:
-    if endpoint.node_name == _UNKNOWN:
-        return NAMELESS
-    return f'{endpoint.node_namespace.rstrip("/")}/{endpoint.node_name}'
 
 
 def _short(type_name: str) -> str:

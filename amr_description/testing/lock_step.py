@@ -28,10 +28,9 @@ from simulation_interfaces.srv import (
     StepSimulation,
 )
 
-from amr_description.clock import NANOSECONDS
 from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
-from amr_description.ros.messages import nanoseconds
+from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.service_calls import ask_until_answered, name_of_type, wait_until
 from amr_description.testing.program import SimulatorProcess
@@ -183,8 +182,7 @@ class LockStep:
             self._publishers[topic] = publisher
             self._published[topic] = 0
         if hasattr(message, 'header') and message.header.stamp == Time():
-            stamp = message.header.stamp
-            stamp.sec, stamp.nanosec = divmod(self.time, NANOSECONDS)
+            fill_stamp(self.time, message.header.stamp)
         self.wait(
             publisher.get_subscription_count,
             f"a subscriber of '{topic}' ({type(message).__name__})",

@@ -21,8 +21,8 @@ from typing import Any
 
 import amr_description
 from amr_description.bringup.command_line import yaml_text
+from amr_description.entry import LIFELINE_VARIABLE
 from amr_description.errors import SimulationError
-from amr_description.ros.signals import LIFELINE_VARIABLE
 
 STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""

@@ -6,8 +6,10 @@ from collections.abc import Iterable
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
+
+from amr_description.ros.qos import LATCHED
 
 
 class TransformBroadcaster:
@@ -43,9 +45,8 @@ class StaticTransformBroadcaster:
     """
 
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
-        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.pub_tf = node.create_publisher(
-            TFMessage, '/tf_static', latched if qos is None else qos
+            TFMessage, '/tf_static', LATCHED if qos is None else qos
         )
         self._sent: dict[str, TransformStamped] = {}
 

@@ -19,17 +19,17 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
 
+from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.qos import TF_STATIC
 from amr_description.ros.runtime import spin
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.buffer_core import DEFAULT_AUTHORITY
 
 DEFAULT_TF_TOPIC = '/tf'
 DEFAULT_STATIC_TF_TOPIC = '/tf_static'
-# The node name that rcl reports for a publisher that was discovered before its node.
-_NOT_KNOWN_YET = '_NODE_NAME_UNKNOWN_'
 
 
 class TransformListener:
@@ -66,13 +66,12 @@ class TransformListener:
         self._topics = [tf_static_topic] if static_only else [tf_topic, tf_static_topic]
         # A callback that waits for a transform must not keep it from being received.
         group = ReentrantCallbackGroup()
-        latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._subscriptions = [
             self.node.create_subscription(
                 TFMessage,
                 tf_static_topic,
                 self.static_callback,
-                latched if static_qos is None else static_qos,
+                TF_STATIC if static_qos is None else static_qos,
                 callback_group=group,
             )
         ]
@@ -135,9 +134,9 @@ def publishers_of(node: Node, topic: str) -> list[str]:
     """Return the full names of the nodes that publish on a topic, sorted, as far as known yet."""
     return sorted(
         {
-            f'{info.node_namespace.rstrip("/")}/{info.node_name}'
-            for info in node.get_publishers_info_by_topic(topic)
-            if info.node_name != _NOT_KNOWN_YET
+            name
+            for endpoint in node.get_publishers_info_by_topic(topic)
+            if (name := endpoint_node(endpoint)) is not None
         }
     )
 

@@ -12,7 +12,7 @@ from rosgraph_msgs.msg import Clock
 from simulation_interfaces.msg import Result
 from support.ros_processes import PATIENCE, ROOT, running
 
-from amr_description.clock import NANOSECONDS
+from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import call_with, name_of_type, wait_until
 
 URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
@@ -30,7 +30,7 @@ class Simulator:
         node.create_subscription(Clock, '/clock', self._hear, QoSProfile(depth=100))
 
     def _hear(self, message):
-        self.clock.append(message.clock.sec * NANOSECONDS + message.clock.nanosec)
+        self.clock.append(nanoseconds(message.clock))
 
     @property
     def time(self):

@@ -80,14 +80,14 @@ def interface_packages(_args: Namespace, _prefix: str) -> Iterable[str]:
 
 def message(args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the fields of the message type on the line, with their defaults."""
-    from amr_description.cli.message_types import message_type
+    from amr_description.ros.message_types import message_type
 
     return [_fields(message_type(args.message_type)())]
 
 
 def request(args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the fields of the request of the service type on the line, with their defaults."""
-    from amr_description.cli.message_types import service_type
+    from amr_description.ros.message_types import service_type
 
     return [_fields(service_type(args.service_type).Request())]
 

@@ -30,7 +30,7 @@ def main(args: Namespace) -> int:
 
 def _message_class(name: str) -> Any:
     from amr_description.cli.interface.index import split_name
-    from amr_description.cli.message_types import action_type, message_type, service_type
+    from amr_description.ros.message_types import action_type, message_type, service_type
 
     _, kind, _ = split_name(name)
     if kind == 'srv':

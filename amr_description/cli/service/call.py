@@ -57,10 +57,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print request and response, once or until Ctrl-C; 0 if done."""
     from amr_description.cli.message_fields import set_fields
-    from amr_description.cli.message_types import service_type
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_value
+    from amr_description.ros.message_types import service_type
 
     if args.rate is not None and not 0.0 < args.rate < float('inf'):
         raise AmrError('rate must be greater than zero')
@@ -95,8 +95,8 @@ def _call(session: 'Session', client: 'Client', request: Any, timeout: float | N
 
 def _wait_for_service(session: 'Session', client: 'Client', timeout: float | None) -> None:
     """Wait for the service, and say so. Raises AmrError."""
-    from amr_description.cli.message_types import type_name
     from amr_description.cli.services import explain_absence, services
+    from amr_description.ros.message_types import type_name
 
     if client.service_is_ready():
         return

@@ -87,7 +87,7 @@ def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
     from rclpy.time import Time
     from std_msgs.msg import Header
 
-    from amr_description.cli.message_types import type_name
+    from amr_description.ros.message_types import type_name
 
     fields = list(message_class.get_fields_and_field_types().items())
     header = ('header', 'std_msgs/Header')

@@ -109,10 +109,10 @@ def _add_appearance(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print messages until ``--once``, ``--timeout`` or Ctrl-C; 0 for the first two."""
     from amr_description.cli import graph
-    from amr_description.cli.message_types import message_type
     from amr_description.cli.mismatch import Mismatch
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
+    from amr_description.ros.message_types import message_type
 
     if args.message_type:
         message_type(args.message_type)

@@ -12,9 +12,9 @@ from rclpy.experimental import EventsExecutor
 from rclpy.qos import qos_profile_sensor_data
 
 from amr_description.cli import graph
-from amr_description.cli.message_types import message_type
 from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session, Session
+from amr_description.ros.message_types import message_type
 
 _PERIOD = 1.0  # s
 

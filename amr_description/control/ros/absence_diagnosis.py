@@ -17,10 +17,12 @@ import time
 from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import GetParameters
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
+from amr_description.ros.messages import nanoseconds
+from amr_description.ros.qos import CLOCK
 from amr_description.ros.rclpy_internals import NodeNameNonExistentError
 from amr_description.ros.service_calls import call, NoAnswerError, wait_until
 
@@ -137,7 +139,6 @@ def _description_fault(manager: str, description: DescriptionObservation | None)
 
 
 _ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DISCOVERY = 1.0
 """s: how long to look around before it is said that nobody is there."""
 _PATIENCE = 1.0
@@ -229,10 +230,10 @@ class ManagerProbe:
         publishers = self._node.count_publishers('/clock')
         if not publishers:
             return ClockObservation(0)
-        with _listening(self._node, Clock, '/clock', _CLOCK) as messages:
+        with _listening(self._node, Clock, '/clock', CLOCK) as messages:
 
             def sight() -> ClockObservation:
-                stamps = (m.clock.sec * NANOSECONDS + m.clock.nanosec for m in messages)
+                stamps = (nanoseconds(message.clock) for message in messages)
                 return ClockObservation(publishers, tuple(stamps))
 
             wait_until(self._node, lambda: sight().runs or None, timeout=_CLOCK_PATIENCE)
@@ -279,7 +280,7 @@ def errors_of(node: Node, names: Sequence[str], since: float = 0.0) -> list[str]
                 for message in messages
                 if message.level >= Log.ERROR
                 and message.name in loggers
-                and message.stamp.sec + message.stamp.nanosec * 1e-9 >= since
+                and nanoseconds(message.stamp) >= since * NANOSECONDS
             ]
 
         if wait_until(node, lambda: lines() or None, timeout=_PATIENCE):

@@ -184,13 +184,13 @@ class ControllerNode:
                 )
 
         subscription = self.node.create_subscription(
-            message_type(port.port.message), port.port.name, receive, qos(port.port.qos)
+            _message_type(port.port), port.port.name, receive, qos(port.port.qos)
         )
         return subscription
 
     def _advertise(self, port: Output[Any]) -> Publisher:
         fill = _writer_of(port.port)
-        message_class = message_type(port.port.message)
+        message_class = _message_type(port.port)
         message = message_class()
         publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
         send = self._publisher.send
@@ -287,6 +287,11 @@ def qos(wanted: Qos) -> QoSProfile:
         reliability=ReliabilityPolicy[wanted.reliability.upper()],
         durability=DurabilityPolicy[wanted.durability.upper()],
     )
+
+
+def _message_type(port: Port) -> Any:
+    """Return the message class of a port. Raises AmrError."""
+    return message_type(port.message, f"The message type of the port '{port.name}'")
 
 
 def _reader_of(port: Port) -> Callable[[Any], Any]:

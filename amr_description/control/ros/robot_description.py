@@ -11,7 +11,6 @@ from collections.abc import Awaitable, Callable, Sequence
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import Clock
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import ClockType
 from std_msgs.msg import String
 
@@ -22,13 +21,13 @@ from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.ros.log_thread import log_error
+from amr_description.ros.qos import LATCHED
 
 TOPIC = 'robot_description'
 
 type Take = Callable[[Robot, Sequence[HardwareInfo]], Awaitable[None]]
 """Brings a robot's hardware up; raises what keeps it from doing so."""
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _PATIENCE = 1.0  # s of the machine's clock, between two lines that say what is waited for
 
 
@@ -53,7 +52,7 @@ class DescriptionSource:
         # A group of its own: bringing hardware up may take long, parameters go on being served.
         group = MutuallyExclusiveCallbackGroup()
         subscription = node.create_subscription(
-            String, TOPIC, self._receive, _LATCHED, callback_group=group
+            String, TOPIC, self._receive, LATCHED, callback_group=group
         )
         self._timer = None
         if robot is None:

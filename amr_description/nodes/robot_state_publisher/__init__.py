@@ -51,7 +51,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from amr_description.clock import NANOSECONDS, TimeJumpFilter
+from amr_description.clock import TimeJumpFilter
 from amr_description.errors import AmrError, DescriptionError, ParameterError
 from amr_description.model.urdf import parse
 from amr_description.nodes.robot_state_publisher.robot_state import (
@@ -63,6 +63,7 @@ from amr_description.nodes.robot_state_publisher.robot_state import (
 from amr_description.parameters import parameter
 from amr_description.ros.arguments import read_description, split_arguments
 from amr_description.ros.cdr import HeadReader
+from amr_description.ros.messages import fill_stamp
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
     declare,
@@ -246,8 +247,7 @@ class RobotStatePublisher(Node):
             message = self._transforms[link.child] = TransformStamped()
             message.header.frame_id = self._settings.frame_prefix + link.parent
             message.child_frame_id = self._settings.frame_prefix + link.child
-        time = message.header.stamp
-        time.sec, time.nanosec = divmod(stamp, NANOSECONDS)
+        fill_stamp(stamp, message.header.stamp)
         translation, rotation = message.transform.translation, message.transform.rotation
         translation.x, translation.y, translation.z = link.transform.translation
         rotation.x, rotation.y, rotation.z, rotation.w = link.transform.rotation

@@ -4,7 +4,7 @@
 
 from dataclasses import dataclass
 
-from geometry_msgs.msg import TwistStamped
+from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -19,7 +19,6 @@ from amr_description.ros.type_mismatch import (
     choice,
     is_wanted,
     listeners,
-    MESSAGES,
     nobody,
     other_topics,
     TYPE_NAMES,
@@ -141,7 +140,7 @@ class TeleopTwistKeyboard(Node):
         self._commands.wait_for_all_acked(_ACK_TIMEOUT)
 
     def _create_commands(self) -> Publisher:
-        return self.create_publisher(MESSAGES[self._is_stamped], _TOPIC, 10)
+        return self.create_publisher(TwistStamped if self._is_stamped else Twist, _TOPIC, 10)
 
     def _change_type(self, stamped: bool) -> None:
         """Publish this type from now on, and set the parameter accordingly."""

@@ -21,16 +21,15 @@ from dataclasses import replace
 
 from geometry_msgs.msg import Point
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
+from amr_description.ros.qos import LATCHED
 from amr_description.sim.ros.ground_truth import WORLD_FRAME
 from amr_description.sim.static_geometry import ShapeKind, visible_shapes, VisibleShape
 from amr_description.sim.world import MujocoWorld
 
 TOPIC = '~/world'
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 INFINITE_WIDTH = 100.0
 """m; the drawn width of an infinite plane."""
 _THICKNESS = 0.002

@@ -7,9 +7,9 @@ import signal
 from fixtures.cli.commands import ros2, running_node, shell, started
 import pytest
 
-from amr_description.cli.message_types import action_type, message_type, service_type, type_name
 from amr_description.cli.services import explain_absence
 from amr_description.errors import AmrError
+from amr_description.ros.message_types import action_type, message_type, service_type, type_name
 
 PLAN = 'nav_msgs/srv/GetPlan'
 TRIGGER = 'std_srvs/srv/Trigger'

@@ -8,7 +8,7 @@ from fixtures.cli.commands import ros2, running_node, shell, started
 import pytest
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from amr_description.cli.mismatch import mismatches
+from amr_description.ros.type_mismatch import mismatches
 
 COMMAND = '/diff_drive_controller/cmd_vel'
 STAMPED = 'geometry_msgs/msg/TwistStamped'
