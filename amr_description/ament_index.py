@@ -24,7 +24,7 @@ _VARIABLE = 'AMENT_PREFIX_PATH'
 
 
 def prefixes() -> list[Path]:
-    """Return the install folders that the sourced underlay and workspaces announce."""
+    """Return the install folders of the sourced underlay and workspaces."""
     return [Path(prefix) for prefix in os.environ.get(_VARIABLE, '').split(os.pathsep) if prefix]
 
 
@@ -81,7 +81,7 @@ def executables_of(package: str) -> list[Path]:
     """
     Return all executable files in ``lib/<package>``, sorted by path.
 
-    Raises ResourceError with the words of ``ros2 run``, which does not say where it searched.
+    Raises ResourceError with the text of ``ros2 run``, which does not say where it searched.
     """
     if prefixes() and not is_installed(package):
         raise ResourceError(f"Package '{shorten(package)}' not found")
@@ -103,11 +103,11 @@ def executable_of(package: str, name: str) -> Path:
 
 def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     """
-    Return the path that a URI of a description means; the file need not exist.
+    Return the path of a URI in a description; the file need not exist.
 
     Args:
         uri: ``package://<package>/<path>``, ``file://<path>`` or a plain path.
-        folder: what a relative plain path starts from, usually that of the description's file.
+        folder: the base of a relative plain path, usually the folder of the description.
 
     Raises:
         ResourceError: the package is not installed, or the scheme is not known.
@@ -136,8 +136,8 @@ def path_of(file: str) -> Path:
     """
     Return the absolute path of a file that exists. Raises ResourceError.
 
-    ``file`` is ``package://<package>/<path below its share folder>``, or an ordinary path, in
-    which ``~`` is the home folder and every other character is meant as it is.
+    ``file`` is ``package://<package>/<path below its share folder>``, or a path, in which ``~`` is
+    the home folder.
     """
     if file.startswith('package://'):
         package, _, below = file.removeprefix('package://').partition('/')

@@ -1,25 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Time in integer nanoseconds, and what was on its way when it jumped back.
+Time in integer nanoseconds, and stale messages after it jumped back.
 
-A simulation is reset, or a clock set: messages that were sent before still come in, stamped with
-times that are now ahead. Taken for news they would hold up, or outlast, all that comes until their
-own time is reached again.
+When a simulation is reset or a clock is set back, messages that were sent before still arrive,
+with stamps that are now in the future. Taken as new, they would win over all that follow until
+their own time is reached again.
 """
 
 NANOSECONDS = 1_000_000_000
-"""In a second."""
+"""The nanoseconds of a second."""
 
-_AGE = NANOSECONDS
-"""ns: nothing is on its way for longer."""
-
-_EARLY = 100_000_000
-"""ns: a message may be here before its time is known here by so much."""
+_LONGEST_DELAY = NANOSECONDS  # of a message between its publisher and here
+_LARGEST_LEAD = NANOSECONDS // 10  # of a stamp over the clock here, which may lag behind
 
 
 class TimeJumpFilter:
-    """Notices that time went back, and which messages are of before; all times in ns."""
+    """Detects that time jumped back, and which messages were sent before; all times in ns."""
 
     def __init__(self) -> None:
         self._now = self._since = 0
@@ -27,22 +24,22 @@ class TimeJumpFilter:
 
     @property
     def is_recent(self) -> bool:
-        """Whether something may still be on its way."""
+        """Whether messages of before the last jump may still arrive."""
         return self._before is not None
 
     def observe(self, now: int) -> bool:
-        """Take what the clock shows; return whether it went back."""
+        """Take the time of the clock; return whether it went back."""
         went_back = now < self._now
         if went_back:
             self._before, self._since = self._now, now
-        elif now > self._since + _AGE:
+        elif now > self._since + _LONGEST_DELAY:
             self._before = None
         self._now = now
         return went_back
 
     def is_stale(self, stamp: int) -> bool:
-        """Tell whether a message stamped so was sent before time went back."""
+        """Return whether a message with this stamp was sent before time went back."""
         if self._before is None:
             return False
-        earliest = max(self._now + _EARLY, self._before - _AGE)
-        return earliest < stamp <= self._before + _EARLY
+        earliest = max(self._now + _LARGEST_LEAD, self._before - _LONGEST_DELAY)
+        return earliest < stamp <= self._before + _LARGEST_LEAD

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""When to colour what a person reads, and how."""
+"""Colours for terminals, and when to use them."""
 
 import os
 import sys
@@ -17,9 +17,14 @@ _END = '\033[0m'
 
 def colored(text: str, color: str, stream: TextIO | None = None) -> str:
     """
-    Return the text in a colour if the stream that it is for, else stdout, is a terminal.
+    Return text in a colour, if its stream is a terminal.
 
-    ``RCUTILS_COLORIZED_OUTPUT`` =1 demands colours, =0 forbids them, as for the log of a node.
+    ``RCUTILS_COLORIZED_OUTPUT`` =1 forces colours, =0 disables them, as for the log of a node.
+
+    Args:
+        text: to be printed.
+        color: one of the constants of this module; '' for none.
+        stream: where it is printed; None: stdout.
     """
     return f'{color}{text}{_END}' if color and _wanted(stream or sys.stdout) else text
 

@@ -14,30 +14,30 @@ Every error that this package raises on purpose.
     │   ├── InterfaceError   an interface is unknown, unavailable or claimed
     │   ├── ControllerError  a controller is unknown, in the wrong state, or failed
     │   └── HardwareError    a hardware component failed
-    │       ├── HardwareDeactivationError  it asks, out of write(), to be made inactive
-    │       └── HardwareStartError  it did not reach its first state, and nothing goes without
+    │       ├── HardwareDeactivationError  its write() asks for deactivation
+    │       └── HardwareStartError  it did not reach its initial state, which is required
     ├── SimulationError      the simulated world cannot do what was asked
     │   └── RequestError     a request to the simulator is refused; carries its result code
     │       └── SpawnError   an entity cannot be spawned
-    ├── TransformException   a transform between two frames cannot be had; the names are tf2's
+    ├── TransformException   a transform cannot be looked up; the names are tf2's
     │   ├── LookupException         a frame is unknown, or its tree has a loop
     │   ├── ConnectivityException   the frames are in different trees
-    │   ├── ExtrapolationException  nothing is known about that time
+    │   ├── ExtrapolationException  the transform is not known at that time
     │   └── InvalidArgumentException  a name or a transform cannot be used
-    ├── CalibrationError     the parameters of a drive cannot be told from how it was driven
+    ├── CalibrationError     the measured drive does not determine the parameters
     ├── ViewerError          the browser page's server cannot do what was asked
-    │   └── ProtocolError    what a page said cannot be understood
+    │   └── ProtocolError    a message of a page is malformed
     ├── BringupError         a stack is malformed, or one of its steps failed
     └── UsageError           a command line cannot be understood (exit code 2, as argparse)
 
-The text of an error is one line that says what was asked, what was found and what would do. A
-program that ends because of one prints that line, without a traceback, and exits with
+The text of an error is one line that says what was asked, what was found and how to fix it. A
+program that ends because of an error prints that line, without a traceback, and exits with
 ``exit_code``.
 """
 
 
 class AmrError(Exception):
-    """Base of all errors raised on purpose; ``str(error)`` is one line made for a person."""
+    """Base of all errors raised on purpose; ``str(error)`` is one line for the user."""
 
     exit_code = 1
 
@@ -75,11 +75,11 @@ class HardwareError(ControlError):
 
 
 class HardwareDeactivationError(HardwareError):
-    """A hardware component asks in ``write`` to be made inactive instead of brought down."""
+    """``write`` of a hardware component asks to be deactivated instead of failing."""
 
 
 class HardwareStartError(HardwareError):
-    """A hardware component did not reach its first state, and the parameters say to end then."""
+    """A hardware component did not reach its initial state, which the parameters require."""
 
 
 class SimulationError(AmrError):
@@ -103,7 +103,7 @@ class SpawnError(RequestError):
 
 
 class TransformException(AmrError):  # noqa: N818 - these five are called so in tf2
-    """A transform between two frames cannot be had."""
+    """A transform between two frames cannot be looked up."""
 
 
 class LookupException(TransformException):
@@ -123,7 +123,7 @@ class InvalidArgumentException(TransformException):
 
 
 class CalibrationError(AmrError):
-    """The parameters of a drive cannot be told from how it was driven."""
+    """The measured drive does not determine the parameters."""
 
 
 class ViewerError(AmrError):
@@ -131,7 +131,7 @@ class ViewerError(AmrError):
 
 
 class ProtocolError(ViewerError):
-    """What a page said cannot be understood."""
+    """A message of a page is malformed."""
 
 
 class BringupError(AmrError):

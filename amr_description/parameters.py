@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Parameters as one table a component: name, type, default, unit, bounds, meaning.
+The parameters of a component as one table: name, type, default, unit, bounds, meaning.
 
 The table is a frozen dataclass whose fields are made by :func:`parameter`; a field made by
 :func:`group` holds another table below a dotted prefix::
@@ -11,8 +11,8 @@ The table is a frozen dataclass whose fields are made by :func:`parameter`; a fi
         wheel_radius: float = parameter(0.0, 'Radius of a wheel', unit='m', above=0.0)
         linear: SpeedLimits = group('linear.x', SpeedLimits)
 
-From it come the declarations and descriptors of the ROS node, the check when a parameter is set,
-and the checked object that the component is given: a component never reads a node.
+From it are made the declarations and descriptors of the ROS node, the check when a parameter is
+set, and the checked object for the component, which never reads from a node.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -33,7 +33,7 @@ TYPE_NAMES: dict[Any, str] = {
     tuple[str, ...]: 'string_array',
     tuple[float, ...]: 'double_array',
 }
-"""Python types of the fields, and what ROS calls them."""
+"""The Python types of fields, and their names in ROS."""
 
 _ELEMENT_TYPES = {'string_array': str, 'double_array': float}
 _KEY = 'amr_description.parameter'
@@ -42,8 +42,9 @@ _KEY = 'amr_description.parameter'
 @dataclass(frozen=True, slots=True)
 class Bounds:
     """
-    What a value must satisfy. A number is finite; where ``nan`` is true, it may also be NaN or
-    infinite, and NaN satisfies every bound on size.
+    The constraints on a value.
+
+    Numbers must be finite unless ``nan`` is true; NaN then satisfies every bound on size.
     """
 
     minimum: float | None = None
@@ -56,7 +57,7 @@ class Bounds:
     nan: bool = False
 
     def complaint(self, value: Value) -> str:
-        """Say what the value should be, or nothing when it is good."""
+        """Return what the value should be; '' if it is valid."""
         if self.not_empty and value in ((), ''):
             return 'must not be empty'
         if self.length is not None and isinstance(value, tuple) and len(value) != self.length:
@@ -85,7 +86,7 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """One row of a table; ``name`` is the full dotted name, ``type`` as ROS calls it."""
+    """One row of a table; ``name`` is the full dotted name, ``type`` that of ROS."""
 
     name: str
     type: str
@@ -96,7 +97,7 @@ class Spec:
     read_only: bool
 
     def check(self, value: Any) -> Value:
-        """Return the value in the table's type. Raises ParameterError."""
+        """Return the value in the type of the table. Raises ParameterError."""
         element = _ELEMENT_TYPES.get(self.type)
         if element is not None:
             good = isinstance(value, Sequence) and not isinstance(value, str)
@@ -126,7 +127,7 @@ def parameter(
 
 
 def group(prefix: str, table: Callable[[], Any]) -> Any:
-    """Make a field that holds another table, whose names stand below ``prefix``."""
+    """Make a field that holds another table, whose names begin with ``prefix``."""
     return dataclasses.field(default_factory=table, metadata={_KEY: prefix})
 
 
@@ -141,11 +142,19 @@ def specs(table: type, prefix: str = '') -> Iterator[Spec]:
 
 def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = '') -> Table:
     """
-    Make the checked dataclass from dotted names; what is not given keeps its default.
+    Make the checked dataclass of some values; the others keep their defaults.
 
-    Defaults are checked too: a parameter that has no useful default (a wheel radius of 0) is so
-    made mandatory. Names that are not in the table are left alone: a node has other parameters.
-    Raises ParameterError.
+    Defaults are checked too, which makes a parameter without a useful default (a wheel radius of
+    0) mandatory.
+
+    Args:
+        table: the dataclass.
+        values: by dotted name; names that are not in the table are ignored, as a node has other
+            parameters.
+        prefix: in front of the names of the table, with its dot.
+
+    Raises:
+        ParameterError: a value has the wrong type or violates its bounds.
     """
     arguments: dict[str, Any] = {}
     for field, row in _rows(table, prefix):
@@ -163,8 +172,10 @@ class _Group:
 
 
 def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group]]:
-    """One a field, with its name; ParameterError at a field whose type no ROS parameter has."""
-    types = get_type_hints(table)  # the fields' own are mere text in a module that defers them
+    """Yield (field, row). Raises ParameterError for a type that no ROS parameter has."""
+    types = get_type_hints(
+        table
+    )  # those of the fields are strings in a module with deferred annotations
     for field in dataclasses.fields(table):
         row, kind = field.metadata[_KEY], types[field.name]
         if isinstance(row, str):

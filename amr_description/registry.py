@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Tables from a name to ``module:attribute``, imported only when used.
+Tables from a name to ``module:attribute``, which is imported only when it is used.
 
-``ros2 --help`` and a talker must not pay for MuJoCo or for a controller that nobody loads.
+So ``ros2 --help`` and a talker do not import MuJoCo, or controllers that are not loaded.
 """
 
 from collections.abc import Mapping
@@ -21,14 +21,14 @@ def resolve(target: str) -> Any:
 
 class Registry:
     """
-    What is known under a name; a stranger's class needs no entry.
+    Classes by name; those of third parties need no entry.
 
     A name that is not in the table is read as ``package.module/Class`` and imported, so that a
-    type of another package can be named in a YAML file or a URDF without an edit here.
+    YAML file or a URDF can name a class of another package.
     """
 
     def __init__(self, kind: str, table: Mapping[str, str], error: type[AmrError]) -> None:
-        """Store the table; ``kind`` (``controller type``) and ``error`` serve the messages."""
+        """``kind`` (``controller type``) and ``error`` are for the messages."""
         self._kind = kind
         self._table = dict(table)
         self._error = error
@@ -39,11 +39,11 @@ class Registry:
         return tuple(self._table)
 
     def find(self, name: str) -> Any:
-        """Return the class of that name; raises the registry's error with the names there are."""
+        """Return the class of a name. Raises ``error`` with the known names."""
         target = self._table.get(name) or name.replace('/', ':')
         try:
             return resolve(target)
-        except Exception as cause:  # a stranger's module may raise anything
+        except Exception as cause:  # a third-party module may raise anything
             if name in self._table:
                 raise
             raise self._error(

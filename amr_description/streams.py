@@ -29,7 +29,7 @@ def make_line_buffered() -> None:
     """
     Write each line of stdout at once, so that ``| grep`` shows it live.
 
-    What cannot be encoded is written escaped: no name of a file or a topic stops a command.
+    Characters that cannot be encoded are escaped: names of files and topics may contain any.
     """
     if hasattr(sys.stdout, 'reconfigure'):
         sys.stdout.reconfigure(line_buffering=True, errors='backslashreplace')
@@ -43,10 +43,10 @@ def make_fully_buffered() -> None:
 
 def keep_libraries_off_stdout() -> None:
     """
-    From here on what C++ libraries write to stdout goes to stderr; Python's is not touched.
+    Redirect to stderr what C++ libraries write to stdout; ``sys.stdout`` stays as it is.
 
-    Fast DDS complains about locks of shared memory that a killed process left behind, and it
-    does so on file descriptor 1, amid what a script parses.
+    Fast DDS warns about locks of shared memory that a killed process left behind, on file
+    descriptor 1, where a script parses the output.
     """
     try:
         if sys.stdout.fileno() != _STDOUT:
@@ -62,7 +62,7 @@ def keep_libraries_off_stdout() -> None:
 
 
 def abandon_stdout() -> None:
-    """Have Python not try again, at its exit, to write what nobody reads."""
+    """Keep Python from writing to a closed pipe again at its exit."""
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())

@@ -1,15 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The text of a robot description, wherever one names a file: URDF as it stands, or xacro expanded.
+The URDF text of a robot description file; xacro files are expanded.
 
 A file whose name ends in ``.xacro`` goes through the xacro library, which evaluates its includes,
-properties, macros and conditions; ``$(find package)`` looks into the ament index. Expressions in
-it are Python: a description is as trustworthy as a program. What has no end there ends with
-Ctrl-C.
+properties, macros and conditions; ``$(find package)`` uses the ament index. Its expressions are
+Python: a description must be trusted like a program. An endless one can be stopped by Ctrl-C.
 
 ``python -m amr_description.model.description_file FILE [NAME:=VALUE …]`` prints the text, or one
-line on stderr that says why there is none: for programs that want it out of their own process.
+line on stderr that says why there is none, for programs that expand a file in another process.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -28,27 +27,27 @@ from amr_description.text import one_line, quote, quote_all, unwrap
 
 SUFFIX = '.xacro'
 _NO_MAPPINGS: Mapping[str, str] = {}
-# xacro puts the class of what it caught in front of its words.
+# xacro prefixes its messages with the class of the exception that it caught.
 _CLASS = re.compile(r"^<class '[^']*'>: ")
 _SHOWN_STEPS = 6
 
 
 def is_xacro(path: str | Path) -> bool:
-    """Tell whether a file is to be expanded: ``robot.urdf.xacro``, ``robot.xacro``."""
+    """Return whether a file is expanded: ``robot.urdf.xacro``, ``robot.xacro``."""
     return str(path).endswith(SUFFIX)
 
 
 def source_name(path: str | Path) -> str:
     """
-    Return what messages call the text of :func:`description_text`.
+    Return the name that messages use for the text of :func:`description_text`.
 
-    Lines of expanded text are not those of the file, and the name says so.
+    It says so if the text is expanded, as its lines are then not those of the file.
     """
     return f'{path} (expanded)' if is_xacro(path) else str(path)
 
 
 def mappings_of(words: Sequence[str]) -> dict[str, str]:
-    """Return the arguments ``name:=value`` of xacro; the last of a name wins. UsageError."""
+    """Return xacro arguments ``name:=value``; the last one of a name wins. Raises UsageError."""
     mappings = {}
     for word in words:
         name, separator, value = word.partition(':=')
@@ -65,11 +64,16 @@ def description_text(
     warn: Callable[[str], object] = lambda _line: None,
 ) -> str:
     """
-    Return the URDF that a file holds or, if it is a xacro file, stands for.
+    Return the URDF of a file; a xacro file is expanded.
 
-    :param mappings: Values of the ``<xacro:arg>`` of the file.
-    :param warn: Told, in a line each, what is probably not meant.
-    :raises DescriptionError: It cannot be read or expanded: file, reason, and where xacro was.
+    Args:
+        path: the file.
+        mappings: values of the ``<xacro:arg>`` of the file.
+        warn: called with one line for each probable mistake.
+
+    Raises:
+        DescriptionError: the file cannot be read or expanded; says the file, the reason, and in
+            which macro xacro was.
     """
     if is_xacro(path):
         return _expanded(str(path), mappings, warn)
@@ -81,8 +85,32 @@ def description_text(
     return read_file(path)
 
 
+def description_at(
+    uri: str, mappings: Mapping[str, str] | None = None, *, warn: Callable[[str], object]
+) -> str:
+    """
+    Return the URDF at a URI, with relative paths of meshes made absolute.
+
+    Args:
+        uri: of a file; that of a xacro file may end in its arguments:
+            ``package://cart/urdf/cart.urdf.xacro?wheel_radius=0.2&camera=true``.
+        mappings: further arguments, which override those of the URI.
+        warn: called with one line for each probable mistake.
+
+    Raises:
+        ResourceError: the package or the scheme of the URI is not known.
+        DescriptionError: as :func:`description_text`.
+    """
+    file, _, query = uri.partition('?')
+    if not is_xacro(file):
+        file, query = uri, ''
+    given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
+    path = resolve_uri(file)
+    return with_absolute_paths(description_text(path, given, warn=warn), path.parent)
+
+
 class _Arguments(dict[str, str]):
-    """The arguments as xacro sees them; remembers which of them it asked for."""
+    """The arguments that xacro gets; records which of them it looks up."""
 
     def __init__(self, given: Mapping[str, str]) -> None:
         super().__init__(given)
@@ -100,12 +128,12 @@ class _Arguments(dict[str, str]):
 def _expanded(path: str, mappings: Mapping[str, str], warn: Callable[[str], object]) -> str:
     import xacro
 
-    # Read and thrown away: what is too large, no text or not there is said in our words.
+    # Read and dropped: a file that is missing, too large or not text gets our message.
     read_file(path)
     arguments = _Arguments(mappings)
     try:
         text = xacro.process_file(path, mappings=arguments).toprettyxml(indent='  ')
-    except Exception as error:  # expressions of a stranger's file may raise anything
+    except Exception as error:  # expressions may raise anything
         raise DescriptionError(_complaint(error, path)) from None
     unknown = [name for name in mappings if name not in arguments.asked]
     if unknown:
@@ -115,23 +143,23 @@ def _expanded(path: str, mappings: Mapping[str, str], warn: Callable[[str], obje
 
 
 def _complaint(error: Exception, path: str) -> str:
-    """Return one line: file (and line, if it is known), reason, and how xacro got there."""
+    """Return one line: file, line if known, reason, and in which macros xacro was."""
     import xacro
 
     files = [str(file) for file in xacro.filestack or [path]]
-    place = files[-1]
+    location = files[-1]
     if isinstance(error, ExpatError):
-        place = f'{place}:{error.lineno}'
+        location = f'{location}:{error.lineno}'
         reason = f'not well-formed XML: {ErrorString(error.code)}'
     elif isinstance(error, RecursionError):
         reason = 'nested too deeply; does a macro or an include contain itself?'
     else:
         reason = unwrap(' '.join(_words(error)))
-    return one_line(f'{place}: {reason}{_way(xacro.macrostack or [], files[:-1])}')
+    return one_line(f'{location}: {reason}{_macro_trace(xacro.macrostack or [], files[:-1])}')
 
 
 def _words(error: BaseException) -> Iterator[str]:
-    """Yield what an error says and, if xacro wrapped it around others, what these say."""
+    """Yield the texts of an error and of those that xacro wrapped in it."""
     import xacro
 
     if not isinstance(error, xacro.XacroException):
@@ -139,7 +167,7 @@ def _words(error: BaseException) -> Iterator[str]:
         yield f'{kind.__name__}: {error}' if kind.__module__ == 'builtins' else str(error)
         return
     own = ' '.join(str(word) for word in error.args if word)
-    if isinstance(error.exc, OSError) and own:  # of a missing include: own words say it all
+    if isinstance(error.exc, OSError) and own:  # a missing include: its own text is complete
         yield own
     elif error.exc is not None:
         yield '' if _CLASS.match(own) else own
@@ -149,7 +177,7 @@ def _words(error: BaseException) -> Iterator[str]:
     yield error.suffix or ''
 
 
-def _way(macros: Sequence[Any], files: Sequence[str]) -> str:
+def _macro_trace(macros: Sequence[Any], files: Sequence[str]) -> str:
     """Return the macros that were being expanded, innermost first, and the including files."""
     names = [quote(macro.body.getAttribute('name')) for macro in reversed(macros)]
     steps = [f'{"called by" if i else "in macro"} {name}' for i, name in enumerate(names)]
@@ -175,24 +203,6 @@ def main(arguments: Sequence[str]) -> int:
 
 def _print_warning(line: str) -> None:
     print(f'warning: {line}', file=sys.stderr)
-
-
-def description_at(
-    uri: str, mappings: Mapping[str, str] | None = None, *, warn: Callable[[str], object]
-) -> str:
-    """
-    The URDF at a URI; of a xacro file, expanded with ``mappings`` and those of the URI itself.
-
-    ``package://cart/urdf/cart.urdf.xacro?wheel_radius=0.2&camera=true``. ``warn`` is told, in a
-    line each, what is probably not meant. Relative paths of meshes in it are made absolute.
-    Raises ResourceError, DescriptionError.
-    """
-    file, _, query = uri.partition('?')
-    if not is_xacro(file):
-        file, query = uri, ''
-    given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
-    path = resolve_uri(file)
-    return with_absolute_paths(description_text(path, given, warn=warn), path.parent)
 
 
 if __name__ == '__main__':

@@ -1,13 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What is wrong with a description, where, and what would do: the currency of the readers and of the
-checker.
+What readers and the checker report about a description: the fault, its line, and how to fix it.
 
-The readers of this package hand every fault to a ``report`` function. :func:`raise_error` makes
+The readers of this package pass every fault to a ``report`` function. :func:`raise_error` makes
 them stop at the first one (:func:`amr_description.model.urdf.parse`); ``list.append`` makes them
 go on and collect all (:func:`amr_description.model.checks.examine`). So there is one reader, and
-both ways say the same.
+both report the same.
 """
 
 from collections.abc import Callable
@@ -19,7 +18,7 @@ from amr_description.text import one_line
 
 
 class Severity(StrEnum):
-    """An error cannot be used; a warning can, but will not do what its author means."""
+    """An error makes a description unusable; with a warning it behaves as nobody intends."""
 
     ERROR = 'error'
     WARNING = 'warning'
@@ -30,9 +29,9 @@ class Finding:
     """
     One fault of a description.
 
-    ``what`` names the thing and the fault, ``found`` and ``expected`` are optional, ``fix`` tells
-    what to do. ``urdfdom`` holds the words of urdfdom when that library refuses the file for this
-    fault; it is empty for what urdfdom lets pass.
+    ``what`` names the part and its fault, ``found`` and ``expected`` are optional, ``fix`` says
+    what to do. ``urdfdom`` is the message of urdfdom if that library refuses the file for this
+    fault, and empty otherwise.
     """
 
     severity: Severity

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rigid transforms (SE(3)), the one place of quaternion orders, and forward kinematics.
+Rigid transforms (SE(3)), quaternions, and the conversions between their conventions.
 
 Quaternions are ``(x, y, z, w)`` as in every ROS message; MuJoCo's ``(w, x, y, z)`` exists only in
 :func:`wxyz_from_xyzw` and :func:`xyzw_from_wxyz`. Lengths are metres, angles radians, frames
@@ -10,12 +10,11 @@ right-handed.
 A transform is named after what it does to coordinates: ``transform_child_to_parent.apply(p)``
 takes a point given in ``child`` and returns it in ``parent``. It is the pose of ``child`` in
 ``parent``, what TF sends with ``header.frame_id = parent`` and ``child_frame_id = child``.
-Transforms chain as their names do::
+Transforms compose as their names suggest::
 
     transform_c_to_a = transform_b_to_a @ transform_c_to_b
 
-Plain floats on purpose: at these sizes they are several times faster than numpy, and the control
-loop calls this.
+Plain floats are several times faster than numpy at these sizes, and the control loop calls this.
 """
 
 from collections.abc import Sequence
@@ -28,9 +27,9 @@ type Matrix3 = tuple[Vector, Vector, Vector]
 
 IDENTITY_QUATERNION: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
-# Below this cosine of the pitch, roll and yaw turn about one axis and only their sum can be told.
+# Below this cosine of the pitch, roll and yaw are about one axis and only their sum is known.
 _GIMBAL_LOCK_COSINE = 1e-9
-# rad: below it two rotations are one, and the sine that slerp divides by is lost.
+# rad: below it two rotations are equal; slerp would divide by 0.
 _NO_ANGLE = 1e-15
 
 
@@ -59,13 +58,13 @@ def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(rotation: Quaternion) -> Quaternion:
-    """Return the opposite rotation of a unit quaternion."""
+    """Return the inverse rotation of a unit quaternion."""
     x, y, z, w = rotation
     return (-x, -y, -z, w)
 
 
 def rotate(rotation: Quaternion, vector: Vector) -> Vector:
-    """Turn ``vector`` by a unit quaternion: v + 2w(u × v) + 2u × (u × v), with u = (x, y, z)."""
+    """Rotate ``vector`` by a unit quaternion: v + 2w(u × v) + 2u × (u × v), with u = (x, y, z)."""
     x, y, z, w = rotation
     vx, vy, vz = vector
     tx = 2.0 * (y * vz - z * vy)
@@ -79,7 +78,7 @@ def rotate(rotation: Quaternion, vector: Vector) -> Vector:
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """The vector product."""
+    """Return the cross product."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -88,7 +87,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Return R = Rz(yaw)·Ry(pitch)·Rx(roll): turns about the fixed axes x, then y, then z."""
+    """Return R = Rz(yaw)·Ry(pitch)·Rx(roll): rotations about the fixed axes x, y, z in turn."""
     sr, cr = math.sin(roll / 2.0), math.cos(roll / 2.0)
     sp, cp = math.sin(pitch / 2.0), math.cos(pitch / 2.0)
     sy, cy = math.sin(yaw / 2.0), math.cos(yaw / 2.0)
@@ -120,13 +119,13 @@ def quaternion_from_yaw(yaw: float) -> Quaternion:
 
 
 def yaw_of(rotation: Quaternion) -> float:
-    """Return the yaw of R = Rz(yaw)·Ry(pitch)·Rx(roll), in (-π, π], at any length."""
+    """Return the yaw of R = Rz(yaw)·Ry(pitch)·Rx(roll), in (-π, π], for any quaternion length."""
     x, y, z, w = rotation
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
 
 
 def quaternion_from_axis_angle(axis: Vector, angle: float) -> Quaternion:
-    """Return the rotation by ``angle`` about ``axis`` of any length; a zero axis turns nothing."""
+    """Return the rotation by ``angle`` about ``axis`` of any length; none for a zero axis."""
     length = math.hypot(*axis)
     if length == 0.0:
         return IDENTITY_QUATERNION
@@ -145,7 +144,7 @@ def matrix_from_quaternion(rotation: Quaternion) -> Matrix3:
 
 
 def normalize(rotation: Quaternion) -> Quaternion:
-    """Return the unit quaternion of the same direction; ZeroDivisionError for all zeros."""
+    """Return a quaternion scaled to length 1. Raises ZeroDivisionError for all zeros."""
     x, y, z, w = rotation
     length = math.hypot(x, y, z, w)
     return (x / length, y / length, z / length, w / length)
@@ -153,13 +152,13 @@ def normalize(rotation: Quaternion) -> Quaternion:
 
 def slerp(start: Quaternion, end: Quaternion, ratio: float) -> Quaternion:
     """
-    Return the rotation on the shorter arc, at ``ratio`` (0 … 1) of the way; constant speed.
+    Return the rotation at ``ratio`` (0 … 1) of the shorter arc, for a constant angular speed.
 
-    K. Shoemake, Animating rotation with quaternion curves, 1985. The angle comes from the sum and
-    the difference of the two, which loses no digits near 0 as an arc cosine does.
+    K. Shoemake, Animating rotation with quaternion curves, 1985. The angle is computed from the
+    sum and the difference of the two, which unlike the arc cosine is exact near 0.
     """
     cosine = sum(a * b for a, b in zip(start, end, strict=True))
-    sign = math.copysign(1.0, cosine)  # end and -end are one rotation: take the nearer
+    sign = math.copysign(1.0, cosine)  # end and -end are the same rotation: take the closer one
     apart = math.hypot(*(sign * b - a for a, b in zip(start, end, strict=True)))
     together = math.hypot(*(sign * b + a for a, b in zip(start, end, strict=True)))
     angle = 2.0 * math.atan2(apart, together)
@@ -175,7 +174,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
     """
     Return the unit quaternion, w ≥ 0, of a rotation matrix (the upper left 3×3 of ``matrix``).
 
-    Shepperd's method: divides by the largest of the four components, so that no turn loses digits.
+    Shepperd's method divides by the largest of the four components, which keeps all digits.
     """
     m = [[float(matrix[row][column]) for column in range(3)] for row in range(3)]
     trace = m[0][0] + m[1][1] + m[2][2]
@@ -202,12 +201,12 @@ class Transform:
 
     @classmethod
     def from_xyz_rpy(cls, xyz: Vector, rpy: Vector) -> 'Transform':
-        """Return what URDF writes as ``<origin xyz="…" rpy="…"/>`` (m, rad)."""
+        """Return the transform of ``<origin xyz="…" rpy="…"/>`` in URDF (m, rad)."""
         return cls(xyz, quaternion_from_rpy(*rpy))
 
     @classmethod
     def from_axis_angle(cls, axis: Vector, angle: float) -> 'Transform':
-        """Return a turn by ``angle`` about ``axis`` through the origin."""
+        """Return the rotation by ``angle`` about ``axis`` through the origin."""
         return cls(rotation=quaternion_from_axis_angle(axis, angle))
 
     @classmethod
@@ -228,17 +227,17 @@ class Transform:
     __matmul__ = compose
 
     def inverse(self) -> 'Transform':
-        """Return the transform back."""
+        """Return the inverse transform."""
         back = conjugate(self.rotation)
         x, y, z = rotate(back, self.translation)
         return Transform((-x, -y, -z), back)
 
     def interpolate(self, other: 'Transform', ratio: float) -> 'Transform':
-        """Return the transform at ``ratio`` (0 … 1) of the way: straight, turning evenly."""
+        """Return the transform at ``ratio`` (0 … 1): linear in translation, by slerp in rotation."""
         (ax, ay, az), (bx, by, bz) = self.translation, other.translation
         keep = 1.0 - ratio
-        place = (keep * ax + ratio * bx, keep * ay + ratio * by, keep * az + ratio * bz)
-        return Transform(place, slerp(self.rotation, other.rotation, ratio))
+        translation = (keep * ax + ratio * bx, keep * ay + ratio * by, keep * az + ratio * bz)
+        return Transform(translation, slerp(self.rotation, other.rotation, ratio))
 
     def apply(self, point: Vector) -> Vector:
         """Return ``point`` in the target frame; a direction needs :func:`rotate` instead."""

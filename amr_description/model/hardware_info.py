@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a ``<ros2_control>`` block says: one hardware component and the interfaces it offers.
+A ``<ros2_control>`` block: one hardware component and its interfaces.
 
 Field names are those of ros2_control's ``hardware_interface::HardwareInfo``. Interface values are
-SI: rad, rad/s, N·m for turning joints, m, m/s, N for sliding ones. Made by
+in SI: rad, rad/s, N·m for revolute joints, m, m/s, N for prismatic ones. Made by
 :mod:`amr_description.model.ros2_control_tag`.
 """
 
@@ -24,7 +24,7 @@ class HardwareType(StrEnum):
 
 
 class ComponentType(StrEnum):
-    """What the interfaces of a hardware component belong to; each equals its text."""
+    """The kinds of parts that have interfaces; each equals its text."""
 
     JOINT = 'joint'
     SENSOR = 'sensor'
@@ -37,8 +37,7 @@ class InterfaceInfo:
     One command or state interface, such as ``velocity``.
 
     ``min`` and ``max`` bound commands while ``limits_enabled``; None means that the tag sets no
-    bound. ``initial_value`` is what the interface holds before its first write; None leaves it to
-    the hardware. ``parameters`` are the remaining ``<param>`` texts.
+    bound. ``initial_value`` is the value before the first write; None leaves it to the hardware. ``parameters`` are the remaining ``<param>`` texts.
     """
 
     name: str
@@ -56,8 +55,8 @@ class ComponentInfo:
     """
     A joint, sensor or GPIO with its interfaces, in the order of the file.
 
-    ``mimic`` is that of the URDF joint, None when it has none or ``mimic="false"`` switches it
-    off.
+    ``mimic`` is that of the URDF joint; None if it has none, or if the tag says
+    ``mimic="false"``.
     """
 
     name: str
@@ -94,8 +93,8 @@ class HardwareInfo:
     """
     One hardware component.
 
-    ``rw_rate`` is how often it is read and written, Hz; 0 means at the rate of the controller
-    manager. ``group`` is empty when the component fails alone.
+    ``rw_rate`` is the rate of reads and writes, Hz; 0: the rate of the controller manager.
+    Components of one ``group`` fail together.
     """
 
     name: str

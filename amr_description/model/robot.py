@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a robot is: links joined into a tree, as URDF tells it. Immutable; made by
-:mod:`amr_description.model.urdf`.
+The immutable description of a robot: links joined into a tree, as in URDF.
 
-Units are SI (m, rad, kg, kg·m²). Every part knows the line of the file it came from.
+It is made by :mod:`amr_description.model.urdf`. Units are SI (m, rad, kg, kg·m²). Every part knows
+its line of the file.
 """
 
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from amr_description.model.frames import Transform, Vector
 from amr_description.text import quote, quote_all
 
 WORLD_LINK = 'world'
-"""A robot whose root has this name stands fixed."""
+"""A robot whose root has this name is fixed to the world."""
 
 
 class JointType(StrEnum):
@@ -65,7 +65,7 @@ type Geometry = Box | Cylinder | Sphere | Mesh
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """A look: ``color`` is red, green, blue, alpha in 0..1; ``texture`` a file name as written."""
+    """``color`` is red, green, blue, alpha, each 0..1; ``texture`` a file name as written."""
 
     name: str
     color: tuple[float, float, float, float] | None = None
@@ -74,7 +74,7 @@ class Material:
 
 @dataclass(frozen=True, slots=True)
 class Visual:
-    """What is drawn; ``origin`` is ``transform_geometry_to_link``."""
+    """A drawn shape; ``origin`` is ``transform_geometry_to_link``."""
 
     geometry: Geometry
     origin: Transform
@@ -85,7 +85,7 @@ class Visual:
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """What touches; ``origin`` is ``transform_geometry_to_link``."""
+    """A colliding shape; ``origin`` is ``transform_geometry_to_link``."""
 
     geometry: Geometry
     origin: Transform
@@ -117,7 +117,7 @@ class Inertial:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A rigid body. A link without ``inertial`` is a mere frame, such as ``base_footprint``."""
+    """A rigid body; without ``inertial`` only a frame, such as ``base_footprint``."""
 
     name: str
     inertial: Inertial | None
@@ -139,8 +139,9 @@ class Limit:
 @dataclass(frozen=True, slots=True)
 class SafetyController:
     """
-    Soft limits of the position (rad or m), ±inf where none are given, and the gains of a
-    controller that keeps to them: ``k_position`` (1/s), ``k_velocity`` (N·m·s/rad or N·s/m).
+    Soft limits of the position (rad or m; ±inf if not given), and gains near them.
+
+    ``k_position`` is in 1/s, ``k_velocity`` in N·m·s/rad or N·s/m.
     """
 
     soft_lower_limit: float
@@ -169,10 +170,10 @@ class Dynamics:
 @dataclass(frozen=True, slots=True)
 class Joint:
     """
-    How ``child`` moves against ``parent``.
+    How ``child`` moves relative to ``parent``.
 
     ``origin`` is ``transform_child_to_parent`` at position 0. ``axis`` is a unit vector in the
-    joint's frame, which is the child's frame at position 0; it means nothing for fixed and
+    joint's frame, which is the child's frame at position 0; it is not used for fixed and
     floating joints.
     """
 
@@ -190,12 +191,12 @@ class Joint:
 
     @property
     def is_moving(self) -> bool:
-        """Whether the child can move against the parent at all."""
+        """Whether the child can move relative to the parent."""
         return self.type is not JointType.FIXED
 
     @property
     def has_position(self) -> bool:
-        """Whether one number tells where the joint stands (not so: fixed, planar, floating)."""
+        """Whether the position is one number, unlike that of fixed, planar and floating joints."""
         return self.type in (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 
@@ -204,11 +205,11 @@ class Robot:
     """
     A robot description.
 
-    ``links`` and ``joints`` stand in the order of the file. ``source`` names the file for
-    messages, ``text`` is the URDF itself, as ``/robot_description`` carries it.
+    ``links`` and ``joints`` are in the order of the file. ``source`` names the file in messages,
+    ``text`` is the URDF itself, as on ``/robot_description``.
 
-    :func:`amr_description.model.urdf.parse` gives only sound trees: one root, every link reached
-    once, names unique. The checker also builds unsound ones; every method here ends on those, too.
+    :func:`amr_description.model.urdf.parse` returns only sound trees: one root, every link below
+    it once, unique names. The checker also makes unsound ones; every method terminates on those.
     """
 
     name: str
@@ -218,7 +219,7 @@ class Robot:
     source: str
     text: str = field(repr=False)
     roots: tuple[Link, ...] = field(init=False, repr=False, compare=False)
-    """The links that are nobody's child: exactly one in a sound tree."""
+    """The links that are not the child of a joint: exactly one in a sound tree."""
     _links: dict[str, Link] = field(init=False, repr=False, compare=False)
     _joints: dict[str, Joint] = field(init=False, repr=False, compare=False)
     _parents: dict[str, Joint] = field(init=False, repr=False, compare=False)
@@ -242,23 +243,23 @@ class Robot:
 
     @property
     def root(self) -> Link:
-        """The link that is nobody's child."""
+        """The link that is not the child of a joint."""
         return self.roots[0]
 
     def has_link(self, name: str) -> bool:
-        """Tell whether there is a link of that name."""
+        """Return whether there is a link of that name."""
         return name in self._links
 
     def has_joint(self, name: str) -> bool:
-        """Tell whether there is a joint of that name."""
+        """Return whether there is a joint of that name."""
         return name in self._joints
 
     def link(self, name: str) -> Link:
-        """Return a link by name; DescriptionError names those there are."""
+        """Return a link by name. Raises DescriptionError with the known names."""
         return _lookup(self._links, name, 'link', self.source)
 
     def joint(self, name: str) -> Joint:
-        """Return a joint by name; DescriptionError names those there are."""
+        """Return a joint by name. Raises DescriptionError with the known names."""
         return _lookup(self._joints, name, 'joint', self.source)
 
     def child_joints(self, link: str) -> tuple[Joint, ...]:
@@ -266,15 +267,14 @@ class Robot:
         return self._children.get(link, ())
 
     def parent_joint(self, link: str) -> Joint | None:
-        """Return the joint that carries ``link``; None for the root."""
+        """Return the joint whose child is ``link``; None for the root."""
         return self._parents.get(link)
 
     def walk(self) -> Iterator[tuple[int, Joint]]:
         """
-        Yield (depth, joint) from the root down, a parent always before its children; depth 1 hangs
-        on the root.
+        Yield (depth, joint) from the root down, parents before children; depth is 1 at the root.
 
-        Each link is visited once, whatever the tree looks like; a joint to an unknown link is left
+        Each link is visited once, also if the tree is unsound; joints to unknown links are left
         out.
         """
         seen = {link.name for link in self.roots}

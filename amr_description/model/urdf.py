@@ -3,15 +3,10 @@
 """
 URDF text -> :class:`~amr_description.model.robot.Robot`.
 
-Two ways in: :func:`parse` stops at the first fault with a DescriptionError, :func:`read_robot`
-reports every fault and goes on, for the checker. Links are read in ``urdf_links.py``, joints in
-``urdf_joints.py``, and ``tree.py`` sees that they make one tree.
-
-The rules that make links and joints one tree: known ends, one parent each, one root, everything
-reached from it.
-
-Each rule takes a Robot, sound or not, and yields findings, in the order in which urdfdom would
-stop at them.
+:func:`parse` stops at the first fault with a DescriptionError; :func:`read_robot` reports every
+fault and goes on, for the checker. Links are read in ``urdf_links.py``, joints in
+``urdf_joints.py``. :data:`TREE_RULES` then check that they form one tree: each takes a Robot,
+sound or not, and yields findings in the order in which urdfdom would stop at them.
 """
 
 from collections.abc import Callable, Iterator
@@ -27,8 +22,89 @@ from amr_description.model.xml_reader import decode, ElementReader, parse_xml, r
 from amr_description.text import quote, quote_all
 
 
+def load(path: str | Path) -> Robot:
+    """Return the robot of a URDF file. Raises DescriptionError, as :func:`parse`."""
+    return parse(read_file(path), str(path))
+
+
+def parse(text: str | bytes, source: str = '<string>') -> Robot:
+    """
+    Return the robot that a URDF describes.
+
+    Masses and the like are checked by :mod:`amr_description.model.checks`.
+
+    Args:
+        text: the URDF.
+        source: names the file in messages.
+
+    Raises:
+        DescriptionError: (``source:line: …``) the first fault that makes it unusable as a tree of
+            links, in XML, names, numbers, joints or roots.
+    """
+    if isinstance(text, bytes):
+        text = decode(text, source)
+    xml = parse_xml(text, source, raise_error)
+    assert xml is not None, 'raise_error does not return from an error'
+    return read_robot(xml, text, source, raise_error)
+
+
+def read_robot(xml: etree._Element, text: str, source: str, report: Report) -> Robot:
+    """Return the robot as far as it can be read, sound or not; report every fault."""
+    reader = ElementReader(source, report)
+    name = _read_head(xml, reader)
+    materials: dict[str, Material] = {}
+    for element in xml.iterchildren('material'):
+        material = read_material(element, reader)
+        if material.name in materials:
+            reader.error(
+                element,
+                f'material {quote(material.name)} is not unique',
+                fix='give every material a name of its own',
+                urdfdom=f"material '{material.name}' is not unique.",
+            )
+        materials.setdefault(material.name, material)
+    links = read_links(xml, reader, materials)
+    joints = read_joints(xml, reader)
+    robot = Robot(name, links, joints, tuple(materials.values()), source, text)
+    for rule in TREE_RULES:
+        for finding in rule(robot):
+            report(finding)
+    return robot
+
+
+def _read_head(xml: etree._Element, reader: ElementReader) -> str:
+    """Return the name of the ``<robot>`` element; check tag, name and version."""
+    if xml.tag != 'robot':
+        reader.error(
+            xml,
+            'this is no URDF',
+            found=f'the root element <{xml.tag}>',
+            expected='<robot>',
+            urdfdom="Could not find the 'robot' element in the xml file",
+        )
+    name = xml.get('name', '')
+    if not name:
+        reader.error(
+            xml,
+            '<robot> has no attribute "name"',
+            fix='write <robot name="…">',
+            # An empty name is one to urdfdom.
+            urdfdom='' if 'name' in xml.attrib else 'No name given for the robot.',
+        )
+    version = xml.get('version', '1.0').strip()
+    if version not in ('1', '1.0'):
+        reader.error(
+            xml,
+            'version of <robot>',
+            found=quote(version),
+            expected='1.0',
+            urdfdom="Invalid 'version' specified; only version 1.0 is currently supported",
+        )
+    return name
+
+
 def ends_are_given(robot: Robot) -> Iterator[Finding]:
-    """Every joint names a parent and a child."""
+    """Every joint names a parent and a child link."""
     for joint in robot.joints:
         for end, link in (('child', joint.child), ('parent', joint.parent)):
             if not link:
@@ -61,20 +137,8 @@ def ends_are_known(robot: Robot) -> Iterator[Finding]:
                 )
 
 
-def _unknown_end_in_urdfdom(end: str, link: str, joint: str) -> str:
-    if end == 'child':
-        return f'Failed to build tree: child link [{link}] of joint [{joint}] not found'
-    return (
-        f'Failed to build tree: parent link [{link}] of joint [{joint}] not found.  This is not '
-        'valid according to the URDF spec. Every link you refer to from a joint needs to be '
-        'explicitly defined in the robot description. To fix this problem you can either remove '
-        f'this joint [{joint}] from your urdf file, or add "<link name="{link}" />" to your urdf '
-        'file.'
-    )
-
-
 def one_root(robot: Robot) -> Iterator[Finding]:
-    """Exactly one link is nobody's child."""
+    """Exactly one link is not the child of a joint."""
     roots = [link.name for link in robot.roots]
     if robot.links and not roots:
         yield Finding.error(
@@ -117,7 +181,7 @@ def one_parent(robot: Robot) -> Iterator[Finding]:
 
 
 def no_cycle(robot: Robot) -> Iterator[Finding]:
-    """Every link hangs on the root; what has parents and does not, goes round in a circle."""
+    """Every link is below the root; one that has a parent and is not is part of a circle."""
     settled = {link.name for link in robot.roots} | {joint.child for _, joint in robot.walk()}
     for link in robot.links if robot.roots else ():
         circle = _circle_above(robot, link.name, settled)
@@ -131,13 +195,33 @@ def no_cycle(robot: Robot) -> Iterator[Finding]:
             )
 
 
+TREE_RULES: tuple[Callable[[Robot], Iterator[Finding]], ...] = (
+    ends_are_given,
+    ends_are_known,
+    one_root,
+    one_parent,
+    no_cycle,
+)
+
+
+def _unknown_end_in_urdfdom(end: str, link: str, joint: str) -> str:
+    if end == 'child':
+        return f'Failed to build tree: child link [{link}] of joint [{joint}] not found'
+    return (
+        f'Failed to build tree: parent link [{link}] of joint [{joint}] not found.  This is not '
+        'valid according to the URDF spec. Every link you refer to from a joint needs to be '
+        'explicitly defined in the robot description. To fix this problem you can either remove '
+        f'this joint [{joint}] from your urdf file, or add "<link name="{link}" />" to your urdf '
+        'file.'
+    )
+
+
 def _circle_above(robot: Robot, link: str, settled: set[str]) -> list[str]:
     """
-    Return the joints of the circle met when climbing from ``link``; [] when the climb ends
-    elsewhere.
+    Return the joints of the circle above ``link``; [] if there is none or it is known already.
 
-    Adds what it passed to ``settled``, where later climbs end, so that all climbs together take
-    linear time.
+    Adds the links that it visits to ``settled``, where later calls stop, so that all calls
+    together take linear time.
     """
     passed: dict[str, str] = {}
     joint = robot.parent_joint(link)
@@ -148,87 +232,3 @@ def _circle_above(robot: Robot, link: str, settled: set[str]) -> list[str]:
         joint = robot.parent_joint(link)
     names = list(passed.values())
     return names[list(passed).index(link) :] if link in passed else []
-
-
-TREE_RULES: tuple[Callable[[Robot], Iterator[Finding]], ...] = (
-    ends_are_given,
-    ends_are_known,
-    one_root,
-    one_parent,
-    no_cycle,
-)
-
-
-def load(path: str | Path) -> Robot:
-    """Return the robot of a URDF file; DescriptionError when it cannot be read or is not sound."""
-    return parse(read_file(path), str(path))
-
-
-def parse(text: str | bytes, source: str = '<string>') -> Robot:
-    """
-    Return the robot that URDF describes; ``source`` names the file in messages.
-
-    DescriptionError (``source:line: …``) at the first fault that makes it unusable as a tree of
-    links: XML, names, numbers, joints, roots. Masses and the like are judged by
-    :mod:`amr_description.model.checks`.
-    """
-    if isinstance(text, bytes):
-        text = decode(text, source)
-    xml = parse_xml(text, source, raise_error)
-    assert xml is not None, 'raise_error does not return from an error'
-    return read_robot(xml, text, source, raise_error)
-
-
-def read_robot(xml: etree._Element, text: str, source: str, report: Report) -> Robot:
-    """Return what can be read below ``xml``, sound or not, and report every fault."""
-    reader = ElementReader(source, report)
-    name = _read_head(xml, reader)
-    materials: dict[str, Material] = {}
-    for element in xml.iterchildren('material'):
-        material = read_material(element, reader)
-        if material.name in materials:
-            reader.error(
-                element,
-                f'material {quote(material.name)} is not unique',
-                fix='give every material a name of its own',
-                urdfdom=f"material '{material.name}' is not unique.",
-            )
-        materials.setdefault(material.name, material)
-    links = read_links(xml, reader, materials)
-    joints = read_joints(xml, reader)
-    robot = Robot(name, links, joints, tuple(materials.values()), source, text)
-    for rule in TREE_RULES:
-        for finding in rule(robot):
-            report(finding)
-    return robot
-
-
-def _read_head(xml: etree._Element, reader: ElementReader) -> str:
-    """Return the name of the ``<robot>`` element after judging tag, name and version."""
-    if xml.tag != 'robot':
-        reader.error(
-            xml,
-            'this is no URDF',
-            found=f'the root element <{xml.tag}>',
-            expected='<robot>',
-            urdfdom="Could not find the 'robot' element in the xml file",
-        )
-    name = xml.get('name', '')
-    if not name:
-        reader.error(
-            xml,
-            '<robot> has no attribute "name"',
-            fix='write <robot name="…">',
-            # An empty name is one to urdfdom.
-            urdfdom='' if 'name' in xml.attrib else 'No name given for the robot.',
-        )
-    version = xml.get('version', '1.0').strip()
-    if version not in ('1', '1.0'):
-        reader.error(
-            xml,
-            'version of <robot>',
-            found=quote(version),
-            expected='1.0',
-            urdfdom="Invalid 'version' specified; only version 1.0 is currently supported",
-        )
-    return name

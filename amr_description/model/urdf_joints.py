@@ -28,7 +28,7 @@ def _refusal(*words: str) -> str:
 
 
 def read_joints(xml: etree._Element, reader: ElementReader) -> tuple[Joint, ...]:
-    """Return every ``<joint>`` below ``xml``; one of unknown type is reported, then fixed."""
+    """Return every ``<joint>`` below ``xml``; report an unknown type and read it as fixed."""
     joints: dict[str, Joint] = {}
     for element in xml.iterchildren('joint'):
         joint = _read_joint(element, reader)
@@ -74,7 +74,7 @@ def _read_joint(element: etree._Element, reader: ElementReader) -> Joint:
 
 
 def _read_end(element: etree._Element, tag: str) -> str:
-    """Return the name of the parent or child link; '' (tree.py objects) when it is missing."""
+    """Return the name of the parent or child link; '' if missing, which TREE_RULES report."""
     end = element.find(tag)
     return '' if end is None else end.get('link', '')
 
@@ -155,7 +155,7 @@ def _number(
     words: str,
     default: float | None = None,
 ) -> float:
-    """Return a number; urdfdom calls a fault in the element ``words``, after the reason."""
+    """Return a number; ``words`` is what urdfdom prints, after the reason, for a fault in it."""
     text = element.get(attribute)
     kind = element.tag.partition('_')[0]  # urdfdom says "safety" of a <safety_controller>
     reason = f'joint {kind}: no {attribute}'
@@ -165,7 +165,7 @@ def _number(
 
 
 def _vector_words(element: etree._Element | None, *attributes: str) -> list[str]:
-    """Return what urdfdom says of the first of these vectors that is none; [] if all are good."""
+    """Return the message of urdfdom for the first malformed vector; [] if all are well-formed."""
     for attribute in attributes if element is not None else ():
         text = element.get(attribute, '0 0 0')
         parts = text.split()
@@ -232,7 +232,7 @@ def _read_safety(
 
 
 def _check_calibration(element: etree._Element, name: str, reader: ElementReader) -> None:
-    """Report a ``<calibration>`` that is malformed; nobody reads it, but urdfdom refuses it."""
+    """Report a malformed ``<calibration>``: it is not used, but urdfdom refuses the file."""
     calibration = element.find('calibration')
     if calibration is not None:
         words = f'Could not parse calibration element for joint  [{name}]'

@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Which links are wheels, told from the model and not from their names.
+Which links are wheels, by their joints and shapes, not by their names.
 
-A wheel hangs on a continuous joint that takes a velocity command, and collides as a cylinder or a
-sphere that is round about the joint's axis. The wheel of a caster takes none, and rolls about a
-level axle: a lidar that turns about a vertical one is no wheel.
+A wheel is the child of a continuous joint with a velocity command, and its collision shape is a
+cylinder or a sphere that is round about the axis of the joint. The wheel of a caster has no
+command, and a level axle: a lidar that turns about a vertical axis is not a wheel.
 """
 
 from collections.abc import Collection
@@ -39,14 +39,14 @@ class Wheel:
 
 
 def find_wheels(robot: Robot, velocity_joints: Collection[str]) -> tuple[Wheel, ...]:
-    """The wheels of a robot; ``velocity_joints`` are the joints with a velocity command."""
+    """Return the driven wheels; ``velocity_joints`` are the joints with a velocity command."""
     driven = (j for j in robot.joints if j.name in velocity_joints)
     found = (_wheel_of(robot, joint) for joint in driven if joint.type is JointType.CONTINUOUS)
     return tuple(wheel for wheel in found if wheel is not None)
 
 
 def find_passive_wheels(robot: Robot, commanded: Collection[str]) -> tuple[Wheel, ...]:
-    """The wheels that nothing drives; ``commanded`` are the joints with any command."""
+    """Return the wheels that are not driven; ``commanded`` are the joints with any command."""
     poses = link_poses(robot, {})
     found = (
         _wheel_of(robot, joint)
@@ -72,7 +72,7 @@ def _wheel_of(robot: Robot, joint: Joint) -> Wheel | None:
 
 
 def _is_round_about(collision: Collision, axis: Vector) -> bool:
-    """Whether the shape's own axis lies on the joint's axis (through the link's origin)."""
+    """Return whether the axis of the shape is that of the joint (through the link's origin)."""
     offset = collision.origin.translation
     along = math.sumprod(offset, axis)
     radial = math.sqrt(max(0.0, math.sumprod(offset, offset) - along * along))
