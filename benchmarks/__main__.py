@@ -1,13 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``benchmark``: how much of the physics' speed the whole stack keeps, and how long a start takes.
+``python -m benchmarks``: the speed of the whole stack compared with MuJoCo alone, and its start.
 
 The stack is started as a user starts it, in a ROS domain of its own: once as fast as possible
-(real-time factor 0), to see how fast that is, and once in real time, to see how long a warm start
-takes. Then a simulator is filled with 1, 5, 10 and 20 robots. The same robots, stepped by nothing
-but ``mj_step``, are measured beside it; one of them before and after, so that a machine that
-changes its speed meanwhile is noticed.
+(real-time factor 0), to measure its speed, and once in real time, to measure a warm start, the
+``ros2`` command and the page. Then robot_state_publisher is measured, and a simulator with 1, 5,
+10 and 20 robots. The same robots stepped by ``mj_step`` alone are the reference; that of one robot
+is measured before and after, to notice a machine that changes its speed meanwhile.
 """
 
 import argparse
@@ -26,12 +26,12 @@ from simulation_interfaces.srv import GetEntityState
 from amr_description.ament_index import package_share
 from amr_description.errors import BringupError
 from amr_description.ros.runtime import program, ros
-from amr_description.ros.service_calls import call, wait_until
 from benchmarks.bare_loop import bare_real_time_factor
 from benchmarks.command_line import command_figures
 from benchmarks.fleet import fleet_figures
+from benchmarks.real_time import GET_STATE, real_time_factor
 from benchmarks.robot_state_publisher import transform_figures
-from benchmarks.startup import stages_of, table
+from benchmarks.startup import phases_of, table
 from benchmarks.viewer import viewer_figures
 
 _BRINGUP = 'import sys; from amr_description.bringup.main import main; sys.exit(main())'
@@ -41,10 +41,10 @@ _STOP_TIMEOUT = 15.0
 
 
 class BringUp:
-    """One run of the stack ``simulation``; its lines are kept with the time of their coming."""
+    """One run of the stack ``simulation``; each line of its output is kept with its time."""
 
     def __init__(self, factor: int) -> None:
-        """Start it at a real-time factor."""
+        """Start the stack at a real-time factor."""
         self.lines: list[tuple[float, str]] = []
         self._is_ready = threading.Event()
         self._start = time.monotonic()
@@ -61,12 +61,12 @@ class BringUp:
         self._reader.start()
 
     def wait_until_ready(self) -> None:
-        """Raises BringupError when it ends, or is not ready in time."""
+        """Raise BringupError: it has ended, or is not ready in time."""
         self._is_ready.wait(_START_TIMEOUT)
-        stages_of(self.lines)
+        phases_of(self.lines)
 
     def stop(self) -> None:
-        """End it as Ctrl-C does, and wait for that."""
+        """Send SIGINT and wait for the end. Raises BringupError: it does not end."""
         self._process.send_signal(signal.SIGINT)
         try:
             self._process.wait(_STOP_TIMEOUT)
@@ -89,7 +89,7 @@ class BringUp:
 
 @contextmanager
 def bring_up(factor: int) -> Iterator[BringUp]:
-    """The stack at a real-time factor, ready; it is ended in every way out."""
+    """Run the stack at a real-time factor, ready to use, while inside."""
     run = BringUp(factor)
     try:
         run.wait_until_ready()
@@ -98,32 +98,13 @@ def bring_up(factor: int) -> Iterator[BringUp]:
         run.stop()
 
 
-def real_time_factor(node: Node, seconds: float) -> float:
-    """Simulated over wall time of the running simulator, over ``seconds`` of wall time."""
-    simulated_before, wall_before = _simulated_time(node)
-    deadline = wall_before + seconds
-    wait_until(node, lambda: time.monotonic() >= deadline or None, lambda: None, every=seconds)
-    simulated_after, wall_after = _simulated_time(node)
-    return (simulated_after - simulated_before) / (wall_after - wall_before)
-
-
-def _simulated_time(node: Node) -> tuple[float, float]:
-    """Simulated time, s, and the wall time at which that was told."""
-    request = GetEntityState.Request(entity='amr')
-    response = call(node, GetEntityState, '/mujoco_sim/get_entity_state', request)
-    stamp = response.state.header.stamp
-    return stamp.sec + stamp.nanosec * 1e-9, time.monotonic()
-
-
 def parser() -> argparse.ArgumentParser:
     """Make the parser."""
     options = argparse.ArgumentParser(prog='bench', description=__doc__.split('\n')[1])
     options.add_argument(
-        '--seconds', type=float, default=5.0, help='how long each speed is measured (5)'
+        '--seconds', type=float, default=5.0, help='duration of each measurement (5)'
     )
-    options.add_argument(
-        '--domain-id', type=int, default=77, help='ROS domain in which it happens (77)'
-    )
+    options.add_argument('--domain-id', type=int, default=77, help='ROS domain to use (77)')
     return options
 
 
@@ -137,11 +118,13 @@ def benchmark(options: argparse.Namespace) -> int:
         before = bare_real_time_factor(urdf, options.seconds / 2)
         print('as fast as possible ...', flush=True)
         with bring_up(0):
-            full = real_time_factor(node, options.seconds)
-        # The run before has warmed the caches.
+            get_state = node.create_client(GetEntityState, GET_STATE)
+            full = real_time_factor(node, get_state, 'amr', options.seconds)
+            node.destroy_client(get_state)
+        # The first run has warmed the caches.
         print('in real time ...', flush=True)
         with bring_up(1) as run:
-            stages = stages_of(run.lines)
+            phases = phases_of(run.lines)
             print('the ros2 command ...', flush=True)
             commands = command_figures(node, options.seconds)
             print('the page ...', flush=True)
@@ -154,7 +137,7 @@ def benchmark(options: argparse.Namespace) -> int:
         node.destroy_node()
     bare = (before + after) / 2
     print(f"""
-{table(stages)}
+{table(phases)}
 
 real-time factor                        at factor 0
 mj_step alone, before and after      {before:8.1f} {after:8.1f}
@@ -172,7 +155,7 @@ full stack / mj_step alone           {full / bare:8.3f}
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the executable; return its exit code."""
+    """Run the benchmarks; return the exit code."""
     return program(lambda: benchmark(parser().parse_args(args)))
 
 

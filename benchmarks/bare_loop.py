@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The physics alone: what everything around it is measured against."""
+"""The physics alone: the reference for the speed of the stack."""
 
 from collections.abc import Callable
 import time
@@ -12,14 +12,14 @@ from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
 
 _SETTLING = 2 * NANOSECONDS
-"""ns of simulated time from the drop to rest, and more."""
+"""ns of simulated time: longer than from the drop to rest."""
 
 _SPACING = 2.0
 """m, between the robots of a fleet."""
 
 
 def fleet_pose(number: int) -> Transform:
-    """A place for each of many robots, in rows of five, 2 m apart, a little above the ground."""
+    """Return the spawn pose of a robot of a fleet: in rows of five, 2 m apart, 0.2 m up."""
     row, column = divmod(number, 5)
     return Transform((_SPACING * column, _SPACING * row, 0.2))
 
@@ -33,10 +33,14 @@ def bare_real_time_factor(
     robots: int = 1,
 ) -> float:
     """
-    Simulated over wall time of a loop of nothing but ``mj_step``.
+    Return simulated over wall time of a loop of ``mj_step`` alone, with robots at rest.
 
-    Robots at rest in the empty world, as after their drop. ``seconds``: how long to measure, s of
-    wall time. ``steps``: physics steps in one call into C, as many as a control period has.
+    Args:
+        urdf: Of each robot.
+        seconds: Wall time of the measurement.
+        steps: Physics steps in one call into C, as many as a control period has.
+        clock: Wall clock, s.
+        robots: How many.
     """
     world = MujocoWorld('empty')
     for number in range(robots):
@@ -45,7 +49,7 @@ def bare_real_time_factor(
     model, data = world.engine.model, world.engine.data
     calls = 0
     start = now = clock()
-    # A clock is looked at after about the same work, however many robots there are.
+    # Fewer steps between two readings of the clock for more robots.
     batch = max(1, 100 // robots)
     while now - start < seconds:
         for _ in range(batch):

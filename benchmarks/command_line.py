@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""How quick the ``ros2`` command is: its start, a look at the graph, what it keeps up with."""
+"""The ``ros2`` command: its start, a list of topics, and the rates that it can follow."""
 
 from array import array
 from collections.abc import Iterator, Sequence
@@ -24,7 +24,7 @@ _JOINTS = tuple(
 
 def command_figures(node: Node, seconds: float) -> str:
     """
-    Measure, and return a table; a stack should be running, and be left alone.
+    Return a table of figures; a stack should be running, and nothing else.
 
     ``seconds``: wall time of each measurement of a stream.
     """
@@ -41,7 +41,7 @@ def command_figures(node: Node, seconds: float) -> str:
 
 
 def _median_time(command: Sequence[str]) -> float:
-    """Wall time of a command, s: the median of some runs."""
+    """Return the median wall time of some runs of a command, s."""
     times = []
     for _ in range(_RUNS):
         start = time.monotonic()
@@ -51,7 +51,7 @@ def _median_time(command: Sequence[str]) -> float:
 
 
 def _hz(node: Node, rate: float, seconds: float) -> float:
-    """The rate that ``ros2 topic hz`` shows in the end, Hz."""
+    """Return the last rate that ``ros2 topic hz`` shows, Hz."""
     topic = '/benchmark/hz'
     with stream(node, topic, rate):
         text = _output_of(['ros2', 'topic', 'hz', topic], seconds)
@@ -60,7 +60,7 @@ def _hz(node: Node, rate: float, seconds: float) -> float:
 
 
 def _echo(node: Node, rate: float, seconds: float) -> float:
-    """The messages that ``ros2 topic echo`` prints per second of its printing, Hz."""
+    """Return the rate at which ``ros2 topic echo`` prints messages, Hz."""
     topic = '/benchmark/echo'
     with stream(node, topic, rate):
         text = _output_of(['ros2', 'topic', 'echo', topic], seconds)
@@ -72,7 +72,7 @@ def _echo(node: Node, rate: float, seconds: float) -> float:
 
 
 def _output_of(command: Sequence[str], seconds: float) -> str:
-    """What a command prints until it is interrupted after ``seconds``."""
+    """Return the output of a command that is interrupted after ``seconds``."""
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     )

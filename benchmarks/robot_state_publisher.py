@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""How well robot_state_publisher keeps its rate, and what that costs."""
+"""robot_state_publisher: the rate that it keeps, and its load."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,7 +24,7 @@ _TICK = os.sysconf('SC_CLK_TCK')
 
 def transform_figures(node: Node, seconds: float) -> str:
     """
-    Measure, and return a table: joint states of four wheels in, 20 Hz of transforms out.
+    Return a table of figures: joint states of four wheels in, 20 Hz of transforms out.
 
     ``seconds``: wall time of each measurement.
     """
@@ -39,7 +39,7 @@ def transform_figures(node: Node, seconds: float) -> str:
 
 @contextmanager
 def _publisher() -> Iterator[subprocess.Popen]:
-    """A robot_state_publisher whose topics are nobody else's."""
+    """Run a robot_state_publisher with topics of its own, while inside."""
     urdf = package_share('amr_description') / 'urdf' / 'amr.urdf'
     remappings = [
         word
@@ -59,14 +59,14 @@ def _publisher() -> Iterator[subprocess.Popen]:
 
 
 def _measured(node: Node, pid: int, seconds: float) -> tuple[float, float]:
-    """Transforms per second of their stamps (Hz), and the load of the process (%)."""
+    """Return transforms per second by their stamps (Hz), and the load of the process (%)."""
     stamps: list[float] = []
 
-    def hear(message: TFMessage) -> None:
+    def on_transforms(message: TFMessage) -> None:
         stamp = message.transforms[0].header.stamp
         stamps.append(stamp.sec + stamp.nanosec * 1e-9)
 
-    subscription = node.create_subscription(TFMessage, f'{_FOLDER}/tf', hear, 1000)
+    subscription = node.create_subscription(TFMessage, f'{_FOLDER}/tf', on_transforms, 1000)
     try:
         wait_until(node, lambda: stamps or None, lambda: None, every=1.0, timeout=20.0)
         stamps.clear()
@@ -82,7 +82,7 @@ def _measured(node: Node, pid: int, seconds: float) -> tuple[float, float]:
 
 
 def processor_time(pid: int) -> float:
-    """What a process has spent so far, in s (proc(5): utime and stime)."""
+    """Return the processor time of a process so far, s (proc(5): utime and stime)."""
     with open(f'/proc/{pid}/stat', encoding='ascii', errors='replace') as file:
         fields = file.read().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / _TICK

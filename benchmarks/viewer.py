@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the page costs, and how soon what it says is on the robot's topic."""
+"""The load of the page's node, and the delay from a key to the command on its topic."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, ExitStack
@@ -21,15 +21,16 @@ from benchmarks.robot_state_publisher import processor_time
 
 _URL = re.compile(r'The page is at (http://\S+)')
 _MODULE = 'amr_description.nodes.viewer'
-_PATIENCE = 20.0
+_TIMEOUT = 20.0
 _KEYS = 100
+"""Commands to measure."""
 _STEP = 1e-4
-"""rad/s between two commands, that tells them apart."""
+"""rad/s between two commands, to distinguish them."""
 
 
 def viewer_figures(node: Node, seconds: float) -> str:
     """
-    Measure, and return a table; a stack should be running, and be left alone.
+    Return a table of figures; a stack should be running, and nothing else.
 
     ``seconds``: wall time of each measurement of the load.
     """
@@ -52,7 +53,7 @@ def viewer_figures(node: Node, seconds: float) -> str:
 
 @contextmanager
 def _viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """A viewer on a port of its own, and its address."""
+    """Run a viewer on a free port, while inside; yield the process and its address."""
     process = subprocess.Popen(
         [sys.executable, '-m', _MODULE, '--ros-args', '-p', 'port:=0'],
         stdout=subprocess.DEVNULL,
@@ -71,9 +72,9 @@ def _viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
 def _measured(
     node: Node, pages: list[PageClient], pid: int, seconds: float
 ) -> tuple[float, float]:
-    """States per second and page (Hz), and the load of the process (%)."""
+    """Return states per second and page (Hz), and the load of the process (%)."""
     _wait(node, lambda: all(page.states for page in pages) and _topic(pages[0]))
-    settled = time.monotonic() + seconds / 4  # the model has been read, and what else comes once
+    settled = time.monotonic() + seconds / 4  # after one-time work, such as reading the model
     _wait(node, lambda: time.monotonic() >= settled, seconds)
     states, spent, begin = sum(p.states for p in pages), processor_time(pid), time.monotonic()
     _wait(node, lambda: time.monotonic() >= begin + seconds, seconds)
@@ -83,36 +84,36 @@ def _measured(
 
 
 def _delays(node: Node, page: PageClient) -> list[float]:
-    """From what a page says to the callback that hears the command: s, of each of some keys."""
+    """Return the delays from sending a key on a page to the command's callback, s."""
     _wait(node, lambda: _topic(page))
-    said: dict[int, float] = {}
-    heard: dict[int, float] = {}
+    sent: dict[int, float] = {}
+    received: dict[int, float] = {}
 
-    def hear(message: TwistStamped) -> None:
-        heard.setdefault(round(message.twist.angular.z / _STEP), time.monotonic())
+    def on_command(message: TwistStamped) -> None:
+        received.setdefault(round(message.twist.angular.z / _STEP), time.monotonic())
 
-    subscription = node.create_subscription(TwistStamped, _topic(page), hear, 100)
+    subscription = node.create_subscription(TwistStamped, _topic(page), on_command, 100)
     try:
-        _wait(node, lambda: page.send('drive', robot='/', linear=0.0, angular=0.0) or heard)
+        _wait(node, lambda: page.send('drive', robot='/', linear=0.0, angular=0.0) or received)
         for number in range(1, _KEYS + 1):
-            said[number] = time.monotonic()
+            sent[number] = time.monotonic()
             page.send('drive', robot='/', linear=0.0, angular=number * _STEP)
-            _wait(node, lambda number=number: number in heard)
+            _wait(node, lambda number=number: number in received)
         page.send('stop', robot='/')
     finally:
         node.destroy_subscription(subscription)
-    return [heard[number] - at for number, at in said.items()]
+    return [received[number] - at for number, at in sent.items()]
 
 
 def _topic(page: PageClient) -> str:
-    """Where the commands of the robot go; nothing, as long as that is not known."""
+    """Return the command topic of the robot; empty until it is known."""
     commands = [each['command'] for each in page.robots if each['id'] == '/']
     return commands[0]['topic'] if commands and commands[0] else ''
 
 
 def _wait(node: Node, condition: Callable[[], object], seconds: float = 0.0) -> None:
-    """Serve the node until a condition holds. Raises ViewerError: it does not."""
-    timeout = seconds + _PATIENCE
+    """Spin the node until a condition holds. Raises ViewerError: it does not in time."""
+    timeout = seconds + _TIMEOUT
     if wait_until(node, lambda: True if condition() else None, timeout=timeout) is None:
         raise ViewerError(
             f'the page sees no robot to drive after {timeout:g} s; does a stack run?'

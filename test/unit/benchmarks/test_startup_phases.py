@@ -1,11 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Start-up stages from the lines of a bring-up."""
+"""Start-up phases from the output of a bring-up."""
 
 import pytest
 
 from amr_description.errors import BringupError
-from benchmarks.startup import stages_of, StartupPhase, table
+from benchmarks.startup import phases_of, StartupPhase, table
 
 LINES = [
     (0.1, '[INFO] [mujoco_sim-1]: process started with pid [10]'),
@@ -19,9 +19,9 @@ LINES = [
 ]
 
 
-def test_stages():
-    stages = stages_of(LINES)
-    assert [(stage.name, stage.at) for stage in stages] == [
+def test_phases():
+    phases = phases_of(LINES)
+    assert [(phase.name, phase.at) for phase in phases] == [
         ('bring-up has started its processes', 0.1),
         ('mujoco_sim is up', 0.9),
         ('the robot is in the world', 1.4),
@@ -29,16 +29,16 @@ def test_stages():
         ('diff_drive_controller is active', 2.9),
         ('ready', 3.0),
     ]
-    assert sum(stage.took for stage in stages) == pytest.approx(3.0)
+    assert sum(phase.took for phase in phases) == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize(
     'end, name', [(0, 'bring-up has'), (2, 'mujoco_sim is up'), (6, 'diff_drive_controller is')]
 )
-def test_stage_that_was_not_reached_is_named(end, name):
+def test_phase_that_was_not_reached_is_named(end, name):
     last = LINES[end - 1][1] if end else 'nothing'
     with pytest.raises(BringupError, match=f"did not come to '{name}.*its last line: ") as error:
-        stages_of(LINES[:end])
+        phases_of(LINES[:end])
     assert str(error.value).endswith(last)
 
 
