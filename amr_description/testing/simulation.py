@@ -122,9 +122,9 @@ class Simulation:
         with ExitStack() as stack:
             self._description = self._read_description()
             stack.enter_context(own_domain())
-            self._process = stack.enter_context(simulator(self._parameters))
+            self._simulator = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack)
-            self._lock_step = LockStep(self.node, self._process)
+            self._lock_step = LockStep(self.node, self._simulator)
             self._running.connect()
             self._readings = Node(
                 'simulation_readings', context=context, use_global_arguments=False
@@ -385,12 +385,12 @@ class Simulation:
     @property
     def log(self) -> str:
         """The output of the simulator so far."""
-        return self._process.log
+        return self._simulator.log
 
     @property
     def is_alive(self) -> bool:
         """Whether the simulator runs."""
-        return self._process.process.poll() is None
+        return self._simulator.process.poll() is None
 
     def _steps_in(self, seconds: float) -> int:
         if not (math.isfinite(seconds) and seconds >= 0.0):

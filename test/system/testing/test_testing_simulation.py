@@ -200,7 +200,7 @@ def test_the_end_of_the_simulator_is_told_and_another_is_started(simulation):
     first = simulation(URDF, activate=[])
     with pytest.raises(SimulationError, match='no DiffDriveController of .* is active'):
         first.drive(1.0, 0.0, seconds=1.0)
-    first._program.process.kill()
+    first._simulator.process.kill()
     with pytest.raises(SimulationError, match='the simulator was killed by SIGKILL'):
         first.run(1.0)
     with pytest.warns(UserWarning, match='killed by SIGKILL; it is started again'):
@@ -213,7 +213,7 @@ KILLED = """
 import os, signal, sys
 from amr_description.testing.simulation import Simulation
 with Simulation(sys.argv[1], activate=[]) as sim:
-    print('pid', sim._program.process.pid, sim._program._log.parent, flush=True)
+    print('pid', sim._simulator.process.pid, sim._simulator._log.parent, flush=True)
     sys.stdin.read() if sys.argv[2] == 'wait' else 1 / 0
 """
 
