@@ -233,7 +233,7 @@ class Transform:
         return Transform((-x, -y, -z), back)
 
     def interpolate(self, other: 'Transform', ratio: float) -> 'Transform':
-        """Return the transform at ``ratio`` (0 … 1): linear in translation, by slerp in rotation."""
+        """Return the transform at ``ratio`` (0 … 1): linear translation, slerp of rotation."""
         (ax, ay, az), (bx, by, bz) = self.translation, other.translation
         keep = 1.0 - ratio
         translation = (keep * ax + ratio * bx, keep * ay + ratio * by, keep * az + ratio * bz)

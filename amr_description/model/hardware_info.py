@@ -37,7 +37,8 @@ class InterfaceInfo:
     One command or state interface, such as ``velocity``.
 
     ``min`` and ``max`` bound commands while ``limits_enabled``; None means that the tag sets no
-    bound. ``initial_value`` is the value before the first write; None leaves it to the hardware. ``parameters`` are the remaining ``<param>`` texts.
+    bound. ``initial_value`` is the value before the first write; None leaves it to the hardware.
+    ``parameters`` are the remaining ``<param>`` texts.
     """
 
     name: str
