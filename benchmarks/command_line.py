@@ -15,6 +15,8 @@ import time
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
+from amr_description.ros.messages import fill_stamp
+
 _RUNS = 5
 _RATE_LINE = re.compile(r'average rate: ([\d.]+)')
 _JOINTS = tuple(
@@ -96,8 +98,7 @@ def stream(node: Node, topic: str, rate: float) -> Iterator[None]:
         due = time.monotonic()
         while not done.wait(max(0.0, due - time.monotonic())):
             due += 1.0 / rate
-            stamp = message.header.stamp
-            stamp.sec, stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+            fill_stamp(time.time_ns(), message.header.stamp)
             publisher.publish(message)
 
     thread = threading.Thread(target=publish, name='stream')

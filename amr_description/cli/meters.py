@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import Self
 
+from amr_description.clock import NANOSECONDS
+
 # From how many bytes per second on, the divisor, its decimals and its name. (1 KB is 1000 B.)
 _UNITS = ((1e6, 1e6, 2, 'MB'), (1e3, 1e3, 2, 'KB'), (0.0, 1.0, 0, 'B'))
 
@@ -68,7 +70,7 @@ class BandwidthMeter:
             return None
         sizes = [size for _, size in self._messages]
         return Bandwidth(
-            rate=sum(sizes) / (now - start) * 1e9,
+            rate=sum(sizes) / (now - start) * NANOSECONDS,
             mean=sum(sizes) / len(sizes),
             smallest=min(sizes),
             largest=max(sizes),
@@ -97,10 +99,10 @@ class WindowStatistics:
         mean = sum(times) / len(times)
         variance = sum((time - mean) ** 2 for time in times) / len(times)
         return cls(
-            mean=mean * 1e-9,
-            shortest=min(times) * 1e-9,
-            longest=max(times) * 1e-9,
-            deviation=sqrt(variance) * 1e-9,
+            mean=mean / NANOSECONDS,
+            shortest=min(times) / NANOSECONDS,
+            longest=max(times) / NANOSECONDS,
+            deviation=sqrt(variance) / NANOSECONDS,
             window=len(times),
         )
 
@@ -158,7 +160,7 @@ class DelayMeter:
         return Delay.of(self._delays)
 
 
-_REPORT_PERIOD = 1_000_000_000  # ns
+_REPORT_PERIOD = NANOSECONDS
 
 
 class Rate(WindowStatistics):

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import math
 from typing import NamedTuple
 
+from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform
 from amr_description.model.kinematics import joint_transform
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 
-_RESTART_GAP = (
-    1_000_000_000  # ns; stamps of one publisher do not go back by more, unless it was restarted
-)
+# ns; stamps of one publisher do not go back by more, unless it was restarted
+_RESTART_GAP = NANOSECONDS
 _MOST_LATE_PERIODS = 2  # periods that a joint may be late before its schedule starts again
 
 
@@ -132,7 +132,7 @@ class _Schedule(NamedTuple):
 
 def period_of(frequency: float) -> int:
     """Return 1 / ``frequency`` (Hz) in ns; 0 for 0 Hz."""
-    return round(1e9 / frequency) if frequency else 0
+    return round(NANOSECONDS / frequency) if frequency else 0
 
 
 def _link_transform(joint: Joint, position: float) -> LinkTransform:
