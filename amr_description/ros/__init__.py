@@ -1,3 +1,26 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""rclpy as every node uses it."""
+"""
+rclpy as every node of this package uses it; start with ``runtime.py``.
+
+======================= ===========================================================================
+``runtime.py``          start, spin and end a program; exit codes
+``signals.py``          SIGINT, SIGTERM, SIGHUP and the end of the bring-up as one request to stop
+``discovery.py``        have Fast DDS find other processes at once
+``rclpy_internals.py``  the private members of rclpy that are used, and nothing else uses
+
+``arguments.py``        ROS arguments of a command line; a robot description named there
+``parameters.py``       parameters of a node from a table of ``amr_description.parameters``
+``log_thread.py``       logging that never blocks the caller
+``qos.py``              QoS profiles that several nodes share
+
+``service_calls.py``    wait for something, and call services, in a program that then ends
+``polled_topic.py``     a subscription without a callback
+``endpoints.py``        publishers and subscriptions of the graph, by their nodes
+``type_mismatch.py``    endpoints of one topic with different types; Twist or TwistStamped
+
+``messages.py``         stamps, poses and velocities ↔ messages
+``message_types.py``    classes of messages, services and actions by their names
+``cdr.py``              serialized messages, read without making messages of them
+======================= ===========================================================================
+"""

@@ -1,3 +1,29 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS face of control."""
+"""
+The ROS face of ``control``: the ``controller_manager`` node, and the programs that ask it.
+
+Two threads: the *control thread* runs the loop, and with it every manager; the *ROS thread* of a
+node serves its callbacks, and submits to the control thread what concerns a manager.
+
+============================== ====================================================================
+``loop_thread.py``             the control thread, its queue of calls, and the LoopContext
+``pacing.py``                  what paces it: the wall clock, the system clock, or ``/clock``
+``loop_publisher.py``          what a cycle publishes; acknowledgements of commands
+``realtime.py``                priority, cores and memory of the control thread
+
+``controller_manager_node.py`` the node, and how a manager is brought up
+``robot_description.py``       the topic from which it has its robot
+``parameters.py``              its parameters, and those that it keeps for a controller
+``plugin_nodes.py``            the nodes of controllers and hardware components
+``converters.py``              samples of controllers ↔ messages
+``services.py``                its services: requests in, responses out
+``requests.py``                what they do
+``status_topics.py``           activity, diagnostics, introspection
+
+``client.py``                  calls the services of a manager
+``absence_diagnosis.py``       why a manager does not come, in words
+``spawner.py``                 takes controllers through their states
+``spawner_arguments.py``       the command line of the spawner
+============================== ====================================================================
+"""
