@@ -176,7 +176,7 @@ def spawn_controllers(
     wanted = manager.typed_controllers() if names is None else [*names]
     if wanted:
         Spawner(lock_step.node, manager, parse(wanted)).spawn()
-    listed = manager.look(ListControllers).controller
+    listed = manager.query(ListControllers).controller
     active = [(each.type, each.name) for each in listed if each.state == 'active']
     drive = next((name for kind, name in active if kind.endswith(DRIVE)), None)
     broadcaster = next((name for kind, name in active if kind.endswith(_BROADCASTER)), None)

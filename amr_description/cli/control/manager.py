@@ -53,7 +53,7 @@ def ask(args: Namespace, service_type: Any) -> Any:
     :raises AmrError: No answer.
     """
     with open_manager(args, first=service_type) as manager:
-        return manager.look(service_type)
+        return manager.query(service_type)
 
 
 @contextmanager

@@ -1,12 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Looks for a controller manager that does not come: what is there of it, and what is not.
+Why a controller manager does not come: what a program that waits for one observes, in words.
 
-What keeps a program from its controller manager, in words: no manager, no description, no clock.
-
-What is seen of the graph comes from :mod:`amr_description.control.ros.absence_diagnosis`; this module
-imports no rclpy.
+:class:`ManagerProbe` looks at the ROS graph and returns observations; :func:`explain` makes one
+line of them: what is missing, and what to do about it. Timeouts are in s.
 """
 
 from collections.abc import Iterator, Sequence
@@ -26,24 +24,39 @@ from amr_description.ros.qos import CLOCK
 from amr_description.ros.rclpy_internals import NodeNameNonExistentError
 from amr_description.ros.service_calls import call, NoAnswerError, wait_until
 
+_ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_DISCOVERY_TIME = 1.0
+"""s: how long to look around before it is concluded that nobody is there."""
+_REPLY_TIMEOUT = 1.0
+"""s: for what comes at once, if it comes."""
+_CLOCK_TIMEOUT = 2.0
+"""s: for two messages on ``/clock``."""
+_BURST = 0.1
+"""s: for the log lines behind the first, which are on their way with it."""
+
+_LIST_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
+_SPAWN_ENTITY = 'simulation_interfaces/srv/SpawnEntity'
+_STRING = 'std_msgs/msg/String'
+_DESCRIPTION = 'robot_description'
+
 
 @dataclass(frozen=True)
 class DescriptionObservation:
-    """What is seen of the robot description that a manager waits for."""
+    """The robot description that a manager waits for."""
 
     topic: str
     publishers: int = 0
     latched: int = 0
-    """How many of the publishers are TRANSIENT_LOCAL; the subscription demands it."""
+    """How many of the publishers are TRANSIENT_LOCAL; the subscription requires it."""
     elsewhere: tuple[str, ...] = ()
-    """Other topics of that kind which somebody publishes."""
+    """Other topics of that name and type which somebody publishes."""
     errors: tuple[str, ...] = ()
-    """What the manager has logged as errors of late."""
+    """The latest errors in the manager's log."""
 
 
 @dataclass(frozen=True)
 class ClockObservation:
-    """What is seen of ``/clock``; ``stamps``: what came from it in a while, ns."""
+    """``/clock``; ``stamps``: of the messages that came in a while, ns."""
 
     publishers: int
     stamps: tuple[int, ...] = ()
@@ -55,8 +68,8 @@ class ClockObservation:
 
 
 @dataclass(frozen=True)
-class ManagerSight:
-    """What is seen by a program that waits for ``manager``, an absolute name."""
+class ManagerObservation:
+    """What a program that waits for ``manager``, an absolute name, finds in the graph."""
 
     manager: str
     domain: int = 0
@@ -72,15 +85,16 @@ class ManagerSight:
     """``use_sim_time`` is true for the manager or for this program."""
 
 
-def missing(sight: ManagerSight) -> str:
-    """Say what is missing and what would do, in one line."""
-    parts = _manager_parts(sight)
-    fault = clock_fault(sight.clock, needed=sight.needs_clock) if sight.clock else ''
-    return '; '.join([*parts, *([fault] if fault else [])])
+def explain(observation: ManagerObservation) -> str:
+    """Return what is missing and what to do about it, in one line."""
+    parts = [_explain_manager(observation)]
+    if observation.clock is not None:
+        parts.append(explain_clock(observation.clock, needed=observation.needs_clock))
+    return '; '.join(filter(None, parts))
 
 
-def clock_fault(clock: ClockObservation, *, needed: bool) -> str:
-    """Say what is wrong with ``/clock``; empty: nothing, or it is not needed and not there."""
+def explain_clock(clock: ClockObservation, *, needed: bool) -> str:
+    """Return what is wrong with ``/clock``; empty: nothing, or it is neither needed nor there."""
     if clock.runs:
         return ''
     if not clock.publishers:
@@ -96,28 +110,25 @@ def clock_fault(clock: ClockObservation, *, needed: bool) -> str:
     return f'/clock stands still at {now:.3f} s: is the simulation paused?'
 
 
-def _manager_parts(sight: ManagerSight) -> Iterator[str]:
-    if sight.is_there:
-        yield _description_fault(sight.manager, sight.description)
-        return
-    if sight.others:
-        yield (
-            f'there is no node {sight.manager}, but {", ".join(sight.others)}; name it with '
-            f'-c {sight.others[0]}, or its namespace with --ros-args -r __ns:=…'
+def _explain_manager(observation: ManagerObservation) -> str:
+    if observation.is_there:
+        return _explain_description(observation.manager, observation.description)
+    if observation.others:
+        return (
+            f'there is no node {observation.manager}, but {", ".join(observation.others)}; name '
+            f'it with -c {observation.others[0]}, or its namespace with --ros-args -r __ns:=…'
         )
-        return
-    yield f'there is no controller manager in ROS domain {sight.domain}'
-    if sight.simulators:
-        yield (
-            f'the simulator {", ".join(sight.simulators)} starts one as soon as a robot with a '
-            '<ros2_control> block is spawned'
-        )
-    else:
-        yield 'a simulator starts one for its robot, ros2_control_node for a real one'
+    remedy = (
+        f'the simulator {", ".join(observation.simulators)} starts one as soon as a robot with a '
+        '<ros2_control> block is spawned'
+        if observation.simulators
+        else 'a simulator starts one for its robot, ros2_control_node for a real one'
+    )
+    return f'there is no controller manager in ROS domain {observation.domain}; {remedy}'
 
 
-def _description_fault(manager: str, description: DescriptionObservation | None) -> str:
-    """Say why a manager that is there has no services."""
+def _explain_description(manager: str, description: DescriptionObservation | None) -> str:
+    """Return why a manager that is there has no services."""
     if description is None:
         return f'{manager} is there, but has no services yet'
     topic = description.topic
@@ -138,61 +149,45 @@ def _description_fault(manager: str, description: DescriptionObservation | None)
     return f'{offered}: see its log for what keeps it from using that'
 
 
-_ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_DISCOVERY = 1.0
-"""s: how long to look around before it is said that nobody is there."""
-_PATIENCE = 1.0
-"""s: for what comes at once, if it comes."""
-_CLOCK_PATIENCE = 2.0
-"""s: for two messages on ``/clock``."""
-
-_BURST = 0.1
-"""s: for the lines behind the first, which are on their way with it."""
-
-_LISTS_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
-_SPAWNS_ENTITIES = 'simulation_interfaces/srv/SpawnEntity'
-_STRING = 'std_msgs/msg/String'
-_DESCRIPTION = 'robot_description'
-
-
 class ManagerProbe:
-    """Looks at the graph for ``manager``, an absolute name, by means of ``node``."""
+    """Observes what there is of a controller manager, and of what it needs."""
 
     def __init__(self, node: Node, manager: str) -> None:
+        """``manager``: its absolute name; ``node``: of the program that waits for it."""
         self._node = node
         self._manager = manager
         self._namespace, _, self._name = manager.rpartition('/')
         self._start = time.monotonic()
 
-    def missing(self) -> str:
-        """Say what keeps the manager from being there; takes up to three seconds."""
-        return missing(self.look())
+    def explain(self) -> str:
+        """Return what keeps the manager from being there; takes up to three seconds."""
+        return explain(self.observe())
 
-    def clock_fault(self) -> str:
-        """Say what is wrong with the clock that the manager goes by; empty: nothing."""
-        return clock_fault(self._clock(), needed=self._needs_clock(is_there=True))
+    def explain_clock(self) -> str:
+        """Return what is wrong with the clock of a manager that is there; empty: nothing."""
+        return explain_clock(self._clock(), needed=self._needs_clock(is_there=True))
 
-    def look(self) -> ManagerSight:
-        """Return what is seen of it."""
-        left = _DISCOVERY - (time.monotonic() - self._start)
+    def observe(self) -> ManagerObservation:
+        """Return what the graph shows of it."""
+        left = _DISCOVERY_TIME - (time.monotonic() - self._start)
         if left > 0.0:
-            wait_until(self._node, self._anybody, timeout=left)
+            wait_until(self._node, self._is_anybody_there, timeout=left)
         is_there = self._manager in self._nodes()
         needs_clock = self._needs_clock(is_there=is_there)
-        return ManagerSight(
+        return ManagerObservation(
             manager=self._manager,
             domain=self._node.context.get_domain_id(),
             is_there=is_there,
             others=tuple(sorted(self._managers() - {self._manager})),
-            simulators=tuple(self._servers(_SPAWNS_ENTITIES)),
+            simulators=tuple(self._servers(_SPAWN_ENTITY)),
             description=self._description() if is_there else None,
             clock=self._clock(),
             needs_clock=needs_clock,
         )
 
-    def _anybody(self) -> bool | None:
-        """Tell whether there is something to say."""
-        found = self._managers() or self._servers(_SPAWNS_ENTITIES)
+    def _is_anybody_there(self) -> bool | None:
+        """Whether there is a manager or a simulator; None: neither yet."""
+        found = self._managers() or self._servers(_SPAWN_ENTITY)
         return bool(found) or None
 
     def _nodes(self) -> set[str]:
@@ -200,13 +195,13 @@ class ManagerProbe:
         return {f'{namespace.rstrip("/")}/{name}' for name, namespace in found}
 
     def _managers(self) -> set[str]:
-        """Return the nodes that serve as one, and those that have its name."""
+        """Return the nodes that serve as a manager, and those that have the name of ours."""
         namesakes = {each for each in self._nodes() if each.rpartition('/')[2] == self._name}
-        return namesakes | set(self._servers(_LISTS_CONTROLLERS))
+        return namesakes | set(self._servers(_LIST_CONTROLLERS))
 
     def _servers(self, service_type: str) -> list[str]:
         """Return the nodes that offer such a service below their own names."""
-        services = self._node.get_service_names_and_types()  # also those that somebody waits for
+        services = self._node.get_service_names_and_types()  # also those that have clients only
         return sorted(
             name.rpartition('/')[0]
             for name, types in services
@@ -221,32 +216,34 @@ class ManagerProbe:
         request = GetParameters.Request(names=['use_sim_time'])
         with suppress(NoAnswerError):
             service = f'{self._manager}/get_parameters'
-            values = call(self._node, GetParameters, service, request, timeout=_PATIENCE).values
+            values = call(
+                self._node, GetParameters, service, request, timeout=_REPLY_TIMEOUT
+            ).values
             return bool(values) and values[0].bool_value
         return False
 
     def _clock(self) -> ClockObservation:
-        """Listen until time is seen to go on."""
+        """Subscribe until time is seen to go on."""
         publishers = self._node.count_publishers('/clock')
         if not publishers:
             return ClockObservation(0)
-        with _listening(self._node, Clock, '/clock', CLOCK) as messages:
+        with _subscribed(self._node, Clock, '/clock', CLOCK) as messages:
 
-            def sight() -> ClockObservation:
+            def observation() -> ClockObservation:
                 stamps = (nanoseconds(message.clock) for message in messages)
                 return ClockObservation(publishers, tuple(stamps))
 
-            wait_until(self._node, lambda: sight().runs or None, timeout=_CLOCK_PATIENCE)
-            return sight()
+            wait_until(self._node, lambda: observation().runs or None, timeout=_CLOCK_TIMEOUT)
+            return observation()
 
     def _description(self) -> DescriptionObservation:
         """Look at the topic that the manager subscribes to; it may be remapped."""
         topic = f'{self._namespace}/{_DESCRIPTION}'
         with suppress(NodeNameNonExistentError):  # it has gone since
-            heard = self._node.get_subscriber_names_and_types_by_node(
+            subscribed = self._node.get_subscriber_names_and_types_by_node(
                 self._name, self._namespace or '/'
             )
-            topic = next((name for name, types in heard if _STRING in types), topic)
+            topic = next((name for name, types in subscribed if _STRING in types), topic)
         offers = self._node.get_publishers_info_by_topic(topic)
         latched = [o for o in offers if o.qos_profile.durability != DurabilityPolicy.VOLATILE]
         return DescriptionObservation(
@@ -269,10 +266,15 @@ def errors_of(node: Node, names: Sequence[str], since: float = 0.0) -> list[str]
     """
     Return what nodes have logged as errors, each line once, in order.
 
-    Taken from the latched ``/rosout``. ``names``: absolute; ``since``: s, Unix time.
+    Taken from ``/rosout``, which is latched.
+
+    Args:
+        node: Subscribes; it is spun here.
+        names: Of the nodes, absolute.
+        since: s, Unix time.
     """
     loggers = {name.strip('/').replace('/', '.') for name in names}
-    with _listening(node, Log, '/rosout', _ROSOUT) as messages:
+    with _subscribed(node, Log, '/rosout', _ROSOUT) as messages:
 
         def lines() -> list[str]:
             return [
@@ -283,13 +285,13 @@ def errors_of(node: Node, names: Sequence[str], since: float = 0.0) -> list[str]
                 and nanoseconds(message.stamp) >= since * NANOSECONDS
             ]
 
-        if wait_until(node, lambda: lines() or None, timeout=_PATIENCE):
+        if wait_until(node, lambda: lines() or None, timeout=_REPLY_TIMEOUT):
             wait_until(node, lambda: None, timeout=_BURST)
         return list(dict.fromkeys(lines()))
 
 
 @contextmanager
-def _listening[Message](
+def _subscribed[Message](
     node: Node, message_type: type[Message], topic: str, qos: QoSProfile
 ) -> Iterator[list[Message]]:
     """Subscribe while inside; yields the list that fills."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A controller manager as seen by a program that asks it for something, ours or a C++ one."""
+"""A client of the services of a controller manager, be it ours or that of ros2_control."""
 
 from collections.abc import Mapping, Sequence
 import time
@@ -26,11 +26,11 @@ from amr_description.ros.service_calls import (
     wait_until,
 )
 
-_EVERY = 10.0
-"""s: how often it is said that the manager is still not there."""
+_LOG_PERIOD = 10.0
+"""s: how often it is logged that the manager is still not there."""
 _ATTEMPTS = 3
-_LONGEST = 2.0**31 - 1.0
-"""s: what a builtin_interfaces/Duration can say."""
+_MAX_DURATION = 2.0**31 - 1.0
+"""s: the longest that a builtin_interfaces/Duration can hold."""
 
 
 class ManagerClient:
@@ -47,34 +47,42 @@ class ManagerClient:
         first: Any = None,
     ) -> None:
         """
-        Wait until the manager is there; ``manager``: its node, relative to the namespace.
+        Wait until the manager is there and answers.
 
-        ``timeout``: s, 0 for ever. ``call_timeout``: s, for each of three waits for a response.
-        ``silent``: for so long, s, waiting is not worth a line. ``first``: the type of the service
-        that is waited for, one that takes no fields; default: ListControllers. Raises
-        ControllerError, which names what is missing, when the manager does not come; NoAnswerError
-        when it does not answer; ParameterError when ``manager`` is no name.
+        Args:
+            node: Makes the clients, and is spun here.
+            manager: The manager's node, relative to the namespace of ``node``.
+            timeout: s, for the manager to come; 0: without end.
+            call_timeout: s, for each of three waits for a response.
+            silent: s, how long it is waited without a line of log.
+            first: The type of the service that is waited for, whose request has no fields;
+                default: ListControllers.
+
+        Raises:
+            ControllerError: The manager does not come; it says what is missing.
+            NoAnswerError: It does not answer.
+            ParameterError: ``manager`` is not a valid name.
         """
         self._node = node
         self._call_timeout = call_timeout
-        self._asked = 0.0
+        self._call_time = 0.0
         with argument_errors():
             self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
-        self._search = ManagerProbe(node, self.name)
+        self._probe = ManagerProbe(node, self.name)
         first = first or srv.ListControllers
         client = node.create_client(first, self._service(first))
         try:
             self._wait_for(client, timeout, silent)
-            self._ask(client)
+            self._query(client)
         finally:
             node.destroy_client(client)
 
     def is_there(self) -> bool:
-        """Tell whether it is still there."""
+        """Return whether it is still there."""
         return self._node.count_services(self._service(srv.ListControllers)) > 0
 
-    def look(self, service_type: Any, **fields: Any) -> Any:
+    def query(self, service_type: Any, **fields: Any) -> Any:
         """
         Return the response of a service that changes nothing; its name follows from its type.
 
@@ -82,26 +90,26 @@ class ManagerClient:
         """
         client = self._node.create_client(service_type, self._service(service_type))
         try:
-            return self._ask(client, **fields)
+            return self._query(client, **fields)
         finally:
             self._node.destroy_client(client)
 
     def states(self) -> dict[str, str]:
-        """Name → state of every loaded controller."""
-        return {each.name: each.state for each in self.look(srv.ListControllers).controller}
+        """Return the states of all loaded controllers, by their names."""
+        return {each.name: each.state for each in self.query(srv.ListControllers).controller}
 
     def components(self) -> list[HardwareComponentState]:
         """Return the hardware components."""
-        return self.look(srv.ListHardwareComponents).component
+        return self.query(srv.ListHardwareComponents).component
 
     def typed_controllers(self) -> list[str]:
-        """Names of the controllers that the manager's parameters hold a type for."""
-        listed = self.look(ListParameters).result.names
+        """Return the names of the controllers that the manager's parameters hold a type for."""
+        listed = self.query(ListParameters).result.names
         return sorted(name.removesuffix('.type') for name in listed if name.endswith('.type'))
 
     def has_type(self, controller: str) -> bool:
-        """Tell whether the manager's parameters hold a type for a controller."""
-        values = self.look(GetParameters, names=[f'{controller}.type']).values
+        """Return whether the manager's parameters hold a type for a controller."""
+        values = self.query(GetParameters, names=[f'{controller}.type']).values
         return bool(values and values[0].string_value)
 
     def load(self, name: str) -> bool:
@@ -121,7 +129,7 @@ class ManagerClient:
         return self._call(srv.CleanupController, name=name).ok
 
     def reload_libraries(self, *, force_kill: bool) -> bool:
-        """Unload all controllers, and import what they are made of anew."""
+        """Unload all controllers, and import their modules anew."""
         return self._call(srv.ReloadControllerLibraries, force_kill=force_kill).ok
 
     def set_component_state(
@@ -138,7 +146,7 @@ class ManagerClient:
         timeout: float = 5.0,
         activate_asap: bool = True,
     ) -> str | None:
-        """Switch under STRICT; return ``None``, or why it failed."""
+        """Switch with strictness STRICT; return ``None``, or why it failed."""
         response = self.request_switch(
             activate,
             deactivate,
@@ -148,7 +156,7 @@ class ManagerClient:
         )
         if response.ok:
             return None
-        fault = self._search.clock_fault() if 'timed out' in response.message else ''
+        fault = self._probe.explain_clock() if 'timed out' in response.message else ''
         return '; '.join(filter(None, (response.message, fault)))
 
     def request_switch(
@@ -161,9 +169,14 @@ class ManagerClient:
         activate_asap: bool = True,
     ) -> srv.SwitchController.Response:
         """
-        Switch; ``strictness``: as in the request, 0 for the manager's default.
+        Switch controllers.
 
-        ``timeout``: s, how long the manager may take; its answer is waited for at least as long.
+        Args:
+            activate: Their names.
+            deactivate: Their names.
+            strictness: As in the request; 0: the manager's default.
+            timeout: s, how long the manager may take; its response is awaited at least as long.
+            activate_asap: As in the request.
         """
         return self._call(
             srv.SwitchController,
@@ -172,7 +185,7 @@ class ManagerClient:
             deactivate_controllers=list(deactivate),
             strictness=strictness,
             activate_asap=activate_asap,
-            timeout=Duration(seconds=min(timeout, _LONGEST)).to_msg(),
+            timeout=Duration(seconds=min(timeout, _MAX_DURATION)).to_msg(),
         )
 
     def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
@@ -191,13 +204,13 @@ class ManagerClient:
 
     def reasons(self, controller: str) -> str:
         """
-        Say why the last load failed; the services only say that it did.
+        Return why the last load failed; the response only says that it did.
 
-        A missing type is found by asking; the rest is :meth:`logged`.
+        A missing type is found by its parameters; for the rest see :meth:`logged`.
         """
-        asked = self._asked
+        since = self._call_time
         if self.has_type(controller):
-            return self.logged(controller, since=asked)
+            return self.logged(controller, since=since)
         return (
             f'no type is set for it; the parameters of {self.name} hold one for: '
             f'{", ".join(self.typed_controllers()) or "none"}; a parameter file given here may '
@@ -212,30 +225,30 @@ class ManagerClient:
         """
         inside = self.namespace.rstrip('/')
         names = [self.name, *(f'{inside}/{node}' for node in nodes)]
-        return '; '.join(errors_of(self._node, names, self._asked if since is None else since))
+        return '; '.join(errors_of(self._node, names, self._call_time if since is None else since))
 
     def _wait_for(self, client: Client, timeout: float, silent: float) -> None:
-        """Wait until the service is there, in words. Raises ControllerError."""
+        """Wait until the service is there, and log what is missing. Raises ControllerError."""
         service, log = client.srv_name, self._node.get_logger()
 
         def ready() -> bool | None:
             return client.service_is_ready() or None
 
-        def say() -> None:
-            log.warning(f'Could not contact service {service}: {self._search.missing()}')
+        def log_absence() -> None:
+            log.warning(f'Could not contact service {service}: {self._probe.explain()}')
             log.info(f'waiting for service {service} to become available...')
 
         if silent and wait_until(self._node, ready, timeout=silent):
             return
         log.info(f'waiting for service {service} to become available...')
-        if not wait_until(self._node, ready, say, every=_EVERY, timeout=timeout):
-            fault = self._search.missing()
+        if not wait_until(self._node, ready, log_absence, every=_LOG_PERIOD, timeout=timeout):
+            fault = self._probe.explain()
             if not ready():
                 raise ControllerError(
                     f'Could not contact service {service} within {timeout:g} s: {fault}'
                 )
 
-    def _ask(self, client: Client, **fields: Any) -> Any:
+    def _query(self, client: Client, **fields: Any) -> Any:
         request = client.srv_type.Request(**fields)
         try:
             return ask_until_answered(
@@ -246,7 +259,7 @@ class ManagerClient:
 
     def _call(self, service_type: Any, timeout: float | None = None, /, **fields: Any) -> Any:
         """Call a service that changes something, once; return the response."""
-        self._asked = time.time()
+        self._call_time = time.time()
         try:
             return call(
                 self._node,
@@ -265,5 +278,5 @@ class ManagerClient:
     def _explained(self, error: NoAnswerError) -> NoAnswerError:
         if not self.is_there():
             return error
-        fault = self._search.clock_fault() or f'{self.name} may be stopped, or busy: see its log'
+        fault = self._probe.explain_clock() or f'{self.name} may be stopped, or busy: see its log'
         return NoAnswerError(f'{error} {fault}')

@@ -43,8 +43,8 @@ def ros():
 
 @pytest.fixture
 def seeker(monkeypatch):
-    monkeypatch.setattr(absence_diagnosis, '_DISCOVERY', 0.3)
-    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 0.5)
+    monkeypatch.setattr(absence_diagnosis, '_DISCOVERY_TIME', 0.3)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_TIMEOUT', 0.5)
     node = Node('seeker')
     yield node
     node.destroy_node()
@@ -76,20 +76,24 @@ def waiting_manager(topic=TOPIC, **options):
 
 def look(seeker, until, manager=NAME):
     """Look until it is seen; what is never seen ends the test."""
-    search = ManagerProbe(seeker, manager)
-    sight = wait_until(
-        seeker, lambda: seen if until(seen := search.look()) else None, timeout=20.0
+    probe = ManagerProbe(seeker, manager)
+    found = wait_until(
+        seeker, lambda: seen if until(seen := probe.observe()) else None, timeout=20.0
     )
-    assert sight is not None, search.look()
-    return sight
+    assert found is not None, probe.observe()
+    return found
 
 
 def test_nobody_is_there(seeker):
-    sight = ManagerProbe(seeker, NAME).look()
-    assert not sight.is_there
-    assert (sight.others, sight.simulators, sight.clock.publishers) == ((), (), 0)
-    assert sight.domain == seeker.context.get_domain_id()
-    assert ManagerProbe(seeker, NAME).missing().startswith('there is no controller manager in')
+    found = ManagerProbe(seeker, NAME).observe()
+    assert not found.is_there
+    assert (found.others, found.simulators, found.clock.publishers) == (
+        (),
+        (),
+        0,
+    )
+    assert found.domain == seeker.context.get_domain_id()
+    assert ManagerProbe(seeker, NAME).explain().startswith('there is no controller manager in')
 
 
 def test_managers_of_others_and_simulators_are_named(seeker):
@@ -98,18 +102,18 @@ def test_managers_of_others_and_simulators_are_named(seeker):
     other.create_client(ListControllers, '/nowhere/cm/list_controllers')
     other.create_service(SpawnEntity, '/sim/spawn_entity', lambda _, answer: answer)
     with served(other, waiting_manager()):
-        sight = look(seeker, lambda s: len(s.others) == 2 and s.simulators, '/controller_manager')
-    assert sight.others == (NAME, '/right/cm')
-    assert sight.simulators == ('/sim',)
+        found = look(seeker, lambda s: len(s.others) == 2 and s.simulators, '/controller_manager')
+    assert found.others == (NAME, '/right/cm')
+    assert found.simulators == ('/sim',)
 
 
 def test_a_manager_waits_for_a_description_that_nobody_publishes(seeker):
     with served(waiting_manager(), Node('elsewhere')) as (_, elsewhere):
-        sight = look(seeker, lambda s: s.is_there)
-        assert sight.description == DescriptionObservation(TOPIC)
+        found = look(seeker, lambda s: s.is_there)
+        assert found.description == DescriptionObservation(TOPIC)
         elsewhere.create_publisher(String, '/robot_description', LATCHED)
-        sight = look(seeker, lambda s: s.description.elsewhere)
-        assert sight.description == DescriptionObservation(
+        found = look(seeker, lambda s: s.description.elsewhere)
+        assert found.description == DescriptionObservation(
             TOPIC, elsewhere=('/robot_description',)
         )
 
@@ -117,16 +121,16 @@ def test_a_manager_waits_for_a_description_that_nobody_publishes(seeker):
 def test_a_remapped_description_that_is_not_latched_is_seen(seeker):
     with served(waiting_manager('/the_urdf'), Node('publisher')) as (_, publisher):
         publisher.create_publisher(String, '/the_urdf', 10)
-        sight = look(seeker, lambda s: s.is_there and s.description.publishers)
-        assert sight.description == DescriptionObservation('/the_urdf', publishers=1)
+        found = look(seeker, lambda s: s.is_there and s.description.publishers)
+        assert found.description == DescriptionObservation('/the_urdf', publishers=1)
 
 
 def test_what_the_manager_says_of_its_description_is_told(seeker):
     with served(waiting_manager(), Node('publisher')) as (manager, publisher):
         publisher.create_publisher(String, TOPIC, LATCHED)
         manager.get_logger().error('the robot has no <ros2_control> block')
-        sight = look(seeker, lambda s: s.is_there and s.description.errors)
-        assert sight.description == DescriptionObservation(
+        found = look(seeker, lambda s: s.is_there and s.description.errors)
+        assert found.description == DescriptionObservation(
             TOPIC, 1, 1, errors=('the robot has no <ros2_control> block',)
         )
         assert errors_of(seeker, ['/left/nobody']) == []
@@ -134,9 +138,9 @@ def test_what_the_manager_says_of_its_description_is_told(seeker):
 
 def test_a_manager_without_the_clock_that_it_needs(seeker):
     with served(waiting_manager(parameter_overrides=SIM_TIME)):
-        sight = look(seeker, lambda s: s.needs_clock)
-        assert sight.clock.publishers == 0
-        fault = ManagerProbe(seeker, NAME).clock_fault()
+        found = look(seeker, lambda s: s.needs_clock)
+        assert found.clock.publishers == 0
+        fault = ManagerProbe(seeker, NAME).explain_clock()
         assert fault.startswith('there is no clock: use_sim_time is true, and nobody publishes')
 
 
@@ -145,12 +149,12 @@ def test_a_clock_that_stands_still_and_one_that_runs(seeker):
         publisher = simulation.create_publisher(Clock, '/clock', 10)
         message = Clock()
         message.clock.sec = 12
-        search = ManagerProbe(seeker, NAME)
+        probe = ManagerProbe(seeker, NAME)
         simulation.create_timer(0.01, lambda: publisher.publish(message))
         assert wait_until(
             seeker,
             lambda: (
-                search.clock_fault()
+                probe.explain_clock()
                 == '/clock stands still at 12.000 s: is the simulation paused?'
                 or None
             ),
@@ -159,7 +163,7 @@ def test_a_clock_that_stands_still_and_one_that_runs(seeker):
         simulation.create_timer(
             0.01, lambda: setattr(message.clock, 'nanosec', message.clock.nanosec + 10_000_000)
         )
-        assert wait_until(seeker, lambda: not search.clock_fault() or None, timeout=20.0)
+        assert wait_until(seeker, lambda: not probe.explain_clock() or None, timeout=20.0)
 
 
 def test_a_wait_that_goes_on_tells_each_time_what_is_missing(seeker, monkeypatch, capfd):

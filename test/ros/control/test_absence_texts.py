@@ -7,15 +7,15 @@ from dataclasses import replace
 import pytest
 
 from amr_description.control.ros.absence_diagnosis import (
-    clock_fault,
     ClockObservation,
     DescriptionObservation,
-    ManagerSight,
-    missing,
+    explain,
+    explain_clock,
+    ManagerObservation,
 )
 
 NAME = '/left/controller_manager'
-NOBODY = ManagerSight(NAME, domain=7)
+NOBODY = ManagerObservation(NAME, domain=7)
 TOPIC = '/left/robot_description'
 WAITS = f'{NAME} is there, and waits for a robot description on {TOPIC}'
 SILENT = ClockObservation(0)
@@ -24,7 +24,7 @@ RUNNING = ClockObservation(1, (1_500_000_000, 1_510_000_000))
 
 
 @pytest.mark.parametrize(
-    ('sight', 'said'),
+    ('found', 'said'),
     [
         (NOBODY, 'there is no controller manager in ROS domain 7; a simulator starts one'),
         (
@@ -44,8 +44,8 @@ RUNNING = ClockObservation(1, (1_500_000_000, 1_510_000_000))
         ),
     ],
 )
-def test_no_manager(sight, said):
-    assert said in missing(sight)
+def test_no_manager(found, said):
+    assert said in explain(found)
 
 
 @pytest.mark.parametrize(
@@ -68,8 +68,8 @@ def test_no_manager(sight, said):
     ],
 )
 def test_no_description(description, said):
-    assert missing(replace(NOBODY, is_there=True, description=description)).startswith(WAITS)
-    assert said in missing(replace(NOBODY, is_there=True, description=description))
+    assert explain(replace(NOBODY, is_there=True, description=description)).startswith(WAITS)
+    assert said in explain(replace(NOBODY, is_there=True, description=description))
 
 
 @pytest.mark.parametrize('needed', [True, False])
@@ -83,24 +83,24 @@ def test_no_description(description, said):
     ],
 )
 def test_a_clock_that_is_there_must_run(clock, said, needed):
-    assert clock_fault(clock, needed=needed).startswith(said)
-    assert bool(clock_fault(clock, needed=needed)) == bool(said)
+    assert explain_clock(clock, needed=needed).startswith(said)
+    assert bool(explain_clock(clock, needed=needed)) == bool(said)
 
 
 def test_a_clock_that_is_not_there_is_missed_only_where_it_is_needed():
-    assert clock_fault(SILENT, needed=False) == ''
-    assert 'nobody publishes /clock; start the simulation' in clock_fault(SILENT, needed=True)
+    assert explain_clock(SILENT, needed=False) == ''
+    assert 'nobody publishes /clock; start the simulation' in explain_clock(SILENT, needed=True)
 
 
 def test_everything_that_is_missing_is_told_in_one_line():
-    sight = replace(
+    found = replace(
         NOBODY,
         is_there=True,
         description=DescriptionObservation(TOPIC),
         clock=SILENT,
         needs_clock=True,
     )
-    assert missing(sight) == (
+    assert explain(found) == (
         f'{WAITS}, which nobody publishes: start robot_state_publisher; there is no clock: '
         'use_sim_time is true, and nobody publishes /clock; start the simulation, or set '
         'use_sim_time to false'

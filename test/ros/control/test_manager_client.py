@@ -70,7 +70,7 @@ def manager():
 @pytest.fixture
 def client(manager, monkeypatch):
     """Made while the manager answers."""
-    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 1.0)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_TIMEOUT', 1.0)
     monkeypatch.setattr(manager, 'switches', [])
     node = Node('asker')
     yield ManagerClient(node, 'controller_manager', call_timeout=0.5)
@@ -127,7 +127,7 @@ def test_a_parameter_that_is_refused_is_told(client):
 
 def test_a_manager_that_never_answers_keeps_nobody(manager, monkeypatch):
     monkeypatch.setattr(manager, 'silent', True)
-    monkeypatch.setattr(absence_diagnosis, '_CLOCK_PATIENCE', 1.0)
+    monkeypatch.setattr(absence_diagnosis, '_CLOCK_TIMEOUT', 1.0)
     node = Node('hopeful')
     with pytest.raises(NoAnswerError, match='after 3 attempts'):
         ManagerClient(node, '/controller_manager', call_timeout=0.1)
