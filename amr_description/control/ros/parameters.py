@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The parameters of a ``controller_manager`` node, and those that it keeps for a controller.
+The parameters of a ``controller_manager`` node: its own, and those that it keeps for a controller.
 
-The parameters of a ``controller_manager`` node, as the manager needs them.
+The tables say what there is; :class:`ManagerParameters` declares and reads them on the node.
 """
 
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ from amr_description.ros.runtime import argument_errors
 
 @dataclass(frozen=True)
 class InitialStates:
-    """What becomes of the hardware at the start."""
+    """The states to which the hardware is brought at the start."""
 
     unconfigured: tuple[str, ...] = parameter((), 'Components that are left unconfigured')
     inactive: tuple[str, ...] = parameter((), 'Components that are configured, not activated')
@@ -44,7 +44,7 @@ class InitialStates:
 
 @dataclass(frozen=True)
 class SwitchDefaults:
-    """What a request to switch leaves open."""
+    """For what a request to switch leaves open."""
 
     strictness: str = parameter(
         'best_effort', 'Where a request names no strictness', choices=('best_effort', 'strict')
@@ -53,7 +53,7 @@ class SwitchDefaults:
 
 @dataclass(frozen=True)
 class Defaults:
-    """How controllers and hardware go together."""
+    """How controllers depend on hardware, and requests that leave something open."""
 
     allow_controller_activation_with_inactive_hardware: bool = parameter(
         False, 'Let controllers claim commands of hardware that is not active', read_only=True
@@ -84,7 +84,7 @@ class ManagerTable:
     """
     The parameters of the manager.
 
-    ``update_rate`` may be set while it runs, as in the original, where only the start counts.
+    ``update_rate`` may be set while it runs, as in ros2_control, but only the start counts.
     """
 
     update_rate: int = parameter(100, 'Rate of the control loop', unit='Hz', above=0)
@@ -105,7 +105,7 @@ class ManagerTable:
 
 @dataclass(frozen=True)
 class ControllerEntry:
-    """What the manager's parameters say of one controller, below its name."""
+    """The manager's parameters for one controller, below its name."""
 
     type: str = parameter('', 'Type of the controller', not_empty=True)
     params_file: tuple[str, ...] = parameter((), 'Parameter files of the controller')
@@ -117,7 +117,7 @@ class ControllerEntry:
 
 @dataclass(frozen=True)
 class CommonParameters:
-    """What every controller's node has besides the controller's own table."""
+    """The parameters of every controller's node, besides the controller's own table."""
 
     is_async: bool = parameter(
         False, 'Update in a thread of its own: accepted, and updated in the control loop'
@@ -130,14 +130,22 @@ class CommonParameters:
 
 class ManagerParameters:
     """
-    Reads the node each time: ``ros2 param set`` before a load counts.
+    Declares the parameters of a manager's node, and reads them whenever they are needed.
 
-    ``arguments`` are the manager's own ROS arguments, which every controller gets too; ``start``
-    is what the table held at the start.
+    So what ``ros2 param set`` has set before a controller is loaded counts.
     """
 
     def __init__(self, node: Node, arguments: Sequence[str]) -> None:
-        """Declare the parameters. Raises ParameterError."""
+        """
+        Declare the parameters.
+
+        Args:
+            node: Of the manager; it must allow undeclared parameters.
+            arguments: Its ROS arguments, which every controller gets too.
+
+        Raises:
+            ParameterError: A value has the wrong type, or is out of its bounds.
+        """
         self._node = node
         self._arguments = list(arguments)
         uses_sim_time = node.get_parameter('use_sim_time').value
@@ -145,6 +153,7 @@ class ManagerParameters:
             self.start = declare(
                 node, ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time}
             )
+            """The values at the start."""
             declare_overrides(node)
         add_validation_callback(node, ManagerTable)
         if not self.start.handle_exceptions:
@@ -164,9 +173,11 @@ class ManagerParameters:
 
     def entry_of(self, name: str) -> ControllerEntry:
         """
-        Return what is set for a controller; from then on all of it is declared.
+        Return the parameters for a controller, which are declared from now on.
 
-        Raises ControllerError that names the controllers that have a type; ParameterError.
+        Raises:
+            ControllerError: It has no type; the controllers that have one are named.
+            ParameterError: A value has the wrong type.
         """
         if not self._get(f'{name}.type'):
             raise ControllerError(
@@ -183,7 +194,7 @@ class ManagerParameters:
 
     def arguments_of(self, entry: ControllerEntry) -> list[str]:
         """
-        Return the manager's own arguments, then the controller's files and options.
+        Return a controller's ROS arguments: the manager's, then its own files and options.
 
         Raises ParameterError: a file cannot be read.
         """
@@ -198,7 +209,7 @@ class ManagerParameters:
         ]
 
     def defaults(self) -> ManagerDefaults:
-        """Return what ``defaults.…`` says now."""
+        """Return the present values of ``defaults.…``."""
         now = self.now().defaults
         return ManagerDefaults(
             strictness=Strictness[now.switch_controller.strictness.upper()],

@@ -3,8 +3,8 @@
 """
 What the control thread of a real robot asks of Linux: priority, cores, memory that stays in RAM.
 
-All of it is optional: where it is refused, which is usual without a real-time kernel or the
-rights for it, that is a warning, and the loop runs as any other thread.
+All of it is optional. Where it is refused, as is usual without a real-time kernel or the rights
+for it, there is a warning, and the loop runs as any other thread.
 """
 
 from collections.abc import Sequence
@@ -39,14 +39,14 @@ def set_cpu_affinity(cores: Sequence[int], log: Log) -> None:
     """Run the calling thread on these cores only; none: on any."""
     if not cores:
         return
-    there = sorted(os.sched_getaffinity(0))
+    available = sorted(os.sched_getaffinity(0))
     try:
         os.sched_setaffinity(0, cores)
     except (OSError, ValueError, OverflowError) as error:
         log(
             Severity.WARN,
             f'Could not set the CPU affinity {list(cores)}: {error}; this process may use the '
-            f'cores {there}',
+            f'cores {available}',
         )
 
 

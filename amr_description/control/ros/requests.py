@@ -30,7 +30,7 @@ from amr_description.ros.runtime import argument_errors, run_in_thread
 
 def reload_modules(names: Iterable[str]) -> None:
     """
-    Execute modules again, so that the next load finds their classes as the files are now.
+    Import modules anew, so that an edited controller can be loaded without a restart.
 
     Only the modules named, not what they import. Raises ControllerError: one has a mistake in it;
     those before it are new, it and those behind it are as they were.
@@ -82,7 +82,7 @@ class ManagerRequests:
         self._modules: set[str] = set()
 
     async def load(self, name: str) -> None:
-        """Make the controller and its node, and hand it to the manager. Raises ControllerError."""
+        """Make a controller and its node, and hand it to the manager. Raises ControllerError."""
         if name in self.controllers:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
@@ -181,7 +181,21 @@ class ManagerRequests:
     async def switch(
         self, activate: Sequence[str], deactivate: Sequence[str], strictness: int, timeout: int
     ) -> str:
-        """Switch controllers, as in the request; ``timeout``: ns. Raises ControllerError."""
+        """
+        Switch controllers.
+
+        Args:
+            activate: Names of controllers.
+            deactivate: Names of controllers.
+            strictness: As in the request.
+            timeout: ns.
+
+        Returns:
+            The message of the response.
+
+        Raises:
+            ControllerError: The switch is refused, or has failed.
+        """
         defaults = self._parameters.defaults()
 
         def switch() -> str:
@@ -192,12 +206,12 @@ class ManagerRequests:
         try:
             message = await self._ask(switch)
         finally:
-            self._disconnect_what_was_cleaned_up()
+            self._disconnect_unconfigured()
         self.log(Severity.INFO, message)
         return message
 
-    def _disconnect_what_was_cleaned_up(self) -> None:
-        """A controller that failed to be activated is unconfigured, and has no topics."""
+    def _disconnect_unconfigured(self) -> None:
+        """Remove the topics of controllers that a failed activation has left unconfigured."""
         for each in self.manager.snapshot.controllers:
             if each.state is LifecycleState.UNCONFIGURED and each.name in self.controllers:
                 self.controllers[each.name].disconnect()

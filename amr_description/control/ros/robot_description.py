@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``robot_description`` as a controller manager hears it: the URDF of its robot, latched.
+The topic ``robot_description``, from which a controller manager has the URDF of its robot.
 
-The first one that can be used is taken; until then the manager has no hardware and no services.
+It takes the first one that can be used; until then it has no hardware and no services.
 """
 
 from collections.abc import Awaitable, Callable, Sequence
@@ -25,29 +25,35 @@ from amr_description.ros.qos import LATCHED
 
 TOPIC = 'robot_description'
 
-type Take = Callable[[Robot, Sequence[HardwareInfo]], Awaitable[None]]
+type BringUp = Callable[[Robot, Sequence[HardwareInfo]], Awaitable[None]]
 """Brings a robot's hardware up; raises what keeps it from doing so."""
 
-_PATIENCE = 1.0  # s of the machine's clock, between two lines that say what is waited for
+_LOG_PERIOD = 1.0  # s of the steady clock, between two lines about what is waited for
 
 
 class DescriptionSource:
     """
     The subscription of a manager's node; everything here runs on the ROS thread.
 
-    ``robot``: the one that the manager has, None while it waits. The executor has to know
-    coroutines (SingleThreadedExecutor).
+    The executor has to know coroutines (SingleThreadedExecutor).
     """
 
     def __init__(
-        self, node: Node, log: Log, take: Take | None = None, robot: Robot | None = None
+        self, node: Node, log: Log, bring_up: BringUp | None = None, robot: Robot | None = None
     ) -> None:
         """
-        Subscribe. ``take`` is awaited with the first description that can be read; when it raises,
-        the next one is tried. Without it the manager has its ``robot`` from elsewhere.
+        Subscribe.
+
+        Args:
+            node: Of the manager.
+            log: Of the manager.
+            bring_up: Awaited with the first description that can be read; when it raises, the
+                next one is tried.
+            robot: Instead of ``bring_up``, for a manager that has its robot from elsewhere.
         """
         self.robot = robot
-        self._take = take
+        """The robot that the manager has; None while it waits."""
+        self._bring_up = bring_up
         self._log = log
         # A group of its own: bringing hardware up may take long, parameters go on being served.
         group = MutuallyExclusiveCallbackGroup()
@@ -60,10 +66,10 @@ class DescriptionSource:
                 Severity.INFO,
                 f"Subscribing to '{subscription.topic_name}' topic for robot description.",
             )
-            # By the machine's clock: a simulated one may stand still until there is a robot.
+            # By the steady clock: a simulated one may stand still until there is a robot.
             self._timer = node.create_timer(
-                _PATIENCE,
-                self._say_what_is_missing,
+                _LOG_PERIOD,
+                self._log_waiting,
                 callback_group=group,
                 clock=Clock(clock_type=ClockType.STEADY_TIME),
             )
@@ -71,8 +77,8 @@ class DescriptionSource:
     async def _receive(self, message: String) -> None:
         text = message.data
         if self.robot is not None:
-            # Whoever spawned the robot had it from here, as a rule: nothing to be warned of then.
-            if self._take is not None or text.strip() != self.robot.text.strip():
+            # A robot that was spawned usually comes from this same topic: no reason for a warning.
+            if self._bring_up is not None or text.strip() != self.robot.text.strip():
                 self._log(
                     Severity.WARN,
                     'ResourceManager has already loaded a urdf and is initialized. Ignoring '
@@ -88,8 +94,8 @@ class DescriptionSource:
                     f"{TOPIC}: the robot '{robot.name}' has no <ros2_control> block, so there is "
                     'nothing to control; add one to the URDF'
                 )
-            await self._take(robot, hardware)
-        except Exception as error:  # a stranger's component may raise anything
+            await self._bring_up(robot, hardware)
+        except Exception as error:  # a plugin may raise anything
             log_error(self._log, error)
             self._log(
                 Severity.ERROR,
@@ -102,5 +108,5 @@ class DescriptionSource:
         self.robot = robot
         self._timer.cancel()
 
-    def _say_what_is_missing(self) -> None:
+    def _log_waiting(self) -> None:
         self._log(Severity.WARN, f"Waiting for data on '{TOPIC}' topic to finish initialization")

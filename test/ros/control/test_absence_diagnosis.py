@@ -167,7 +167,7 @@ def test_a_clock_that_stands_still_and_one_that_runs(seeker):
 
 
 def test_a_wait_that_goes_on_tells_each_time_what_is_missing(seeker, monkeypatch, capfd):
-    monkeypatch.setattr(client, '_EVERY', 0.1)
+    monkeypatch.setattr(client, '_LOG_PERIOD', 0.1)
     service = f'{NAME}/list_controllers'
     with pytest.raises(ControllerError) as error:
         ManagerClient(seeker, NAME, timeout=0.3)
