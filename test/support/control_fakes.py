@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Stand-ins for what surrounds the control loop, and the recorded vectors and traces."""
+"""Fakes of hardware, controllers and logs, and the recorded vectors and traces."""
 
 from collections import Counter
 import gzip
@@ -49,7 +49,7 @@ def nan_for_none(values):
 
 
 class FakeLog:
-    """Keeps every line; throttling is the business of the real one."""
+    """Keeps every line, without throttling."""
 
     def __init__(self):
         self.lines = []
@@ -58,13 +58,13 @@ class FakeLog:
         self.lines.append((severity, text))
 
     def texts(self, severity=Severity.DEBUG):
-        return [text for said, text in self.lines if said >= severity]
+        return [text for level, text in self.lines if level >= severity]
 
 
 class Faulty:
-    """Raises what ``faults`` holds under the name of a method, and writes down every call."""
+    """Records every call of a method, and raises what ``faults`` has under its name."""
 
-    def meet(self, method, *arguments):
+    def call(self, method, *arguments):
         self.calls.append((method, *arguments))
         error = self.faults.get(method)
         if error is not None:
@@ -98,43 +98,43 @@ class FakeHardware(Faulty, HardwareComponent):
         return list(self.commands.values())
 
     def configure(self):
-        self.meet('configure')
+        self.call('configure')
 
     def activate(self):
-        self.meet('activate')
+        self.call('activate')
 
     def deactivate(self):
-        self.meet('deactivate')
+        self.call('deactivate')
 
     def cleanup(self):
-        self.meet('cleanup')
+        self.call('cleanup')
 
     def shutdown(self):
-        self.meet('shutdown')
+        self.call('shutdown')
 
     def reset(self, time):
-        self.meet('reset', time)
+        self.call('reset', time)
 
     def prepare_command_mode_switch(self, start, stop):
-        self.meet('prepare', tuple(start), tuple(stop))
+        self.call('prepare', tuple(start), tuple(stop))
 
     def perform_command_mode_switch(self, start, stop):
-        self.meet('perform', tuple(start), tuple(stop))
+        self.call('perform', tuple(start), tuple(stop))
 
     def read(self, time, period):
-        self.meet('read')
+        self.call('read')
         for joint, command in self.commands.items():
             if not math.isnan(command.value):
                 self.velocities[joint].value = command.value
             self.positions[joint].value += self.velocities[joint].value * (period / NANOSECONDS)
 
     def write(self, time, period):
-        self.meet('write')
+        self.call('write')
         self.written = {joint: command.value for joint, command in self.commands.items()}
 
 
 class FakeController(Faulty, Controller):
-    """Claims what it is told to claim, and writes its update count into every command."""
+    """Claims the given interfaces, and writes its update count into every command."""
 
     parameters_type = object
 
@@ -147,7 +147,7 @@ class FakeController(Faulty, Controller):
         """(time, period) of each, ns."""
 
     def configure(self, parameters):
-        self.meet('configure', parameters)
+        self.call('configure', parameters)
 
     def command_interfaces(self):
         return self.requests[0]
@@ -156,33 +156,33 @@ class FakeController(Faulty, Controller):
         return self.requests[1]
 
     def activate(self, commands, states, time):
-        self.meet('activate')
+        self.call('activate')
         self.handles = commands
 
     def update(self, time, period):
-        self.meet('update')
+        self.call('update')
         self.updates.append((time, period))
         for handle in self.handles:
             handle.value = float(len(self.updates))
 
     def deactivate(self, time):
-        self.meet('deactivate')
+        self.call('deactivate')
         for handle in self.handles:
             handle.value = 0.0
         self.handles = ()
 
     def cleanup(self):
-        self.meet('cleanup')
+        self.call('cleanup')
 
     def reset(self, time):
-        self.meet('reset', time)
+        self.call('reset', time)
 
     def set_clock(self, time):
-        self.meet('set_clock', time)
+        self.call('set_clock', time)
 
 
 class FakeChainable(FakeController):
-    """Offers references and states; in chained mode its commands are the sum of its references."""
+    """Exports references and states; chained, its commands are the sum of its references."""
 
     is_chainable = True
 
@@ -202,7 +202,7 @@ class FakeChainable(FakeController):
         return self.offers[1]
 
     def set_chained_mode(self, is_chained):
-        self.meet('set_chained_mode', is_chained)
+        self.call('set_chained_mode', is_chained)
         super().set_chained_mode(is_chained)
 
     def update(self, time, period):
@@ -214,7 +214,7 @@ class FakeChainable(FakeController):
 
 
 def bring_up(*components):
-    """A resource manager with these components, active."""
+    """Return a resource manager with these components, active."""
     resources = ResourceManager(FakeLog())
     for component in components:
         resources.add(component)
@@ -235,11 +235,11 @@ def start(manager, controller, parameters=None, time=0):
 
 
 def collect(output):
-    """A list that fills with what the output sends."""
+    """Return a list that fills with the samples of an output."""
     sent = []
     output.sink = sent.append
     return sent
 
 
 def output():
-    return Output(Port('~/said', 'std_msgs/msg/Empty', 'nowhere:nothing'))
+    return Output(Port('~/output', 'std_msgs/msg/Empty', 'nowhere:nothing'))

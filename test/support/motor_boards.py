@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A simulated motor board behind a pseudo-terminal, to be ill-treated; and a robot on it."""
+"""A simulated motor board behind a pseudo-terminal, with faults; and a robot on it."""
 
 from contextlib import ExitStack
 from threading import Event, Thread
@@ -20,25 +20,25 @@ QUICK = MotorConstants(time_constant=0.001, acceleration=1e5)
 
 
 def on_motor_board(port, **parameters):
-    """The text of the shipped description, driven by a motor board on a serial port."""
+    """Return the shipped description, driven by a motor board on a serial port."""
     given = {'port': port, **SIDES, **parameters}
     texts = {name: str(value) for name, value in given.items()}
     return swap_hardware(AMR, 'amr_description/SerialBaseSystem', texts)
 
 
 class TamperedBoard(SimulatedMotorBoard):
-    """Keeps what it hears; ``tamper`` changes what it says, ``is_deaf`` what it hears."""
+    """Records what it receives; ``tamper`` changes its answers, ``is_deaf`` drops questions."""
 
     def __init__(self, constants=QUICK):
-        self.said = []
-        super().__init__(self.said.append, constants)
-        self.heard = bytearray()
+        self.reports = []
+        super().__init__(self.reports.append, constants)
+        self.received = bytearray()
         self.tamper = lambda answer: answer
         self.is_deaf = False
         self.answered = Event()
 
     def receive(self, data):
-        self.heard += data
+        self.received += data
         answer = self.tamper(super().receive(b'' if self.is_deaf else data))
         if data:
             self.answered.set()

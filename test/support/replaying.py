@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The recordings of the C++ stack, and the same stack here to replay them through."""
+"""Replays the recordings of the C++ stack through the same controllers."""
 
 from dataclasses import replace
 
@@ -40,20 +40,20 @@ ROBOT = {
 }
 PERIOD = 10 * MS
 LEAD = 60
-"""Cycles before the recording begins: the time-out of no command at all has passed by then."""
+"""Cycles before the recording starts, after which the timeout without a command has passed."""
 
 
 def mock_wheels():
-    """The robot's hardware with nothing but its plugin changed, as it was recorded."""
+    """Return the robot's hardware with another plugin only, as it was recorded."""
     (info,) = hardware_of(URDF)
     return MockSystem(replace(info, parameters={'calculate_dynamics': 'true'}), FakeLog())
 
 
 class Replay:
-    """One trace through the two controllers in a manager; every dictionary is by stamp, ns."""
+    """One trace through both controllers in a manager; dictionaries are by stamp, ns."""
 
     def __init__(self, name, resources=None, **parameters):
-        """``parameters``: of the drive, beside those of the trace; odometry at every cycle."""
+        """``parameters``: of the drive, on top of those of the trace; odometry at every cycle."""
         self.trace = load_trace(name)
         self.resources = resources or bring_up(mock_wheels())
         self.manager = ControllerManager(self.resources, 100, FakeLog())
@@ -73,12 +73,12 @@ class Replay:
         return start(self.manager, controller, build(table, values), self.time)
 
     def run(self, until=None):
-        """Tick up to the instant ``until`` (ns), to the end of the trace without it; itself."""
+        """Tick up to ``until`` (ns; None: the end of the trace), and return itself."""
         commands = self.resources.available_commands()
-        wheels = [cell for name, cell in commands.items() if cell.prefix in LEFT + RIGHT]
+        wheels = [command for name, command in commands.items() if command.prefix in LEFT + RIGHT]
         while self.time <= (self.end if until is None else until):
             self.manager.tick(self.time)
-            self.wheels[self.time] = {cell.prefix: cell.value for cell in wheels}
+            self.wheels[self.time] = {command.prefix: command.value for command in wheels}
             self._hear(self._commands.get(self.time))
             self.time += PERIOD
         return self

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""amr_description/SerialBaseSystem against a board on a pseudo-terminal, well and ill-treated."""
+"""amr_description/SerialBaseSystem against a board on a pseudo-terminal, also with faults."""
 
 from contextlib import suppress
 import errno
@@ -43,7 +43,7 @@ REMEDY = 'check its cable and power, then: ros2 control set_hardware_component_s
 
 
 class Rig:
-    """The component of the shipped robot on a port, and an owner who turns by hand."""
+    """The component of the shipped robot on a port, with cycles run by hand."""
 
     def __init__(self, port, **parameters):
         (info,) = hardware_of(parse(on_motor_board(port, **parameters)))
@@ -66,7 +66,7 @@ class Rig:
             self.system.write(0, 10 * MS)
 
     def turn_until(self, condition, board=None):
-        """Turn in the rhythm of the board's answers, or fast where it has none."""
+        """Run cycles at the rate of the board's answers, or fast without answers."""
         deadline = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < deadline
@@ -76,7 +76,7 @@ class Rig:
                 board.answered.clear()
 
     def state(self, interface):
-        """The values of the left and of the right joints."""
+        """Return the states of the left and of the right joints."""
         values = {n: s.value for n, s in self.states.items() if n.endswith(interface)}
         sides = [{v for n, v in values.items() if side in n} for side in ('left', 'right')]
         assert [len(side) for side in sides] == [1, 1], 'joints of a side differ'
@@ -84,7 +84,7 @@ class Rig:
 
 
 class Wire:
-    """In the place of SerialBoard: keeps the velocities that are sent."""
+    """Replaces SerialBoard, and records the velocities that are sent."""
 
     description = Board(1, 1, 'none', 4096, 30.0)
 
@@ -165,23 +165,23 @@ def test_interfaces_are_those_of_the_tag_in_its_order():
         ({'left_joints': SIDES['right_joints']}, '.*must name each joint of the block once; it'),
     ],
 )
-def test_a_wrong_parameter_is_told(parameters, text):
+def test_an_invalid_parameter_is_reported(parameters, text):
     with pytest.raises(HardwareError, match=f"^hardware component 'AmrSystem': {text}"):
         Rig(**{'port': '/dev/nowhere', **parameters})
 
 
-def test_a_parameter_that_has_no_effect_is_told():
+def test_an_unknown_parameter_is_warned_of():
     (line,) = Rig('/dev/nowhere', max_velcity='3').log.texts(Severity.WARN)
     assert line.startswith("hardware component 'AmrSystem': parameter 'max_velcity' has no effect")
     assert 'Known: port, left_joints' in line
 
 
-def test_lists_are_written_with_commas_too():
+def test_lists_may_have_commas():
     rig = Rig('/dev/nowhere', left_joints='joint_wheel_front_left,joint_wheel_back_left')
     assert len(rig.commands) == 4
 
 
-def test_a_sensor_of_the_tag_is_told_not_to_be_there():
+def test_a_sensor_of_the_tag_is_warned_of():
     sensor = '<sensor name="imu"><state_interface name="x"/></sensor></ros2_control>'
     text = on_motor_board('/dev/nowhere').replace('</ros2_control>', sensor)
     (info,) = hardware_of(parse(text))
@@ -202,7 +202,7 @@ def fails_to_connect(match, port, **parameters):
 
 
 @pytest.mark.parametrize('port', ['/dev/null', '/dev', __file__])
-def test_what_is_no_serial_port_is_refused(port):
+def test_a_file_that_is_not_a_serial_port_is_refused(port):
     fails_to_connect(f"^cannot open the serial port '{port}': it is not a serial port$", port)
 
 
@@ -227,7 +227,7 @@ def test_a_port_that_another_program_has_is_refused(rig, plugged, board):
     drive(rig, board)  # undisturbed
 
 
-def test_silence_at_the_port_is_told(plugged, board):
+def test_a_port_without_an_answer_is_refused(plugged, board):
     board.is_deaf = True
     fails_to_connect(
         f'no motor board answered on {plugged.port} at 9600 bit/s within 0.15 s; what came '
@@ -238,7 +238,7 @@ def test_silence_at_the_port_is_told(plugged, board):
     )
 
 
-def test_what_came_instead_of_a_board_is_told(plugged, board):
+def test_noise_at_the_port_is_shown(plugged, board):
     board.tamper = lambda answer: b'$GPGGA,0*00\n' if answer else b''
     fails_to_connect(
         r"what came instead: \d lines such as b'[$]GPGGA,0\*00'; check",
@@ -265,11 +265,11 @@ def test_a_board_that_is_slow_to_start_is_waited_for(plugged, board):
     rig.system.cleanup()
 
 
-def test_what_an_earlier_host_left_unread_is_not_believed(plugged, board):
+def test_answers_to_an_earlier_host_are_ignored(plugged, board):
     with Path(plugged.port).open('wb') as earlier:
         for _ in range(100):
             earlier.write(encode(Hello(1, 1)) + encode(Get(1)))
-    wait_until(lambda: len(heard(board)) == 200)
+    wait_until(lambda: len(received(board)) == 200)
     board.left.position = 1000.0
     rig = Rig(plugged.port)
     rig.system.configure()
@@ -280,7 +280,7 @@ def test_what_an_earlier_host_left_unread_is_not_believed(plugged, board):
 # --- driving -------------------------------------------------------------------------------------
 
 
-def test_wheels_turn_as_commanded_and_say_so(rig, board):
+def test_wheels_turn_as_commanded_and_have_states(rig, board):
     drive(rig, board, 5.0, -3.0)
     assert (board.left.target, board.right.target) == (5.0, -3.0)
     rig.turn_until(lambda: rig.state('position')[0] > 1.0, board)
@@ -294,7 +294,7 @@ def test_reads_the_encoders_while_inactive(plugged, board):
     assert rig.state('position') == rig.state('velocity') == (0.0, 0.0)
     board.left.position += 1.0  # pushed by hand
     rig.turn_until(lambda: rig.state('position')[0] > 0.99)
-    assert Set not in {type(message) for message in heard(board)}
+    assert Set not in {type(message) for message in received(board)}
     rig.system.cleanup()
 
 
@@ -359,7 +359,7 @@ def test_nothing_infinite_reaches_the_wire(rig, board, bad):
         rig.turn()
     rig.system.deactivate()
     assert board.mode is BoardMode.IDLE
-    assert {(m.left, m.right) for m in heard(board) if isinstance(m, Set)} <= {(5.0, -3.0)}
+    assert {(m.left, m.right) for m in received(board) if isinstance(m, Set)} <= {(5.0, -3.0)}
 
 
 def test_wheels_of_a_side_must_be_commanded_alike(rig):
@@ -369,17 +369,17 @@ def test_wheels_of_a_side_must_be_commanded_alike(rig):
         rig.turn()
 
 
-def test_a_side_that_changes_hands_stops(rig, board):
+def test_a_side_whose_claims_change_stops(rig, board):
     drive(rig, board, 5.0, 3.0)
     rig.system.perform_command_mode_switch([], [n for n in rig.commands if 'left' in n])
     rig.turn_until(lambda: rig.state('velocity') == (0.0, 3.0), board)
 
 
-def test_what_waited_for_a_stuck_line_moves_nothing_after_the_next_arm(rig, board):
+def test_a_command_from_before_an_arm_moves_nothing_after_it(rig, board):
     drive(rig, board)
     board.tamper = lambda answer: b''
-    board.heard.clear()
-    while len(heard(board)) < 2:
+    board.received.clear()
+    while len(received(board)) < 2:
         rig.system.write(0, 10 * MS)
     rig.system.write(0, 10 * MS)  # waits, as two have no answer yet
     board.tamper = lambda answer: answer
@@ -387,18 +387,18 @@ def test_what_waited_for_a_stuck_line_moves_nothing_after_the_next_arm(rig, boar
     rig.system.activate()
     armed_at = board._uptime
     wait_until(lambda: board._uptime > armed_at + 0.1)  # a lost answer is given up after 50 ms
-    assert [type(message) for message in heard(board)][-2:] == [Disarm, Arm]
+    assert [type(message) for message in received(board)][-2:] == [Disarm, Arm]
 
 
 def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
-    """They would arrive when nobody wants them any more."""
+    """They would arrive too late."""
     drive(rig, board)
     board.tamper = lambda answer: b''
-    board.heard.clear()
+    board.received.clear()
     with pytest.raises(HardwareError, match='has not told its state'):
         rig.turn_until(lambda: False)
     # At first two, then one each 50 ms of the 250 ms.
-    assert 2 <= len([m for m in heard(board) if isinstance(m, Set)]) <= 8
+    assert 2 <= len([m for m in received(board) if isinstance(m, Set)]) <= 8
 
 
 def test_a_program_that_was_stopped_for_a_while_goes_on(plugged, board):
@@ -420,8 +420,8 @@ def test_a_program_that_was_stopped_for_a_while_goes_on(plugged, board):
     rig.system.cleanup()
 
 
-def heard(board):
-    return [m for m in LineReader().feed(bytes(board.heard)) if not isinstance(m, Refused)]
+def received(board):
+    return [m for m in LineReader().feed(bytes(board.received)) if not isinstance(m, Refused)]
 
 
 # --- stopping ------------------------------------------------------------------------------------
@@ -431,7 +431,7 @@ def test_deactivating_stops_the_motors(rig, board):
     drive(rig, board)
     rig.system.deactivate()
     assert (board.mode, board.left.target, board.right.target) == (BoardMode.IDLE, 0.0, 0.0)
-    assert type(heard(board)[-1]) is Disarm
+    assert type(received(board)[-1]) is Disarm
 
 
 def test_activating_again_begins_at_rest(rig, board):
@@ -442,7 +442,7 @@ def test_activating_again_begins_at_rest(rig, board):
     assert all(math.isnan(command.value) for command in rig.commands.values())
 
 
-def test_an_owner_who_hangs_is_stopped_by_the_watchdog_and_may_go_on(plugged, board):
+def test_a_control_thread_that_hangs_is_stopped_by_the_watchdog_and_may_go_on(plugged, board):
     rig = Rig(plugged.port, watchdog_timeout=0.05)
     rig.start()
     drive(rig, board)
@@ -481,7 +481,7 @@ def test_nothing_is_left_whatever_the_order(plugged, steps):
 
 
 @pytest.mark.parametrize('step', ['activate', 'turn'])
-def test_what_needs_a_board_says_that_there_is_none(step):
+def test_without_a_board_read_and_write_fail(step):
     rig = Rig('/dev/nowhere')
     with pytest.raises(HardwareError, match='board on /dev/nowhere is not connected'):
         (rig.turn if step == 'turn' else rig.system.activate)()
@@ -491,7 +491,7 @@ def test_what_needs_a_board_says_that_there_is_none(step):
 
 
 def is_lost(rig, board, match):
-    """It is told once and clearly, and the manager can bring the component down."""
+    """The fault is reported once, and the manager can bring the component down."""
     with pytest.raises(HardwareError, match=match) as caught:
         rig.turn_until(lambda: False, board)
     assert REMEDY in str(caught.value)
@@ -509,7 +509,7 @@ def test_unplugged(rig, board, plugged):
     is_lost(rig, board, f'^the motor board on {plugged.port} is gone, as if it were unplugged; ch')
 
 
-def test_what_is_written_to_a_board_that_is_lost_is_refused(rig, board, plugged):
+def test_a_lost_board_cannot_be_written(rig, board, plugged):
     plugged.unplug()
     wait_until(lambda: rig.system._board.is_lost)
     with pytest.raises(HardwareError, match='is gone, as if it were unplugged'):
@@ -528,7 +528,7 @@ def test_deaf(rig, board):
     is_lost(rig, board, 'has not told its state for 0.25 s; check')
 
 
-def test_hears_only_noise(rig, board, monkeypatch):
+def test_receives_only_noise(rig, board, monkeypatch):
     drive(rig, board)
     noise = b'$NOISE*0000\n'
     receive = board.receive
@@ -552,19 +552,19 @@ def test_cannot_be_written_to(rig, board, monkeypatch, error, text):
     is_lost(rig, board, text)
 
 
-def test_says_much_noise(rig, board):
+def test_sends_much_noise(rig, board):
     drive(rig, board)
     board.tamper = lambda answer: b'\x00noise\n' + answer if answer else b''
     is_lost(rig, board, r"sends noise: 2. of its last 100 lines were refused, the last one b'.x00")
 
 
-def test_says_noise_without_end(rig, board):
+def test_sends_noise_without_end(rig, board):
     drive(rig, board)
     board.tamper = lambda answer: b'x' * 10
     is_lost(rig, board, 'has not told its state for 0.25 s; check')
 
 
-def test_says_a_little_noise(rig, board):
+def test_sends_a_little_noise(rig, board):
     count = iter(range(10**9))
     board.tamper = lambda answer: answer + b'noise\n' * (next(count) % 10 == 0) if answer else b''
     rig.turn_until(lambda: rig.system._board._link.status.refused > 30, board)
@@ -585,7 +585,7 @@ def test_the_clock_of_the_board_may_wrap(plugged, board):
     rig.system.cleanup()
 
 
-def test_lets_its_motors_go(rig, board):
+def test_disarms_its_motors(rig, board):
     drive(rig, board)
     board.fail()
     is_lost(rig, board, 'has let go of its motors: it is in the mode FAULT')

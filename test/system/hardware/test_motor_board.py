@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The executable motor_board, and the shipped robot driven by it: no ROS, but every other part."""
+"""The executable motor_board, and the shipped robot driven by it, without ROS."""
 
 import math
 import os
@@ -34,7 +34,7 @@ NAME = 'AmrSystem'
 
 
 def run_board(link):
-    """The program, once its port is there."""
+    """Run the program; wait for its port."""
     program = Program.module('motor_board', '--link', str(link))
     program.expect(f'motor_board: on /dev/pts/[0-9]+, linked as {link}\n')
     return program
@@ -44,7 +44,7 @@ def run_board(link):
 
 
 @pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_ends_when_it_is_asked_to_and_takes_its_link_away(tmp_path, signum):
+def test_ends_on_request_and_removes_its_link(tmp_path, signum):
     link = tmp_path / 'folder' / 'board'
     with run_board(link) as program:
         assert stat.S_ISCHR(link.stat().st_mode)
@@ -87,7 +87,7 @@ def test_replaces_nothing_that_is_not_its_own(tmp_path, make, capsys):
     assert os.path.lexists(link)
 
 
-def test_a_link_that_cannot_be_made_is_told(capsys):
+def test_a_link_that_cannot_be_made_is_reported(capsys):
     assert motor_board.main(['--link', '/proc/board']) == 2
     assert "cannot make the link '/proc/board' (" in capsys.readouterr().err
 
@@ -110,7 +110,7 @@ def test_takes_the_arguments_of_a_bring_up(tmp_path):
 
 
 class Robot:
-    """The shipped robot with its drive controller, its hardware swapped; turned in real time."""
+    """The shipped robot with its drive controller and other hardware; cycles in real time."""
 
     period = 10 * MS
 
@@ -137,7 +137,7 @@ class Robot:
         self.time = 0
 
     def states(self):
-        """The different velocities that the wheels show, rad/s."""
+        """Return the distinct velocities of the wheels, rad/s."""
         cells = self.resources.components[NAME].states
         return {round(cell.value, 3) for name, cell in cells.items() if name.endswith('velocity')}
 
@@ -192,7 +192,7 @@ def test_an_inactive_component_lets_the_board_disarm(robot):
     assert robot.controller is LifecycleState.INACTIVE
 
 
-def test_an_owner_who_hangs_is_stopped_by_the_watchdog_and_may_go_on(robot):
+def test_a_control_thread_that_hangs_is_stopped_by_the_watchdog_and_may_go_on(robot):
     robot.board.expect('motor_board: no SET for 200 ms: the motors stop')
     far = robot.pose()[0] + 0.05
     robot.turn_until(lambda: robot.pose()[0] > far, 0.5)
@@ -217,8 +217,8 @@ def test_unplugged_while_driving_and_plugged_in_again(robot, signum):
     robot.turn_until(lambda: robot.hardware is LifecycleState.UNCONFIGURED, 0.5)
     assert robot.controller is LifecycleState.INACTIVE
     assert all(math.isnan(command) or command == 0.0 for command in robot.commands())
-    said = [text for text in robot.log.texts(Severity.ERROR) if 'motor board' in text]
-    assert [text.endswith(f'set_hardware_component_state {NAME} active') for text in said] == [
+    errors = [text for text in robot.log.texts(Severity.ERROR) if 'motor board' in text]
+    assert [text.endswith(f'set_hardware_component_state {NAME} active') for text in errors] == [
         True
     ]
     pose = robot.pose()

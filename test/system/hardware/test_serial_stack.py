@@ -31,7 +31,7 @@ UNCONFIGURED, ACTIVE = 'unconfigured', 'active'
 
 @contextmanager
 def motor_board(link):
-    """A simulated board behind ``link``, until it is unplugged."""
+    """Run a simulated board behind ``link``, until it is unplugged."""
     line = command('motor_board', '--link', str(link))
     board = subprocess.Popen(line, stdout=subprocess.PIPE, text=True, env=environment())
     try:
@@ -43,7 +43,7 @@ def motor_board(link):
 
 
 class Driver(Node):
-    """Commands 0.5 m/s, hears odometry, and asks the manager."""
+    """Commands 0.5 m/s, subscribes to odometry, and calls the manager."""
 
     def __init__(self):
         super().__init__('driver')
@@ -58,7 +58,7 @@ class Driver(Node):
         )
 
     def drive(self):
-        """Until the robot is at speed."""
+        """Wait until the robot is at speed."""
         message = TwistStamped()
         message.twist.linear.x = 0.5
         timer = self.create_timer(0.05, lambda: self.publisher.publish(message))

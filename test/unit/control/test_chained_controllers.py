@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Controllers in chains: order, modes, what a switch must and must not do, and failures."""
+"""Controllers in chains: order, modes, switching, and failures."""
 
 import math
 
@@ -51,7 +51,7 @@ class Bench:
             self.manager.configure(name, None)
 
     def switch(self, activate='', deactivate='', strictness=STRICT):
-        """Names in one text."""
+        """Switch controllers by names in one text."""
         return self.manager.switch(activate.split(), deactivate.split(), strictness, 0)
 
     def refuses(self, message, *request):
@@ -73,7 +73,7 @@ class Bench:
         return {c.name for c in self.manager.snapshot.controllers if c.is_chained}
 
     def lifecycle(self, name):
-        """What was asked of a controller since the last call."""
+        """Return the lifecycle calls of a controller since the last call of this."""
         calls = [call[0] for call in self.controllers[name].calls if call[0] != 'update']
         self.controllers[name].calls.clear()
         return calls
@@ -125,7 +125,7 @@ def test_a_chain_can_be_built_and_taken_down_one_by_one(bench):
 # --- the mode ------------------------------------------------------------------------------------
 
 
-def test_who_begins_to_be_commanded_is_restarted_in_chained_mode_and_back(bench):
+def test_a_controller_that_becomes_commanded_is_restarted_in_chained_mode_and_back(bench):
     bench.switch('tail')
     assert bench.lifecycle('tail') == ['configure', 'activate']
     assert bench.chained == set()
@@ -146,7 +146,7 @@ def test_who_begins_to_be_commanded_is_restarted_in_chained_mode_and_back(bench)
     )
 
 
-def test_a_commander_may_be_exchanged_for_another_without_a_restart(bench):
+def test_a_preceding_controller_may_be_replaced_without_a_restart(bench):
     bench.switch('tail middle')
     bench.lifecycle('tail')
     bench.switch('other', 'middle')
@@ -155,7 +155,7 @@ def test_a_commander_may_be_exchanged_for_another_without_a_restart(bench):
     assert bench.manager.resources.claims['tail/x'] == 'other'
 
 
-def test_whoever_reads_its_state_does_not_chain_a_controller(bench):
+def test_reading_a_state_does_not_chain_a_controller(bench):
     bench.switch('tail reader')
     assert bench.chained == set()
     assert bench.lifecycle('tail')[-1] == 'activate'
@@ -174,7 +174,7 @@ def test_a_controller_may_refuse_the_chained_mode(bench, fault):
 # --- refusals ------------------------------------------------------------------------------------
 
 
-def test_whoever_follows_must_be_active_or_come_too(bench):
+def test_a_following_controller_must_be_active_or_activated_too(bench):
     refusal = (
         "^Unable to activate controller with name '{}' because following controller with name "
     )
@@ -187,7 +187,7 @@ def test_whoever_follows_must_be_active_or_come_too(bench):
     assert bench.refuses(message, 'middle', 'tail middle')
 
 
-def test_best_effort_drops_whoever_would_lack_one_it_needs(bench):
+def test_best_effort_drops_controllers_that_lack_one_they_need(bench):
     bench.switch('head tail', '', BEST_EFFORT)
     assert bench.active == {'tail'}
     bench.controllers['late'] = FakeChainable('late', ['middle/x'])
@@ -195,7 +195,7 @@ def test_best_effort_drops_whoever_would_lack_one_it_needs(bench):
     assert bench.active == {'tail', 'other'}
 
 
-def test_a_chainable_one_in_use_cannot_go(bench):
+def test_a_chainable_controller_in_use_cannot_be_deactivated(bench):
     bench.switch('tail middle reader')
     message = (
         "^Unable to deactivate controller with name 'tail' because preceding controller with name "
@@ -210,7 +210,7 @@ def test_a_chainable_one_in_use_cannot_go(bench):
     assert any("'tail' because preceding" in text for text in bench.log.texts(Severity.WARN))
 
 
-def test_a_chainable_one_that_will_be_used_cannot_go(bench):
+def test_a_chainable_controller_that_will_be_used_cannot_be_deactivated(bench):
     bench.switch('tail')
     message = (
         "^Unable to deactivate controller with name 'tail' because preceding controller with name "
@@ -235,7 +235,7 @@ def test_a_chain_is_restarted_as_a_whole(bench):
 
 
 @BOTH
-def test_a_reference_has_one_owner(bench, strictness):
+def test_a_reference_is_claimed_by_one_controller(bench, strictness):
     bench.switch('tail middle')
     refusal = "^Unable to activate controller 'other' since the command interface 'tail/x' "
     assert bench.refuses(f'{refusal}is currently claimed by', 'other', '', strictness)
@@ -254,7 +254,7 @@ def test_references_of_a_controller_that_is_not_loaded_are_not_available(bench):
 
 
 @BOTH
-def test_whoever_was_active_before_goes_on_unchained_when_its_commander_fails(bench, strictness):
+def test_an_active_controller_goes_on_unchained_if_its_preceding_one_fails(bench, strictness):
     bench.switch('tail reader')
     bench.controllers['middle'].faults['activate'] = ControllerError('too hot')
     with pytest.raises(ControllerError, match=r'Unable to activate controllers: \[ middle \]'):
@@ -266,7 +266,7 @@ def test_whoever_was_active_before_goes_on_unchained_when_its_commander_fails(be
 
 
 @BOTH
-def test_when_the_one_that_follows_fails_nobody_is_left_without_it(bench, strictness):
+def test_if_a_following_controller_fails_its_preceding_ones_are_deactivated(bench, strictness):
     bench.switch('tail reader')
     bench.controllers['tail'].faults['activate'] = ControllerError('too hot')
     with pytest.raises(ControllerError, match=r'to activate controllers: \[ tail middle \]'):
@@ -283,7 +283,7 @@ def test_a_chain_of_which_one_fails(bench, strictness, left):
     assert (bench.active, bench.chained) == (left, set())
 
 
-def test_hardware_that_fails_to_change_its_mode_leaves_nobody_without_whom_it_needs(bench):
+def test_hardware_that_fails_to_change_its_mode_leaves_no_incomplete_chain(bench):
     bench.switch('tail reader')
     bench.hardware.faults['perform'] = OSError('stuck')
     with pytest.raises(ControllerError, match='Error while performing mode switch. .*stuck'):
@@ -312,7 +312,7 @@ def test_a_member_that_fails_takes_its_chain_down_and_nothing_else(bench, failin
     ]
 
 
-def test_a_reader_that_fails_goes_alone(bench):
+def test_a_reader_that_fails_is_deactivated_alone(bench):
     bench.switch('middle tail reader')
     bench.controllers['reader'].faults['update'] = ControllerError('too hot')
     bench.manager.tick(0)
@@ -416,7 +416,7 @@ def test_a_fallback_that_cannot_start_is_logged_and_the_actuators_are_safe(do, w
     assert why in last
 
 
-def test_a_fallback_that_wants_all_takes_all():
+def test_a_fallback_that_requests_all_interfaces_gets_all():
     bench = Bench()
     greedy, risky = FakeController('greedy'), FakeController('risky')
     greedy.requests = ALL_INTERFACES, greedy.requests[1]
@@ -456,7 +456,7 @@ def test_fallbacks_must_be_configured_before_the_activation():
     assert bench.refuses(message, 'side')
 
 
-def test_a_fallback_must_not_count_on_what_goes_in_the_same_request():
+def test_a_fallback_must_not_need_what_the_same_request_deactivates():
     bench = Bench(fallbacks={'risky': ['other']})
     bench.manager.load(FakeController('risky'), 'a/Type', ['other'])
     bench.manager.configure('risky', None)
@@ -469,7 +469,7 @@ def test_a_fallback_must_not_count_on_what_goes_in_the_same_request():
 # --- what is offered -----------------------------------------------------------------------------
 
 
-def test_offers_are_listed_once_configured_and_available_while_active(bench):
+def test_exported_interfaces_are_listed_once_configured_and_available_while_active(bench):
     def offered(name):
         interfaces = bench.manager.snapshot.commands + bench.manager.snapshot.states
         return next((i.is_available, i.is_claimed) for i in interfaces if i.name == name)
@@ -487,7 +487,7 @@ def test_offers_are_listed_once_configured_and_available_while_active(bench):
     assert bench['middle'].chain_connections == ()
 
 
-def test_whoever_wants_all_gets_what_is_there_but_not_its_own(bench):
+def test_a_request_for_all_interfaces_leaves_out_its_own(bench):
     greedy = FakeChainable('greedy', exports=['own'])
     greedy.requests = ALL_INTERFACES, ALL_INTERFACES
     bench.manager.load(greedy, 'a/Type')
@@ -499,7 +499,7 @@ def test_whoever_wants_all_gets_what_is_there_but_not_its_own(bench):
         assert 'greedy/own' not in bench['greedy'].required_states
 
 
-def test_whoever_wants_all_can_be_commanded_from_the_first():
+def test_a_controller_of_all_interfaces_can_be_commanded_from_the_first():
     bench = Bench()
     greedy = FakeChainable('greedy')
     greedy.requests = ALL_INTERFACES, greedy.requests[1]
@@ -510,7 +510,7 @@ def test_whoever_wants_all_can_be_commanded_from_the_first():
     assert (bench.active, bench.chained) == ({'pilot', 'greedy'}, {'greedy'})
 
 
-def test_a_mode_that_a_controller_keeps_no_account_of_is_kept_for_it(bench):
+def test_the_mode_is_kept_for_a_controller_that_does_not(bench):
     bench.controllers['tail'].set_chained_mode = lambda is_chained: None
     bench.switch('tail middle')
     assert bench.chained == {'tail'}
@@ -525,25 +525,25 @@ def test_a_mode_that_a_controller_keeps_no_account_of_is_kept_for_it(bench):
         ({'exports': ['s', 's']}, 'The exported state interfaces of the controller .* not unique'),
     ],
 )
-def test_offers_must_be_unique(bench, offers, message):
+def test_exported_interfaces_must_be_unique(bench, offers, message):
     bench.manager.load(FakeChainable('new', **offers), 'a/Type')
     with pytest.raises(ControllerError, match=message):
         bench.manager.configure('new', None)
 
 
-def test_offers_bear_the_name_of_the_controller_and_nobody_elses(bench):
-    stranger = FakeChainable('stranger')
-    stranger.offers = FakeChainable('tail').offers
-    bench.manager.load(stranger, 'a/Type')
-    message = "The reference interface 'tail/x' of the controller 'stranger' must be named 's"
+def test_exported_interfaces_begin_with_the_name_of_their_controller(bench):
+    unnamed = FakeChainable('unnamed')
+    unnamed.offers = FakeChainable('tail').offers
+    bench.manager.load(unnamed, 'a/Type')
+    message = "The reference interface 'tail/x' of the controller 'unnamed' must be named 'u"
     with pytest.raises(ControllerError, match=message):
-        bench.manager.configure('stranger', None)
+        bench.manager.configure('unnamed', None)
     bench.manager.load(FakeChainable('a', references=['velocity']), 'a/Type')
     with pytest.raises(ControllerError, match="'a/velocity' of the controller 'a' is there alr"):
         bench.manager.configure('a', None)
 
 
-def test_a_circle_is_refused_when_it_is_closed(bench):
+def test_a_circular_chain_is_refused(bench):
     bench.manager.unload('tail')
     bench.manager.load(FakeChainable('tail', ['middle/x']), 'a/Type')
     message = (
@@ -556,7 +556,7 @@ def test_a_circle_is_refused_when_it_is_closed(bench):
     assert bench['middle'].state is LifecycleState.INACTIVE
 
 
-def test_what_a_slower_commander_wrote_holds(bench):
+def test_the_command_of_a_slower_controller_stays_in_force(bench):
     bench.manager.load(FakeController('slow', ['tail/x'], update_rate=50), 'a/Type')
     bench.manager.configure('slow', None)
     bench.switch('slow tail side')

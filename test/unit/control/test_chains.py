@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Chains: the orders are orders whatever is linked, and circles are found."""
+"""Chains: orders of updates and activations for any links, and circular chains."""
 
 from hypothesis import given, settings, strategies as st
 import pytest
@@ -35,7 +35,7 @@ links = st.dictionaries(
 
 @given(links)
 @settings(deadline=None, derandomize=True, max_examples=200)
-def test_orders_hold_for_every_link_or_there_is_a_circle(drawn):
+def test_orders_hold_for_every_link_or_the_chain_is_circular(drawn):
     texts = {name: ' '.join(f'{mark}{to}' for to, mark in drawn[name]) for name in sorted(drawn)}
     try:
         found = chains(**texts)
@@ -58,7 +58,7 @@ def test_orders_hold_for_every_link_or_there_is_a_circle(drawn):
             assert following in found.affected_by([name])
 
 
-def test_unlinked_ones_come_by_the_alphabet():
+def test_unlinked_controllers_are_in_alphabetical_order():
     assert chains(c='', a='', b='').update_order == ('a', 'b', 'c')
 
 
@@ -70,7 +70,7 @@ def test_a_chain_is_updated_from_its_head_and_activated_from_its_tail():
     assert found.commands('tail') == {}
 
 
-def test_whoever_reads_a_state_is_updated_after_it():
+def test_a_reader_is_updated_after_the_exporter():
     found = chains(a='^z', z='')
     assert found.update_order == found.activation_order == ('z', 'a')
 
@@ -81,7 +81,7 @@ def test_feedback_is_read_one_tick_later():
     assert found.update_order == ('outer', 'middle', 'inner')
 
 
-def test_whole_goes_along_commands_and_to_the_readers_but_not_to_what_is_only_read():
+def test_a_controller_affects_those_it_commands_and_its_readers_but_not_those_it_reads():
     found = chains(a='c', b='c', c='', estimator='', reader='^estimator', other='')
     assert found.affected_by(['a']) == {'a', 'b', 'c'}
     assert found.affected_by(['estimator']) == {'estimator', 'reader'}
@@ -90,7 +90,7 @@ def test_whole_goes_along_commands_and_to_the_readers_but_not_to_what_is_only_re
 
 
 @pytest.mark.parametrize(
-    ('circle', 'said'),
+    ('circle', 'message'),
     [
         ({'a': 'a'}, 'a -> a'),
         ({'a': 'b', 'b': 'a'}, '(a -> b -> a|b -> a -> b)'),
@@ -98,12 +98,12 @@ def test_whole_goes_along_commands_and_to_the_readers_but_not_to_what_is_only_re
         ({'a': 'b', 'b': '^c', 'c': 'a'}, '-> (a|b|c) ->'),
     ],
 )
-def test_circles(circle, said):
-    with pytest.raises(ControllerError, match=f'circular chain of controllers: .*{said}'):
+def test_circular_chains(circle, message):
+    with pytest.raises(ControllerError, match=f'circular chain of controllers: .*{message}'):
         chains(**circle)
 
 
-def test_what_nobody_here_offers_makes_no_link():
+def test_interfaces_that_no_controller_exports_make_no_link():
     found = Chains(
         {'a': ChainInterfaces(commands=('wheel/velocity',), states=('wheel/position',))}
     )

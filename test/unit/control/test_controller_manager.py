@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The controller manager: its tick, the lifecycle of controllers, and what happens at a fault."""
+"""The controller manager: its tick, the lifecycle of controllers, and failures."""
 
 import contextlib
 import math
@@ -76,7 +76,7 @@ def test_the_first_period_is_the_nominal_one_and_then_the_true_one():
     assert controller.updates == [(20 * MS, PERIOD), (30 * MS, PERIOD), (33 * MS, 3 * MS)]
 
 
-def test_a_slower_controller_is_updated_at_every_so_manieth_tick():
+def test_a_slower_controller_is_updated_at_every_nth_tick():
     manager = make_manager()
     controller = start(manager, FakeController(update_rate=25))
     run(manager, 9, begin=70 * MS)
@@ -99,12 +99,12 @@ def test_rates_are_those_that_divide_the_managers(rate, runs_at, warning):
     log = FakeLog()
     manager = loaded(FakeController(update_rate=rate), log=log)
     assert manager.snapshot.controllers[0].update_rate == runs_at
-    said = ' '.join(log.texts(Severity.WARN))
-    assert re.search(warning, said) if warning else said == ''
+    warnings = ' '.join(log.texts(Severity.WARN))
+    assert re.search(warning, warnings) if warning else warnings == ''
 
 
 @pytest.mark.parametrize('rate', [0, -5])
-def test_a_rate_that_is_none_is_refused(rate):
+def test_a_rate_that_is_not_positive_is_refused(rate):
     with pytest.raises(ControllerError, match=f"'fake' must be above 0 Hz, found {rate}"):
         loaded(FakeController(update_rate=rate))
 
@@ -216,7 +216,7 @@ def test_a_configure_that_fails_leaves_it_unconfigured(error):
 
 
 def test_a_long_configure_on_another_thread_stops_no_tick():
-    """The worker is inside `configure` while the owner ticks; events, not time, order the two."""
+    """A worker is inside `configure` while the manager ticks; events, not time, order the two."""
     manager = make_manager(FakeHardware(['j']))
     driving = start(manager, FakeController('driving', ['j/velocity']))
     slow, entered, leave = FakeController('slow'), threading.Event(), threading.Event()
@@ -340,7 +340,7 @@ def test_a_controller_that_failed_can_be_activated_again():
 
 
 @pytest.mark.parametrize('action', ['read', 'write'])
-def test_when_hardware_fails_its_controllers_go_and_the_others_stay(action):
+def test_when_hardware_fails_only_its_controllers_are_deactivated(action):
     log = FakeLog()
     bad, good = FakeHardware(['a'], 'bad'), FakeHardware(['b'], 'good')
     manager = make_manager(bad, good, log=log)
@@ -364,7 +364,7 @@ def test_when_hardware_fails_its_controllers_go_and_the_others_stay(action):
     ) in log.texts(Severity.ERROR)
 
 
-def test_hardware_that_fails_unused_takes_no_controller_along():
+def test_unused_hardware_that_fails_affects_no_controller():
     log = FakeLog()
     bad = FakeHardware(['a'], 'bad')
     manager = make_manager(bad, FakeHardware(['b'], 'good'), log=log)
@@ -375,7 +375,7 @@ def test_hardware_that_fails_unused_takes_no_controller_along():
     assert not any('Deactivating' in text for text in log.texts(Severity.ERROR))
 
 
-def test_a_component_that_is_set_down_takes_its_controllers_along():
+def test_the_controllers_of_a_component_that_is_set_down_are_deactivated():
     hardware = FakeHardware(['a'])
     manager = make_manager(hardware)
     start(manager, FakeController('drives', ['a/velocity']))
@@ -402,21 +402,21 @@ def test_shut_down_leaves_the_actuators_at_rest_and_the_hardware_closed():
     assert states_of(manager) == {'fake': 'finalized'}
 
 
-def test_every_transition_is_told_as_it_begins_and_as_it_ends():
-    told = []
+def test_every_transition_is_reported_at_its_start_and_its_end():
+    calls = []
     manager = make_manager(FakeHardware(['j']))
     controller = FakeController(commands=['j/velocity'])
     manager.load(
         controller,
         'a/Type',
-        on_transition=lambda start, goal, reached: told.append(
+        on_transition=lambda start, goal, reached: calls.append(
             f'{start.label} > {goal.label}: {reached.label if reached else "..."}'
         ),
     )
 
     def new():
-        lines = told.copy()
-        told.clear()
+        lines = calls.copy()
+        calls.clear()
         return lines
 
     configuring = manager.begin_configure('fake')
@@ -462,7 +462,7 @@ def test_every_transition_is_told_as_it_begins_and_as_it_ends():
 
 
 @pytest.mark.parametrize('doing', ['update', 'activate', 'deactivate'])
-def test_what_a_stranger_raises_is_one_line_and_where_it_was_raised_at_debug(doing):
+def test_an_exception_of_a_plugin_is_one_line_and_its_traceback_at_debug(doing):
     log = FakeLog()
     manager = make_manager(FakeHardware(['j']), log=log)
     controller = FakeController(commands=['j/velocity'])
@@ -483,7 +483,7 @@ def test_what_a_stranger_raises_is_one_line_and_where_it_was_raised_at_debug(doi
 # --- reset ---------------------------------------------------------------------------------------
 
 
-def test_after_a_reset_time_begins_anew_and_controllers_stay():
+def test_after_a_reset_time_starts_over_and_controllers_stay():
     manager = make_manager()
     active = start(manager, FakeController('active'))
     inactive = FakeController('inactive')
@@ -535,7 +535,7 @@ def test_hardware_with_a_rate_of_its_own_keeps_it_when_the_clock_is_set(instant)
     assert hardware.count('reset') == 0
 
 
-def test_the_hardware_is_shut_down_whatever_watches_the_controllers():
+def test_the_hardware_is_shut_down_even_if_a_transition_callback_raises():
     manager = make_manager(hardware := FakeHardware(['j']))
 
     def watch(*_):
@@ -565,7 +565,7 @@ def seed_robot(hardware, log=None):
     return manager, drive, collect(broadcaster.outputs()[0])
 
 
-def test_a_wheel_that_reads_nan_ends_the_drive_at_rest_and_not_the_broadcaster():
+def test_a_wheel_state_of_nan_ends_the_drive_at_rest_and_not_the_broadcaster():
     log, hardware = FakeLog(), FakeHardware()
     manager, drive, joint_states = seed_robot(hardware, log)
     drive.inputs()[0].put(TwistSample(0, 0.5, 0.0))
@@ -580,7 +580,7 @@ def test_a_wheel_that_reads_nan_ends_the_drive_at_rest_and_not_the_broadcaster()
     assert f'{WHEELS[3]}/position is nan' in log.texts(Severity.ERROR)[0]
 
 
-def test_an_inactive_drive_hears_nothing():
+def test_an_inactive_drive_takes_no_commands():
     manager, drive, _ = seed_robot(FakeHardware())
     manager.switch([], ['drive'], Strictness.STRICT, 0)
     assert not drive.inputs()[0].put(TwistSample(0, 0.5, 0.0))
@@ -592,7 +592,7 @@ def test_an_inactive_drive_hears_nothing():
 # --- snapshots -----------------------------------------------------------------------------------
 
 
-def test_the_snapshot_says_what_the_services_ask_for():
+def test_the_snapshot_has_what_the_services_return():
     manager, _, _ = seed_robot(FakeHardware())
     drive, broadcaster = manager.snapshot.controllers
     commands = tuple(f'{wheel}/velocity' for wheel in WHEELS)

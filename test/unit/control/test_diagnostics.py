@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a manager says of its health, by the rules of controller_manager and diagnostic_updater."""
+"""Diagnostics of a manager, by the rules of controller_manager and diagnostic_updater."""
 
 import itertools
 import math
@@ -39,7 +39,7 @@ def run(manager, count=4, begin=0):
 
 
 def fill(statistic, durations, period=PERIOD):
-    """Have a cycle take ``durations``, µs, in turn."""
+    """Add cycles that take ``durations``, µs."""
     statistic.reset()
     for duration in durations:
         statistic.add(round(duration * US), period)
@@ -101,7 +101,7 @@ def test_an_inactive_controller_has_a_state_and_no_times():
     assert [key for key, _ in report.values if key.startswith('a.')] == ['a.state']
 
 
-def test_no_controller_is_worth_a_warning():
+def test_without_controllers_there_is_a_warning():
     report = reports_on(running(FakeHardware(['j'])))[CONTROLLERS]
     assert (report.level, report.message) == (Level.WARN, 'No controllers are currently loaded')
     assert report.values == []
@@ -164,7 +164,7 @@ def test_problems_of_both_kinds_are_joined():
     )
 
 
-def test_what_was_not_measured_yet_is_no_problem():
+def test_a_missing_measurement_is_not_a_problem():
     manager = running(FakeHardware(['j']), controllers=[FakeController('a', update_rate=50)])
     report = reports_on(manager)[CONTROLLERS]
     assert report.level is Level.OK
@@ -248,7 +248,7 @@ def test_no_hardware_is_there():
     ('period', 'level', 'mean'),
     [(PERIOD, Level.OK, 100.0), (10_600_000, Level.WARN, 94.339623), (20 * MS, Level.ERROR, 50.0)],
 )
-def test_a_manager_that_runs_at_another_rate_says_so(period, level, mean):
+def test_a_manager_at_another_rate_is_reported(period, level, mean):
     manager = running(FakeHardware(['j']))
     for k in range(4):
         manager.tick(k * period)
@@ -278,7 +278,7 @@ def test_an_uneven_rate_is_bad_though_its_mean_is_good():
         (True, Level.ERROR, 'Resource Manager is not initialized properly!'),
     ],
 )
-def test_a_manager_without_hardware_says_what_it_waits_for(has_description, level, message):
+def test_a_manager_without_hardware_reports_what_it_waits_for(has_description, level, message):
     found = reports(None, Diagnostics(), 100, has_description=has_description)
     assert (found[MANAGER].level, found[MANAGER].message) == (level, message)
     assert found[MANAGER].values[0] == ('update_rate', '100')

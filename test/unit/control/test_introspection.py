@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers inside a manager that may be watched: their names, and that they are live."""
+"""The values of a manager for introspection: their names, and that they are live."""
 
 import math
 
@@ -22,7 +22,7 @@ NUMBERS = ('max', 'min', 'average', 'standard_deviation', 'sample_count', 'curre
 CYCLE = [f'{kind}/{each}' for kind in ('execution_time', 'periodicity') for each in NUMBERS]
 
 
-def test_interfaces_of_hardware_are_there_whether_available_or_not():
+def test_interfaces_of_hardware_are_listed_whether_available_or_not():
     hardware = FakeHardware(['i', 'j'])
     manager = make_manager(hardware)
     manager.set_component_state('hardware', LifecycleState.UNCONFIGURED, 0)
@@ -40,7 +40,7 @@ def test_interfaces_of_hardware_are_there_whether_available_or_not():
     assert registry.read()[:5] == [0.0, 4.0, 0.0, 0.0, 5.0]
 
 
-def test_what_a_controller_offers_is_there_once_it_is_configured():
+def test_exported_interfaces_are_listed_once_configured():
     manager = make_manager(FakeHardware(['j']))
     plain = interfaces_of(manager).names
     controller = FakeChainable('chained', references=['x'], exports=['y'])
@@ -65,7 +65,7 @@ def test_every_type_is_a_number(data_type, value):
 
 
 @pytest.mark.parametrize('value', [None, 'open', 10**400])
-def test_what_a_stranger_writes_need_not_be_a_number(value):
+def test_a_plugin_may_write_what_is_not_a_number(value):
     hardware = FakeHardware([])
     hardware.positions = {'gate': StateInterface('gate', 'open')}
     registry = interfaces_of(make_manager(hardware))
@@ -73,7 +73,7 @@ def test_what_a_stranger_writes_need_not_be_a_number(value):
     assert registry.read() == pytest.approx([math.nan], nan_ok=True)
 
 
-def test_statistics_have_the_names_of_who_runs():
+def test_statistics_have_the_names_of_components_and_controllers():
     sensor = FakeHardware([], name='imu', type=HardwareType.SENSOR)
     manager = make_manager(FakeHardware(['j'], name='base'), sensor)
     start(manager, FakeController('driver'))

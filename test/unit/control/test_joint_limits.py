@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Limits of joints: whose they are, and that no command gets past them."""
+"""Limits of joints: where they come from, and that no command exceeds them."""
 
 from itertools import pairwise
 import math
@@ -110,7 +110,7 @@ def test_without_a_robot_the_parameters_hold():
     assert limits_of(info.joints[0], None) == JointLimits()
 
 
-def test_limits_that_nothing_can_keep_are_refused():
+def test_limits_that_exclude_each_other_are_refused():
     message = r"joint 'j': no position is within all its limits; .* leave from 3 to 2"
     with pytest.raises(HardwareError, match=message):
         read_limits(command('position', 3, 5))
@@ -153,7 +153,7 @@ def all_limited(value, limits, state, before, dt):
 
 @LAW
 @given(ANY, LIMITS, STATES, optional(FINITE), STEP)
-def test_nothing_gets_past_the_bounds(value, limits, state, before, dt):
+def test_no_command_exceeds_the_limits(value, limits, state, before, dt):
     limited = all_limited(value, limits, state, before, dt)
     assert not any(map(math.isnan, limited.values()))
     if limits.position is not None:
@@ -177,7 +177,7 @@ def test_what_is_allowed_passes_unchanged(value, limits, state, before, dt):
 
 @LAW
 @given(ANY, ANY, LIMITS, STATES, optional(FINITE), STEP)
-def test_more_asked_is_never_less_given(one, other, limits, state, before, dt):
+def test_a_greater_command_never_gives_less(one, other, limits, state, before, dt):
     less = all_limited(min(one, other), limits, state, before, dt)
     more = all_limited(max(one, other), limits, state, before, dt)
     for name in ('position', 'velocity', 'effort'):
@@ -204,7 +204,7 @@ def test_a_position_never_runs_faster_than_the_velocity_limit(values, start_at, 
     optional(st.floats(0.0, 100.0)),
     st.floats(0.0001, 1.0),
 )
-def test_a_joint_told_velocities_never_leaves_its_position_limits(
+def test_a_joint_under_velocity_commands_never_leaves_its_position_limits(
     values, position, speed, acceleration, dt
 ):
     limits = JointLimits(position=(-1.0, 1.0), velocity=speed, acceleration=acceleration)
@@ -301,14 +301,14 @@ def limiter_of(limits, *names):
     return JointLimiter('j', limits, cells | others, states, log), cells, states, log
 
 
-def test_a_command_that_is_none_stays_none():
+def test_a_command_that_is_not_set_stays_so():
     limiter, cells, _, log = limiter_of(ARM, 'position', 'velocity')
     limiter.enforce(0.1)
     assert all(math.isnan(cell.value) for cell in cells.values())
     assert log.lines == []
 
 
-def test_what_was_limited_is_told_with_joint_and_limits():
+def test_a_limited_command_is_logged_with_joint_and_limits():
     limiter, cells, _, log = limiter_of(ARM, 'velocity')
     cells['velocity'].value = 50.0
     limiter.enforce(0.1)
@@ -321,7 +321,7 @@ def test_what_was_limited_is_told_with_joint_and_limits():
     ]
 
 
-def test_a_position_begins_where_the_joint_is_and_goes_on_from_the_command():
+def test_a_position_starts_at_the_joint_and_goes_on_from_the_command():
     limiter, cells, states, _ = limiter_of(ARM, 'position')
     states['position'].value = 1.0
     for expected in (0.7, 0.4, 0.1):
@@ -337,7 +337,7 @@ def test_a_position_begins_where_the_joint_is_and_goes_on_from_the_command():
         assert cells['position'].value == pytest.approx(0.7), 'begins where the joint is, again'
 
 
-def test_only_numbers_with_a_point_are_bounded():
+def test_only_floating_point_commands_are_limited():
     steps = CommandInterface('j', 'velocity', 9, data_type='int8')
     limiter = JointLimiter('j', ARM, {steps.name: steps}, {}, FakeLog())
     limiter.enforce(0.1)
@@ -395,7 +395,7 @@ def test_enforced_limits_hold_from_controller_to_joint(value):
     assert manager.snapshot.active_controllers == ('fake',)
 
 
-def test_each_limiter_is_told_at_the_start():
+def test_each_limiter_is_logged_at_the_start():
     manager = rig(command('velocity'), enforce=True)
     assert (
         "Using JointLimiter for joint 'j' in hardware 'Rig' : position [-1, 2], velocity 3, "
@@ -413,8 +413,8 @@ def test_without_the_parameter_a_finite_command_passes():
 @pytest.mark.parametrize('enforce', [True, False])
 @pytest.mark.parametrize('bad', [math.inf, -math.inf, None, 'fast', 1j, 10**400])
 @pytest.mark.parametrize(('name', 'stands'), [('velocity', 0.0), ('position', math.nan)])
-def test_what_is_no_finite_command_stops_its_joint_and_nothing_else(bad, enforce, name, stands):
-    """Even without limits no component is given one; it would be brought down, and the robot."""
+def test_a_command_that_is_not_finite_stops_its_joint_only(bad, enforce, name, stands):
+    """Even without limits no component gets one, which would bring it down, and the robot."""
     manager = rig(command(name), enforce, limit='', kind='continuous')
     states = list(drive(manager, f'j/{name}', bad, ticks=3))
     (cell,) = manager.resources.available_commands().values()
@@ -437,7 +437,7 @@ def test_a_component_that_is_down_is_left_alone():
     assert hardware.commands['j'].value == math.inf
 
 
-def test_time_that_goes_back_begins_anew():
+def test_a_reset_forgets_previous_commands():
     manager = rig(command('position'), enforce=True)
     *_, last = drive(manager, 'j/position', 2.0, ticks=11)
     assert last['j/position'] == pytest.approx(0.3)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The owner's loop: what happens in a turn, in which order, and at exactly which time."""
+"""The control loop: what happens in a cycle, in which order, and at exactly which time."""
 
 from itertools import pairwise
 import random
@@ -16,7 +16,7 @@ from amr_description.errors import SimulationError
 
 
 class Outside:
-    """All four ports of the loop, writing one diary of (what, when)."""
+    """All four collaborators of the loop, recording (event, time)."""
 
     def __init__(self):
         self.diary = []
@@ -60,11 +60,11 @@ class Outside:
         self.diary.append(('publish', time))
 
     def times(self, what):
-        return [time for said, time in self.diary if said == what]
+        return [time for event, time in self.diary if event == what]
 
 
 class Ticking(ControllerManager):
-    """Writes its ticks and resets down."""
+    """Records its ticks and resets."""
 
     def __init__(self, rate, diary, name='tick'):
         self.diary, self.name = diary, name
@@ -163,7 +163,7 @@ def test_a_manager_that_leaves_is_not_ticked_again(outside, loop):
 # --- the order within a turn ---------------------------------------------------------------------
 
 
-def test_a_turn(outside, loop):
+def test_a_cycle(outside, loop):
     outside.queue.append(lambda: outside.diary.append(('command', loop.time)))
     loop.run_once()
     assert outside.diary == [
@@ -176,22 +176,22 @@ def test_a_turn(outside, loop):
     ]
 
 
-def test_what_controllers_say_is_published_in_the_same_turn_behind_the_clock(outside):
+def test_samples_are_published_in_the_same_cycle_after_the_clock(outside):
     loop = Loop(outside, outside, outside, outside, clock_period=10 * MS)
-    manager, controller, said = make_manager(), FakeController(), output()
-    controller.update = lambda time, period: said.send(('said', time))
-    said.sink = outside.diary.append
+    manager, controller, port = make_manager(), FakeController(), output()
+    controller.update = lambda time, period: port.send(('sent', time))
+    port.sink = outside.diary.append
     start(manager, controller)
     loop.managers.append(manager)
     loop.run_once()
-    assert [what for what, _ in outside.diary[:3]] == ['clocks', 'said', 'publish']
+    assert [what for what, _ in outside.diary[:3]] == ['clocks', 'sent', 'publish']
 
 
-def test_an_output_without_a_node_drops_what_is_said():
-    said = output()
-    said.send(1)
-    sent = collect(said)
-    said.send(2)
+def test_an_output_without_a_node_drops_samples():
+    port = output()
+    port.send(1)
+    sent = collect(port)
+    port.send(2)
     assert sent == [2]
 
 
@@ -201,7 +201,7 @@ def test_all_managers_of_an_instant_tick_before_anything_is_published(outside, l
     assert [what for what, _ in outside.diary[:4]] == ['clocks', 'tick', 'other', 'publish']
 
 
-def test_commands_run_oldest_first_and_a_switch_counts_in_the_same_turn(outside):
+def test_calls_run_oldest_first_and_a_switch_counts_in_the_same_cycle(outside):
     loop = Loop(outside, outside, outside, outside, clock_period=10 * MS)
     manager, controller = make_manager(), FakeController()
     outside.queue += [lambda: loop.managers.append(manager), lambda: start(manager, controller)]
@@ -212,7 +212,7 @@ def test_commands_run_oldest_first_and_a_switch_counts_in_the_same_turn(outside)
 # --- run, stop -----------------------------------------------------------------------------------
 
 
-def test_run_begins_the_pace_and_turns_until_it_is_stopped(outside, loop):
+def test_run_resumes_the_pacer_and_runs_until_it_is_stopped(outside, loop):
     tick = Ticking.tick
 
     def stop_at_30(manager, time):
@@ -227,7 +227,7 @@ def test_run_begins_the_pace_and_turns_until_it_is_stopped(outside, loop):
     assert loop.time == 40 * MS
 
 
-def test_stop_before_the_first_turn(outside, loop):
+def test_stop_before_the_first_cycle(outside, loop):
     outside.queue.append(loop.stop)
     loop.run()
     assert outside.diary == [('resume', 0)]
@@ -241,15 +241,15 @@ def test_stop_while_paused(outside, loop):
     assert outside.times('wait') == [0, 0]
 
 
-def test_commands_behind_a_stop_are_still_made(outside, loop):
-    """Somebody awaits the answer."""
+def test_calls_after_a_stop_are_still_made(outside, loop):
+    """Somebody waits for the answer."""
     made = []
     outside.queue += [loop.stop, lambda: made.append(1)]
     loop.run()
     assert made == [1]
 
 
-def test_a_command_that_arrives_while_pacing_is_made_at_once_and_the_pace_goes_on(outside, loop):
+def test_a_call_that_is_queued_while_pacing_runs_at_once_and_the_pace_goes_on(outside, loop):
     outside.while_pacing = [[lambda: outside.diary.append(('command', loop.time))]]
     turn(loop, 1)
     at = 10 * MS
@@ -267,7 +267,7 @@ def test_a_stop_and_a_pause_end_the_pacing(outside, loop, request_):
 # --- pause, resume -------------------------------------------------------------------------------
 
 
-def test_while_paused_time_stands_still_and_the_clock_says_so(outside, loop):
+def test_while_paused_time_stands_still_and_is_published(outside, loop):
     turn(loop, 3)
     outside.queue.append(loop.pause)
     outside.while_paused = [[], [], []]
@@ -278,11 +278,11 @@ def test_while_paused_time_stands_still_and_the_clock_says_so(outside, loop):
     assert outside.diary == [('clocks', at), ('publish', at), ('wait', at)] * 3
 
 
-def test_a_command_that_arrives_while_paused_is_made_at_once(outside, loop):
+def test_a_call_that_is_queued_while_paused_runs_at_once(outside, loop):
     outside.queue.append(loop.pause)
     outside.while_paused = [[lambda: outside.diary.append(('command', loop.time))], []]
     turn(loop, 2)
-    what = [said for said, _ in outside.diary]
+    what = [event for event, _ in outside.diary]
     assert what[what.index('wait') + 1] == 'command'
     assert outside.times('tick') == outside.times('advance') == []
 
@@ -295,7 +295,7 @@ def test_a_switch_works_while_paused_and_counts_from_the_first_tick(outside, loo
     assert controller.updates == [(0, 10 * MS), (10 * MS, 10 * MS)]
 
 
-def test_after_resume_nothing_is_lost_nothing_comes_twice_and_the_pace_begins_anew(outside, loop):
+def test_after_resume_no_tick_is_lost_or_repeated_and_the_pacer_resumes(outside, loop):
     turn(loop, 3)
     outside.queue.append(loop.pause)
     outside.while_paused = [[], [loop.resume]]
@@ -325,7 +325,7 @@ def test_pause_and_resume_in_one_go_lose_nothing(outside, loop):
 
 
 def paused(outside, loop, *while_paused):
-    """Have the loop paused at its beginning, and ``while_paused`` come, one a wait."""
+    """Return a loop that starts paused, and gets one of ``while_paused`` at each wait."""
     outside.queue.append(loop.pause)
     outside.while_paused = [[command] for command in while_paused]
 
@@ -340,7 +340,7 @@ def test_a_step_is_as_long_as_asked_ticks_what_is_due_and_is_not_paced(outside, 
     assert outside.times('tick') == list(range(0, period * MS, 10 * MS))
     assert outside.times('pace') == []
     assert not loop.is_running
-    assert outside.diary[-1] == ('publish', period * MS)  # heard before the end is told
+    assert outside.diary[-1] == ('publish', period * MS)  # published before the end is reported
 
 
 @pytest.mark.parametrize('seed', range(10))
@@ -376,7 +376,7 @@ def test_what_arrives_between_two_steps_counts_in_the_second(outside, loop):
 
 
 @pytest.mark.parametrize('request_', ['stop', 'pause', 'resume', 'reset', 'set_clock'])
-def test_whatever_comes_between_ends_a_step_and_tells_what_is_missing(outside, loop, request_):
+def test_an_interrupted_step_ends_with_the_missing_time(outside, loop, request_):
     missing = []
     paused(outside, loop, lambda: loop.step(50 * MS, missing.append))
     turn(loop, 3)
@@ -408,7 +408,7 @@ def test_a_step_of_nothing_is_done_at_once(loop):
 # --- reset ---------------------------------------------------------------------------------------
 
 
-def test_after_time_went_back_managers_begin_anew_at_once(outside, loop):
+def test_after_a_reset_managers_start_over_at_once(outside, loop):
     controller = start(loop.managers[0], FakeController())
     turn(loop, 5)
 
@@ -425,7 +425,7 @@ def test_after_time_went_back_managers_begin_anew_at_once(outside, loop):
     assert {period for _, period in controller.updates} == {10 * MS}
 
 
-def test_a_clock_that_was_set_is_told_in_the_same_order(outside, loop):
+def test_a_jump_of_the_clock_is_passed_on_in_the_same_order(outside, loop):
     turn(loop, 2)
     outside.queue.append(lambda: (setattr(outside, 'time', 50_000 * MS), loop.set_clock()))
     outside.diary.clear()

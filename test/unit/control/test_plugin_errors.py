@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Controllers of strangers, any method of which may raise at any time: the robot goes on."""
+"""Third-party controllers, any method of which may raise at any time: the robot goes on."""
 
 import contextlib
 import random
@@ -38,7 +38,7 @@ PERIOD = 10 * MS
 
 
 def raising(name):
-    """The method of that name, which raises while the controller's ``faults`` hold it."""
+    """Return the method of that name, which raises while it is in ``faults``."""
 
     def method(self, *arguments):
         if name in self.faults:
@@ -49,7 +49,7 @@ def raising(name):
 
 
 class Tame(Controller):
-    """Claims what it is told to; offers one reference, and hears one topic."""
+    """Claims given interfaces, exports one reference, and subscribes to one topic."""
 
     parameters_type = object
     is_chainable = True
@@ -57,7 +57,7 @@ class Tame(Controller):
     def __init__(self, name, command):
         super().__init__(ControllerContext(name, FakeLog()))
         self.faults = set()
-        self.input = Input(Port('~/heard', 'std_msgs/msg/Empty', 'nowhere:nothing'))
+        self.input = Input(Port('~/input', 'std_msgs/msg/Empty', 'nowhere:nothing'))
         self._request = InterfaceRequest.individual([command])
         self._reference = CommandInterface(name, 'x')
 
@@ -111,7 +111,7 @@ class Bench:
         self.manager.tick(self.time)
 
     def check(self):
-        """Only who is active has claims, offers references and hears."""
+        """Only active controllers have claims, available references and open inputs."""
         claims, available = self.manager.resources.claims, self.manager.resources
         commands = available.available_commands()
         for loaded in self.manager.loaded:
@@ -126,7 +126,7 @@ class Bench:
 
 
 @pytest.mark.parametrize('seed', range(150))
-def test_nothing_that_a_stranger_raises_stops_the_loop_or_leaves_a_claim(seed):
+def test_no_exception_of_a_plugin_stops_the_loop_or_leaves_a_claim(seed):
     chance = random.Random(seed)
     bench = Bench()
     names = list(bench.controllers)
@@ -172,7 +172,7 @@ def test_a_controller_whose_inputs_raise_is_not_configured():
 
 
 @pytest.mark.parametrize('method', ['command_interfaces', 'state_interfaces', 'inputs'])
-def test_a_fallback_that_answers_no_longer_starts_all_the_same(method):
+def test_a_fallback_that_cannot_be_asked_again_starts_nevertheless(method):
     bench = Bench()
     bench.switch(['drive'])
     bench.controllers['drive'].faults.add('update')
@@ -196,12 +196,12 @@ class UnspeakableError(Exception):
         (ValueError('port \udcff'), r'port \udcff'),
     ],
 )
-def test_an_error_that_cannot_be_written_is_one_all_the_same(error, text):
+def test_an_error_whose_text_cannot_be_formatted_is_logged(error, text):
     log = FakeLog()
     manager = make_manager(FakeHardware(['j']), log=log)
     controller = start(manager, FakeController())
     controller.faults['update'] = error
     manager.tick(0)
     assert manager.snapshot.active_controllers == ()
-    said = '\n'.join(log.texts(Severity.ERROR))
-    assert text in said
+    errors = '\n'.join(log.texts(Severity.ERROR))
+    assert text in errors

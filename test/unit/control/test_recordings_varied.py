@@ -54,7 +54,7 @@ def check_wheels_and_joints(replay, begin=0, end=2**63):
 
 
 @pytest.mark.parametrize('name', TRACES)
-def test_velocity_feedback_tells_the_same_pose(name):
+def test_velocity_feedback_gives_the_same_pose(name):
     replay = Replay(name, position_feedback=False).run()
     check_wheels_and_joints(replay)
     for stamp, x, y, *_ in replay.trace['odom']:
@@ -62,7 +62,7 @@ def test_velocity_feedback_tells_the_same_pose(name):
 
 
 @pytest.mark.parametrize('name', TRACES)
-def test_open_loop_tells_the_pose_one_cycle_before_the_wheels_are_there(name):
+def test_open_loop_gives_the_pose_one_cycle_before_the_wheels(name):
     replay = Replay(name, open_loop=True).run()
     check_wheels_and_joints(replay)
     for stamp, x, y, *_ in replay.trace['odom'][1:]:
@@ -127,7 +127,7 @@ def test_another_controller_that_comes_and_goes_does_not_matter(name):
 
 
 class Upstream(FakeController):
-    """Says in chained mode what the recorded drive was told, at each instant."""
+    """Commands, in chained mode, what the recorded drive was commanded, at each instant."""
 
     def __init__(self, trace):
         references = [f'diff_drive/{axis}/velocity' for axis in ('linear', 'angular')]
@@ -141,7 +141,7 @@ class Upstream(FakeController):
 
 @pytest.mark.parametrize('name', [name for name in TRACES if name != 'limit_jerk'])
 def test_a_chain_drives_as_the_topic_does(name):
-    """What the recorded drive let through, given as references: in the same cycle."""
+    """The recorded limited commands, given as references, act in the same cycle."""
     replay = Replay(name)
     start(replay.manager, Upstream(load_trace(name)), time=replay.time)
     check_wheels_and_joints(replay.run())
@@ -237,8 +237,8 @@ def test_hardware_taken_away_and_given_back(state):
     assert 'diff_drive' not in replay.manager.snapshot.active_controllers
     at = replay.time
     replay.run(until=at + PAUSE)
-    told = [sample for stamp, sample in replay.joint_states.items() if stamp >= at]
-    assert {velocity for sample in told for velocity in sample.velocity} <= {0.0}
+    samples = [sample for stamp, sample in replay.joint_states.items() if stamp >= at]
+    assert {velocity for sample in samples for velocity in sample.velocity} <= {0.0}
     replay.manager.set_component_state('AmrSystem', LifecycleState.ACTIVE, replay.time)
     names = {'diff_drive', 'joint_states'} - set(replay.manager.snapshot.active_controllers)
     replay.manager.switch(sorted(names), [], Strictness.STRICT, replay.time)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Components, their interfaces and the claims on them; what happens when hardware fails."""
+"""Components, their interfaces and the claims on them; failures of hardware."""
 
 from contextlib import suppress
 import math
@@ -94,7 +94,7 @@ def test_a_component_with_one_interface_twice_is_refused():
         bring_up(hardware)
 
 
-def test_an_unknown_component_is_told_with_those_there_are():
+def test_an_unknown_component_is_reported_with_the_known_ones():
     resources = bring_up(FakeHardware(['j'], 'wheels'))
     with pytest.raises(HardwareError, match=r"'arm' does not exist\. Known: wheels"):
         resources.set_state('arm', ACTIVE)
@@ -121,7 +121,7 @@ def test_finalized_is_final():
     assert len(hardware.calls) == 3
 
 
-def test_every_transition_is_told_as_ros2_control_does():
+def test_every_transition_is_logged_as_ros2_control_does():
     resources = bring_up(FakeHardware(['j'], 'AmrSystem'))
     resources.shut_down()
     words = ['configure', 'activate', 'deactivate', 'cleanup', 'shutdown']
@@ -155,7 +155,7 @@ def test_a_component_is_made_by_the_class_of_its_plugin():
     ]
 
 
-def test_async_is_said_to_run_in_the_loop():
+def test_async_is_warned_of():
     resources = bring_up(FakeHardware(['j'], is_async=True))
     (text,) = resources.log.texts(Severity.WARN)
     assert '\'hardware\' has is_async="true": it is read and written in the control loop' in text
@@ -188,7 +188,7 @@ def test_a_transition_that_fails_leaves_it_where_it_was(transition, target, reac
 
 
 def loaded(*components):
-    """A resource manager with these components, unconfigured."""
+    """Return a resource manager with these components, unconfigured."""
     resources = ResourceManager(FakeLog())
     for component in components:
         resources.add(component)
@@ -208,7 +208,7 @@ def test_all_components_become_active_but_those_that_are_named():
     assert "Setting component 'c' to 'unconfigured' state." in texts
 
 
-def test_a_first_state_for_an_unknown_component_is_warned_of():
+def test_an_initial_state_for_an_unknown_component_is_warned_of():
     resources = loaded(FakeHardware(['a'], 'a'), FakeHardware(['b'], 'b'))
     resources.start_components(unconfigured=['a'], inactive=['a', 'wheels'])
     assert states_of(resources) == {'a': UNCONFIGURED, 'b': ACTIVE}
@@ -219,7 +219,7 @@ def test_a_first_state_for_an_unknown_component_is_warned_of():
     ]
 
 
-def test_a_component_that_does_not_get_to_its_first_state_ends_the_start():
+def test_a_component_that_fails_on_its_way_to_its_initial_state_ends_the_start():
     broken = FakeHardware(['a'], 'a')
     broken.faults['activate'] = OSError('no power')
     message = r'Failed to set the initial state of the component : a to active\. .*no power'
@@ -227,7 +227,7 @@ def test_a_component_that_does_not_get_to_its_first_state_ends_the_start():
         loaded(broken).start_components()
 
 
-def test_it_may_be_left_where_it_got_to():
+def test_it_may_be_left_in_the_state_that_it_has_reached():
     broken = FakeHardware(['a'], 'a')
     broken.faults['activate'] = OSError('no power')
     resources = loaded(broken, FakeHardware(['b'], 'b'))
@@ -257,7 +257,7 @@ def test_a_component_that_fails_is_stopped_and_closed_and_the_others_go_on(actio
     assert ('ZeroDivisionError' in text) == isinstance(error, ZeroDivisionError)
 
 
-def test_a_component_that_cannot_even_be_stopped_is_given_up():
+def test_a_component_that_cannot_even_be_stopped_is_brought_down():
     hardware = FakeHardware(['j'])
     resources = bring_up(hardware)
     hardware.faults = dict.fromkeys(('read', 'deactivate', 'cleanup'), OSError('gone'))
@@ -359,7 +359,7 @@ def test_a_sensor_with_commands_is_refused():
         bring_up(FakeHardware(['j'], type=HardwareType.SENSOR))
 
 
-def test_after_time_went_back_a_slow_component_is_due_at_once():
+def test_after_a_reset_a_slow_component_is_due_at_once():
     hardware = FakeHardware(['j'], rw_rate=1)
     down = FakeHardware(['k'], 'down')
     resources = bring_up(hardware, down)
@@ -372,7 +372,7 @@ def test_after_time_went_back_a_slow_component_is_due_at_once():
     assert hardware.count('read') == 2
 
 
-def test_a_component_that_cannot_begin_anew_is_brought_down():
+def test_a_component_that_cannot_be_reset_is_brought_down():
     hardware = FakeHardware(['j'])
     resources = bring_up(hardware)
     hardware.faults['reset'] = OSError('stuck')
@@ -398,9 +398,9 @@ class Recorded(FakeHardware):
         super().__init__(['j'], name)
         self.life = []
 
-    def meet(self, method, *arguments):
+    def call(self, method, *arguments):
         self.life.append((method, method in self.faults))
-        super().meet(method, *arguments)
+        super().call(method, *arguments)
 
 
 ACTIONS = st.sampled_from(['read', 'write', 'shut_down', *map(LifecycleState, range(1, 5))])
@@ -409,7 +409,7 @@ FAULTS = st.lists(st.sampled_from([*FROM, 'read', 'write']), max_size=2)
 
 @settings(deadline=None, derandomize=True, max_examples=300)
 @given(st.lists(st.tuples(ACTIONS, FAULTS), max_size=12))
-def test_whatever_is_asked_and_whatever_fails_a_component_lives_its_life(requests):
+def test_the_lifecycle_holds_whatever_is_requested_and_whatever_fails(requests):
     hardware = Recorded('hardware')
     resources = loaded(hardware)
     for action, faults in requests:
@@ -468,7 +468,7 @@ def test_a_claim_that_fails_claims_nothing(names, message):
     assert resources.claims == {'a/velocity': 'other'}
 
 
-def test_release_gives_back_only_ones_own():
+def test_release_gives_back_the_claims_of_one_controller():
     resources = bring_up(FakeHardware(['a', 'b']))
     resources.claim('me', ['a/velocity'])
     resources.claim('other', ['b/velocity'])
@@ -494,7 +494,7 @@ def test_requests_are_resolved_to_names():
 # --- command modes -------------------------------------------------------------------------------
 
 
-def test_each_component_hears_of_its_own_commands_only():
+def test_each_component_is_asked_about_its_own_commands_only():
     left, right = FakeHardware(['a'], 'left'), FakeHardware(['b'], 'right')
     resources = bring_up(left, right)
     resources.perform_command_mode_switch(['a/velocity', 'lent/velocity'], [])
@@ -503,7 +503,7 @@ def test_each_component_hears_of_its_own_commands_only():
 
 
 @pytest.mark.parametrize('error', [HardwareError('not now'), KeyError('not now')])
-def test_when_one_refuses_nobody_has_switched(error):
+def test_if_one_component_refuses_none_has_switched(error):
     left, right = FakeHardware(['a'], 'left'), FakeHardware(['b'], 'right')
     resources = bring_up(left, right)
     right.faults['prepare'] = error
@@ -513,7 +513,7 @@ def test_when_one_refuses_nobody_has_switched(error):
     assert left.count('perform') == right.count('perform') == 0
 
 
-def test_a_component_that_is_down_is_not_bothered():
+def test_a_component_that_is_down_is_not_asked():
     hardware = FakeHardware(['a'])
     resources = bring_up(hardware)
     resources.set_state('hardware', UNCONFIGURED)
@@ -545,7 +545,7 @@ def test_a_command_is_nan_until_it_is_written():
         ('uint32', 4294967295),
     ],
 )
-def test_a_cell_holds_the_value_of_its_type_until_it_is_written(data_type, first):
+def test_an_interface_has_the_value_of_its_type_until_it_is_written(data_type, first):
     handle = CommandInterface('relay', 'coil', data_type=data_type)
     assert handle.value is first or handle.value == first or math.isnan(first)
     assert type(handle.value) is type(first)
@@ -554,7 +554,7 @@ def test_a_cell_holds_the_value_of_its_type_until_it_is_written(data_type, first
     assert handle.is_set
 
 
-def test_a_cell_begins_with_the_initial_value_of_its_declaration():
+def test_an_interface_starts_with_the_initial_value_of_its_declaration():
     relay = ComponentInfo('relay', ComponentType.GPIO)
     for data_type, value in (('double', 1.0), ('bool', True), ('uint8', 1)):
         handle = StateInterface.of(relay, InterfaceInfo('coil', data_type, initial_value=1.0))
@@ -563,7 +563,7 @@ def test_a_cell_begins_with_the_initial_value_of_its_declaration():
     assert math.isnan(StateInterface.of(relay, InterfaceInfo('coil')).value)
 
 
-def test_a_type_that_does_not_exist_is_told_with_those_there_are():
+def test_an_unknown_data_type_is_reported_with_the_known_ones():
     message = r"'relay/coil' has the data type 'word'; there are: double, float32, bool, int8"
     with pytest.raises(InterfaceError, match=message):
         CommandInterface('relay', 'coil', data_type='word')

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is measured of manager, controllers and components, by a stopwatch that is handed in."""
+"""Statistics of manager, controllers and components, measured by a given stopwatch."""
 
 from dataclasses import astuple
 import math
@@ -76,7 +76,7 @@ def test_a_reset_forgets_all(before, after):
     assert running.result() == result_of(after)
 
 
-def test_without_samples_nothing_is_known():
+def test_without_samples_all_is_nan():
     count, *numbers = astuple(RunningStatistic().result())
     assert count == 0
     assert all(math.isnan(number) for number in numbers)
@@ -102,7 +102,7 @@ def test_time_that_stands_still_or_goes_back_is_no_rate(period):
 
 
 class HandClock:
-    """A stopwatch that whatever is measured moves on by itself."""
+    """A stopwatch that is advanced by what it measures."""
 
     now = 0
 
@@ -213,7 +213,7 @@ def test_the_manager_knows_how_regularly_it_ticks(clock):
     assert (found.count, found.minimum, found.maximum) == (3, 100.0, 125.0)
 
 
-def test_time_that_went_back_is_no_period(clock):
+def test_a_reset_is_not_a_period(clock):
     manager = manager_with(SlowHardware(clock), clock)
     start(manager, controller_with(clock))
     run(manager, 3)
@@ -231,7 +231,7 @@ def overruns(log):
     return [text for text in log.texts(Severity.WARN) if 'Overrun' in text]
 
 
-def test_a_tick_that_takes_longer_than_its_period_is_told_of(clock):
+def test_a_tick_that_takes_longer_than_its_period_is_warned_of(clock):
     log = FakeLog()
     manager = manager_with(SlowHardware(clock), clock, log=log)
     controller = start(manager, controller_with(clock))
@@ -246,7 +246,7 @@ def test_a_tick_that_takes_longer_than_its_period_is_told_of(clock):
     ]
 
 
-def test_overruns_are_told_of_only_where_that_is_asked_for(clock):
+def test_overruns_are_warned_of_only_if_enabled(clock):
     log = FakeLog()
     manager = manager_with(SlowHardware(clock), clock, log=log)
     controller = start(manager, controller_with(clock))
@@ -255,24 +255,24 @@ def test_overruns_are_told_of_only_where_that_is_asked_for(clock):
     assert overruns(log) == []
 
 
-# --- who is told ---------------------------------------------------------------------------------
+# --- callbacks -----------------------------------------------------------------------------------
 
 
-def test_every_new_snapshot_is_handed_on(clock):
+def test_every_new_snapshot_is_passed_on(clock):
     manager = manager_with(SlowHardware(clock), clock)
-    told = []
-    manager.on_change = told.append
+    snapshots = []
+    manager.on_change = snapshots.append
     start(manager, controller_with(clock))
-    states = [[c.state for c in snapshot.controllers] for snapshot in told]
+    states = [[c.state for c in snapshot.controllers] for snapshot in snapshots]
     assert [LifecycleState.UNCONFIGURED] in states
     assert states[-1] == [LifecycleState.ACTIVE]
-    assert told[-1] is manager.snapshot
+    assert snapshots[-1] is manager.snapshot
 
 
-def test_after_every_tick_its_time_is_handed_on(clock):
+def test_after_every_tick_its_time_is_passed_on(clock):
     hardware = SlowHardware(clock)
     manager = manager_with(hardware, clock)
-    told = []
-    manager.on_tick = lambda time: told.append((time, hardware.count('write')))
+    ticks = []
+    manager.on_tick = lambda time: ticks.append((time, hardware.count('write')))
     run(manager, 3)
-    assert told == [(0, 1), (PERIOD, 2), (2 * PERIOD, 3)]
+    assert ticks == [(0, 1), (PERIOD, 2), (2 * PERIOD, 3)]

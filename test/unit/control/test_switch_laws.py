@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The laws of switching, whatever is asked in whatever order and whatever fails meanwhile.
+The laws of switching, whatever is requested in whatever order and whatever fails meanwhile.
 
 Chains, controllers that compete for a joint or a reference, readers, and fallbacks.
 """
@@ -54,7 +54,7 @@ class Bench:
         return set(self.manager.snapshot.active_controllers)
 
     def during(self, faults, action, *arguments):
-        """Do something while these fail; what went down for it comes back afterwards."""
+        """Do something while these fail; bring back afterwards what failed."""
         for name, method in faults:
             fails = self.hardware if name == 'hardware' else self.controllers[name]
             fails.faults[method] = HardwareError('no') if fails is self.hardware else OSError('no')
@@ -99,7 +99,7 @@ class Bench:
         self.check_snapshot()
 
     def check_claims(self):
-        """No command has two owners, and its owner is active and has it in its hands."""
+        """A command has at most one holder, which is active and has the interface."""
         held = {}
         for name in self.active:
             for handle in self.controllers[name].handles:
@@ -108,15 +108,15 @@ class Bench:
         assert self.manager.resources.claims == held
 
     def check_chains(self):
-        """Who needs another has it; who is commanded, and nobody else, is in chained mode."""
+        """Needed controllers are active; exactly the commanded ones are in chained mode."""
         wanted = {
             name: [each.names for each in controller.requests]
             for name, controller in self.controllers.items()
         }
         for name in self.active:
             for interface in (*wanted[name][0], *wanted[name][1]):
-                owner = interface.partition('/')[0]
-                assert owner not in self.controllers or owner in self.active
+                exporter = interface.partition('/')[0]
+                assert exporter not in self.controllers or exporter in self.active
         for name, controller in self.controllers.items():
             commanded = any(
                 interface.startswith(f'{name}/')

@@ -44,7 +44,7 @@ class Bench:
                 self.manager.configure(name, None)
 
     def switch(self, activate='', deactivate='', strictness=STRICT):
-        """Names in one text."""
+        """Switch controllers by names in one text."""
         return self.manager.switch(activate.split(), deactivate.split(), strictness, 0)
 
     @property
@@ -169,7 +169,7 @@ def test_activate_and_deactivate(bench):
     ]  # fmt: skip
 
 
-def test_best_effort_says_what_it_did(bench):
+def test_best_effort_reports_what_was_done(bench):
     bench.switch('A')
     assert bench.switch('B', 'A', BEST_EFFORT) == (
         'Successfully switched controllers! Deactivated controllers: [ A ] '
@@ -206,7 +206,7 @@ def test_an_empty_request_is_fine(bench):
 
 
 def test_no_tick_is_needed_and_the_next_one_updates(bench):
-    """So it works while the simulation is paused."""
+    """It works while the simulation is paused."""
     bench.switch('A')
     assert bench.controllers['A'].updates == []
     bench.manager.tick(0)
@@ -215,7 +215,7 @@ def test_no_tick_is_needed_and_the_next_one_updates(bench):
 
 def test_inputs_are_open_exactly_while_active():
     manager, controller = make_manager(), FakeController()
-    port = Input(Port('~/heard', 'std_msgs/msg/Empty', 'nowhere:nothing'))
+    port = Input(Port('~/input', 'std_msgs/msg/Empty', 'nowhere:nothing'))
     controller.inputs = lambda: (port,)
     assert not port.put(1)
     start(manager, controller)
@@ -255,15 +255,15 @@ def test_a_strictness_that_is_not_there_is_best_effort(bench, strictness, name):
     )
 
 
-@pytest.mark.parametrize(('timeout', 'said'), [(None, 0), (0, 1), (1, 0), (10**9, 0)])
-def test_no_time_out_can_pass(bench, timeout, said):
+@pytest.mark.parametrize(('timeout', 'count'), [(None, 0), (0, 1), (1, 0), (10**9, 0)])
+def test_no_timeout_can_pass(bench, timeout, count):
     bench.manager.switch(['A'], [], STRICT, 0, timeout)
     assert bench.active == {'A'}
     texts = bench.log.texts(Severity.INFO)
-    assert texts.count('Switch controller timeout is set to 0, using default 1s!') == said
+    assert texts.count('Switch controller timeout is set to 0, using default 1s!') == count
 
 
-def test_what_is_asked_is_said(bench):
+def test_a_request_is_logged(bench):
     bench.switch('A B')
     bench.switch('A2', 'A')
     assert bench.log.texts(Severity.INFO) == [
@@ -344,7 +344,7 @@ def test_best_effort_that_finds_nothing_to_do_succeeds(bench, activate, deactiva
         ('blind', "state interface 'a/effort' is not available"),
     ],
 )
-def test_interfaces_that_cannot_be_had(bench, request_, message, strictness):
+def test_interfaces_that_are_not_available(bench, request_, message, strictness):
     for controller in (
         FakeController('missing', ['wheel_typo/velocity']),
         FakeController('blind', states=['a/position', 'a/effort']),
@@ -358,7 +358,7 @@ def test_interfaces_that_cannot_be_had(bench, request_, message, strictness):
 
 
 @BOTH
-def test_two_that_want_the_same(bench, strictness):
+def test_two_controllers_of_one_interface(bench, strictness):
     message = (
         r"^Unable to activate controller 'AB' since the command interface 'b/velocity' will be "
         r'used by another controller that is being activated\.$'
@@ -367,7 +367,7 @@ def test_two_that_want_the_same(bench, strictness):
 
 
 @BOTH
-def test_hardware_that_is_not_active_offers_no_commands(bench, strictness):
+def test_hardware_that_is_not_active_has_no_commands_available(bench, strictness):
     bench.manager.set_component_state('hardware', LifecycleState.INACTIVE, 0)
     message = (
         r"since the command interface 'a/velocity' is not available\. Its hardware component "
@@ -392,7 +392,7 @@ def test_a_default_lends_the_commands_of_inactive_hardware_too():
 
 
 @pytest.mark.parametrize('goes_on', [True, False])
-def test_hardware_that_asks_to_be_inactive_stops_whoever_commands_it_unless_told_not_to(goes_on):
+def test_hardware_that_asks_to_be_inactive_stops_its_controllers_unless_disabled(goes_on):
     defaults = ManagerDefaults(deactivate_controllers_on_hardware_self_deactivate=not goes_on)
     bench = Bench(defaults)
     bench.switch('A S')
@@ -420,7 +420,7 @@ def test_hardware_that_refuses_the_mode(bench, strictness, error):
 @pytest.mark.parametrize('error', [ControllerError('too hot'), KeyError('too hot')])
 @pytest.mark.parametrize(('strictness', 'left'), [(STRICT, {'S'}), (BEST_EFFORT, {'B', 'S'})])
 def test_an_activation_that_fails(bench, strictness, left, error):
-    """Strict takes the others of the request back; what was active before stays so."""
+    """STRICT deactivates the others of the request again; what was active before stays so."""
     bench.switch('S')
     bench.controllers['A'].faults['activate'] = error
     message = r'Failed switching controllers\.\.\.\. Unable to activate controllers: \[ A \]'
@@ -438,8 +438,8 @@ def test_an_activation_that_fails(bench, strictness, left, error):
 
 
 @pytest.mark.parametrize('error', [ControllerError('too hot'), KeyError('too hot')])
-def test_whoever_fails_to_be_activated_is_unconfigured(bench, error):
-    """Its own ``activate`` raised; who only lacked an interface stays inactive."""
+def test_a_controller_whose_activation_fails_is_unconfigured(bench, error):
+    """Its own ``activate`` raised; one that only lacks an interface stays inactive."""
     bench.controllers['A'].faults['activate'] = error
     bench.controllers['A'].faults['cleanup'] = RuntimeError('never mind')
     with pytest.raises(ControllerError, match='Unable to activate'):

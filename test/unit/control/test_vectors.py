@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""No recorded vector lies there unused: each is read by a test of what it is about."""
+"""Every recorded vector is used by a test."""
 
 import ast
 from pathlib import Path

@@ -82,7 +82,7 @@ def test_a_zero_stamp_means_now_and_is_warned_of(listener):
     assert 'zero timestamp' in listener.log.texts(Severity.WARN)[0]
 
 
-def test_a_stamp_a_little_ahead_is_believed_and_extends_the_hold(listener):
+def test_a_stamp_slightly_ahead_keeps_the_command_in_force_for_longer(listener):
     listener.receive((0.5, 0.0), stamp=T0 + FOREIGN_CLOCK, now=T0)
     assert listener.at(T0 + FOREIGN_CLOCK + TIMEOUT) == (0.5, 0.0)
     assert listener.log.lines == []
@@ -98,7 +98,7 @@ def test_a_stamp_of_another_clock_counts_as_now_so_that_the_time_out_still_brake
 
 
 @pytest.mark.parametrize('twist', [(math.nan, 0.1), (0.1, math.nan), (math.inf, 0.0)])
-def test_what_is_no_number_changes_nothing_but_ages(listener, twist):
+def test_a_command_of_nan_changes_nothing_but_ages(listener, twist):
     listener.receive(twist, stamp=T0, now=T0)
     assert listener.at(T0) is None
     assert listener.at(T0 + TIMEOUT) is None
@@ -106,7 +106,7 @@ def test_what_is_no_number_changes_nothing_but_ages(listener, twist):
     assert 'contains NaNs' in listener.log.texts(Severity.WARN)[0]
 
 
-def test_braking_is_said_once_and_only_when_there_was_motion(listener):
+def test_braking_is_logged_once_and_only_after_motion(listener):
     def braked():
         return listener.log.texts().count('Velocity command timed out. Braking.')
 
@@ -131,7 +131,7 @@ def test_without_a_time_out_commands_never_age():
     assert listener.at(T0 + 1000 * TIMEOUT) == (0.5, 0.0)
 
 
-def test_what_is_forgotten_is_not_driven_again(listener):
+def test_a_dropped_command_does_not_come_back(listener):
     listener.receive((0.5, 0.0), stamp=T0, now=T0)
     listener.reception.forget(T0 + 1)
     assert listener.at(T0 + 2) is None

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""config/controllers.yaml tells the controllers what urdf/amr.urdf tells the simulator."""
+"""config/controllers.yaml agrees with urdf/amr.urdf."""
 
 import pytest
 from support.paths import ROOT
@@ -53,7 +53,7 @@ def test_base_frame_is_the_root_of_the_description(robot, drive):
 
 
 def test_multiplier_is_near_that_of_a_robot_that_scrubs(robot, drive):
-    """A Coulomb skid-steer turns b² / (a² + b²) of what its wheels say (wheels at ±a, ±b)."""
+    """A Coulomb skid-steer turns b² / (a² + b²) of its wheels' turn (wheels at ±a, ±b)."""
     a, b, _ = (abs(part) for part in robot.joint('joint_wheel_front_left').origin.translation)
     assert drive['wheel_separation_multiplier'] == pytest.approx((a * a + b * b) / b**2, rel=0.05)
 
@@ -68,7 +68,7 @@ def test_departs_from_the_tutorial_where_it_must_and_nowhere_else():
     their_manager, their_drive = load('test/fixtures/tutorial/controllers.yaml')
     remap = manager['diff_drive_controller'].pop('node_options_args')
     assert remap == ['-r', '~/odom:=odom']
-    # The simulator says so to all of its nodes; without it the file serves a real robot too.
+    # The simulator sets it for all of its nodes; without it the file serves a real robot too.
     assert their_manager.pop('use_sim_time') is True
     assert manager == their_manager
     assert drive.pop('wheel_separation_multiplier') > 1.0

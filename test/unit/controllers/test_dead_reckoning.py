@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Dead reckoning: from which motion, and over which time, odometry is integrated."""
+"""Dead reckoning: the motion, and the time, over which odometry is integrated."""
 
 import math
 
@@ -64,7 +64,7 @@ def test_while_held_nothing_is_integrated(source):
     assert odometry.linear == pytest.approx(0.5)
 
 
-def test_what_moved_while_held_is_made_up_for_by_the_positions_over_the_true_time():
+def test_motion_while_held_is_covered_by_positions_over_the_true_time():
     robot = Robot(window=1)
     robot.update(0)
     robot.update(PERIOD)
@@ -101,7 +101,7 @@ def test_an_update_that_comes_too_soon_is_left_out_but_its_travel_is_not_lost(ga
     assert robot.update(2 * PERIOD).x == pytest.approx(0.1)
 
 
-def test_after_a_reset_pose_clock_and_wheels_begin_anew():
+def test_after_a_reset_pose_clock_and_wheels_start_over():
     robot = Robot()
     robot.update(LATE)
     robot.left.value = robot.right.value = 7.0
@@ -114,7 +114,7 @@ def test_after_a_reset_pose_clock_and_wheels_begin_anew():
 
 @pytest.mark.parametrize('reading', [math.nan, math.inf, -math.inf])
 @pytest.mark.parametrize('source', ['position', 'velocity'])
-def test_a_reading_that_is_no_number_is_an_error_that_names_the_wheel(source, reading):
+def test_a_wheel_state_of_nan_is_an_error_with_its_name(source, reading):
     robot = Robot(source)
     robot.right.value = reading
     message = rf'wheel {source} is invalid for index \[0\]: right/{source} is {reading}'

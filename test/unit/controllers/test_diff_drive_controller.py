@@ -39,7 +39,7 @@ OPEN_LOOP = VECTORS['open_loop_controller']
 
 
 class Bench:
-    """A controller with handles in its hands, configured."""
+    """A configured controller, with interfaces."""
 
     def __init__(self, namespace='/', **values):
         self.log = FakeLog()
@@ -402,7 +402,7 @@ def test_in_chained_mode_a_reference_that_is_no_number_leaves_the_wheels_as_they
     assert bench.odom == []
 
 
-def test_in_chained_mode_topics_count_for_nothing_and_that_is_said():
+def test_in_chained_mode_topics_are_ignored_with_a_warning():
     bench = Bench(wheel_radius=1.0, enable_cmd_vel_unstamped=True).activate(chained=True)
     bench.refer(1.0, 0.0)
     bench.send_unstamped(-1.0)
@@ -465,7 +465,7 @@ numbers = st.floats(allow_nan=True, allow_infinity=True)
 
 @settings(deadline=None, derandomize=True, max_examples=100)
 @given(st.lists(st.tuples(numbers, numbers), min_size=1, max_size=5), st.booleans())
-def test_whatever_is_commanded_the_wheels_are_told_numbers(commands, chained):
+def test_whatever_is_commanded_the_wheels_get_finite_commands(commands, chained):
     bench = Bench(enable_cmd_vel_unstamped=True, open_loop=True).activate(None, chained=chained)
     bench.left.value = bench.right.value = 0.0
     for linear, angular in commands:
@@ -509,7 +509,7 @@ def test_open_loop_odometry(first):
 # --- plain Twist ---------------------------------------------------------------------------------
 
 
-def test_plain_twists_are_heard_only_when_asked_for():
+def test_plain_twists_are_taken_only_if_enabled():
     assert len(Bench().controller.inputs()) == 1
     ports = [port.port for port in Bench(enable_cmd_vel_unstamped=True).controller.inputs()]
     assert [(port.name, port.message) for port in ports] == [
@@ -583,15 +583,15 @@ def test_nothing_is_published_before_the_first_command_or_the_time_out():
     assert len(bench.tf) == len(bench.limited) == 1
 
 
-@pytest.mark.parametrize(('pause', 'is_heard'), [(480 * MS, False), (500 * MS, True)])
-def test_after_a_pause_the_time_out_counts_from_the_deactivation(pause, is_heard):
+@pytest.mark.parametrize(('pause', 'is_in_force'), [(480 * MS, False), (500 * MS, True)])
+def test_after_a_pause_the_time_out_counts_from_the_deactivation(pause, is_in_force):
     """As the original resets its buffers then, and not at activation: odometry comes at once."""
     bench = Bench().activate(time=1000 * MS)
     bench.drive(1.0)
     bench.deactivate()
     bench.odom.clear()
     bench.activate(time=bench.time + pause).update()
-    assert [sample.stamp for sample in bench.odom] == ([bench.time] if is_heard else [])
+    assert [sample.stamp for sample in bench.odom] == ([bench.time] if is_in_force else [])
     assert bench.wheels == (0.0, 0.0)
 
 
@@ -673,7 +673,7 @@ def test_after_time_went_back_it_brakes_and_publishes_at_once_from_the_origin():
 
 
 @pytest.mark.parametrize('jump', [3600, -3600])
-def test_a_clock_that_is_set_keeps_pose_and_speed_and_silences_nothing(jump):
+def test_a_jump_of_the_clock_keeps_pose_speed_and_publication(jump):
     bench = Bench().activate(time=10_000 * NANOSECONDS)
     for _ in range(10):
         bench.drive(0.5)
@@ -738,7 +738,7 @@ def test_the_pose_stays_over_deactivation():
 
 
 @pytest.mark.parametrize('reading', [math.nan, math.inf])
-def test_a_reading_that_is_no_number_raises_and_names_the_wheel(reading):
+def test_a_wheel_state_of_nan_raises_with_its_name(reading):
     bench = Bench().activate()
     bench.states['position'][1].value = reading
     with pytest.raises(ControllerError, match=r'right_wheel/position is (nan|inf)'):

@@ -102,7 +102,7 @@ def test_runs_that_contradict_each_other_are_balanced_not_followed():
     ]
     found = fit_to(runs)
     assert found.separation_multiplier == pytest.approx(2.8, rel=0.02)
-    # Straight it went as its wheels did, and how it turns has no say in that.
+    # The straight runs follow the wheels, whatever the turns are.
     assert multipliers_of(found)[1:] == pytest.approx((1.0, 1.0), rel=1e-3)
     errors = [yaw_error(run, found) for run in runs]
     assert max(error for error in errors if not math.isnan(error)) < 0.04

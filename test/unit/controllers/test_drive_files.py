@@ -168,7 +168,7 @@ def test_files_that_the_manager_hands_over_are_read(tmp_path, as_list):
     assert drive.location_of('wheel_radius') == (str(own), 6)
 
 
-def test_drives_that_run_and_are_mistaken_are_told():
+def test_drives_that_run_with_wrong_parameters_are_warned_of():
     robot = urdf.load(ROOT / 'urdf/amr.urdf')
     assert drive_warnings(robot, [str(ROOT / 'config/controllers.yaml')]) == ()
     base, multiplier = drive_warnings(

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Forwarding: the newest good command reaches the handles as it is, and nothing else does."""
+"""Forwarding: the latest valid command reaches the interfaces unchanged, and nothing else does."""
 
 import math
 
@@ -37,7 +37,7 @@ NOTHING = pytest.approx([math.nan] * 3, nan_ok=True)
 
 
 class Bench:
-    """A controller of that type, configured, with handles of its own, active."""
+    """An active controller of that type, with interfaces."""
 
     def __init__(self, type_name=FORWARD, interface='position', **values):
         self.log = FakeLog()
@@ -56,7 +56,7 @@ class Bench:
         self.controller.activate(self.handles, (), 0)
         self.port.open()
 
-    def hear(self, *values):
+    def command(self, *values):
         self.port.put(CommandsSample(values))
         return self.update()
 
@@ -68,15 +68,15 @@ class Bench:
 def test_a_command_is_written_as_it_is_and_stays_in_force():
     bench = Bench()
     assert bench.update() == NOTHING
-    assert bench.hear(10.0, 20.0, 30.0) == [10.0, 20.0, 30.0]
-    bench.handles[0].value = 5.0  # a limiter, say
+    assert bench.command(10.0, 20.0, 30.0) == [10.0, 20.0, 30.0]
+    bench.handles[0].value = 5.0  # for instance by a limiter
     assert bench.update() == [10.0, 20.0, 30.0]
 
 
 def test_the_newest_command_counts():
     bench = Bench()
     bench.port.put(CommandsSample((1.0, 2.0, 3.0)))
-    assert bench.hear(4.0, 5.0, 6.0) == [4.0, 5.0, 6.0]
+    assert bench.command(4.0, 5.0, 6.0) == [4.0, 5.0, 6.0]
 
 
 def test_interfaces_are_joints_times_interface_in_order():
@@ -86,7 +86,7 @@ def test_interfaces_are_joints_times_interface_in_order():
 
 def test_several_interfaces_of_one_joint():
     bench = Bench(MULTI, joint='joint1', interface_names=['position', 'velocity', 'effort'])
-    assert bench.hear(1.0, 2.0, 3.0) == [1.0, 2.0, 3.0]
+    assert bench.command(1.0, 2.0, 3.0) == [1.0, 2.0, 3.0]
     assert [handle.name for handle in bench.handles] == [
         'joint1/position',
         'joint1/velocity',
@@ -101,7 +101,7 @@ def test_several_interfaces_of_one_joint():
 def test_a_joint_group_needs_only_its_joints(type_name, interface):
     bench = Bench(type_name)
     assert [handle.name for handle in bench.handles] == [f'{j}/{interface}' for j in JOINTS]
-    assert bench.hear(1.0, 2.0, 3.0) == [1.0, 2.0, 3.0]
+    assert bench.command(1.0, 2.0, 3.0) == [1.0, 2.0, 3.0]
     with pytest.raises(ParameterError, match=f"'interface_name' must be one of {interface}"):
         Bench(type_name, joints=JOINTS, interface_name='temperature')
 
@@ -113,11 +113,11 @@ def test_the_topic():
 
 
 @pytest.mark.parametrize('values', [(), (1.0,), (1.0, 2.0, 3.0, 4.0)])
-def test_a_command_of_the_wrong_size_is_dropped_and_said_so(values):
+def test_a_command_of_the_wrong_size_is_dropped_and_logged(values):
     bench = Bench()
-    assert bench.hear(*values) == NOTHING
-    bench.hear(7.0, 8.0, 9.0)
-    assert bench.hear(*values) == [7.0, 8.0, 9.0]
+    assert bench.command(*values) == NOTHING
+    bench.command(7.0, 8.0, 9.0)
+    assert bench.command(*values) == [7.0, 8.0, 9.0]
     assert (
         bench.log.texts(Severity.ERROR)
         == [f'command size ({len(values)}) does not match number of interfaces (3)'] * 2
@@ -125,11 +125,11 @@ def test_a_command_of_the_wrong_size_is_dropped_and_said_so(values):
 
 
 @pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf])
-def test_what_is_not_finite_is_dropped_and_said_so(bad):
+def test_a_command_that_is_not_finite_is_dropped_and_logged(bad):
     bench = Bench()
-    assert bench.hear(1.0, bad, 3.0) == NOTHING
-    bench.hear(7.0, 8.0, 9.0)
-    assert bench.hear(1.0, 2.0, bad) == [7.0, 8.0, 9.0]
+    assert bench.command(1.0, bad, 3.0) == NOTHING
+    bench.command(7.0, 8.0, 9.0)
+    assert bench.command(1.0, 2.0, bad) == [7.0, 8.0, 9.0]
     assert set(bench.log.texts(Severity.WARN)) == {'Non-finite value received. Dropping message'}
 
 
@@ -138,7 +138,7 @@ def test_only_finite_commands_of_the_right_size_ever_arrive(commands):
     bench = Bench(FORWARD, 'velocity')
     expected = None
     for values in commands:
-        found = bench.hear(*values)
+        found = bench.command(*values)
         if len(values) == 3 and all(map(math.isfinite, values)):
             expected = values
         assert found == (expected or NOTHING)
@@ -155,9 +155,9 @@ def test_only_finite_commands_of_the_right_size_ever_arrive(commands):
     ],
 )
 @pytest.mark.parametrize('ending', ['deactivate', 'reset'])
-def test_nothing_goes_on_moving_by_itself(interface, rest, ending):
+def test_nothing_keeps_moving_after_deactivation(interface, rest, ending):
     bench = Bench(FORWARD, interface)
-    bench.hear(1.0, 2.0, 3.0)
+    bench.command(1.0, 2.0, 3.0)
     bench.port.put(CommandsSample((4.0, 5.0, 6.0)))
     getattr(bench.controller, ending)(0)
     at_rest = pytest.approx([rest] * 3, nan_ok=True)
@@ -166,12 +166,12 @@ def test_nothing_goes_on_moving_by_itself(interface, rest, ending):
         bench.port.close()
         bench.activate()
     assert bench.update() == at_rest
-    assert bench.hear(7.0, 8.0, 9.0) == [7.0, 8.0, 9.0]
+    assert bench.command(7.0, 8.0, 9.0) == [7.0, 8.0, 9.0]
 
 
-def test_a_command_outlives_a_clock_that_is_set():
+def test_a_command_outlives_a_jump_of_the_clock():
     bench = Bench(FORWARD, 'velocity')
-    bench.hear(1.0, 2.0, 3.0)
+    bench.command(1.0, 2.0, 3.0)
     bench.controller.set_clock(3_600_000_000_000)
     assert bench.update() == [1.0, 2.0, 3.0]
 
@@ -198,7 +198,7 @@ def test_fewer_handles_than_asked_for_are_refused():
         bench.controller.activate(bench.handles[:2], (), 0)
 
 
-def test_what_is_no_double_is_refused():
+def test_an_interface_that_is_not_a_double_is_refused():
     bench = Bench(joints=['gpio'], interface_name='lamp')
     lamp = CommandInterface('gpio', 'lamp', data_type='bool')
     with pytest.raises(ControllerError, match="'gpio/lamp' is of type bool; only doubles"):
@@ -212,7 +212,7 @@ def test_it_cannot_be_preceded_as_in_jazzy(type_name):
     assert controller.references() == ()
 
 
-def test_under_a_manager_the_wheels_turn_as_told_and_stop_with_the_controller():
+def test_under_a_manager_the_wheels_turn_as_commanded_and_stop_with_the_controller():
     hardware = FakeHardware()
     manager = make_manager(hardware)
     found = CONTROLLERS.find('velocity_controllers/JointGroupVelocityController')

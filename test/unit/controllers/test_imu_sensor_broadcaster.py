@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""imu_sensor_broadcaster: ten gauges of a sensor as one message."""
+"""imu_sensor_broadcaster: the ten state interfaces of a sensor as one message."""
 
 import math
 
@@ -20,7 +20,7 @@ ANGULAR_VELOCITY = (1.0, 2.0, 3.0)
 LINEAR_ACCELERATION = (4.0, 5.0, 9.81)
 
 
-def gauges():
+def make_states():
     values = (*ORIENTATION, *ANGULAR_VELOCITY, *LINEAR_ACCELERATION)
     return [
         StateInterface('imu', name, value)
@@ -41,7 +41,7 @@ class Bench:
         return self.sent[-1]
 
 
-def test_the_gauges_are_asked_for_by_the_names_of_ros2_control():
+def test_state_interfaces_have_the_names_of_ros2_control():
     controller = Bench().controller
     assert controller.state_interfaces().names == (
         'imu/orientation.x',
@@ -59,7 +59,7 @@ def test_the_gauges_are_asked_for_by_the_names_of_ros2_control():
 
 
 def test_every_reading_has_its_place():
-    sample = Bench().read(gauges())
+    sample = Bench().read(make_states())
     assert sample.stamp == 10 * MS
     assert sample.constants.frame_id == 'imu_link'
     assert sample.orientation == ORIENTATION
@@ -67,8 +67,8 @@ def test_every_reading_has_its_place():
     assert sample.linear_acceleration == LINEAR_ACCELERATION
 
 
-def test_one_message_an_update_with_what_the_gauges_then_read():
-    bench, states = Bench(), gauges()
+def test_one_message_an_update_with_the_present_states():
+    bench, states = Bench(), make_states()
     bench.read(states)
     states[4].value = 7.0
     bench.controller.update(20 * MS, 10 * MS)
@@ -79,7 +79,7 @@ def test_one_message_an_update_with_what_the_gauges_then_read():
 
 
 def test_what_is_not_measured_yet_is_nan():
-    states = gauges()
+    states = make_states()
     states[0].value = math.nan
     sample = Bench().read(states)
     assert math.isnan(sample.orientation[0])
@@ -92,14 +92,14 @@ def test_covariances_are_those_of_the_parameters():
         f'static_covariance_{field}': [first + i for i in range(9)]
         for field, first in zip(fields, (0.0, 10.0, 20.0), strict=True)
     }
-    constants = Bench(**given).read(gauges()).constants
+    constants = Bench(**given).read(make_states()).constants
     for field in fields:
         found = getattr(constants, f'{field}_covariance')
         assert list(found) == given[f'static_covariance_{field}']
 
 
 def test_covariances_are_zero_by_default():
-    assert Bench().read(gauges()).constants.orientation_covariance == (0.0,) * 9
+    assert Bench().read(make_states()).constants.orientation_covariance == (0.0,) * 9
 
 
 def test_the_parameters_are_those_of_the_original():
@@ -132,13 +132,13 @@ def test_the_topic():
     assert (port.name, port.message) == ('~/imu', 'sensor_msgs/msg/Imu')
 
 
-def test_fewer_gauges_than_asked_for_are_refused():
+def test_missing_state_interfaces_are_refused():
     with pytest.raises(ControllerError, match='Expected 10 state interfaces, got 9'):
-        Bench().controller.activate((), gauges()[:9], 0)
+        Bench().controller.activate((), make_states()[:9], 0)
 
 
 def test_it_can_be_activated_again():
     bench = Bench()
-    bench.read(gauges())
+    bench.read(make_states())
     bench.controller.deactivate(0)
-    assert bench.read(gauges(), 20 * MS).stamp == 20 * MS
+    assert bench.read(make_states(), 20 * MS).stamp == 20 * MS

@@ -24,7 +24,7 @@ JOINTS = ('joint1', 'joint2', 'joint3')
 VALUES = (1.1, 2.1, 3.1)
 
 
-def gauges(joints=JOINTS, interfaces=STANDARD):
+def make_states(joints=JOINTS, interfaces=STANDARD):
     """Every interface of a joint reads the joint's value."""
     return [
         StateInterface(joint, interface, value)
@@ -57,14 +57,14 @@ class Bench:
 
 
 def test_every_interface_of_every_joint():
-    sample = Bench().read(gauges())
+    sample = Bench().read(make_states())
     assert sample.name == JOINTS
     assert sample.position == sample.velocity == sample.effort == VALUES
     assert (sample.stamp, sample.frame_id) == (10 * MS, 'base_link')
 
 
-def test_one_message_an_update_with_what_the_gauges_then_read():
-    bench, states = Bench(), gauges(['joint1'], ['position'])
+def test_one_message_an_update_with_the_present_states():
+    bench, states = Bench(), make_states(['joint1'], ['position'])
     bench.read(states)
     states[0].value = 7.0
     bench.controller.update(20 * MS, 10 * MS)
@@ -72,7 +72,9 @@ def test_one_message_an_update_with_what_the_gauges_then_read():
 
 
 def test_all_fields_have_one_length_and_what_is_missing_is_nan():
-    sample = Bench().read([*gauges(['joint1'], ['position']), *gauges(['joint2'], ['velocity'])])
+    sample = Bench().read(
+        [*make_states(['joint1'], ['position']), *make_states(['joint2'], ['velocity'])]
+    )
     assert sample.name == ('joint1', 'joint2')
     assert sample.position == (1.1, pytest.approx(math.nan, nan_ok=True))
     assert sample.velocity == (pytest.approx(math.nan, nan_ok=True), 1.1)
@@ -95,12 +97,12 @@ def test_it_asks_for_all_unless_joints_and_interfaces_are_given():
 def test_given_joints_come_in_the_given_order():
     joints = ('joint3', 'joint1')
     bench = Bench(joints=joints, interfaces=['position'])
-    assert bench.read(gauges(interfaces=['position'])[::-1]).name == joints
+    assert bench.read(make_states(interfaces=['position'])[::-1]).name == joints
 
 
 def test_a_partial_set_leaves_a_gap():
     bench = Bench(joints=JOINTS, interfaces=['position', 'velocity'])
-    sample = bench.read(gauges(interfaces=['position', 'velocity'])[:-1])
+    sample = bench.read(make_states(interfaces=['position', 'velocity'])[:-1])
     assert sample.position == VALUES
     assert math.isnan(sample.velocity[2])
 
@@ -122,14 +124,14 @@ def test_fixed_joints_stay_out():
     assert Bench(URDF).read(states).name == (WHEELS[0],)
 
 
-def test_a_robot_without_a_description_is_published_unfiltered_and_said_so():
+def test_a_robot_without_a_description_is_published_unfiltered_with_an_error():
     bench = Bench(use_urdf_to_filter=True)
-    assert bench.read(gauges()).name == JOINTS
+    assert bench.read(make_states()).name == JOINTS
     assert 'Failed to parse robot description' in bench.log.texts(Severity.ERROR)[0]
 
 
 def test_extra_joints_come_last_at_zero_and_known_ones_are_not_doubled():
-    sample = Bench(extra_joints=['extra1', 'joint2', 'extra2']).read(gauges())
+    sample = Bench(extra_joints=['extra1', 'joint2', 'extra2']).read(make_states())
     assert sample.name == (*JOINTS, 'extra1', 'extra2')
     assert sample.position == sample.velocity == sample.effort == (*VALUES, 0.0, 0.0)
 
@@ -153,7 +155,7 @@ def test_fields_can_be_swapped():
     assert (sample.position, sample.velocity) == ((2.0,), (1.0,))
 
 
-def test_a_standard_interface_that_is_chosen_beats_its_mapping():
+def test_a_selected_standard_interface_takes_precedence_over_its_mapping():
     bench = Bench(
         joints=['joint1'],
         interfaces=['position', 'measured'],
@@ -174,12 +176,16 @@ def test_interfaces_without_joints_count_for_nothing_even_for_a_mapping():
 
 
 def test_a_custom_interface_without_a_mapping_makes_no_joint():
-    assert Bench().read([*gauges(['joint1']), StateInterface('tank', 'level')]).name == ('joint1',)
+    assert Bench().read([*make_states(['joint1']), StateInterface('tank', 'level')]).name == (
+        'joint1',
+    )
 
 
-def test_what_is_no_double_is_left_out_and_said_so():
+def test_an_interface_that_is_not_a_double_is_left_out_and_logged():
     bench = Bench()
-    sample = bench.read([*gauges(['joint1']), StateInterface('door', 'position', 1.0, 'bool')])
+    sample = bench.read(
+        [*make_states(['joint1']), StateInterface('door', 'position', 1.0, 'bool')]
+    )
     assert sample.name == ('joint1',)
     assert bench.sent_dynamic[0][-1].layout.names == ('joint1',)
     assert "'door/position' is of type bool" in bench.log.texts(Severity.WARN)[0]
@@ -187,7 +193,7 @@ def test_what_is_no_double_is_left_out_and_said_so():
 
 def test_the_dynamic_message_has_every_interface_of_joints_sensors_and_gpios():
     states = [
-        *gauges(['joint1'], ['velocity', 'temperature']),
+        *make_states(['joint1'], ['velocity', 'temperature']),
         StateInterface('imu', 'orientation.x', 0.5),
         StateInterface('joint1', 'position', 7.0),
         StateInterface('gpio', 'voltage', 12.0),
@@ -203,8 +209,8 @@ def test_the_dynamic_message_has_every_interface_of_joints_sensors_and_gpios():
         assert (sample.stamp, sample.layout.frame_id) == (10 * MS, 'base_link')
 
 
-def test_the_dynamic_message_shows_what_the_gauges_then_read():
-    bench, states = Bench(), gauges(['joint1'], ['position'])
+def test_the_dynamic_message_has_the_present_states():
+    bench, states = Bench(), make_states(['joint1'], ['position'])
     bench.read(states)
     states[0].value = 7.0
     bench.controller.update(20 * MS, 10 * MS)
@@ -220,7 +226,7 @@ def test_an_interface_not_written_yet_is_nan_in_both():
 
 def test_extra_joints_stand_in_the_dynamic_message_with_three_interfaces_at_zero():
     bench = Bench(extra_joints=['extra1', 'joint1'])
-    assert bench.read_dynamic(gauges(['joint1'], ['position'])) == [
+    assert bench.read_dynamic(make_states(['joint1'], ['position'])) == [
         ('joint1', {'position': 1.1}),
         ('extra1', {'position': 0.0, 'velocity': 0.0, 'effort': 0.0}),
     ]
@@ -228,7 +234,7 @@ def test_extra_joints_stand_in_the_dynamic_message_with_three_interfaces_at_zero
 
 def test_an_extra_joint_that_is_known_by_another_interface_is_none():
     bench = Bench(extra_joints=['tank'])
-    states = [*gauges(['joint1']), StateInterface('tank', 'level', 1.0)]
+    states = [*make_states(['joint1']), StateInterface('tank', 'level', 1.0)]
     assert bench.read(states).name == ('joint1',)
     assert bench.read_dynamic(states)[1] == ('tank', {'level': 1.0})
 
@@ -236,7 +242,10 @@ def test_an_extra_joint_that_is_known_by_another_interface_is_none():
 @pytest.mark.parametrize('order', [1, -1])
 def test_a_mapped_interface_has_the_standard_name_in_the_dynamic_message(order):
     bench = Bench(**{'map_interface_to_joint_state.position': 'measured'})
-    measured, plain = StateInterface('joint1', 'measured', 3.5), gauges(['joint1'], ['position'])
+    measured, plain = (
+        StateInterface('joint1', 'measured', 3.5),
+        make_states(['joint1'], ['position']),
+    )
     states = [measured, *plain][::order]
     assert bench.read_dynamic(states) == [('joint1', {'position': 3.5})]
     assert bench.sent[-1].position == (3.5,)
@@ -244,7 +253,9 @@ def test_a_mapped_interface_has_the_standard_name_in_the_dynamic_message(order):
 
 def test_a_joint_without_the_mapped_interface_keeps_its_own():
     bench = Bench(**{'map_interface_to_joint_state.position': 'measured'})
-    assert bench.read_dynamic(gauges(['joint1'], ['position'])) == [('joint1', {'position': 1.1})]
+    assert bench.read_dynamic(make_states(['joint1'], ['position'])) == [
+        ('joint1', {'position': 1.1})
+    ]
     assert bench.sent[-1].position == (1.1,)
 
 
@@ -256,7 +267,7 @@ def test_a_custom_interface_without_a_mapping_is_in_the_dynamic_message_only():
 
 def test_a_gap_in_the_chosen_set_is_no_interface_in_the_dynamic_message():
     bench = Bench(joints=JOINTS, interfaces=['position', 'velocity'])
-    rows = dict(bench.read_dynamic(gauges(interfaces=['position', 'velocity'])[:-1]))
+    rows = dict(bench.read_dynamic(make_states(interfaces=['position', 'velocity'])[:-1]))
     assert rows['joint3'] == {'position': 3.1}
 
 
@@ -281,7 +292,7 @@ def test_the_topics(local, prefix):
 
 def test_the_dynamic_topic_can_be_switched_off():
     bench = Bench(publish_dynamic_joint_states=False)
-    assert bench.read(gauges()).name == JOINTS
+    assert bench.read(make_states()).name == JOINTS
     assert len(bench.controller.outputs()) == 1
 
 
@@ -305,11 +316,11 @@ def test_the_parameters_are_those_of_the_original():
 def test_an_empty_frame_is_warned_of():
     bench = Bench(frame_id='')
     assert 'Frame ID is not set.' in bench.log.texts(Severity.WARN)
-    assert bench.read(gauges()).frame_id == ''
+    assert bench.read(make_states()).frame_id == ''
 
 
 def test_it_can_be_activated_again_on_other_hardware():
     bench = Bench()
-    bench.read(gauges())
+    bench.read(make_states())
     bench.controller.deactivate(0)
-    assert bench.read(gauges(['joint1'])).name == ('joint1',)
+    assert bench.read(make_states(['joint1'])).name == ('joint1',)

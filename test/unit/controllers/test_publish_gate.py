@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""When a controller publishes, if less often than it updates."""
+"""PublishGate: which updates publish, if fewer than all."""
 
 import pytest
 from support.control_fakes import VECTORS

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The limits of a twist: neither component beyond its own, and on the arc where that can be."""
+"""The limits of a twist: each component within its own, and along the arc if possible."""
 
 import math
 
@@ -32,7 +32,7 @@ def pairs(values):
 @law
 @given(limiters, limiters, st.lists(twists, min_size=1, max_size=30), dts, st.booleans())
 def test_neither_component_ever_exceeds_its_limits(linear, angular, commands, dt, keeps):
-    """Each of the limits would leave what comes out as it is."""
+    """Limiting the output again changes nothing."""
     limiter = TwistLimiter(linear, angular, keeps_curvature=keeps)
     history = [(0.0, 0.0), (0.0, 0.0)]
     for command in commands:
@@ -95,8 +95,8 @@ def test_no_component_is_driven_faster_than_it_was_or_is_told(linear, angular, f
     last = limiter.limit(first, dt)
     for _ in range(30):
         found = limiter.limit(then, dt)
-        for now, before, told in zip(found, last, then, strict=True):
-            assert abs(now) <= max(abs(before), abs(told)) + 1e-9
+        for now, before, command in zip(found, last, then, strict=True):
+            assert abs(now) <= max(abs(before), abs(command)) + 1e-9
         last = found
 
 

@@ -55,7 +55,7 @@ URDF = """
 
 
 class Rig:
-    """The component, active, with its cells by name."""
+    """The active component, with its interfaces by name."""
 
     def __init__(self, **parameters):
         texts = (f'<param name="{k}">{v}</param>' for k, v in parameters.items())
@@ -114,7 +114,7 @@ def test_commands_of_other_types():
     assert rig.read('relay/open', 'relay/count') == [False, 3]
 
 
-def test_activation_forgets_commands_of_an_earlier_life():
+def test_activation_drops_earlier_commands():
     rig = Rig()
     rig.command('ja/velocity', 3.0)
     rig.command('relay/open', False)
@@ -126,8 +126,8 @@ def test_activation_forgets_commands_of_an_earlier_life():
     assert rig.commands['relay/open'].value is True
 
 
-def test_a_second_life_begins_where_the_first_ended():
-    """Encoders that jumped to zero would make whoever counts them jump."""
+def test_a_second_configure_keeps_the_states():
+    """Encoders that jumped to zero would make odometry jump."""
     rig = Rig()
     rig.command('ja/position', 2.0)
     rig.command('ja/velocity', 3.0)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""One motor for the joints of a side: cells against ticks."""
+"""One motor for the joints of a side: interfaces against ticks."""
 
 import math
 
@@ -65,7 +65,7 @@ def test_a_new_counter_moves_nothing(before, after):
 
 
 @pytest.mark.parametrize('reduction', [1.0, 20.0, -2.5])
-def test_all_joints_show_the_wheel_and_not_the_shaft(reduction):
+def test_all_joints_have_the_states_of_the_wheel_not_of_the_shaft(reduction):
     side = make_side(reduction)
     side.update_states(TICKS, 3.0)
     assert values(side) == {
@@ -76,7 +76,7 @@ def test_all_joints_show_the_wheel_and_not_the_shaft(reduction):
     }
 
 
-def test_no_command_keeps_the_one_of_before():
+def test_without_a_command_the_previous_one_is_kept():
     side = make_side()
     assert side.target() == 0.0
     for command in side.commands:
@@ -113,6 +113,6 @@ def test_an_infinite_command_is_refused(bad):
         (joint('a', states=('effort',)), "state interface 'effort' is asked; there are: position"),
     ],
 )
-def test_what_a_motor_does_not_have_is_refused(wrong, text):
+def test_an_interface_that_a_motor_lacks_is_refused(wrong, text):
     with pytest.raises(HardwareError, match=f"component 'Rig': joint 'a': {text}"):
         MotorSide('Rig', [wrong], 1.0)

@@ -72,7 +72,7 @@ def test_write_keeps_the_target_where_the_command_is_nan(system, world):
     [MujocoSystem.deactivate, MujocoSystem.activate, lambda system: system.reset(0)],
     ids=['deactivate', 'activate', 'reset'],
 )
-def test_transitions_hold_still_and_forget_commands(system, world, transition):
+def test_transitions_hold_the_joints_and_drop_commands(system, world, transition):
     for command in system.command_interfaces():
         command.value = 5.0
     system.write(0, PERIOD)
@@ -144,7 +144,7 @@ def test_joint_that_the_world_does_not_have(world):
 
 
 @pytest.mark.parametrize('kind', ['sensor', 'gpio'])
-def test_what_is_not_simulated_is_told(world, kind):
+def test_components_that_are_not_simulated_are_warned_of(world, kind):
     part = f'<{kind} name="it"><state_interface name="counts"/></{kind}></ros2_control>'
     log = Lines()
     system = MujocoSystem(info_of(URDF.replace('</ros2_control>', part)), log, world)
@@ -178,7 +178,7 @@ def switch(system, start=(), stop=()):
 
 
 @pytest.mark.parametrize('mode', ['position', 'velocity', 'effort'])
-def test_only_the_claimed_command_acts_and_only_once_it_came(multi, world, mode):
+def test_only_the_claimed_command_acts_from_the_first_one_on(multi, world, mode):
     for command in multi.command_interfaces():
         command.value = 9.0
     switch(multi, [f'jb/{mode}'])
@@ -294,7 +294,7 @@ def test_hold_joints_must_be_a_truth_value(world):
         MujocoSystem(info_of(urdf), Lines(), world)
 
 
-def test_the_gain_of_gazebos_position_servo_is_said_to_be_left_out(world):
+def test_the_gain_of_gazebos_position_servo_is_warned_of(world):
     gain = '<position_proportional_gain>0.5</position_proportional_gain>'
     urdf = URDF.replace('</robot>', gazebo('true').replace('</plugin>', f'{gain}</plugin>'))
     system = MujocoSystem(info_of(urdf), Lines(), FakeWorld(urdf))
@@ -319,7 +319,7 @@ def test_plugin_names(plugin):
     assert HARDWARE.find(plugin) is MujocoSystem
 
 
-def test_unknown_plugin_is_told_with_the_known_ones():
+def test_unknown_plugin_is_reported_with_the_known_ones():
     with pytest.raises(HardwareError, match="'my/Robot' is not known.*mock_components/GenericSys"):
         HARDWARE.find('my/Robot')
 

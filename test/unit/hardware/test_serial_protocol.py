@@ -90,7 +90,7 @@ def test_a_line_that_is_cut_short_is_refused(message, data):
 
 
 @given(st.binary(max_size=300), MESSAGES)
-def test_a_line_feed_ends_whatever_went_wrong(garbage, message):
+def test_a_line_feed_always_starts_a_new_line(garbage, message):
     assert LineReader().feed(garbage + b'\n' + encode(message))[-1] == message
 
 
@@ -101,7 +101,7 @@ def test_every_line_of_noise_is_refused_by_name(noise):
     assert all(isinstance(line, Refused) for line in found)
 
 
-def test_a_stream_without_end_takes_no_memory():
+def test_an_endless_line_takes_no_memory():
     reader = LineReader()
     for _ in range(1000):
         assert reader.feed(b'x' * 1000) == []

@@ -77,7 +77,7 @@ def test_where_an_imu_is_mounted(options, link):
         ),
     ],
 )
-def test_imu_that_cannot_be(urdf, message):
+def test_invalid_imu(urdf, message):
     with pytest.raises(HardwareError, match=f"hardware component 'Cart': .*{message}"):
         imu_of(urdf)
 
@@ -137,7 +137,7 @@ class Noisy:
         self.system.configure()
 
     def measure(self, ticks=50):
-        """What each unit says about z in so many ticks, beyond the truth."""
+        """Return the error of each unit about z in so many ticks."""
         cells = [s for s in self.system.state_interfaces() if s.name.endswith('velocity.z')]
         measured = []
         self.drive.command(0.5, 1.0)
@@ -149,7 +149,7 @@ class Noisy:
         return measured
 
 
-def test_noise_is_on_what_it_is_asked_for_and_on_nothing_else():
+def test_only_the_requested_quantities_are_noisy():
     noisy = Noisy('imu')
     noise = [value for (value,) in noisy.measure(400)]
     assert fmean(noise) == pytest.approx(0.5, abs=5 * 0.01 / 20)

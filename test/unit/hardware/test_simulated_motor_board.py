@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The motor board without the metal: laws of its motors, and what its firmware answers."""
+"""The simulated motor board: laws of its motors, and answers of its firmware."""
 
 import math
 
@@ -82,7 +82,7 @@ def test_encoder_counts_whole_ticks_and_wraps(position):
 
 
 class Bench:
-    """A board, and the words that go over its line."""
+    """A board, and the messages on its line."""
 
     def __init__(self):
         self.events = []
@@ -131,7 +131,7 @@ def test_introduces_itself_with_the_number_of_the_question(bench):
     assert bench.ask(Hello(7, 99)) == Board(7, VERSION, 'simulated', 4096, 30.0)
 
 
-def test_turns_as_it_is_told_and_tells_it(armed):
+def test_turns_as_commanded_and_answers_with_its_state(armed):
     for _ in range(100):
         answer = armed.ask(Set(1, 5.0, -2.0))
         armed.wait(0.01)
@@ -158,7 +158,7 @@ def test_watchdog_stops_the_motors_and_the_next_command_goes_on(armed):
 
 
 @pytest.mark.parametrize('fodder', [Get(1), Hello(1, 1), Set(1, 31.0, 0.0)])
-def test_only_a_good_command_feeds_the_watchdog(armed, fodder):
+def test_only_a_valid_command_resets_the_watchdog(armed, fodder):
     for _ in range(30):
         armed.ask(fodder)
         armed.wait(0.01)
@@ -195,6 +195,6 @@ def test_what_is_beyond_its_limits_changes_nothing(armed, refused):
     )  # fmt: skip
 
 
-def test_noise_and_its_own_words_are_refused(bench):
+def test_noise_and_its_own_messages_are_refused(bench):
     assert LineReader().feed(bench.board.receive(b'noise\n')) == [Error(Reason.CHECKSUM)]
     assert bench.ask(Error(Reason.RANGE)) == Error(Reason.MESSAGE)
