@@ -50,20 +50,20 @@ def require(what: str, value: object, validator: Validator) -> None:
         raise BringupError(f'{what.replace("%s", shortened(value), 1)}: it takes {validator.text}')
 
 
-def require_fields(begin: str, owner: object, validators: Mapping[str, Validator]) -> None:
+def require_fields(begin: str, instance: object, validators: Mapping[str, Validator]) -> None:
     """
     Check the fields of an object.
 
     Args:
         begin: begin of the error message, ``Node('talker'``.
-        owner: the object.
+        instance: the object.
         validators: that of each field, by its name.
 
     Raises:
         BringupError: a field is not accepted.
     """
     for name, validator in validators.items():
-        require(f'{begin}, {name}=%s)', getattr(owner, name), validator)
+        require(f'{begin}, {name}=%s)', getattr(instance, name), validator)
 
 
 def shortened(value: object) -> str:

@@ -14,7 +14,7 @@ def display(
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
-    """The robot as its description says, with a slider for every joint that moves."""
+    """The robot of a description, with a slider for every movable joint."""
     # 1. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
         'robot_state_publisher',

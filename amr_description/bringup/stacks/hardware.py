@@ -41,7 +41,7 @@ def mock(
     controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
-    """The robot's controllers over mock hardware: no physics, wheels do as they are told."""
+    """The robot's controllers over mock hardware: no physics, wheels follow commands."""
     description = swap_hardware(
         robot_description(urdf, xacro_args),
         'mock_components/GenericSystem',

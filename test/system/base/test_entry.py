@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The way into the executables: quiet on Ctrl-C, also in the midst of an import."""
+"""The entry point of the executables: quiet on Ctrl-C, even during an import."""
 
 import signal
 import sys
@@ -23,14 +23,14 @@ def test_ctrl_c_during_an_import_ends_it_quietly():
         assert program.lines == ['importing']
 
 
-def test_a_blocked_ctrl_c_waits_for_it_and_ends_it_quietly():
+def test_a_blocked_ctrl_c_stays_pending_and_ends_it_quietly():
     early = 'import os, signal; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); '
     with Program.of(f'{early}os.kill(os.getpid(), signal.SIGINT); {SLOW}', 'import') as program:
         assert program.end() == 130
         assert program.output == ''
 
 
-def test_ctrl_c_that_a_program_leaves_to_python_ends_it_quietly_after_its_clean_up():
+def test_an_unhandled_ctrl_c_ends_the_program_quietly_after_its_clean_up():
     with Program.of(SLOW, 'main') as program:
         program.expect('in main\n')
         assert program.end(signal.SIGINT) == 130
@@ -56,7 +56,7 @@ def test_a_name_stands_for_what_is_imported_when_called():
     assert Executable('fixtures.entry.slow').seven() == 7
 
 
-def test_a_missing_function_is_no_interrupt():
+def test_a_missing_function_is_an_error():
     with pytest.raises(AttributeError, match='nothing'):
         Executable('fixtures.entry.slow').nothing()
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What can go wrong at each step of a start, and children with bad manners: real process trees."""
+"""Faults at each step of a start, and unruly children: real process trees."""
 
 import contextlib
 import os
@@ -48,7 +48,7 @@ VICTIMS = [
 
 
 @pytest.mark.parametrize(('until', 'victim'), VICTIMS)
-def test_any_child_killed_at_any_step_ends_all_and_is_named(tmp_path, until, victim):
+def test_any_child_killed_at_any_step_stops_the_stack_and_is_named(tmp_path, until, victim):
     with started(tmp_path, until) as bringup:
         os.kill(bringup.pids()[victim], signal.SIGKILL)
         assert bringup.end() == 128 + signal.SIGKILL
@@ -80,7 +80,7 @@ def test_the_orchestrator_killed_at_any_step_leaves_nothing(tmp_path, until):
         assert all(ends(pid) for pid in pids)
 
 
-def test_a_suspended_orchestrator_goes_on_where_it_was(tmp_path):
+def test_a_suspended_orchestrator_continues(tmp_path):
     with started(tmp_path, 0) as bringup:
         victim = bringup.pids()['worker-2']
         bringup.signal(signal.SIGSTOP)
@@ -129,7 +129,7 @@ MANNERS = {
 
 
 @pytest.mark.parametrize(('manners', 'pattern'), MANNERS.items())
-def test_bad_manners_leave_nothing(tmp_path, manners, pattern):
+def test_unruly_children_leave_nothing_behind(tmp_path, manners, pattern):
     with Bringup(tmp_path, UNRULY, f'manners:={manners}') as bringup:
         bringup.expect('unruly is up')
         bringup.expect(r'\[worker-1\] working')
@@ -141,14 +141,14 @@ def test_bad_manners_leave_nothing(tmp_path, manners, pattern):
 
 
 @pytest.mark.parametrize('manners', [manners for manners, pattern in MANNERS.items() if pattern])
-def test_bad_manners_do_not_outlive_a_killed_orchestrator(tmp_path, manners):
+def test_unruly_children_do_not_outlive_a_killed_orchestrator(tmp_path, manners):
     with Bringup(tmp_path, UNRULY, f'manners:={manners}') as bringup:
         pid = int(bringup.expect(MANNERS[manners])[1])
         bringup.signal(signal.SIGKILL)
         assert ends(pid)
 
 
-def test_a_flood_drowns_nobody(tmp_path):
+def test_a_flood_of_output_blocks_nothing(tmp_path):
     """The output goes to a file: reading it here would be slower than writing."""
     install_toys(tmp_path / 'prefix')
     command = [sys.executable, '-m', 'amr_description.bringup.main', UNRULY, 'manners:=flood']

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A stack waits for lines, for the ROS graph, for time and for files; and in vain."""
+"""A stack waits for lines, for the ROS graph, for time and for files; timeouts."""
 
 import os
 from pathlib import Path
@@ -33,7 +33,7 @@ def watch_of(bringup):
     return [pid for pid, line in lines.items() if b'graph_watch' in line]
 
 
-def test_each_starts_when_what_it_waits_for_is_there(tmp_path):
+def test_each_node_starts_when_its_condition_holds(tmp_path):
     with waiting(tmp_path) as bringup:
         bringup.expect(r'\[step-4\]: process has finished cleanly')
         started = re.findall(r'\[(\S+)\]: process started', bringup.output)
@@ -51,7 +51,7 @@ def test_each_starts_when_what_it_waits_for_is_there(tmp_path):
         assert bringup.left() == []
 
 
-def test_a_wait_in_vain_ends_all_and_says_what_there_is_instead(tmp_path):
+def test_a_timeout_stops_the_stack_and_reports_what_there_is_instead(tmp_path):
     with waiting(tmp_path, 'talks:=false', 'timeout:=1') as bringup:
         assert bringup.end() == 124
         last = bringup.output.splitlines()[-1]
@@ -63,7 +63,7 @@ def test_a_wait_in_vain_ends_all_and_says_what_there_is_instead(tmp_path):
         assert bringup.left() == []
 
 
-def test_an_optional_wait_in_vain_is_told_and_the_stack_goes_on(tmp_path):
+def test_a_timeout_of_an_optional_node_is_reported_and_the_stack_continues(tmp_path):
     with waiting(tmp_path, 'talks:=false', 'timeout:=1', 'optional:=true') as bringup:
         bringup.expect(r'\[step-2\]: never starts: step-2 waited 1 s in vain: nobody publishes')
         bringup.expect('ready in')
@@ -116,7 +116,7 @@ def test_the_graph_is_what_the_lines_say():
     assert watched.said == ['[RTPS_TRANSPORT_SHM Error] + node']
 
 
-def test_a_watch_that_dies_is_started_again_ever_later_and_forgets_what_it_saw():
+def test_a_watch_that_dies_is_restarted_with_growing_delay_and_forgets_the_graph():
     watched = Watched()
     now = 100.0
     for delay in (1.0, 2.0, 4.0, 8.0, 16.0, 30.0, 30.0):
@@ -135,7 +135,7 @@ def test_a_watch_that_dies_is_started_again_ever_later_and_forgets_what_it_saw()
         now += delay
 
 
-def test_it_runs_only_while_somebody_asks():
+def test_it_runs_only_while_a_condition_asks():
     watched = Watched()
     external = ExternalState(watched.watch)
     external.update([], 0.0)
@@ -153,7 +153,7 @@ def test_it_runs_only_while_somebody_asks():
     assert len(watched.processes) == 2
 
 
-def test_paths_are_looked_at_while_somebody_asks(tmp_path):
+def test_paths_are_polled_while_a_condition_asks(tmp_path):
     external = ExternalState(Watched().watch)
     port = tmp_path / 'port'
     asked = [path_exists(port)]
@@ -170,7 +170,7 @@ def test_paths_are_looked_at_while_somebody_asks(tmp_path):
     assert path_state(tmp_path / 'no' / 'folder') == PathState(False)
 
 
-def test_the_watch_tells_what_came_and_went():
+def test_the_watch_reports_what_came_and_went():
     assert changes({'node /a', 'node /b'}, {'node /b', 'service /c'}) == [
         '- node /a',
         '+ service /c',

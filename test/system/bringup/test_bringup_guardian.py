@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whom the guardian ends, and what it takes away."""
+"""The guardian: which processes it ends, and which shared memory it removes."""
 
 import fcntl
 import os
@@ -56,7 +56,7 @@ def test_the_mark_is_read_from_the_environment():
         assert process.pid not in [p.pid for p in processes(run)], 'a zombie counts as ended'
 
 
-def test_who_was_met_once_is_found_again_but_not_another_of_that_pid(monkeypatch):
+def test_a_process_found_once_is_found_again_but_not_another_of_its_pid(monkeypatch):
     looks = iter(
         [
             [Process(20, 1, True, start=5), Process(21, 20, False, start=6)],
@@ -83,7 +83,7 @@ class Clock:
 
 
 @pytest.mark.parametrize('ends_on', [signal.SIGINT, signal.SIGKILL, None])
-def test_it_asks_first_then_forces_and_never_waits_for_ever(monkeypatch, ends_on):
+def test_sigint_then_sigkill_and_a_limit_of_time(monkeypatch, ends_on):
     sent = []
     clock = Clock()
     monkeypatch.setattr('amr_description.bringup.guardian.time', clock)
@@ -95,7 +95,7 @@ def test_it_asks_first_then_forces_and_never_waits_for_ever(monkeypatch, ends_on
     assert clock.now < 5.0
 
 
-def test_one_empty_look_is_not_enough(monkeypatch):
+def test_one_empty_poll_is_not_enough(monkeypatch):
     monkeypatch.setattr('amr_description.bringup.guardian.time', Clock())
     monkeypatch.setattr('os.kill', lambda pid, number: None)
     looks = iter([[], [5], [], []])
@@ -103,7 +103,7 @@ def test_one_empty_look_is_not_enough(monkeypatch):
     assert next(looks, 'all taken') == 'all taken'
 
 
-def test_shared_memory_that_nobody_owns_is_taken_away(tmp_path):
+def test_shared_memory_without_an_owner_is_removed(tmp_path):
     orphan, owned, port = (
         'fastrtps_0123456789abcdef',
         'fastrtps_fedcba9876543210',

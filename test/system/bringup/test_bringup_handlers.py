@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is done when a node ends, and when the stack stops; and new starts of real processes."""
+"""Event handlers at the end of a node and of the stack; respawn of real processes."""
 
 import json
 import re
@@ -66,7 +66,7 @@ def test_it_may_start_several_and_whole_groups():
         (False, 'False stands in a stack'),
     ],
 )
-def test_what_is_no_reaction_stops_the_stack(reaction, text):
+def test_an_invalid_return_value_stops_the_stack(reaction, text):
     scheduler = ended(lambda _: reaction)
     assert scheduler.over
     assert scheduler.shutdown.exit_code == 1
@@ -82,7 +82,7 @@ def test_a_handler_that_leaves_python_stops_the_stack():
     )
 
 
-def test_it_may_want_nothing():
+def test_it_may_return_none():
     helper = Node('helper', start_when=on_request())
     scheduler = ended(lambda _: None, helper)
     assert scheduler.startable() == []
@@ -90,20 +90,20 @@ def test_it_may_want_nothing():
     assert scheduler.failure is None
 
 
-def test_it_may_stop_all():
+def test_it_may_stop_the_stack():
     scheduler = ended(lambda event: Shutdown(f'code {event.returncode}', 5), Node('n'), code=2)
     assert scheduler.over
     assert scheduler.shutdown == Shutdown('code 2', 5)
 
 
-def test_a_required_node_that_failed_stops_all_whatever_it_wants():
+def test_a_required_node_that_failed_stops_the_stack_whatever_its_handler_returns():
     helper = Node('helper', start_when=on_request())
     scheduler = ended(lambda _: helper, helper, code=4, required=True)
     assert scheduler.over
     assert scheduler.failure.exit_code == 4
 
 
-def test_one_that_raises_stops_all_and_the_place_is_told():
+def test_a_handler_that_raises_stops_the_stack_and_is_located():
     scheduler = ended(lambda _: 1 / 0, Node('n'))
     text = r'on_exit failed: ZeroDivisionError: division by zero \(test_bringup_handlers.py, line'
     assert re.match(text, scheduler.shutdown.reason)
@@ -112,12 +112,12 @@ def test_one_that_raises_stops_all_and_the_place_is_told():
 
 def test_it_may_start_only_what_waits_for_it():
     plain = Node('plain')
-    for other in (plain, Node('stranger', start_when=on_request())):
+    for other in (plain, Node('foreign', start_when=on_request())):
         scheduler = ended(lambda _, other=other: other, plain)
         assert f"on_exit asks for Node('{other.executable}'), which" in scheduler.shutdown.reason
 
 
-def test_who_waits_to_be_asked_has_time_and_is_not_missed():
+def test_a_wait_for_a_request_has_no_timeout_and_does_not_delay_readiness():
     scheduler = Scheduler(Stack([Node('n'), Node('helper', start_when=on_request())]))
     scheduler.on_start(scheduler.startable()[0])
     assert scheduler.ready
@@ -125,14 +125,14 @@ def test_who_waits_to_be_asked_has_time_and_is_not_missed():
     assert not scheduler.over
 
 
-def handled(folder, wish):
+def handled(folder, reaction):
     note = folder / 'note'
     return Bringup(
-        folder, str(STACKS / 'handled.py'), 'code:=3', f'note:={note}', f'wish:={wish}'
+        folder, str(STACKS / 'handled.py'), 'code:=3', f'note:={note}', f'reaction:={reaction}'
     ), note
 
 
-def test_a_stack_that_helps_itself(tmp_path):
+def test_a_handler_starts_another_node(tmp_path):
     bringup, note = handled(tmp_path, 'start')
     with bringup:
         bringup.expect(r'\[step-3\]: process has finished cleanly')
@@ -141,16 +141,16 @@ def test_a_stack_that_helps_itself(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ('wish', 'code', 'told'),
+    ('reaction', 'code', 'told'),
     [
         ('shutdown', 7, r"\[ERROR\] \[launch\]: stopping: step said 'two'"),
         ('raise', 1, r'stopping: on_exit failed: ValueError: one \(handled.py, line \d+\)'),
         ('raise', 1, r'on_shutdown failed: OSError: no brake \(handled.py, line \d+\)'),
-        ('stranger', 1, r"stopping: on_exit asks for Node\('step'\), which is not in the stack"),
+        ('foreign', 1, r"stopping: on_exit asks for Node\('step'\), which is not in the stack"),
     ],
 )
-def test_a_stack_that_stops_itself(tmp_path, wish, code, told):
-    bringup, note = handled(tmp_path, wish)
+def test_a_handler_stops_the_stack(tmp_path, reaction, code, told):
+    bringup, note = handled(tmp_path, reaction)
     with bringup:
         assert bringup.end() == code
         assert re.search(told, bringup.output)
@@ -158,7 +158,7 @@ def test_a_stack_that_stops_itself(tmp_path, wish, code, told):
         assert bringup.left() == []
 
 
-def test_a_step_that_is_started_again_until_it_is_enough(tmp_path):
+def test_a_step_is_respawned_up_to_its_limit(tmp_path):
     bringup, _ = handled(tmp_path, 'respawn')
     with bringup:
         bringup.expect(r'\[step-3\]: process has finished cleanly')

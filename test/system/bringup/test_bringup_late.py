@@ -48,7 +48,7 @@ def test_a_stack_comes_up_however_late_its_simulator_is(late):
         assert bringup.left() == []
 
 
-def test_a_create_that_fails_stops_all_and_is_named_with_its_reason(late, tmp_path):
+def test_a_create_that_fails_stops_the_stack_and_is_named_with_its_reason(late, tmp_path):
     start, let_it_go = late
     (tmp_path / 'massless.urdf').write_text(MASSLESS)
     with start(urdf=tmp_path / 'massless.urdf') as bringup:

@@ -61,7 +61,7 @@ def test_a_stack_that_ends_leaves_no_shared_memory_and_no_port(tmp_path):
         assert ports.isdisjoint(bound_udp_ports())
 
 
-def test_a_simulator_that_is_killed_ends_all(tmp_path):
+def test_a_killed_simulator_stops_the_stack(tmp_path):
     with stack(tmp_path, 'simulation', 'viewer:=false') as bringup:
         up(bringup, 'create-3', 'spawner-4')
         os.kill(bringup.pids()['mujoco_sim-1'], signal.SIGKILL)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The log of events: what happened, for programs."""
+"""The log of events, for programs."""
 
 import io
 import json
@@ -78,7 +78,7 @@ def test_every_listener_gets_every_event_in_order():
     assert 'node' not in first[1]
 
 
-def test_a_line_is_one_line_whatever_is_said():
+def test_an_event_is_one_line_whatever_it_contains():
     line = json_line({'event': 'failure', 'reason': 'one\ntwo \x1b[31m "ä"'})
     assert '\n' not in line
     assert json.loads(line)['reason'] == 'one\ntwo \x1b[31m "ä"'

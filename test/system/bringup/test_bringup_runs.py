@@ -78,7 +78,7 @@ def test_status_and_stop_of_a_stack_that_runs(tmp_path):
     assert (nothing.returncode, json.loads(nothing.stdout)) == (1, [])
 
 
-def test_what_waits_and_what_died_is_told(tmp_path):
+def test_status_shows_who_waits_and_who_died(tmp_path):
     with Bringup(tmp_path, str(STACKS / 'optional.py')) as bringup:
         bringup.expect('working as pid')
         bringup.expect('never starts')
@@ -87,7 +87,7 @@ def test_what_waits_and_what_died_is_told(tmp_path):
         assert 'never starts: needs that step-1 exited with code 0' in told
 
 
-def test_a_stopped_job_can_be_ended_too(tmp_path):
+def test_a_stopped_job_can_be_ended(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         up(bringup).signal(signal.SIGSTOP)  # as Ctrl-Z does
         assert command(tmp_path, 'stop').returncode == 0
@@ -119,7 +119,7 @@ def test_a_second_stack_of_the_same_names_is_refused(tmp_path):
         )
 
 
-def test_what_a_killed_run_left_is_in_nobodys_way(tmp_path):
+def test_the_file_of_a_killed_run_is_removed(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         pids = up(bringup).left()
         bringup.signal(signal.SIGKILL)
@@ -174,7 +174,7 @@ def test_a_state_that_is_being_written_is_no_second_run(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize('other', [{'start_time': 1}, {'boot': 'another'}])
-def test_a_pid_that_came_again_is_another_process(tmp_path, other):
+def test_a_reused_pid_is_another_process(tmp_path, other):
     record(tmp_path, 'run')
     path = tmp_path / 'run.json'
     path.write_text(json.dumps(json.loads(path.read_text()) | other))
@@ -195,7 +195,7 @@ def rows(folder):
     return run_commands.table(state, {})
 
 
-def test_what_a_node_does_is_told_also_between_two_starts(tmp_path):
+def test_status_shows_a_node_between_two_starts(tmp_path):
     run = record(tmp_path, 'run')
     ended = {'event': 'exited', 'node': 'a-1', 'pid': 5, 'time': 1.0}
     run.update({'event': 'begun', 'log_folder': '/logs'})
@@ -223,7 +223,7 @@ def test_a_run_that_never_gets_ready_says_so_until_it_stops(tmp_path):
     assert rows(tmp_path)[0].startswith('run: stopping, pid')
 
 
-def test_names_that_there_can_be_only_one_of(tmp_path, monkeypatch):
+def test_names_that_must_be_unique(tmp_path, monkeypatch):
     install_toys(tmp_path)
     monkeypatch.setenv('AMENT_PREFIX_PATH', f'{tmp_path}:{os.environ["AMENT_PREFIX_PATH"]}')
     named = Node('worker', package='toys', name='left', namespace='arm')

@@ -31,7 +31,7 @@ def test_steps_start_one_after_the_other(tmp_path):
         ]
 
 
-def test_everything_a_process_wrote_stands_before_its_end(tmp_path):
+def test_all_output_of_a_process_precedes_its_end(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         bringup.expect('ready in')
         lines = [line for line in bringup.output.splitlines() if '[step-5]' in line]
@@ -45,7 +45,7 @@ def test_everything_a_process_wrote_stands_before_its_end(tmp_path):
         ]
 
 
-def test_an_unfinished_line_does_not_wait_for_who_keeps_the_output_open(tmp_path):
+def test_an_unfinished_line_is_shown_even_if_another_process_keeps_the_pipe_open(tmp_path):
     arguments = ['text:=one', 'unfinished:=rest', 'leave_child:=true']
     with Bringup(tmp_path, CHATTY, *arguments) as bringup:
         assert bringup.end() == 0
@@ -64,7 +64,7 @@ def test_a_node_gets_the_command_line_that_launch_builds(tmp_path):
         assert 'speed: 1.5' in Path(path).read_text()
 
 
-def test_a_failed_step_stops_the_rest_and_says_which_and_why(tmp_path):
+def test_a_failed_step_stops_the_rest_and_is_reported_with_its_reason(tmp_path):
     with Bringup(tmp_path, IN_ORDER, 'code:=3') as bringup:
         assert bringup.end() == 3
         died = (
@@ -97,7 +97,7 @@ def test_a_required_worker_that_dies_stops_the_stack(tmp_path):
         assert 'stopped because worker-2 died of SIGKILL' in bringup.output
 
 
-def test_the_stack_goes_on_without_an_optional_node(tmp_path):
+def test_the_stack_continues_without_an_optional_node(tmp_path):
     with Bringup(tmp_path, OPTIONAL) as bringup:
         bringup.expect('working as pid')
         bringup.expect(
@@ -119,13 +119,13 @@ def test_the_stack_is_over_when_nothing_runs_any_more(tmp_path):
         assert '[step-1] hello\n' in bringup.output
 
 
-def test_the_end_of_one_node_may_be_the_end_of_all(tmp_path):
+def test_the_end_of_one_node_may_stop_the_stack(tmp_path):
     with Bringup(tmp_path, str(STACKS / 'ending.py')) as bringup:
         assert bringup.end() == 0
         assert "sending signal 'SIGINT' to process[worker-2]" in bringup.output
 
 
-def test_a_file_that_cannot_be_executed_is_told_in_one_line(tmp_path):
+def test_a_file_that_cannot_be_executed_is_reported_in_one_line(tmp_path):
     with Bringup(tmp_path, CHATTY, 'text:=x') as bringup:
         bringup.end()
     (tmp_path / 'prefix/lib/toys/step').write_bytes(b'\x7fELF no program')
@@ -189,7 +189,7 @@ def test_log_files_hold_what_the_screen_showed(tmp_path):
         assert re.sub(r'(?m)^\d{10}\.\d{7} ', '', log) == bringup.output
 
 
-def test_where_no_log_folder_can_be_the_stack_runs_without(tmp_path):
+def test_without_a_log_folder_the_stack_runs_all_the_same(tmp_path):
     (tmp_path / 'logs').touch()
     with Bringup(tmp_path, IN_ORDER, TMPDIR=str(tmp_path)) as bringup:
         bringup.expect('no log files from here on: .*Not a directory')
@@ -213,7 +213,7 @@ COLOUR = {'TERM': 'xterm', 'NO_COLOR': '', 'RCUTILS_COLORIZED_OUTPUT': ''}
         (False, {'RCUTILS_COLORIZED_OUTPUT': '1', 'NO_COLOR': '1'}, True),
     ],
 )
-def test_names_are_coloured_where_a_person_reads(tmp_path, terminal, env, coloured):
+def test_names_are_coloured_on_a_terminal(tmp_path, terminal, env, coloured):
     with Bringup(tmp_path, CHATTY, 'text:=hello', terminal=terminal, **COLOUR | env) as bringup:
         assert bringup.end() == 0
         found = re.search('\x1b\\[\\d+m\\[step-1\\]\x1b\\[0m hello', bringup.output)

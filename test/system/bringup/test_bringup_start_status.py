@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a start waits for: on a terminal a line that leaves nothing, elsewhere lines at times."""
+"""The status of a start: on a terminal a line that is erased, elsewhere periodic lines."""
 
 import io
 import re
@@ -36,7 +36,7 @@ class Watched:
         return self.status.text(self.scheduler)
 
 
-def test_it_names_what_can_happen_next_and_since_when_it_is_waited_for(tmp_path):
+def test_it_names_the_next_wait_and_how_long_it_takes(tmp_path):
     watched = Watched(tmp_path)
     watched.scheduler.on_start(watched.one)
     assert watched.at(0.0) == '0.0 s: two waits until one exited with code 0 (0.0 s)'
@@ -58,7 +58,7 @@ def console(folder, **options):
     return screen, Console(screen, LogFolder(folder, 'run'), colour=False, **options)
 
 
-def test_lines_go_before_the_status_which_stays_the_last(tmp_path, monkeypatch):
+def test_lines_are_printed_before_the_status_line(tmp_path, monkeypatch):
     monkeypatch.setenv('COLUMNS', '20')
     screen, shown = console(tmp_path, erases=True)
     shown.status('waiting')
@@ -85,7 +85,7 @@ def test_a_screen_that_cannot_erase_has_no_status(tmp_path):
 
 
 @pytest.mark.parametrize('term', ['xterm', 'dumb'])
-def test_on_a_terminal_it_is_seen_and_gone_when_the_stack_is_up(tmp_path, term):
+def test_on_a_terminal_it_is_shown_until_the_stack_is_ready(tmp_path, term):
     env = {'NO_COLOR': '1', 'TERM': term, 'COLUMNS': '100'}
     with Bringup(tmp_path, LATE, terminal=True, **env) as bringup:
         waits = r'\d\.\d s: step-2 waits until gate-1 exited with code 0 \(\d\.\d s\)'
@@ -109,7 +109,7 @@ def rest_of(line):
     return line.split(ERASED)[-1]
 
 
-def test_elsewhere_a_line_is_said_at_times(tmp_path):
+def test_elsewhere_a_line_is_printed_periodically(tmp_path):
     with Bringup(tmp_path, LATE) as bringup:
         bringup.expect(
             r'\[INFO\] \[launch\]: \d+\.\d s: step-2 waits until gate-1 exited with code 0 \(\d'
@@ -119,7 +119,7 @@ def test_elsewhere_a_line_is_said_at_times(tmp_path):
         assert bringup.end(2) == 0
 
 
-def test_of_many_steps_the_longest_are_named():
+def test_only_the_longest_of_many_steps_are_named():
     steps = {f's{number}': float(number) for number in range(1, 10)}
     assert steps_text(steps) == (
         'steps: s4 4.0 s, s5 5.0 s, s6 6.0 s, s7 7.0 s, s8 8.0 s, s9 9.0 s and 3 shorter ones'

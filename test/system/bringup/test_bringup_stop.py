@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The end of a bring-up: nothing is left, whoever ends it and in whatever way."""
+"""The end of a bring-up: nothing is left, however it is ended."""
 
 import os
 from pathlib import Path
@@ -28,7 +28,7 @@ def up(bringup):
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_one_way_out_for_every_signal(tmp_path, number):
+def test_every_signal_stops_the_stack_alike(tmp_path, number):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         up(bringup)
         assert bringup.end(number) == 0
@@ -49,14 +49,14 @@ def test_one_way_out_for_every_signal(tmp_path, number):
         (7, r'\[ERROR\] \[plain-1\]: process has died \[pid \d+, exit code 7, cmd'),
     ],
 )
-def test_to_end_as_told_is_no_error(tmp_path, code, told):
+def test_ending_on_a_signal_is_no_error(tmp_path, code, told):
     with Bringup(tmp_path, str(STACKS / 'plain.py'), f'code:={code}') as bringup:
         bringup.expect('plain is up')
         assert bringup.end(signal.SIGTERM) == 0
         assert re.search(told, bringup.output)
 
 
-def test_children_hear_sigint_even_if_the_orchestrator_was_started_without(tmp_path):
+def test_children_get_sigint_even_if_the_orchestrator_was_started_with_it_ignored(tmp_path):
     ignoring = [sys.executable, '-c', IGNORE_SIGINT]
     with Bringup(tmp_path, IN_ORDER, launcher=ignoring) as bringup:
         up(bringup)
@@ -106,7 +106,7 @@ def hurry(bringup):
     return bringup.end(signal.SIGINT)
 
 
-def test_a_second_and_a_third_request_hurry(tmp_path):
+def test_a_second_and_a_third_request_escalate(tmp_path):
     with Bringup(tmp_path, STUBBORN, 'role:=alone') as bringup:
         bringup.expect(r'\] stubborn pid')
         assert hurry(bringup) == 0
@@ -174,7 +174,7 @@ def test_a_reader_that_never_was_there_ends_the_stack(tmp_path):
 
 
 @pytest.mark.parametrize('streams', ['>&-', '2>&- >&- <&-', '>/dev/full', '2>/dev/full >&2'])
-def test_what_nobody_can_read_costs_nothing_else(tmp_path, streams):
+def test_a_closed_screen_stops_only_the_output(tmp_path, streams):
     closing = ['sh', '-c', f'exec "$@" {streams}', 'sh']
     with Bringup(tmp_path, CHATTY, 'text:=hello', 'code:=3', launcher=closing) as bringup:
         assert bringup.end() == 3
@@ -197,7 +197,7 @@ def test_orphans_are_adopted_and_reaped(tmp_path):
         assert bringup.end(signal.SIGTERM) == 0
 
 
-def test_what_has_just_begun_ends_without_a_word(tmp_path):
+def test_a_program_that_has_just_started_ends_quietly(tmp_path):
     (tmp_path / 'early.py').write_text(
         'from amr_description.bringup import Node, Stack\n'
         'def early():\n'

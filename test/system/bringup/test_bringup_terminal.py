@@ -62,7 +62,7 @@ def until(condition):
         os.sched_yield()
 
 
-def test_keys_reach_it_and_its_end_is_the_end_of_all(tmp_path):
+def test_it_reads_keys_and_its_end_stops_the_stack(tmp_path):
     with Keys(tmp_path, 'late:=true') as bringup:
         bringup.expect('has the terminal; what the others say goes to .*/launch.log, their')
         bringup.up().type('a')
@@ -94,7 +94,7 @@ def test_the_terminal_is_restored_in_every_way_out_of_the_orchestrator(tmp_path,
         assert bringup.up().over(number) == 0
 
 
-def test_a_killed_orchestrator_takes_it_along(tmp_path):
+def test_it_ends_with_a_killed_orchestrator(tmp_path):
     with Keys(tmp_path) as bringup:
         bringup.up().signal(signal.SIGKILL)
         bringup.process.wait(PATIENCE)
@@ -103,7 +103,7 @@ def test_a_killed_orchestrator_takes_it_along(tmp_path):
         until(lambda: not bringup.left())
 
 
-def test_the_others_do_not_garble_it(tmp_path):
+def test_the_output_of_others_does_not_garble_the_screen(tmp_path):
     with Keys(tmp_path) as bringup:
         bringup.up()
         log = bringup.logs / 'latest/complainer-1.log'
@@ -172,7 +172,7 @@ def test_with_its_output_in_a_pipe_it_still_gets_the_keys(tmp_path):
         bringup.expect('process has finished cleanly')
 
 
-def test_a_lent_screen_is_written_without_erasing_where_it_cannot(tmp_path):
+def test_a_lent_screen_without_erasing(tmp_path):
     with (tmp_path / 'screen').open('w+') as screen:
         console = Console(screen, LogFolder(tmp_path, 'run'), colour=False)
         console.set_lent(True)

@@ -61,7 +61,7 @@ def test_the_last_of_a_name_wins():
 
 
 @pytest.mark.parametrize('word', ['gui', ':=x', 'gui=1', ''])
-def test_a_malformed_word_is_told_as_launch_tells_it(word):
+def test_a_malformed_word_is_refused_in_the_words_of_launch(word):
     with pytest.raises(UsageError, match=f"malformed launch argument '{word}', expected format"):
         parse([word])
 
@@ -80,18 +80,18 @@ def test_a_wrong_value_or_name_is_a_usage_error(word, text):
         values('needed:=a', word)
 
 
-def test_a_bad_choice_is_told_as_launch_tells_it():
+def test_a_bad_choice_is_refused_in_the_words_of_launch():
     text = 'Argument "world" provided value "sea" is not valid. Valid options are: \\[\'empty\', '
     with pytest.raises(BringupError, match=text):
         values('needed:=a', 'world:=sea')
 
 
-def test_a_missing_argument_is_named_with_its_meaning():
+def test_a_missing_argument_is_named_with_its_description():
     with pytest.raises(BringupError, match="'needed' \\(description: 'no way without'\\)"):
         values('rtf:=2')
 
 
-def test_a_type_that_nobody_can_type_is_refused():
+def test_an_unsupported_type_is_refused():
     def strange(when: list[int] = ()):  # noqa: ANN202
         pass
 
@@ -99,7 +99,7 @@ def test_a_type_that_nobody_can_type_is_refused():
         declared(strange)
 
 
-def test_a_signature_that_nobody_can_meet_is_refused():
+def test_an_unsupported_signature_is_refused():
     def none(name: str = None):  # noqa: ANN202, RUF013
         pass
 

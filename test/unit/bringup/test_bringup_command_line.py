@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes made ready to run: the ament index and the command line that launch builds."""
+"""Processes of nodes: the ament index, and the command lines that launch builds."""
 
 from fixtures.bringup.running import install_toys
 import pytest
@@ -46,7 +46,7 @@ def test_command_line(prefix, tmp_path):
     assert yaml.read_text() == ''
 
 
-def test_only_programs_of_ours_take_sigint_later(prefix):
+def test_only_executables_of_this_package_start_with_sigint_blocked(prefix):
     (prefix / 'share/ament_index/resource_index/packages/amr_description').touch()
     (prefix / 'lib/amr_description').symlink_to('toys')
     nodes = [
@@ -58,7 +58,7 @@ def test_only_programs_of_ours_take_sigint_later(prefix):
     assert not spec.unblocks_sigint
 
 
-def test_of_a_script_the_missing_interpreter_is_named(prefix):
+def test_the_missing_interpreter_of_a_script_is_named(prefix):
     step = prefix / 'lib/toys/step'
     (spec,) = process_specs(Stack([Node('step', package='toys')]), prefix)
     missing = FileNotFoundError(2, 'No such file or directory', str(step))
@@ -74,7 +74,7 @@ def refuses(text, **changes):
         process_specs(Stack([Node(**{'executable': 'step', 'package': 'toys', **changes})]), None)
 
 
-def test_what_is_missing_is_told_before_anything_starts(prefix, monkeypatch):
+def test_what_is_missing_is_reported_before_anything_starts(prefix, monkeypatch):
     libexec = "executable 'wrker' not found on the libexec directory '.*/lib/toys'"
     refuses(f"{libexec}; did you mean 'worker'\\? known: .*, plain, step", executable='wrker')
     refuses("Package 'toyz' not found, searching: .*/other, .*/toys", package='toyz')
@@ -104,7 +104,7 @@ def test_a_prefix_for_all_or_some_of_the_command_lines(prefix, pattern, own, exp
     ]
 
 
-def test_a_prefix_that_cannot_be_is_told_before_anything_starts(prefix):
+def test_an_invalid_prefix_is_reported_before_anything_starts(prefix):
     refuses("prefix 'no-such-gdb -x': there is no command 'no-such-gdb'", prefix='no-such-gdb -x')
     refuses('No closing quotation', prefix="nice '")
     with pytest.raises(UsageError, match=r"--launch-prefix-filter '\(': missing \)"):

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the conditions hold for, how they combine, and what they say is lacking."""
+"""When conditions hold, how they combine, and how they explain that they are unmet."""
 
 import itertools
 
@@ -29,12 +29,12 @@ HOLDS, NOT_YET, NEVER = Verdict.HOLDS, Verdict.NOT_YET, Verdict.NEVER
 NODE = Node('n')
 
 
-def judge(condition, state=None, **situation):
-    return condition.evaluate(StackState({NODE: state or NodeState()}, **situation))
+def verdict_of(condition, state=None, **changes):
+    return condition.evaluate(StackState({NODE: state or NodeState()}, **changes))
 
 
-def lack(condition, state=None, **situation):
-    return condition.explain_unmet(StackState({NODE: state or NodeState()}, **situation), name)
+def explanation_of(condition, state=None, **changes):
+    return condition.explain_unmet(StackState({NODE: state or NodeState()}, **changes), name)
 
 
 def name(node):
@@ -55,24 +55,24 @@ RESTARTS = NodeState(started=True, restart_at=9.0)
         (logged(NODE, 'x'), (NOT_YET, NOT_YET, NEVER, NEVER, NEVER, NOT_YET)),
     ],
 )
-def test_what_became_of_a_node(condition, verdicts):
+def test_conditions_on_a_node(condition, verdicts):
     states = (WAITING, RUNNING, STUCK, WELL, BADLY, RESTARTS)
-    assert tuple(judge(condition, state) for state in states) == verdicts
+    assert tuple(verdict_of(condition, state) for state in states) == verdicts
 
 
 @pytest.mark.parametrize('verdicts', list(itertools.product(Verdict, repeat=2)))
-def test_all_and_any_are_each_others_mirror(verdicts):
+def test_all_of_and_any_of_are_minimum_and_maximum(verdicts):
     states = {HOLDS: WELL, NOT_YET: RUNNING, NEVER: BADLY}
     nodes = [Node('a'), Node('b')]
     of_state = dict(zip(nodes, (states[v] for v in verdicts), strict=True))
     conditions = [exited_cleanly(node) for node in nodes]
     weakest_first = [NEVER, NOT_YET, HOLDS]
-    situation = StackState(of_state)
-    assert all_of(*conditions).evaluate(situation) == min(verdicts, key=weakest_first.index)
-    assert any_of(*conditions).evaluate(situation) == max(verdicts, key=weakest_first.index)
+    stack_state = StackState(of_state)
+    assert all_of(*conditions).evaluate(stack_state) == min(verdicts, key=weakest_first.index)
+    assert any_of(*conditions).evaluate(stack_state) == max(verdicts, key=weakest_first.index)
 
 
-def test_a_line_counts_though_the_node_ended_since():
+def test_a_line_counts_even_if_the_node_has_ended_since():
     node = Node('n')
     scheduler = Scheduler(Stack([node, Node('next', start_when=logged(node, r'port \d+'))]))
     scheduler.on_start(node)
@@ -114,19 +114,19 @@ GRAPH = RosGraph(
     ],
 )
 def test_the_graph(condition, holds):
-    assert judge(condition, graph=GRAPH) == (HOLDS if holds else NOT_YET)
-    assert judge(condition) == NOT_YET
+    assert verdict_of(condition, graph=GRAPH) == (HOLDS if holds else NOT_YET)
+    assert verdict_of(condition) == NOT_YET
     assert condition.is_external
 
 
 @pytest.mark.parametrize('bad', ['', '/', 'a b', '~/odom', '//odom', 'odom/', '1st', 'ö'])
-def test_what_can_be_no_name_is_refused(bad):
+def test_an_invalid_name_is_refused(bad):
     for condition in (topic, service, ros_node):
         with pytest.raises(BringupError, match='is not the name of a topic, a service or a node'):
             condition(bad)
 
 
-def test_what_is_no_pattern_or_no_time_is_refused():
+def test_an_invalid_pattern_or_time_is_refused():
     with pytest.raises(BringupError, match=r"logged\(…, '\('\): missing \)"):
         logged(NODE, '(')
     for seconds in (-1, float('nan'), float('inf')):
@@ -136,12 +136,12 @@ def test_what_is_no_pattern_or_no_time_is_refused():
 
 def test_a_path():
     condition = path_exists('/dev/ttyUSB0')
-    assert judge(condition) == NOT_YET
-    assert judge(condition, paths={'/dev/ttyUSB0': PathState(False)}) == NOT_YET
-    assert judge(condition, paths={'/dev/ttyUSB0': PathState(True)}) == HOLDS
+    assert verdict_of(condition) == NOT_YET
+    assert verdict_of(condition, paths={'/dev/ttyUSB0': PathState(False)}) == NOT_YET
+    assert verdict_of(condition, paths={'/dev/ttyUSB0': PathState(True)}) == HOLDS
 
 
-def test_time_after_the_begin_and_after_a_condition():
+def test_time_after_the_start_and_after_a_condition():
     node = Node('n')
     late, later = Node('late', start_when=after(5)), Node('later')
     later = Node('later', start_when=after(2, after(1, exited_cleanly(node))))
@@ -160,8 +160,8 @@ def test_time_after_the_begin_and_after_a_condition():
     assert scheduler.startable() == [late, later]
 
 
-def test_time_after_what_never_happens_never_passes():
-    assert judge(after(1, exited_cleanly(NODE)), BADLY) == NEVER
+def test_time_after_a_condition_that_never_holds():
+    assert verdict_of(after(1, exited_cleanly(NODE)), BADLY) == NEVER
 
 
 @pytest.mark.parametrize(
@@ -191,20 +191,20 @@ def test_time_after_what_never_happens_never_passes():
         ),
     ],
 )
-def test_what_is_lacking_and_what_is_there_instead(condition, state, text):
+def test_why_it_is_unmet_and_what_is_there_instead(condition, state, text):
     dev = PathState(False, frozenset({'ttyUSB1', 'null'}))
     paths = {'/dev/ttyUSB0': dev, '/dev/board': dev}
-    assert lack(condition, state, graph=GRAPH, paths=paths) == text
+    assert explanation_of(condition, state, graph=GRAPH, paths=paths) == text
 
 
 def test_many_names_are_cut_to_the_nearest():
     graph = RosGraph(services={f'/s{n}/list' for n in range(20)} | {'/listen'})
-    text = lack(service('/list'), graph=graph)
+    text = explanation_of(service('/list'), graph=graph)
     assert text.startswith('the service /list is not there; there are /listen, ')
     assert text.endswith(' and 13 more')
 
 
-def test_words():
+def test_description_in_words():
     node = exited_cleanly(NODE)
     words = any_of(after(2, node), all_of(topic('/odom', 'a/msg/B'), path_exists('/dev/x')))
     assert words.describe(name) == (

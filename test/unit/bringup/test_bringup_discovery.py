@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who finds the nodes of a stack: the options, the environment variables, what is said of them."""
+"""Discovery: the options, the environment variables, and the messages about them."""
 
 from argparse import ArgumentParser
 import os
@@ -56,7 +56,7 @@ def test_each_option_stands_for_a_variable(typed, expected):
     assert options(*as_arguments(options(*typed))) == options(*typed), 'ros2 launch hands them on'
 
 
-def test_an_option_wins_over_the_shell_which_may_be_wrong_then():
+def test_an_option_overrides_the_variable_which_may_be_invalid_then():
     assert variables(options('--domain', '5'), {DOMAIN: 'five', PEERS: ''}) == {DOMAIN: '5'}
 
 
@@ -74,7 +74,7 @@ def test_an_option_wins_over_the_shell_which_may_be_wrong_then():
         (['--discovery-server', 'x' * 70], 'no address is known for the host'),
     ],
 )
-def test_a_wrong_option_is_told(typed, text):
+def test_a_wrong_option_is_refused(typed, text):
     with pytest.raises(UsageError, match=text):
         variables(options(*typed), {})
 
@@ -89,12 +89,12 @@ def test_a_wrong_option_is_told(typed, text):
         ({SERVER: ';127.0.0.1:0'}, 'ROS_DISCOVERY_SERVER=;127.0.0.1:0: a discovery server is'),
     ],
 )
-def test_a_wrong_variable_is_told_rather_than_not_understood_by_each_node(environment, text):
+def test_a_wrong_variable_is_refused(environment, text):
     with pytest.raises(UsageError, match=text):
         variables(options(), environment)
 
 
-def test_right_variables_are_left_alone():
+def test_valid_variables_are_not_changed():
     good = {DOMAIN: '7', RANGE: 'SUBNET', PEERS: '127.0.0.1;', SERVER: ';;127.0.0.1:11811'}
     assert variables(options(), good) == {}
 
@@ -117,13 +117,13 @@ def test_right_variables_are_left_alone():
         ),
     ],
 )
-def test_what_a_person_is_told_and_types_next(environment, text, lines):
+def test_discovery_in_words_and_as_exports(environment, text, lines):
     assert discovery_text(environment) == text
     assert exports(environment) == lines
 
 
 @pytest.mark.parametrize('main', [bringup, ros2_launch])
-def test_what_is_wrong_is_told_before_anything_starts(monkeypatch, capsys, main):
+def test_errors_are_reported_before_anything_starts(monkeypatch, capsys, main):
     monkeypatch.setattr('os.environ', dict(os.environ))
     assert main('--domain', '233') == 2
     assert main('--discovery', 'lan') == 2

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The environment of children: unbuffered, and the ROS wheels' start-up saved where it may be."""
+"""The environment of children: unbuffered output, and the ROS wheels' guard where it is valid."""
 
 import os
 from pathlib import Path
@@ -59,7 +59,7 @@ def test_without_the_wheels_nothing_is_touched(script):
     assert environment == {**base, 'PYTHONUNBUFFERED': '1'}
 
 
-def test_what_to_type_in_another_shell(tmp_path, monkeypatch):
+def test_the_command_for_another_shell(tmp_path, monkeypatch):
     prefix = tmp_path / 'ws/install/robot'
     marker = prefix / 'share/ament_index/resource_index/packages/robot'
     marker.parent.mkdir(parents=True)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stack ``fleet``: several robots, who starts when, with what."""
+"""The stack ``fleet``: several robots, the order of starts, and the parameters."""
 
 from itertools import combinations
 import math
@@ -39,7 +39,7 @@ def poses(nodes):
     }
 
 
-def test_every_robot_has_its_own_of_everything_in_its_namespace():
+def test_every_robot_has_nodes_of_its_own_in_its_namespace():
     nodes = stack(robots='3').nodes
     names = ['robot1', 'robot2', 'robot3']
     publishers = of(nodes, 'robot_state_publisher')[1:]
@@ -78,7 +78,7 @@ def test_no_two_robots_touch_however_they_turn(count):
         assert math.dist(one, other) > 2.0 * reach
 
 
-def test_the_odometry_of_each_begins_where_it_is_put():
+def test_the_odometry_of_each_robot_begins_where_it_is_spawned():
     nodes = stack(robots='4', spacing='3').nodes
     (of_all, *_) = of(nodes, 'robot_state_publisher')
     fixed = parse(of_all.parameters[0]['robot_description'], 'fleet')
@@ -88,7 +88,7 @@ def test_the_odometry_of_each_begins_where_it_is_put():
     }
 
 
-def test_the_next_steps_are_for_two_of_them():
+def test_the_next_steps_name_two_robots():
     text = stack(robots='3').next_steps
     assert '-r /cmd_vel:=/robot1/diff_drive_controller/cmd_vel' in text
     assert '/robot3/diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped' in text
@@ -104,7 +104,7 @@ def test_the_next_steps_are_for_two_of_them():
         ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),
     ],
 )
-def test_bad_arguments_are_told_before_anything_starts(given, text):
+def test_bad_arguments_are_reported_before_anything_starts(given, text):
     with pytest.raises(AmrError, match=text):
         stack(**given)
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Groups, and stacks in stacks: what a node has of where it stands."""
+"""Groups, and stacks in stacks: what a node inherits."""
 
 from fixtures.bringup.running import install_toys
 import pytest
@@ -49,7 +49,7 @@ def test_namespaces_nest_unless_they_begin_with_a_slash(outer, inner, own, names
     )
 
 
-def test_what_stands_further_inside_comes_later():
+def test_inner_groups_come_later():
     node = Node(
         'n', environment={'B': 'n', 'C': 'n'}, parameters=['n.yaml'], remappings=[('a', 'n')]
     )
@@ -61,7 +61,7 @@ def test_what_stands_further_inside_comes_later():
     assert resolved.remappings == (('a', 'o'), ('a', 'n'))
 
 
-def test_what_a_group_has_its_neighbour_has_not():
+def test_a_group_does_not_change_its_neighbours():
     node = Node('n')
     resolved = resolve(node, Group([Node('m')], namespace='a', environment={'A': '1'}), node)
     assert (resolved.namespace, resolved.environment) == (None, {})
@@ -69,7 +69,7 @@ def test_what_a_group_has_its_neighbour_has_not():
 
 @pytest.mark.parametrize('condition', [topic, service, ros_node])
 @pytest.mark.parametrize(('name', 'full'), [('odom', '/robot1/odom'), ('/odom', '/odom')])
-def test_names_in_conditions_are_of_the_group(condition, name, full):
+def test_names_in_conditions_are_relative_to_the_group(condition, name, full):
     node = Node('n', namespace='arm', start_when=condition(name))
     assert resolve(node, Group([node], namespace='robot1')).start_when == condition(full)
     assert resolve(node, node).start_when == condition(f'/{name.lstrip("/")}')
@@ -81,7 +81,7 @@ def robot(**options):
     return Stack([sim, step], ready_when=exited_cleanly(step), **options)
 
 
-def test_a_stack_in_a_group_looks_in_its_namespace():
+def test_conditions_of_a_stack_in_a_group_are_in_its_namespace():
     first, second = robot(), robot()
     stack = Stack([Group([first], namespace='one'), Group([second], namespace='two')])
     assert [str(resolved.start_when.name) for resolved in Placement(stack).nodes[1::2]] == [
@@ -90,7 +90,7 @@ def test_a_stack_in_a_group_looks_in_its_namespace():
     ]
 
 
-def test_ready_is_when_the_stack_says_wherever_it_is_asked():
+def test_ready_resolves_names_in_the_namespace_of_the_stack():
     inner = Stack([Node('sim')], ready_when=topic('odom'))
     after_it = Node('rviz', start_when=ready(inner))
     stack = Stack([Group([inner], namespace='robot1'), Group([after_it], namespace='screens')])
@@ -119,7 +119,7 @@ def test_an_optional_node_that_never_starts_does_not_keep_a_stack_from_being_rea
     assert scheduler.ready
 
 
-def test_all_of_a_group_wait_for_what_the_group_waits_for():
+def test_all_members_wait_for_the_condition_of_their_group():
     first = Node('first')
     second, third = Node('second'), Node('third', start_when=logged(first, 'up'))
     scheduler = Scheduler(Stack([first, Group([second, third], start_when=exited_cleanly(first))]))
@@ -155,7 +155,7 @@ def test_numbers_and_command_lines(tmp_path, monkeypatch):
     assert '/robot1/w:\n' in (tmp_path / 'worker-2-parameters-1.yaml').read_text()
 
 
-def test_what_cannot_be_is_refused():
+def test_an_invalid_stack_is_refused():
     node, inner = Node('a'), robot()
     with pytest.raises(BringupError, match='at least one node'):
         Stack([Group([])])

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stacks without the simulator: who starts when, and what is swapped."""
+"""The stacks without the simulator: the order of starts, and the swapped hardware."""
 
 import pytest
 from support.paths import ROOT
@@ -74,7 +74,7 @@ def test_a_real_board():
     assert hardware(made).parameters['port'] == '/dev/ttyUSB0'
 
 
-def test_a_port_that_is_not_there_is_told_soon():
+def test_a_missing_port_is_reported_soon():
     scheduler = Scheduler(stack(serial, port='/dev/nonsense'))
     scheduler.advance_to(0.0)
     assert scheduler.next_time() == 10.0

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The same robot on other hardware."""
+"""A robot's description with another hardware component."""
 
 from dataclasses import replace
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which files a stack uses, and that a copy which somebody else edits is told."""
+"""Notes on the files that a stack uses, and warnings where another copy differs."""
 
 import hashlib
 import os
@@ -63,7 +63,7 @@ def edit(file, text, later):
     os.utime(file, (saved + later, saved + later))
 
 
-def test_every_file_is_told_with_its_hash_and_where_a_link_leads(workspace):
+def test_every_file_is_noted_with_its_hash_and_the_target_of_a_link(workspace):
     installed = build(workspace, copy=False) / 'share/cart/urdf/cart.urdf'
     ((level, text),) = notes_on([installed])
     assert level == 'INFO'
@@ -72,7 +72,7 @@ def test_every_file_is_told_with_its_hash_and_where_a_link_leads(workspace):
 
 @pytest.mark.parametrize('merged', [False, True])
 @pytest.mark.parametrize(('later', 'age'), [(60, 'newer'), (-60, 'older')])
-def test_a_stale_installed_file_is_told_by_paths_and_hashes(workspace, merged, later, age):
+def test_a_stale_installed_file_is_reported_with_paths_and_hashes(workspace, merged, later, age):
     prefix = build(workspace, copy=True, merged=merged)
     installed = prefix / 'share/cart/urdf/cart.urdf'
     source = source_file(workspace)
@@ -89,7 +89,7 @@ def test_a_stale_installed_file_is_told_by_paths_and_hashes(workspace, merged, l
     assert warnings(installed) == []
 
 
-def test_a_source_file_that_others_find_in_another_version_is_told(workspace):
+def test_a_source_file_whose_installed_copy_differs_is_reported(workspace):
     installed = build(workspace, copy=True) / 'share/cart/urdf/cart.urdf'
     source = source_file(workspace)
     assert warnings(source) == []
@@ -105,7 +105,7 @@ def test_links_are_never_stale(workspace):
     assert warnings(installed, source_file(workspace)) == []
 
 
-def test_beside_a_xacro_file_what_it_may_include_is_compared(workspace):
+def test_files_that_a_xacro_file_may_include_are_compared(workspace):
     for name in ('cart.urdf.xacro', 'wheel.xacro', 'sizes.yaml'):
         source_file(workspace, name).write_text(URDF)
     installed = build(workspace, copy=True) / 'share/cart/urdf/cart.urdf.xacro'
@@ -115,7 +115,7 @@ def test_beside_a_xacro_file_what_it_may_include_is_compared(workspace):
     assert warnings(installed.with_name('cart.urdf')) == []
 
 
-def test_files_of_no_package_or_of_one_that_is_not_built_are_merely_named(workspace, tmp_path):
+def test_files_outside_of_built_packages_are_only_named(workspace, tmp_path):
     lone = tmp_path / 'lone.urdf'
     lone.write_text(URDF)
     assert [level for level, _ in notes_on([lone, source_file(workspace)])] == ['INFO', 'INFO']

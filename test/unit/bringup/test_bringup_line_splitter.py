@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bytes into lines, however they come."""
+"""Bytes into lines, however they are chunked."""
 
 import pytest
 
@@ -33,6 +33,6 @@ def test_a_long_line_is_cut_between_characters(size):
     assert all(len(line.encode()) <= 16 for line in lines)
 
 
-def test_what_is_no_utf_8_is_shown_anyway():
+def test_invalid_utf_8_is_shown():
     assert LineSplitter().feed(b'\xff\xfe ok\n') == ['\ufffd\ufffd ok']
     assert len(LineSplitter(longest=8).feed(b'\x80' * 33)) == 4

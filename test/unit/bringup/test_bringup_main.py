@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The command line of ``bringup``: what is wrong is told in one line, before anything starts."""
+"""The command line of ``bringup``: errors are reported in one line, before anything starts."""
 
 from fixtures.bringup.running import install_toys, STACKS
 import pytest
@@ -74,5 +74,5 @@ def test_show_args_and_print_start_nothing(capsys, tmp_path):
 
 
 @pytest.mark.parametrize('name', READY_MADE)
-def test_every_ready_made_stack_can_be_found_and_says_what_it_is(name):
+def test_every_ready_made_stack_can_be_found_and_has_a_docstring(name):
     assert find_stack(name).__doc__

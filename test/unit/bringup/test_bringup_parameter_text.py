@@ -83,7 +83,7 @@ def test_parameters_stand_under_the_full_name_if_it_is_known(name, namespace, ke
     assert node_key(name, namespace) == key
 
 
-def test_what_ros_has_no_type_for_is_refused_by_name():
+def test_a_value_without_a_ros_type_is_refused_by_name():
     with pytest.raises(BringupError, match="parameter 'a.b' is None, a NoneType"):
         yaml_text('/**', {'a': {'b': None}})
     with pytest.raises(BringupError, match=r"parameter 'mixed' has elements of several types"):

@@ -36,7 +36,7 @@ def test_the_order_of_the_list_does_not_matter(order):
 
 
 @pytest.mark.parametrize(('returncode', 'exit_code'), [(1, 1), (255, 255), (-9, 137), (-2, 130)])
-def test_a_failure_ends_the_stack_with_the_code_of_the_failed(returncode, exit_code):
+def test_a_failure_stops_the_stack_with_the_exit_code_of_the_node(returncode, exit_code):
     first, second, third = chain(3)
     scheduler = Scheduler(Stack([first, second, third]))
     scheduler.on_start(first)
@@ -59,7 +59,7 @@ def test_only_the_first_failure_counts():
     assert scheduler.failure == Failure(other, 7)
 
 
-def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
+def test_an_optional_failure_counts_only_if_a_required_node_depends_on_it():
     optional = chain(3, required=False)
     scheduler = Scheduler(Stack([*optional, Node('worker')]))
     for node in scheduler.startable():
@@ -76,7 +76,7 @@ def test_an_optional_failure_is_none_unless_a_required_node_waits_behind_it():
     assert scheduler.unreachable() == [*optional[1:], required]
 
 
-def test_a_clean_end_may_end_all():
+def test_a_clean_exit_may_stop_the_stack():
     boss, worker = Node('boss', on_exit='shutdown'), Node('worker')
     scheduler = Scheduler(Stack([boss, worker]))
     scheduler.on_start(boss)
@@ -110,18 +110,18 @@ def test_ready_without_a_condition_is_when_all_were_started():
 
 
 def test_a_stack_that_cannot_run_is_refused():
-    node, stranger = Node('a'), Node('stranger')
+    node, other = Node('a'), Node('other')
     with pytest.raises(BringupError, match='at least one node'):
         Stack([])
     with pytest.raises(BringupError, match=r"the same Node\('a'\) stands twice"):
         Stack([node, node])
-    with pytest.raises(BringupError, match=r"waits for Node\('stranger'\), which is not in"):
-        Stack([Node('b', start_when=started(stranger))])
-    with pytest.raises(BringupError, match=r"waits for Node\('stranger'\), which is not in"):
-        Stack([node], ready_when=started(stranger))
+    with pytest.raises(BringupError, match=r"waits for Node\('other'\), which is not in"):
+        Stack([Node('b', start_when=started(other))])
+    with pytest.raises(BringupError, match=r"waits for Node\('other'\), which is not in"):
+        Stack([node], ready_when=started(other))
 
 
-def test_the_post_mortem_ends_with_one_line_that_says_it_all():
+def test_the_failure_report_ends_with_one_complete_line():
     failure = Failure(Node('create'), 2)
     assert failure_report('create-3', failure, ['begin', 'no clock', '  '], ['spawner-4']) == [
         'the last lines of create-3:\n    begin\n    no clock\n      ',

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stack ``simulation``: who starts when, with what."""
+"""The stack ``simulation``: the order of starts, and the parameters."""
 
 import pytest
 from support.paths import ROOT
@@ -95,7 +95,7 @@ def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
         ("'x' * 10**10", 'bomb.xacro: MemoryError'),
     ],
 )
-def test_a_bomb_ends(tmp_path, monkeypatch, expression, words):
+def test_an_endless_expansion_is_stopped(tmp_path, monkeypatch, expression, words):
     monkeypatch.setattr('amr_description.bringup.urdf_text._PROCESSOR_TIME', 1)
     bomb = tmp_path / 'bomb.xacro'
     bomb.write_text(f'<robot name="${{{expression}}}" xmlns:xacro="http://ros.org/wiki/xacro"/>')
@@ -103,7 +103,7 @@ def test_a_bomb_ends(tmp_path, monkeypatch, expression, words):
         stack(urdf=str(bomb))
 
 
-def test_the_files_are_told_with_their_hashes(installed):
+def test_the_files_are_noted_with_their_hashes(installed):
     urdf, controllers = stack().notes
     assert urdf[1].startswith(f'using {installed}/urdf/amr.urdf -> {ROOT}/urdf/amr.urdf (sha256 ')
     assert controllers[1].startswith(f'using {installed}/config/controllers.yaml -> ')
@@ -125,7 +125,7 @@ def test_the_files_are_told_with_their_hashes(installed):
         ({'controllers': '/'}, "'/' asked for, that is a folder"),
     ],
 )
-def test_bad_arguments_are_told_before_anything_starts(given, text):
+def test_bad_arguments_are_reported_before_anything_starts(given, text):
     with pytest.raises(AmrError, match=text):
         stack(**given)
 

@@ -50,7 +50,7 @@ def test_wrong_arguments_are_refused_by_name(values, text):
         include(CHATTY, **values)
 
 
-def test_what_is_no_stack_is_refused(tmp_path):
+def test_a_return_value_that_is_no_stack_is_refused(tmp_path):
     with pytest.raises(BringupError, match="missing required argument 'text'"):
         include(CHATTY)
     with pytest.raises(ResourceError, match="'simulaton' asked for, there is no such file at"):
@@ -79,14 +79,14 @@ def test_what_is_no_stack_is_refused(tmp_path):
         ),
     ],
 )
-def test_a_mistake_in_a_file_is_told_with_its_place(tmp_path, lines, text):
+def test_an_error_in_a_file_is_reported_with_its_location(tmp_path, lines, text):
     (tmp_path / 'arm.py').write_text('\n'.join(lines))
     with pytest.raises(BringupError, match=re.escape(text)) as caught:
         include(tmp_path / 'arm.py')
     assert str(caught.value).count('\n') == 0
 
 
-def test_a_mistake_is_told_with_its_innermost_place_alone(tmp_path):
+def test_an_error_is_reported_with_its_innermost_location_only(tmp_path):
     words = 'from amr_description.bringup import include, Stack\n'
     outer = f'{words}\ndef outer():\n    return include({str(tmp_path / "inner.py")!r})\n'
     (tmp_path / 'outer.py').write_text(outer)
@@ -123,7 +123,7 @@ def test_a_stack_that_includes_itself_is_refused(tmp_path):
         include(tmp_path / 'egg.py')
 
 
-def test_what_is_said_by_a_stack_in_a_stack_is_said():
+def test_notes_and_next_steps_of_included_stacks():
     inner = Stack([Node('a')], notes=[('INFO', 'using x')], next_steps='drive')
     other = Stack([Node('b')], notes=[('INFO', 'using x'), ('INFO', 'using y')])
     stack = Stack([Group([inner]), other])

@@ -36,7 +36,7 @@ def begun(*nodes, **options):
     return scheduler
 
 
-def test_a_wait_that_takes_too_long_stops_the_stack_and_says_all():
+def test_a_timeout_stops_the_stack_and_is_explained():
     sim, create = Node('sim'), Node('create')
     spawner = Node('spawner', start_when=service('/manager/list'))
     scheduler = begun(sim, create, spawner)
@@ -111,7 +111,7 @@ def test_a_delay_on_purpose_extends_the_timeout():
     assert [node.executable for node in scheduler.startable()] == ['late']
 
 
-def test_an_optional_node_is_given_up_and_the_stack_goes_on():
+def test_an_optional_node_is_abandoned_and_the_stack_continues():
     sim = Node('sim')
     first = Node('first', start_when=topic('/odom'), required=False, timeout=3.0)
     second = Node('second', start_when=exited_cleanly(first), required=False)
@@ -125,7 +125,7 @@ def test_an_optional_node_is_given_up_and_the_stack_goes_on():
     assert scheduler.startable() == []
 
 
-def test_a_stack_that_can_no_longer_get_ready_goes_on_unready():
+def test_a_stack_that_can_never_get_ready_continues():
     step = Node('step', required=False)
     scheduler = begun(Node('sim'), step, ready_when=exited_cleanly(step))
     assert scheduler.never_ready is None
@@ -136,7 +136,7 @@ def test_a_stack_that_can_no_longer_get_ready_goes_on_unready():
     assert not scheduler.ready
 
 
-def test_who_waits_for_a_failure_has_time_and_is_not_missed():
+def test_a_wait_for_a_failure_has_no_timeout_and_does_not_delay_readiness():
     driver = Node('driver', required=False)
     scheduler = begun(driver, Node('fallback', start_when=failed(driver)))
     assert scheduler.ready
@@ -158,14 +158,14 @@ def test_a_timeout_begins_once_the_failure_has_come():
     assert scheduler.failure.node is fallback
 
 
-def test_two_are_given_up_at_once():
+def test_two_nodes_are_abandoned_at_once():
     late = [Node(n, start_when=topic('/odom'), required=False, timeout=3.0) for n in 'ab']
     scheduler = begun(Node('sim'), *late)
     scheduler.advance_to(1003.0)
     assert scheduler.unreachable() == late
 
 
-def test_a_stack_of_which_nothing_is_left_but_what_was_given_up_is_over():
+def test_a_stack_with_only_abandoned_nodes_left_is_over():
     step = Node('step')
     late = Node('late', start_when=topic('/odom'), required=False, timeout=3.0)
     scheduler = begun(step, late)
@@ -176,7 +176,7 @@ def test_a_stack_of_which_nothing_is_left_but_what_was_given_up_is_over():
     assert scheduler.failure is None
 
 
-def test_a_line_that_was_never_said_is_known_at_the_end_of_who_should_have():
+def test_an_awaited_line_can_no_longer_come_once_its_node_has_ended():
     talker = Node('talker')
     waits = Node('waits', start_when=logged(talker, 'up'))
     scheduler = begun(talker, waits)
@@ -207,7 +207,7 @@ def test_it_is_started_again_each_time_later():
     assert scheduler.failure == Failure(node, 1, restarts=3)
 
 
-def test_too_many_good_ends_are_a_failure_as_well():
+def test_too_many_clean_exits_are_a_failure():
     node = Node('quits', respawn=Respawn(limit=1))
     scheduler = begun(node)
     scheduler.on_exit(node, 0)
@@ -217,7 +217,7 @@ def test_too_many_good_ends_are_a_failure_as_well():
     assert scheduler.failure.exit_code == 1
 
 
-def test_one_that_ran_steadily_begins_anew():
+def test_delay_and_limit_start_over_after_a_steady_run():
     node = Node('rare', respawn=Respawn(limit=1, steady=60.0))
     scheduler = begun(node)
     for day in range(1, 10):
@@ -238,7 +238,7 @@ def test_nothing_is_started_again_once_the_stack_is_over():
     assert scheduler.failure is None
 
 
-def test_a_rule_without_a_pause_is_refused():
+def test_a_respawn_without_a_delay_is_refused():
     for wrong in ({'delay': 0}, {'backoff': 0.5}, {'limit': 0}):
         with pytest.raises(BringupError, match='delay > 0, backoff >= 1 and limit > 0'):
             Respawn(**wrong)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the words of a stack take: a value of a wrong kind is told with the word it stands in."""
+"""A value of the wrong type in a stack is reported with the field it was given for."""
 
 import math
 import re
@@ -63,7 +63,7 @@ NODE = Node('talker')
         ({'on_exit': Shutdown('x')}, "'continue', 'shutdown' or a function"),
     ],
 )
-def test_of_a_node(fields, kind):
+def test_fields_of_a_node(fields, kind):
     (name,) = fields
     with pytest.raises(BringupError, match=rf"Node\('arm', {name}=.*: it takes {re.escape(kind)}"):
         Node('arm', **fields)
@@ -109,13 +109,13 @@ def test_an_executable_has_a_name(executable):
         ),
     ],
 )
-def test_of_all_others(make, text):
+def test_fields_of_everything_else(make, text):
     with pytest.raises(BringupError, match=re.escape(text)):
         make()
 
 
 @pytest.mark.parametrize('table', [{'a': None}, {5: 1}, {'a': [[1]]}])
-def test_a_wrong_parameter_is_told_with_its_node(tmp_path, monkeypatch, table):
+def test_a_wrong_parameter_is_reported_with_its_node(tmp_path, monkeypatch, table):
     install_toys(tmp_path)
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
     with pytest.raises(BringupError, match=r'^step-1: .*parameter'):
@@ -131,7 +131,7 @@ def test_patience_is_an_alias_of_timeout():
         Stack([NODE], patience=0)
 
 
-def test_what_can_be_meant_is_taken(tmp_path):
+def test_all_valid_kinds_of_values_are_accepted(tmp_path):
     Node(
         'arm',
         namespace='/robot1/arm/',

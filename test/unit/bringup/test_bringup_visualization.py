@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a person looks at beside a stack: when the page comes, and RViz where there is one."""
+"""When the page is served, and RViz where it is installed."""
 
 from pathlib import Path
 
