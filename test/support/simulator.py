@@ -20,16 +20,16 @@ SIMULATOR = '/mujoco_sim'
 
 
 class Simulator:
-    """Asks the services of a simulator; ``node`` is the one that asks."""
+    """A client of the services of a simulator."""
 
     def __init__(self, node: Node):
         self.node = node
         self.clock = []
         """Every time on /clock, ns."""
         self._clients = {}
-        node.create_subscription(Clock, '/clock', self._hear, QoSProfile(depth=100))
+        node.create_subscription(Clock, '/clock', self._on_clock, QoSProfile(depth=100))
 
-    def _hear(self, message):
+    def _on_clock(self, message):
         self.clock.append(nanoseconds(message.clock))
 
     @property
@@ -62,19 +62,19 @@ class Simulator:
         return result.result, result.error_message
 
     def wait(self, condition):
-        """Serve the node until a condition holds; return what it returned."""
+        """Spin the node until a condition holds; return what it returned."""
         found = wait_until(self.node, lambda: condition() or None, every=9.0, timeout=PATIENCE)
         assert found, 'it waited in vain'
         return found
 
     def action(self, action_type):
-        """A client whose server is there; destroy it at the end."""
+        """An action client whose server is there; destroy it at the end."""
         client = ActionClient(self.node, action_type, f'{SIMULATOR}/{name_of_type(action_type)}')
         self.wait(client.server_is_ready)
         return client
 
     def goal(self, client, feedback, goal):
-        """The handle of an accepted goal; ``feedback``: a list for what is told."""
+        """The handle of an accepted goal; ``feedback``: a list that gets every feedback."""
         future = client.send_goal_async(
             goal, feedback_callback=lambda message: feedback.append(message.feedback)
         )
@@ -83,7 +83,7 @@ class Simulator:
         return future.result()
 
     def end(self, handle):
-        """Status and result of a goal, in the end."""
+        """Wait for the end of a goal; return its status and its result."""
         ended = handle.get_result_async()
         self.wait(ended.done)
         return ended.result().status, ended.result().result.result
@@ -91,7 +91,7 @@ class Simulator:
 
 @contextmanager
 def simulator(*parameters):
-    """A simulator that runs with these ``name:=value``, and who asks it."""
+    """Run a simulator with parameters ``name:=value``, while inside; yield its client."""
     arguments = [word for each in parameters for word in ('-p', each)]
     arguments = ['--ros-args', *arguments] if arguments else []
     rclpy.init(args=[])

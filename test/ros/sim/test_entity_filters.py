@@ -49,7 +49,7 @@ def test_tags_any_or_all():
     assert has_tags((), TagsFilter(filter_mode=TagsFilter.FILTER_MODE_ALL))
 
 
-def test_what_is_no_expression_is_refused():
+def test_an_invalid_expression_is_rejected():
     with pytest.raises(
         RequestError, match="filter: '\\(' is no POSIX extended regular"
     ) as refusal:
@@ -71,7 +71,7 @@ def test_a_sphere_overlaps_where_the_nearest_point_of_the_box_is_in_it(centre, r
     assert overlaps(UNIT, bounds(Bounds.TYPE_SPHERE, centre, (radius, 0.0, 0.0))) is inside
 
 
-def test_what_has_no_shape_overlaps_nothing():
+def test_an_entity_without_geoms_overlaps_nothing():
     assert not overlaps(None, bounds(Bounds.TYPE_SPHERE, (0.0, 0.0, 0.0), (9.0, 0.0, 0.0)))
 
 

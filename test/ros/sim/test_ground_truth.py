@@ -110,7 +110,7 @@ def test_stamps_are_exact_instants_also_after_time_went_back(host, period):
     assert milliseconds == pytest.approx([*one, *one])
 
 
-def test_the_base_of_a_robot_that_stands_fixed_is_what_hangs_on_the_world(host):
+def test_the_base_of_a_robot_that_stands_fixed_is_the_first_child_of_the_world(host):
     urdf = AMR.replace(
         '<link name="base_footprint"/>',
         '<link name="world"/><link name="base_footprint"/><joint name="bolts" type="fixed">'
@@ -126,7 +126,7 @@ def test_the_base_of_a_robot_that_stands_fixed_is_what_hangs_on_the_world(host):
     assert linear(messages[-1]) == (0.0, 0.0, 0.0)
 
 
-def test_while_time_stands_still_each_reminder_tells_the_present_instant(host):
+def test_while_time_stands_still_the_present_instant_is_published_again(host):
     host.spawn('amr', '')
     host.turn(2)
     host.world.step(1)

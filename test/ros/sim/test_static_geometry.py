@@ -51,7 +51,7 @@ def shapes():
     return {shape.name: shape for shape in visible_shapes(mujoco.MjSpec.from_string(GEOMS))}
 
 
-def test_what_stands_is_there_and_what_moves_or_is_hidden_is_not(shapes):
+def test_visible_static_geoms_are_there_and_moving_or_hidden_ones_are_not(shapes):
     assert list(shapes) == [
         'ground', 'floor', 'box', 'sphere_3', 'egg', 'pillar', 'pill', 'wedge', 'hill', 'shelf'
     ]  # fmt: skip
@@ -97,7 +97,7 @@ def test_a_mesh_is_its_triangles_where_they_stand(shapes):
     assert len(wedge.points) == 4 * 3
 
 
-def test_a_field_of_heights_is_two_triangles_a_cell_that_look_up(shapes):
+def test_a_height_field_is_two_triangles_a_cell_that_face_up(shapes):
     points = shapes['hill'].points
     assert len(points) == (3 - 1) * (4 - 1) * 2 * 3
     assert {p[2] for p in points if p[1] == 0.0 and abs(p[0]) < 1} == {0.5}
@@ -143,7 +143,7 @@ def test_a_plane_is_a_cube_whose_upper_face_it_is(shapes):
     assert (ground.scale.x, ground.scale.y) == (INFINITE_WIDTH, INFINITE_WIDTH)
 
 
-def test_a_page_draws_what_there_is(shapes):
+def test_the_page_draws_all_shapes(shapes):
     whole = [shape for shape in shapes.values() if shape.kind is not ShapeKind.CAPSULE]
     drawn = shapes_of(markers(whole))
     for shape, seen in zip(whole, drawn, strict=True):
@@ -164,7 +164,7 @@ def test_a_capsule_is_a_cylinder_and_two_balls(shapes):
     assert sorted(end.position[1] for end in ends) == pytest.approx([-0.4, 0.4])
 
 
-def test_markers_of_strangers_that_have_no_shape_are_left_out():
+def test_foreign_markers_without_a_shape_are_ignored():
     message = MarkerArray(markers=[Marker(type=Marker.TEXT_VIEW_FACING), Marker(type=Marker.CUBE)])
     message.markers[1].ns = 'stranger'
     (seen,) = shapes_of(message)
@@ -172,14 +172,14 @@ def test_markers_of_strangers_that_have_no_shape_are_left_out():
 
 
 @pytest.mark.parametrize('number', [math.nan, math.inf])
-def test_markers_of_strangers_whose_numbers_are_none_are_left_out(number):
+def test_foreign_markers_with_invalid_numbers_are_ignored(number):
     for place in ('scale', 'pose.position', 'pose.orientation'):
         marker = Marker(type=Marker.CUBE)
         operator.attrgetter(place)(marker).x = number
         assert shapes_of(MarkerArray(markers=[marker])) == ()
 
 
-def test_the_world_is_told_to_who_comes_late():
+def test_a_late_subscriber_gets_the_world():
     rclpy.init(args=[])
     node = Node('surroundings_host')
     try:

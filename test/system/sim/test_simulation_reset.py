@@ -60,7 +60,7 @@ ns between two messages, beginning at the reset. They come every 10 to 50 ms, bu
 one sample: on a busy machine some are lost.
 """
 FASTEST = 0.55
-"""m/s; what the robot is told, and a little."""
+"""m/s; the commanded speed, and a little."""
 
 
 @pytest.fixture(scope='module')
@@ -87,12 +87,12 @@ def publisher(tmp_path_factory, sim):
 
 
 class Driver:
-    """Commands one robot 20 times a second, and hears what it says."""
+    """Commands one robot 20 times a second, and receives its messages."""
 
     def __init__(self, sim, namespace='', *, linear=0.5, angular=0.0):
         self.node = node = sim.node
         self.heard = defaultdict(list)
-        """Stamps (ns) by what was heard."""
+        """The stamps of the received messages by topic, ns."""
         self.odometry = []
         drive = f'{namespace}/diff_drive_controller'
         self._command = TwistStamped()
@@ -137,7 +137,7 @@ class Driver:
         return (place.x**2 + place.y**2) ** 0.5
 
     def forget(self):
-        """Forget what was heard."""
+        """Forget the received messages."""
         self.heard.clear()
         self.odometry.clear()
 

@@ -17,7 +17,7 @@ EXPRESSIONS = [
 
 
 @pytest.mark.parametrize('expression', EXPRESSIONS)
-def test_it_finds_what_grep_finds(expression):
+def test_it_matches_what_grep_matches(expression):
     grep = subprocess.run(
         ['grep', '-E', '--', expression],
         input=''.join(f'{name}\n' for name in NAMES),
@@ -32,7 +32,7 @@ def test_it_finds_what_grep_finds(expression):
 
 
 @pytest.mark.parametrize('expression', ['(', '[a', 'a{2,1}', 'a\\'])
-def test_what_is_none_is_refused_with_the_reason(expression):
+def test_an_invalid_expression_is_rejected_with_the_reason(expression):
     with pytest.raises(UsageError, match='is no POSIX extended regular expression: [A-Z]'):
         PosixRegex(expression)
 

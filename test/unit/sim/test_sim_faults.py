@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Faults of the physics are told once, in one line, and nothing is written to the folder."""
+"""Faults of the physics are logged once, in one line, and no file is written."""
 
 import math
 
@@ -171,7 +171,7 @@ def test_a_solver_that_stays_at_its_cap_is_named_with_the_robot_that_keeps_it_th
     assert log.text.count('at its cap') == 2
 
 
-def test_an_absurd_effort_is_named_as_the_cause_and_its_effects_are_not_told(log):
+def test_an_absurd_effort_is_named_as_the_cause_and_its_effects_are_not_logged(log):
     driven = '<command_interface name="velocity"/>'
     world = MujocoWorld('empty', log=log)
     robot = world.spawn('amr', AMR.replace(driven, driven.replace('velocity', 'effort')))
@@ -200,7 +200,7 @@ def test_a_floor_below_zero_is_ground_too(log, tmp_path):
     assert log.lines == []
 
 
-def test_what_goes_on_is_told_once_and_each_telling_calls_on_fault(log, tmp_path):
+def test_a_lasting_fault_is_logged_once_and_each_report_calls_on_fault(log, tmp_path):
     path = tmp_path / 'table.xml'
     path.write_text(
         '<mujoco><worldbody><geom name="table" type="box" size="1 1 .1" pos="0 0 -.1"/>'

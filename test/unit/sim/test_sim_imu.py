@@ -79,7 +79,7 @@ def test_acceleration_is_the_derivative_of_the_velocity():
         assert measured == close((after - before) / 0.002, 0.05)
 
 
-def test_looking_does_not_change_what_follows():
+def test_reading_does_not_change_the_future():
     def run(look):
         drive = Drive()
         drive.command(0.3, 1.0)
@@ -92,7 +92,7 @@ def test_looking_does_not_change_what_follows():
     assert run(look=True) == run(look=False)
 
 
-def test_unknown_link_is_told_with_the_known_ones():
+def test_an_unknown_link_is_reported_with_the_known_ones():
     _, robot = arm()
     with pytest.raises(SimulationError, match="there is no link 'imu_link'.*base, upper"):
         robot.imu('imu_link', HERE)

@@ -31,7 +31,7 @@ def test_initial_positions_are_taken_held_and_come_back():
     assert group.positions() == pytest.approx(start, abs=1e-12)
 
 
-def test_initial_velocity_of_a_joint_that_nobody_drives():
+def test_initial_velocity_of_a_joint_without_command():
     urdf = with_initial('spindle', 'velocity', 4.0)
     commands = '<command_interface name="velocity"/>\n      <command_interface name="effort"/>'
     before, _, after = urdf.rpartition('<joint name="spindle">')

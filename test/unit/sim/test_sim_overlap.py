@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that would be spawned inside something is refused, and told where it stands free."""
+"""A robot that would be spawned inside something is rejected, with the height to spawn at."""
 
 import re
 
@@ -96,7 +96,7 @@ def test_a_refusal_leaves_the_others_as_they_are(world, things):
 
 
 @pytest.mark.parametrize('depth, is_taken', [(0.9 * TOLERANCE, True), (1.1 * TOLERANCE, False)])
-def test_what_is_hardly_inside_is_taken(world, depth, is_taken):
+def test_a_small_overlap_is_accepted(world, depth, is_taken):
     if is_taken:
         world.spawn('amr', AMR, at(0.0, 0.0, -depth))
         return

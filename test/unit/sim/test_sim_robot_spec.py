@@ -56,7 +56,7 @@ def test_a_floating_link_keeps_its_spin_and_goes_straight_on():
 
 
 @pytest.mark.parametrize('place', [0.0, 0.3])
-def test_a_joint_whose_limits_are_one_place_stays_there(place, capfd):
+def test_a_joint_whose_limits_are_equal_stays_there(place, capfd):
     limit = f'<axis xyz="0 1 0"/><limit lower="{place}" upper="{place}" effort="9" velocity="1"/>'
     log = Lines()
     world = MujocoWorld('empty', log=log)
@@ -67,7 +67,7 @@ def test_a_joint_whose_limits_are_one_place_stays_there(place, capfd):
     assert capfd.readouterr() == ('', '')
 
 
-def test_what_the_compiler_warns_of_is_one_line_of_the_log(tmp_path):
+def test_a_warning_of_the_compiler_is_one_line_of_log(tmp_path):
     path = tmp_path / 'old.xml'
     path.write_text(
         '<mujoco><compiler settotalmass="3"/><worldbody><geom type="plane" size="0 0 1"/>'

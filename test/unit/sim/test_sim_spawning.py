@@ -80,7 +80,7 @@ def test_source_is_named_in_messages():
         read_description('<html/>', '/robot_description')
 
 
-def test_warnings_of_the_checker_are_told():
+def test_warnings_of_the_checker_are_logged():
     log = Lines()
     MujocoWorld('empty', log=log).spawn('tutorial', TUTORIAL)
     assert 'WARN tutorial:' in log.text

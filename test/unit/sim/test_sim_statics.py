@@ -135,7 +135,7 @@ def test_on_dusty_tiles_20_mm_are_climbed_and_50_mm_are_not(tmp_path, speed):
 @pytest.mark.parametrize(
     'height, friction', [(0.03, 0.3), (0.04, 0.42), (0.05, 0.42), (0.05, 0.5), (0.05, 0.6)]
 )
-def test_momentum_makes_good_what_friction_lacks(tmp_path, height, friction):
+def test_momentum_makes_up_for_missing_friction(tmp_path, height, friction):
     speed = least_speed(height, friction)
     assert 0.1 < speed < 0.3
     # Measured: from 1.06 to 1.36 of it on.

@@ -66,7 +66,7 @@ def test_a_spinning_wheel_slips_backward_and_a_braked_one_forward(drive, contact
 
 
 def test_in_a_spin_the_slip_is_that_of_a_rigid_body_over_the_ground(drive, contacts):
-    """The tread of the wheel at (a, b) moves with w x r over the ground, less what it rolls."""
+    """The surface of a wheel at (a, b) moves with w x r over the ground, less what it rolls."""
     drive.run(0.0, 1.0, 2.0)
     _, (_, _, turn) = drive.robot.velocity('base_footprint')
     wheels = by_joint(contacts)

@@ -133,7 +133,7 @@ def test_only_the_margin_is_trimmed():
         assert contact.solreffriction == WHEEL_CONTACT.solreffriction
 
 
-def test_what_does_not_stand_on_wheels_is_left_alone():
+def test_a_robot_that_does_not_stand_on_wheels_keeps_its_contacts():
     assert contacts(ARM) == {}
     # In free fall nothing rests.
     assert set(contacts(AMR, gravity=0.0).values()) == {WHEEL_CONTACT}
@@ -142,10 +142,10 @@ def test_what_does_not_stand_on_wheels_is_left_alone():
     assert set(contacts(bellied).values()) == {WHEEL_CONTACT}
 
 
-def test_what_goes_wrong_in_the_trial_is_not_told_of_the_world():
+def test_faults_while_trimming_are_not_logged_for_the_world():
     log = Lines()
     world = MujocoWorld('empty', log=log)
-    # No step can carry that; in the world it would be told as a lost state.
+    # No step can carry that; in the world it would be logged as a lost state.
     assert set(contacts(TWO_WHEELS, gravity=1e20).values()) == {WHEEL_CONTACT}
     world.step(10)
     assert log.lines == []

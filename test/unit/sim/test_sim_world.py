@@ -146,7 +146,7 @@ def test_view_of_a_removed_robot_is_dead(world):
     assert wheels.positions() == [0.0] * 4
 
 
-def test_unknown_names_are_told_with_the_known_ones(world):
+def test_unknown_names_are_reported_with_the_known_ones(world):
     with pytest.raises(SimulationError, match="no robot 'amr'; there are: none"):
         world.remove('amr')
     robot = world.spawn('amr', AMR)
@@ -213,7 +213,7 @@ def test_same_commands_at_the_same_steps_give_the_same_bits():
     assert run([5]) == run([5]) == run([1, 1, 1, 1, 1]) == run([2, 3])
 
 
-def test_looking_at_the_truth_does_not_change_it():
+def test_reading_the_state_does_not_change_it():
     def run(look):
         world = MujocoWorld('empty')
         robot = world.spawn('amr', AMR, Transform((0.0, 0.0, 0.2)))
@@ -259,7 +259,7 @@ def test_command_that_is_no_number_is_refused(world, bad):
     assert wheels.velocities() == pytest.approx([1.0] * 4, rel=0.01)
 
 
-def test_command_beyond_the_limit_is_clamped_and_told():
+def test_a_command_beyond_the_limit_is_clamped_and_logged():
     axis = '<axis xyz="0 0 -1"/>'
     limited = AMR.replace(axis, f'{axis}<limit effort="0" velocity="3"/>')
     log = Lines()

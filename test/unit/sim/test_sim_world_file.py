@@ -97,7 +97,7 @@ def test_wheels_drive_on_every_static_surface(tmp_path, surface):
     ],
     ids=['geom', 'class', 'default', 'include'],
 )
-def test_only_what_the_world_leaves_open_gets_our_friction(tmp_path, body, frictions):
+def test_only_geoms_without_a_friction_get_the_default(tmp_path, body, frictions):
     write(
         tmp_path / 'part.xml',
         '<worldbody><geom size="2"/><geom size="3" friction="1"/></worldbody>',
@@ -169,7 +169,7 @@ def test_broken_world_is_one_line(tmp_path, text, fault):
     assert '\n' not in str(refusal.value)
 
 
-def test_unknown_world_is_told_with_the_shipped_ones(source_tree):
+def test_an_unknown_world_is_reported_with_the_shipped_ones(source_tree):
     with pytest.raises(SimulationError, match="world 'emty': neither .* shipped are: .*empty"):
         MujocoWorld('emty')
 

@@ -75,7 +75,7 @@ def test_parameters_go_over_the_file(moon):
     assert frictions(world) == [0.9, 0.9]
 
 
-def test_a_silent_file_gets_what_was_measured():
+def test_a_file_without_options_gets_the_measured_ones():
     world = MujocoWorld('empty')
     option = world.engine.model.opt
     assert option.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
@@ -122,7 +122,7 @@ def test_friction_is_that_under_the_wheels():
     assert before - after == pytest.approx(0.2 * 9.81 * 0.1, rel=0.02)
 
 
-def test_a_physics_step_longer_than_measured_is_told():
+def test_a_physics_step_longer_than_measured_is_logged():
     log = Lines()
     MujocoWorld('empty', settings=WorldSettings(physics_step=0.005), log=log)
     assert "WARN world 'empty': a physics step of 5 ms is asked" in log.text

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""From one command interface of a joint to another, and what else may happen to the world."""
+"""Switching the mode of a joint, also while robots are spawned, removed and reset."""
 
 from itertools import pairwise
 import math
@@ -50,7 +50,7 @@ def test_a_switch_at_rest_moves_nothing(first, second):
 
 
 @pytest.mark.parametrize('urdf', [ARM, FREE_LIFT], ids=['limited', 'unlimited'])
-def test_a_moving_joint_is_taken_over_at_its_speed(urdf):
+def test_a_moving_slide_starts_its_new_mode_at_its_speed(urdf):
     world, robot = arm(urdf)
     lift = robot.joints(['lift'])
     follow(world, lift, [0.1], 1.0)
@@ -100,7 +100,7 @@ def test_a_joint_held_near_the_end_of_its_range_does_not_press_against_it():
     assert lift.efforts()[0] == pytest.approx(LIFT_MASS * GRAVITY, rel=0.01)
 
 
-def test_a_turning_joint_is_taken_over_at_its_speed():
+def test_a_turning_joint_starts_its_new_mode_at_its_speed():
     world, robot = arm()
     spindle = robot.joints(['spindle'])
     spindle.command('effort', [0.5])
@@ -112,7 +112,7 @@ def test_a_turning_joint_is_taken_over_at_its_speed():
     assert spindle.velocities() == pytest.approx([5.0], rel=1e-6)
 
 
-def test_only_the_last_command_acts():
+def test_only_the_last_command_is_active():
     world, robot = arm()
     lift, again = robot.joints(['lift']), robot.joints(['spindle', 'lift'])
     follow(world, lift, [0.3], 1.0)
@@ -136,7 +136,7 @@ def busy_arm():
     return world, robot
 
 
-def test_modes_survive_the_coming_and_going_of_robots():
+def test_modes_survive_that_robots_are_spawned_and_removed():
     (world, robot), (alone, undisturbed) = busy_arm(), busy_arm()
     names = [*LINKS, 'lift', 'spindle']
     other = world.spawn('other', ARM, Transform((5.0, 0.0, 0.0)))
@@ -154,7 +154,7 @@ def test_modes_survive_the_coming_and_going_of_robots():
     )
 
 
-def test_reset_holds_every_joint_where_it_began():
+def test_reset_holds_every_joint_at_its_initial_position():
     world, robot = busy_arm()
     group = robot.joints([*LINKS, 'lift', 'spindle'])
     world.reset()

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The friction of links as a URDF made for Gazebo says it."""
+"""The friction that a URDF made for Gazebo gives its links."""
 
 from statistics import mean
 
@@ -58,7 +58,7 @@ def test_the_smaller_friction_of_the_two_counts(wheels, ground, counts):
     assert before - after == pytest.approx(counts * 9.81 * 0.1, rel=0.02)
 
 
-def test_what_is_no_number_is_told_and_left_out():
+def test_a_friction_that_is_no_number_is_logged_and_ignored():
     log = Lines()
     bad = with_friction(AMR, base_link='smooth', wheel_front_left=-1, nobody=0.5)
     assert link_frictions(read_description(bad, 'amr.urdf'), log) == {}

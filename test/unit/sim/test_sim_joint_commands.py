@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Joints driven by position, velocity and effort, against what mechanics says.
+Joints commanded by position, velocity and effort, compared with mechanics.
 
-The limits are those that a user is promised; the comment at each says what was measured.
+The limits are those promised to users; the comment at each gives the measured value.
 """
 
 import math
@@ -31,7 +31,7 @@ STEP = 0.002
 
 
 @pytest.mark.parametrize('urdf', [ARM, FREE_LIFT], ids=['limited', 'unlimited'])
-def test_a_joint_that_nobody_commands_carries_its_load(urdf):
+def test_a_joint_without_command_carries_its_load(urdf):
     world, robot = arm(urdf)
     group = robot.joints([*LINKS, 'lift'])
     world.step(1000)
@@ -44,7 +44,7 @@ def test_a_joint_that_nobody_commands_carries_its_load(urdf):
     assert group.efforts()[:2] == pytest.approx([-load for load in load_of(0, 0)], rel=1e-3)
 
 
-def test_an_overloaded_joint_slips_and_is_brought_back():
+def test_an_overloaded_joint_slips_and_is_pulled_back():
     world, robot = arm()
     other = robot.joints(['lift'])
     follow(world, other, [0.3], 2.0)
@@ -63,7 +63,7 @@ def test_an_overloaded_joint_slips_and_is_brought_back():
     assert other.positions() == pytest.approx([0.3], abs=1e-3)
 
 
-def test_a_joint_that_is_let_go_falls_freely():
+def test_a_released_joint_falls_freely():
     world, robot = arm()
     lift = robot.joints(['lift'])
     follow(world, lift, [0.4], 1.5)
@@ -124,7 +124,7 @@ def test_a_position_is_approached_with_its_time_constant():
     assert 0.01 - lift.positions()[0] == pytest.approx(0.01 * math.exp(-1.0), rel=0.05)
 
 
-def test_a_position_beyond_the_range_is_clamped_and_told():
+def test_a_position_beyond_the_range_is_clamped_and_logged():
     log = Lines()
     world, robot = arm(log=log)
     lift = robot.joints(['lift'])
@@ -218,7 +218,7 @@ def test_a_motor_stops_at_the_end_of_the_range():
     assert group.efforts() == pytest.approx([100.0, 100.0], rel=1e-3)
 
 
-def test_effort_told_is_the_effort_that_acts():
+def test_effort_read_is_the_effort_exerted():
     # In a step of a stiff servo, force before and after the step differ two hundred fold.
     world, robot = arm()
     spindle = robot.joints(['spindle'])
@@ -231,7 +231,7 @@ def test_effort_told_is_the_effort_that_acts():
             assert spindle.efforts() == pytest.approx([SPINDLE_INERTIA * acceleration], abs=1e-6)
 
 
-def test_effort_told_is_the_effort_that_acts_also_at_the_velocity_limit():
+def test_effort_read_is_the_effort_exerted_also_at_the_velocity_limit():
     world, robot = arm(FREE_LIFT)
     lift = robot.joints(['lift'])
     lift.command('position', [0.4])
@@ -255,7 +255,7 @@ def test_effort_told_is_the_effort_that_acts_also_at_the_velocity_limit():
         ('spindle', 'effort', math.inf, "'spindle': the effort command is inf; a finite number"),
     ],
 )
-def test_commands_that_are_refused_change_nothing(joint, interface, value, message):
+def test_rejected_commands_change_nothing(joint, interface, value, message):
     world, robot = arm()
     group = robot.joints([joint])
     with pytest.raises(SimulationError, match=message):
@@ -267,7 +267,7 @@ def test_commands_that_are_refused_change_nothing(joint, interface, value, messa
 # --- the shipped robot -------------------------------------------------------------------------
 
 
-def test_wheels_have_nothing_but_the_speed_servo():
+def test_wheels_have_only_the_speed_servo():
     world = Drive(AMR).world
     spec = world.engine.spec
     assert [actuator.name for actuator in spec.actuators] == [
