@@ -32,6 +32,9 @@ DOMAIN = 'ROS_DOMAIN_ID'
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 PEERS = 'ROS_STATIC_PEERS'
 SERVER = 'ROS_DISCOVERY_SERVER'
+# The ROS wheels start each Python twice, to set LD_LIBRARY_PATH; this variable marks that as done.
+# Children of the same virtual environment inherit both, which saves each of them 0.1 s.
+WHEELS_GUARD = '_ROS_WHEELS_BOOTSTRAP_COMPLETE'
 
 _LAST_DOMAIN = 232  # the ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)
 _RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')  # as rcl spells them
@@ -183,11 +186,6 @@ def exports(environment: Mapping[str, str]) -> list[str]:
         for name in _OPTIONS
         if (value := environment.get(name, '')) and value != usual.get(name)
     ]
-
-
-# The ROS wheels start each Python twice, to set LD_LIBRARY_PATH; this variable marks that as done.
-# Children of the same virtual environment inherit both, which saves each of them 0.1 s.
-WHEELS_GUARD = '_ROS_WHEELS_BOOTSTRAP_COMPLETE'
 
 
 def child_environment(executable: Path, base: Mapping[str, str]) -> dict[str, str]:

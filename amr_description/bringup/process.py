@@ -17,8 +17,8 @@ import subprocess
 import termios
 
 LAST_LINES = 20  # kept for failure reports
-_READ_SIZE = 65_536  # bytes, the capacity of a pipe
 LONGEST_LINE = 32_768  # bytes; a longer one is shown in pieces rather than held in memory
+_READ_SIZE = 65_536  # bytes, the capacity of a pipe
 
 
 @contextlib.contextmanager
@@ -63,7 +63,7 @@ class RunningProcess:
 
     @property
     def died_of_ctrl_c(self) -> bool:
-        """Whether a SIGINT ended it that :meth:`send` did not send."""
+        """Whether a SIGINT of somebody else ended it: :meth:`send` has sent none."""
         return self.sent is None and self.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
 
     def poll(self) -> bool:
