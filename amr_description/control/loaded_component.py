@@ -89,7 +89,7 @@ class LoadedComponent:
         if self.state is LifecycleState.FINALIZED and target is not self.state:
             raise HardwareError(
                 f"hardware '{name}' is in finalized state and can be only destroyed; "
-                f'{target.label} was asked. Start its controller manager anew'
+                f'{target.label} was requested. Restart its controller manager'
             )
         while self.state is not target:
             following = self._next_towards(target)
@@ -107,7 +107,7 @@ class LoadedComponent:
             following = self._next_towards(target)
             try:
                 self._make_transition(following)
-            except Exception as error:  # it counts as done all the same
+            except Exception as error:  # it counts as done nevertheless
                 self.report(f'transition to {following.label}', error)
                 self.state = following
 

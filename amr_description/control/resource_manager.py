@@ -122,7 +122,7 @@ class ResourceManager:
             self.log(
                 Severity.WARN,
                 f'Hardware component \'{name}\' has is_async="true": it is read and written in '
-                'the control loop all the same; its own thread must do what takes long',
+                'the control loop nevertheless; it must do slow I/O on a thread of its own',
             )
         if self._enforces_limits:
             self._limiters[name] = limiters_of(loaded, self._robot, self.log)

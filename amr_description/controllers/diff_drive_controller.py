@@ -16,7 +16,7 @@ Differences from diff_drive_controller 4.x:
   (:data:`~amr_description.controllers.command_reception.FOREIGN_CLOCK`) belongs to another clock:
   it counts as now, so that the timeout still brakes when that publisher dies;
 - "Braking." is logged when a command times out, not for every second at rest;
-- an infinite wheel state is an error as NaN is, instead of making the pose NaN for good;
+- an infinite wheel state is an error as NaN is, instead of making the pose NaN forever;
 - commands on topics that arrive in chained mode, where they are ignored, are warned of.
 
 Additions, off by default:

@@ -120,7 +120,7 @@ class DiffDriveParameters:
     publish_rate: float = parameter(50.0, 'Rate of odometry and transform', unit='Hz', above=0.0)
     enable_cmd_vel_unstamped: bool = parameter(
         False,
-        'Hear plain Twist messages on ~/cmd_vel_unstamped too; they count as stamped on arrival. '
+        'Subscribe to plain Twist on ~/cmd_vel_unstamped too, which counts as stamped on arrival. '
         'Not in the original (use_stamped_vel of Humble: false moved all input there)',
     )
     preserve_curvature: bool = parameter(

@@ -29,9 +29,8 @@ from amr_description.model.gazebo import GAZEBO_POSITION_GAIN, ros2_control_host
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
 from amr_description.text import truth
 
-STATES = (POSITION, VELOCITY, EFFORT)
-
-COMMANDS = (POSITION, VELOCITY, EFFORT)
+STATES = COMMANDS = (POSITION, VELOCITY, EFFORT)
+"""The interfaces of a joint that are supported."""
 
 
 class MujocoSystem(HardwareComponent):
@@ -53,6 +52,7 @@ class MujocoSystem(HardwareComponent):
             raise HardwareError(f"hardware component '{info.name}': {cause}") from cause
 
     def _bind(self, world: World) -> None:
+        """Connect the interfaces of the tag with the world."""
         joints = self.info.joints
         self._commands = [
             CommandInterface(joint.name, interface.name)
@@ -66,15 +66,15 @@ class MujocoSystem(HardwareComponent):
         ]
         self._sources: list[tuple[list[StateInterface], Callable[[], list[float]]]] = []
         for interface in STATES:
-            cells = [state for state in self._states if state.interface == interface]
-            if cells:
-                group = world.joints([cell.prefix for cell in cells])
+            states = [state for state in self._states if state.interface == interface]
+            if states:
+                group = world.joints([state.prefix for state in states])
                 read = {
                     POSITION: group.positions,
                     VELOCITY: group.velocities,
                     EFFORT: group.efforts,
                 }[interface]
-                self._sources.append((cells, read))
+                self._sources.append((states, read))
         self._imus = imus_of(self.info, world)
         self._warn_unsupported()
         self._states += [state for imu in self._imus for state in imu.states]
@@ -140,9 +140,9 @@ class MujocoSystem(HardwareComponent):
 
     def read(self, time: int, period: int) -> None:
         """Read joints and sensors."""
-        for cells, read in self._sources:
-            for cell, value in zip(cells, read(), strict=True):
-                cell.value = value
+        for states, read in self._sources:
+            for state, value in zip(states, read(), strict=True):
+                state.value = value
         for imu in self._imus:
             imu.read(period / NANOSECONDS)
 

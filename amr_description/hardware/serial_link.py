@@ -62,7 +62,7 @@ _ANSWER_LOST = 0.05
 """s, after which an answer counts as lost."""
 
 _SAMPLE, _MOST_REFUSED = 100, 20
-"""Number of latest lines, and how many of them may be refused: 1 of 65536 bad ones is not."""
+"""At most 20 of the latest 100 lines may be refused; the CRC misses 1 wrong line of 65536."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,14 +85,12 @@ class SerialParameters:
     )
     left_reduction: float = parameter(1.0, 'Of the left gear', not_zero=True)
     right_reduction: float = parameter(1.0, 'Of the right gear', not_zero=True)
-    max_velocity: float = parameter(
-        20.0, 'No wheel is told to turn faster', unit='rad/s', above=0.0
-    )
+    max_velocity: float = parameter(20.0, 'Greatest velocity of a wheel', unit='rad/s', above=0.0)
     baud_rate: int = parameter(115200, 'Of the port', unit='bit/s', minimum=1)
     connect_timeout: float = parameter(
         1.0,
-        'Longest wait for the board to introduce itself; more for one that restarts when its port '
-        'is opened',
+        'Longest wait for the board to identify itself; increase it for a board that restarts '
+        'when its port is opened',
         unit='s',
         above=0.0,
         maximum=10.0,
@@ -102,7 +100,7 @@ class SerialParameters:
     )
     watchdog_timeout: float = parameter(
         0.2,
-        'The board stops by itself when it has heard no command for so long',
+        'The board stops by itself after this time without a command',
         unit='s',
         minimum=SHORTEST_WATCHDOG / 1000,
         maximum=LONGEST_WATCHDOG / 1000,
@@ -248,10 +246,10 @@ class SerialBoard:
         if status is not None:
             return self._checked(status.board)
         status = self._link.status
-        came = f'{status.refused} lines such as {status.last_refused!r}'
+        lines = f'{status.refused} lines such as {status.last_refused!r}'
         raise HardwareError(
             f'no motor board answered on {self._link.port} at {self._parameters.baud_rate} bit/s '
-            f'within {timeout:g} s; what came instead: {came if status.refused else "nothing"}; '
+            f'within {timeout:g} s; what came instead: {lines if status.refused else "nothing"}; '
             'check port, baud_rate and the power of the board'
         )
 
