@@ -3,8 +3,9 @@
 """
 ROS parameter files: checked before rcl reads them, searched as rcl searches them, and written.
 
-rcl says of a faulty file where its C source gave up; this says where the file is wrong. A file
-holds sections: the full name of a node, or a pattern for several, and below it
+For a faulty file rcl reports a line of its own source; this module reports that of the file.
+
+A file holds sections: the full name of a node, or a pattern for several, and below it
 ``ros__parameters``. Namespaces may be part of the name or tables above it, and dots in the name
 of a parameter are the same as tables::
 
@@ -111,7 +112,7 @@ class Section:
     """The parameters of a node, or of those that a pattern matches, in a parameter file."""
 
     keys: tuple[Any, ...]
-    """Those under which ``ros__parameters`` stands in the file, from outside to inside."""
+    """Those above ``ros__parameters`` in the file, from outside to inside."""
     parameters: Any
     """As YAML gives them: a mapping, if the file is good."""
 
@@ -154,7 +155,7 @@ def flatten(
 
 
 def dotted(keys: tuple[Any, ...]) -> str:
-    """Return the name of a parameter that stands below these keys."""
+    """Return the name of the parameter at these keys."""
     return '.'.join(map(str, keys))
 
 

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rules of the checker on what is in mesh files, where they are at hand.
+Rules on the content of mesh files that are found.
 
 That a file is there is a rule on files (:mod:`amr_description.model.checks.markup`).
 """

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Rules of the checker on what is seen and what touches."""
+"""Rules on visual and collision shapes: their sizes and colours, and whether they overlap."""
 
 from collections.abc import Iterator
 
@@ -11,14 +11,14 @@ from amr_description.model.shapes import overlap, reach, sizes, Solid, solids_of
 from amr_description.model.xml_reader import line_of
 from amr_description.text import quote
 
-# m; shapes that reach into each other by less only touch, as parts that are mounted do.
+# m; shapes that overlap by less only touch, as mounted parts do.
 _DEPTH = 0.002
-# A made-up file may hold thousands of shapes in one place; no robot has as many near pairs.
+# Limits the time for files with thousands of shapes at one point.
 _MOST_PAIRS = 20_000
 
 
 def sizes_are_positive(context: CheckContext) -> Iterator[Finding]:
-    """No shape has a side, radius, length or scale of 0 or below; a mirrored mesh may."""
+    """Every side, radius, length and scale of a shape is above 0; a mesh may be mirrored."""
     for link in context.robot.links:
         parts: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
         for part in parts:
@@ -41,7 +41,7 @@ def _sizes(geometry: Geometry) -> tuple[float, ...]:
 
 
 def collision_is_present(context: CheckContext) -> Iterator[Finding]:
-    """What has mass and is seen can be touched."""
+    """A link with mass and a visual shape has a collision shape."""
     for link in context.robot.links:
         if link.inertial is not None and link.visuals and not link.collisions:
             yield context.warning(
@@ -90,15 +90,15 @@ def shapes_do_not_overlap(context: CheckContext) -> Iterator[Finding]:
     Links of one rigid body, and of two that one joint connects, may overlap: a wheel reaches into
     the chassis. Meshes are left out.
     """
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     neighbours = _neighbours(context)
     for one, other in _near_pairs(_placed_solids(context)):
         (link, solid), (other_link, other_solid) = one, other
         pair = (context.bodies[link.name], context.bodies[other_link.name])
-        if pair[0] == pair[1] or pair in neighbours or (link.name, other_link.name) in told:
+        if pair[0] == pair[1] or pair in neighbours or (link.name, other_link.name) in reported:
             continue
         if overlap(solid, other_solid, _DEPTH):
-            told.add((link.name, other_link.name))
+            reported.add((link.name, other_link.name))
             yield context.warning(
                 max(link.line, other_link.line),
                 f'the collision shapes of links {quote(link.name)} and {quote(other_link.name)} '

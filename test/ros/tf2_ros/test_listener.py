@@ -79,7 +79,7 @@ def test_lookups_that_fail_are_transform_exceptions(buffer):
         buffer.lookup_transform('odom', 'laser', Time(nanoseconds=21))
 
 
-def test_whether_it_can_be_looked_up_is_told_with_the_reason(buffer):
+def test_can_transform_returns_the_reason(buffer):
     assert buffer.can_transform('odom', 'base', Time(), return_debug_tuple=True) == (True, '')
     can, why = buffer.can_transform('map', 'base', Time(), return_debug_tuple=True)
     assert not can
@@ -96,7 +96,7 @@ def test_the_full_interface_goes_through_a_fixed_frame(buffer):
     assert (can, 'into the past' in why) == (False, True)
 
 
-def test_what_is_known_is_told_as_by_tf2(buffer):
+def test_all_frames_are_described_as_by_tf2(buffer):
     assert buffer.chain('odom', 'laser') == ['odom', 'base', 'laser']
     assert buffer.get_latest_common_time('odom', 'laser') == Time(nanoseconds=20)
     assert (
@@ -156,7 +156,7 @@ class FakeLogger:
         self.said.append(text)
 
 
-def test_what_is_wrong_is_said_once_and_names_the_nodes(buffer):
+def test_a_warning_is_logged_once_and_names_the_nodes(buffer):
     buffer._logger = FakeLogger()
     buffer.publishers = lambda: {'/tf': ['/ekf', '/wheels'], '/tf_static': []}
     for _ in range(3):
@@ -205,7 +205,7 @@ def test_what_was_on_its_way_when_time_went_back_keeps_nothing_out(context):
     assert buffer._logger.said == ['Detected jump back in time. Clearing tf buffer.']
 
 
-def test_a_listener_hears_moving_and_static_transforms_also_of_before(context):
+def test_a_listener_receives_moving_and_earlier_static_transforms(context):
     talker, hearer = Node('talker'), Node('hearer')
     static, moving = StaticTransformBroadcaster(talker), TransformBroadcaster(talker)
     static.sendTransform(message('base', 'laser', 0.5))

@@ -78,7 +78,7 @@ def test_a_static_chain_is_not_late():
     assert 'avg = 0: max = 0' in statistics.report({}, ['base', 'laser'])
 
 
-def test_another_clock_is_told():
+def test_another_clock_is_reported():
     statistics = TransformStatistics()
     statistics.add_message(
         '/tf', [('base', 5 * NANOSECONDS)], 1_700_000_000 * NANOSECONDS, static=False

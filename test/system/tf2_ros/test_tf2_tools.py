@@ -63,7 +63,7 @@ def test_echo_reads_its_words(words, request_):
         ('a b -r', 5, '-r needs a value'),
     ],
 )
-def test_echo_tells_what_it_cannot_read(words, code, said):
+def test_echo_reports_what_it_cannot_read(words, code, said):
     with pytest.raises(UsageError, match=f'^{said}') as error:
         tf2_echo.parse(words.split())
     assert error.value.exit_code == code
@@ -129,7 +129,7 @@ def test_the_publisher_reads_flags(words, request_):
         ('1 2 3 0 0 1 0 foo bar', placed(1.0, 2.0, 3.0, turn=(0.0, 0.0, 1.0, 0.0))),
     ],
 )
-def test_the_publisher_reads_the_old_form_and_says_so(words, request_):
+def test_the_publisher_reads_the_old_form_with_a_warning(words, request_):
     warnings = []
     assert static_transform_publisher.parse(words.split(), warnings.append) == request_
     assert warnings == ['Old-style arguments are deprecated; see --help for new-style arguments']
@@ -156,7 +156,7 @@ def test_the_publisher_reads_the_old_form_and_says_so(words, request_):
         ('0 0 0 0 0 0 0 a b', 'The quaternion .* the length 0 instead of 1, .* transform$'),
     ],
 )
-def test_the_publisher_tells_what_it_cannot_read(words, said):
+def test_the_publisher_reports_what_it_cannot_read(words, said):
     with pytest.raises(static_transform_publisher.ArgumentsError, match=f'^{said}') as error:
         static_transform_publisher.parse(words.split())
     assert error.value.exit_code == 1
@@ -206,7 +206,7 @@ def frames():
     rclpy.try_shutdown()
 
 
-def test_the_publisher_tells_what_it_publishes_and_all_can_hear_it(frames):
+def test_the_publisher_logs_what_it_publishes_and_all_receive_it(frames):
     frames.expect(
         r'\[static_transform_publisher_\w{16}\]: Spinning until stopped - publishing transform\n'
         r"translation: \('0\.000000', '0\.000000', '0\.300000'\)\n"
@@ -249,7 +249,7 @@ def test_echo_prints_once_what_moves(frames):
         echo.expect(r'At time \d{10}\.\d{9}\n- Translation: \[1\.000, 0\.000, 0\.300\]')
 
 
-def test_echo_says_what_it_waits_for(frames):
+def test_echo_prints_what_it_waits_for(frames):
     with Program.module('tf2_echo', 'base', 'lazer') as echo:
         echo.expect(
             r'\[tf2_echo\]: Waiting for transform base ->  lazer: Invalid frame ID "lazer" passed '
@@ -259,7 +259,7 @@ def test_echo_says_what_it_waits_for(frames):
         assert 'At time' not in echo.output
 
 
-def test_monitor_says_what_it_gathers_and_ends_cleanly(frames):
+def test_monitor_prints_what_it_gathers_and_ends_cleanly(frames):
     with Program.module('tf2_monitor', 'odom', 'laser') as monitor:
         monitor.expect(r'Gathering data on odom -> laser for 10 seconds\.\.\.\n')
         assert monitor.end(signal.SIGINT) == 0
@@ -316,7 +316,7 @@ def test_names_that_the_terminal_cannot_show_are_spelt_out():
         ('static_transform_publisher', ['--help'], 0, 'usage: static_transform_publisher'),
     ],
 )
-def test_words_that_cannot_be_are_told(program, words, code, said):
+def test_malformed_arguments_are_reported(program, words, code, said):
     with Program.module(program, *words) as running:
         assert running.end() == code
         assert said in running.output

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which messages were on their way when time went back."""
+"""Which messages are stale after time jumped back."""
 
 import pytest
 
@@ -36,7 +36,7 @@ def test_the_time_that_begins_anew_may_reach_that_of_before():
         assert not clock.is_stale((now + 10) * MILLISECOND)
 
 
-def test_a_source_that_is_ahead_for_good_is_heard_again():
+def test_a_publisher_that_stays_ahead_is_accepted_again():
     """Its clock is another one: what is on its way is not as old as that, nor as new."""
     for stamp in (2000, 7000):
         clock = TimeJumpFilter()

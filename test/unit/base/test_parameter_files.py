@@ -1,13 +1,21 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Parameter files: what is wrong with one, in one line with its place."""
+"""Parameter files: their faults in one line, their sections, and how they are written."""
 
 from pathlib import Path
 
 import pytest
 
 from amr_description.errors import ParameterError
-from amr_description.parameter_files import read_parameter_file
+from amr_description.parameter_files import (
+    dotted,
+    flatten,
+    load_yaml,
+    parameter_file_text,
+    read_parameter_file,
+    sections,
+    YamlError,
+)
 
 
 def test_nodes_may_stand_below_their_namespaces(tmp_path):
@@ -30,7 +38,7 @@ def test_nodes_may_stand_below_their_namespaces(tmp_path):
         ('a: &x\n  b: *x', 'nested too deeply'),
     ],
 )
-def test_what_is_wrong_is_told_in_one_line(tmp_path, text, said):
+def test_a_fault_is_reported_in_one_line(tmp_path, text, said):
     path = tmp_path / 'bad.yaml'
     path.write_text(text)
     with pytest.raises(ParameterError, match=said) as error:
@@ -38,15 +46,54 @@ def test_what_is_wrong_is_told_in_one_line(tmp_path, text, said):
     assert '\n' not in str(error.value)
 
 
-def test_bytes_that_are_no_text_are_told(tmp_path):
+def test_bytes_that_are_not_text_are_reported(tmp_path):
     path = tmp_path / 'bad.yaml'
     path.write_bytes(b'/arm: \xff')
     with pytest.raises(ParameterError, match='not UTF-8 text'):
         read_parameter_file(path)
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path):
+def test_a_missing_file_is_reported(tmp_path):
     with pytest.raises(ParameterError, match="nowhere.yaml': No such file"):
         read_parameter_file(tmp_path / 'nowhere.yaml')
     with pytest.raises(ParameterError, match='Is a directory'):
         read_parameter_file(Path(tmp_path))
+
+
+def test_a_syntax_error_has_its_line_and_column():
+    with pytest.raises(YamlError) as error:
+        load_yaml('a: 1\n b: 2')
+    assert error.value.where == (2, 3)
+
+
+def test_sections_are_found_below_namespaces_in_the_order_of_the_file():
+    content = load_yaml(
+        '/**: {ros__parameters: {}}\nleft: {far: {arm: {ros__parameters: {a: 1}}}}'
+    )
+    assert [each.pattern for each in sections(content)] == ['/**', '/left/far/arm']
+
+
+@pytest.mark.parametrize(
+    ('pattern', 'node', 'expected'),
+    [
+        ('/**', '/a/b', True),
+        ('/*', '/a', True),
+        ('/*', '/a/b', False),
+        ('/**/b', '/b', True),
+        ('/a/**', '/a/b/c', True),
+        ('a', '/a', True),
+        ('/a.c', '/abc', False),
+    ],
+)
+def test_wildcards_match_parts_of_names(pattern, node, expected):
+    (section,) = sections({pattern: {'ros__parameters': {}}})
+    assert section.is_of(node) is expected
+
+
+def test_what_is_written_is_what_is_read(tmp_path):
+    parameters = {'a.b': 1.0, 'a.c.d': ['5', 'on'], 'text': '1e3', 'e': True}
+    path = tmp_path / 'good.yaml'
+    path.write_text(parameter_file_text('/left/arm', parameters))
+    (section,) = sections(read_parameter_file(path))
+    assert section.is_of('/left/arm')
+    assert {dotted(keys): value for keys, value in flatten(section.parameters)} == parameters

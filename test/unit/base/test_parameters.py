@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of parameters: names, types, bounds, and what a wrong value is told."""
+"""Tables of parameters: names, types, bounds, and the errors for wrong values."""
 
 from array import array
 from dataclasses import dataclass
@@ -35,14 +35,14 @@ class Table:
     inner: Inner = group('in.ner', Inner)
 
 
-def test_what_is_not_given_keeps_its_default():
+def test_a_missing_value_keeps_its_default():
     table = build(Table, {})
     assert (table.name, table.wheels, table.factor, table.count) == ('', ('a',), 1.0, 3)
     assert math.isnan(table.limit)
     assert table.inner == Inner(50.0, 'slow')
 
 
-def test_dotted_names_reach_the_groups_and_strangers_are_left_alone():
+def test_dotted_names_reach_the_groups_and_unknown_names_are_ignored():
     table = build(Table, {'in.ner.rate': 5.0, 'use_sim_time': True, 'rate': 'not mine'})
     assert table.inner.rate == 5.0
 
@@ -99,7 +99,7 @@ def test_every_default_is_good_but_those_that_must_be_given():
         ({'in.ner.mode': 'medium'}, r"'in\.ner\.mode' must be one of slow, fast, found medium"),
     ],
 )
-def test_a_wrong_value_is_told_with_its_name_and_what_would_do(values, message):
+def test_a_wrong_value_is_reported_with_its_name_and_a_fix(values, message):
     with pytest.raises(ParameterError, match=message):
         build(Table, values)
 

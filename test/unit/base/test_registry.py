@@ -17,7 +17,7 @@ def test_a_name_of_the_table_is_found():
     assert Registry('thing', TABLE, ControllerError).find('a/Path').__name__ == 'Path'
 
 
-def test_a_strangers_class_needs_no_entry():
+def test_a_third_party_class_needs_no_entry():
     assert Registry('thing', TABLE, ControllerError).find('fractions/Fraction').__name__ == (
         'Fraction'
     )
@@ -34,7 +34,7 @@ def test_nothing_is_imported_before_it_is_asked_for(monkeypatch):
     'name',
     ['nobody.knows/Me', 'pathlib/Nothing', 'pathlib', '', '/', '.rel/Me', 'a/b/c', 'broken/C'],
 )
-def test_an_unknown_name_is_told_with_those_there_are(name, tmp_path, monkeypatch):
+def test_an_unknown_name_is_reported_with_the_known_ones(name, tmp_path, monkeypatch):
     (tmp_path / 'broken.py').write_text('this is no Python\n')
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ControllerError, match=r"thing '.*' is not known.*Known: a/Path, a/Gone"):
@@ -54,6 +54,6 @@ def test_the_shipped_controllers_are_found_by_the_names_of_ros2_controllers():
         assert CONTROLLERS.find(name).parameters_type
 
 
-def test_resolve_says_what_import_says():
+def test_resolve_raises_what_import_raises():
     with pytest.raises(ImportError, match='nobody_knows_me'):
         resolve('nobody_knows_me:Class')

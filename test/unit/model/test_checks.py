@@ -51,7 +51,7 @@ def test_arm_is_faultless():
     assert findings(ARM) == []
 
 
-def test_tutorial_robot_is_told_its_two_faults_once():
+def test_the_two_faults_of_the_tutorial_robot_are_reported_once():
     beside = CheckInputs(file_exists=lambda uri: False)
     path, warning = map(str, checks.examine(TUTORIAL, 'f', beside).findings)
     line = TUTORIAL.splitlines().index(

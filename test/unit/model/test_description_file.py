@@ -91,7 +91,7 @@ def test_what_cannot_be_expanded_is_one_line_with_the_file(tmp_path, body, words
     assert len(str(caught.value)) < 400 + 8 * len(str(tmp_path))
 
 
-def test_the_way_to_the_fault_is_told(tmp_path):
+def test_the_macros_above_a_fault_are_reported(tmp_path):
     inner = (
         '<xacro:macro name="outer" params=""><xacro:inner/></xacro:macro>'
         '<xacro:macro name="inner" params=""><link name="${gone}"/></xacro:macro>'
@@ -121,7 +121,7 @@ def test_entity_bombs_and_missing_and_binary_files_end(tmp_path, monkeypatch):
         description_text(path)
 
 
-def test_arguments_that_nothing_asks_for_are_told():
+def test_unused_arguments_are_reported():
     said = []
     description_text(GRIPPER, {'finger_lenght': '1', 'palm': 'true'}, warn=said.append)
     assert said == [
@@ -138,7 +138,7 @@ def test_arguments_that_are_declared_but_not_used_are_none_of_these(tmp_path):
     assert said == []
 
 
-def test_arguments_of_what_is_no_xacro_file_are_refused():
+def test_arguments_of_a_plain_urdf_are_refused():
     with pytest.raises(DescriptionError, match=r'amr.urdf: takes no arguments \(a:=…\)'):
         description_text(ROOT / 'urdf/amr.urdf', {'a': '1'})
 
@@ -153,7 +153,7 @@ def test_values_may_be_empty_and_hold_anything():
     assert mappings_of(['a:=', 'b:=x:=y', 'c:= z ']) == {'a': '', 'b': 'x:=y', 'c': 'z'}
 
 
-def test_messages_say_that_lines_are_those_of_the_expanded_text():
+def test_messages_name_lines_of_the_expanded_text():
     assert source_name('a.urdf') == 'a.urdf'
     assert source_name('a.urdf.xacro') == 'a.urdf.xacro (expanded)'
 
@@ -173,7 +173,7 @@ def test_as_a_program_it_prints_text_or_one_line():
     assert 'perhaps' in done.stderr
 
 
-def test_the_command_xacro_is_there_and_says_the_same():
+def test_the_command_xacro_prints_the_same():
     xacro = Path(sys.prefix, 'bin/xacro')
     if not xacro.exists():  # the distribution's ROS
         xacro = Path(os.environ['AMENT_PREFIX_PATH'].split(os.pathsep)[-1], 'bin/xacro')

@@ -50,6 +50,6 @@ def test_no_sensor_is_none():
         ),
     ],
 )
-def test_faults_are_told_with_their_place(inside, message):
+def test_faults_are_reported_with_their_line(inside, message):
     with pytest.raises(DescriptionError, match=message):
         gazebo_sensors_of(robot_of(inside))

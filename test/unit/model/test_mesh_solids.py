@@ -168,7 +168,7 @@ def test_a_triangle_that_faces_the_other_way_opens_a_mesh():
     assert count_edges(mesh_of(box((1, 1, 1)), [FACES[0][::-1], *FACES[1:]])) == Edges(3, 18)
 
 
-def test_what_is_flat_has_no_volume():
+def test_a_flat_mesh_has_no_volume():
     mesh = mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 1)])
     assert count_edges(mesh).open == 0
     with pytest.raises(MeshError, match='encloses no volume'):
@@ -182,7 +182,7 @@ def test_the_hull_of_a_convex_shape_is_the_shape():
     assert hull_ratio(ball(0.5)) == pytest.approx(1.0, abs=0.02)
 
 
-def test_the_hull_of_two_boxes_holds_what_is_between_them():
+def test_the_hull_of_two_boxes_includes_the_space_between_them():
     apart = box((1, 1, 1)) + box((1, 1, 1), (9.0, 0.0, 0.0))
     faces = FACES + [tuple(i + 8 for i in face) for face in FACES]
     assert hull_ratio(mesh_of(apart, faces)) == pytest.approx(5.0)

@@ -188,7 +188,7 @@ TWO_PARENTS = json.dumps(
         ('a.glb', glb(BOX)[:-40], 'cannot be read as .glb'),
     ],
 )
-def test_what_is_no_mesh_is_refused_in_one_line(tmp_path, name, content, text):
+def test_a_file_that_is_not_a_mesh_is_refused_in_one_line(tmp_path, name, content, text):
     path = tmp_path / name
     if content is not None:
         write(path, content)

@@ -139,7 +139,7 @@ def test_a_fault_is_named_with_its_line_and_the_fix(check, fault):
         ('base_frame_id: base_footprint', 'base_frame_id: base_link\n    enable_odom_tf: false'),
     ],
 )
-def test_what_is_as_good_as_right_passes(check, old, new):
+def test_small_deviations_pass(check, old, new):
     assert check(CART, CART_DRIVE.replace(old, new), '--strict') == (0, [])
 
 

@@ -48,7 +48,7 @@ def test_a_good_mesh_is_let_be(found):
     assert found(*both, files={'a.stl': GOOD}) == []
 
 
-def test_without_files_nothing_is_said():
+def test_without_files_there_are_no_findings():
     text = '<robot name="r"><link name="a"><visual><geometry><mesh filename="a.stl"/></geometry>'
     text += '</visual></link></robot>'
     assert examine(text).findings == ()

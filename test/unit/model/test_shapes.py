@@ -29,7 +29,7 @@ def some_shape(chance):
     return chance.choice([Box(tuple(sides)), Cylinder(*sides[:2]), Sphere(sides[0])])
 
 
-def some_place(chance, spread=0.4):
+def random_pose(chance, spread=0.4):
     parts = [chance.gauss() for _ in range(4)]
     length = math.hypot(*parts)
     x, y, z = (chance.uniform(-spread, spread) for _ in range(3))
@@ -67,7 +67,7 @@ def mujoco_model(*solids):
 @pytest.mark.parametrize('seed', range(100))
 def test_overlap_is_that_of_mujoco(seed):
     chance = random.Random(seed)
-    one, other = (Solid(some_shape(chance), some_place(chance)) for _ in range(2))
+    one, other = (Solid(some_shape(chance), random_pose(chance)) for _ in range(2))
     model, data = mujoco_model(one, other)
     apart = mujoco.mj_geomDistance(model, data, 0, 1, 10.0, None)
     assert overlap(one, other, DEPTH) == overlap(other, one, DEPTH)
@@ -78,7 +78,9 @@ def test_overlap_is_that_of_mujoco(seed):
 @pytest.mark.parametrize('seed', range(50))
 def test_moments_of_some_solids_together_are_those_of_mujoco(seed):
     chance = random.Random(seed)
-    solids = [Solid(some_shape(chance), some_place(chance)) for _ in range(chance.randrange(1, 4))]
+    solids = [
+        Solid(some_shape(chance), random_pose(chance)) for _ in range(chance.randrange(1, 4))
+    ]
     model, _ = mujoco_model(*solids)
     body = model.body('b')
     mass = float(body.mass[0])
@@ -92,7 +94,7 @@ def test_moments_of_some_solids_together_are_those_of_mujoco(seed):
 @pytest.mark.parametrize('seed', range(30))
 def test_farthest_point_is_on_the_shape_and_none_is_farther(seed):
     chance = random.Random(seed)
-    solid = Solid(some_shape(chance), some_place(chance))
+    solid = Solid(some_shape(chance), random_pose(chance))
     direction = tuple(chance.gauss() for _ in range(3))
     best = math.sumprod(farthest(solid, direction), direction)
     x, y, z = half_sizes(solid.shape)
@@ -125,7 +127,7 @@ def test_touching_shapes_do_not_overlap():
         (Sphere(1.0), 1e300),
     ],
 )
-def test_what_has_no_size_or_place_is_left_out(shape, x):
+def test_shapes_without_size_or_position_are_left_out(shape, x):
     collision = Collision(shape, Transform((x, 0.0, 0.0)), '', 1)
     good = Collision(Sphere(1.0), Transform(), '', 1)
     assert solids_of([collision, good], Transform()) == [Solid(Sphere(1.0), Transform())]

@@ -197,7 +197,7 @@ def test_tree_order_and_lookups():
     assert arm.child_joints('finger_left') == ()
 
 
-def test_root_is_nobodys_child_wherever_it_stands():
+def test_the_root_has_no_parent_wherever_it_is_in_the_file():
     joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
     assert urdf.parse(robot_text(f'<link name="b"/><link name="a"/>{joint}')).root.name == 'a'
 
@@ -357,7 +357,7 @@ BAD_LINKS = {
 
 
 @pytest.mark.parametrize(('text', 'message'), NOT_TREES.values(), ids=NOT_TREES)
-def test_refuses_what_is_no_tree(text, message):
+def test_a_robot_that_is_not_a_tree_is_refused(text, message):
     with pytest.raises(DescriptionError, match=message):
         urdf.parse(text, 'f')
 

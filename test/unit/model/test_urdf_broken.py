@@ -53,7 +53,7 @@ def test_every_file_is_in_the_table():
 
 
 @pytest.mark.parametrize('case', CASES, ids=[case.name for case in CASES])
-def test_each_is_judged_as_the_table_says(case, capsys, monkeypatch):
+def test_each_has_the_findings_of_the_table(case, capsys, monkeypatch):
     monkeypatch.chdir(FOLDER)
     file = f'{case.name}.urdf'
     assert check_urdf.main([file]) == int(case.ours)
@@ -76,7 +76,7 @@ def test_each_is_judged_as_the_table_says(case, capsys, monkeypatch):
 
 
 @pytest.mark.parametrize('case', CASES, ids=[case.name for case in CASES])
-def test_json_says_the_same(case, capsys, monkeypatch):
+def test_json_has_the_same_findings(case, capsys, monkeypatch):
     monkeypatch.chdir(FOLDER)
     file = f'{case.name}.urdf'
     assert check_urdf.main([file, '--json']) == int(case.ours)

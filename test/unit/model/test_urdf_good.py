@@ -22,7 +22,7 @@ def named(paths):
 
 
 @named(GOOD)
-def test_nothing_is_said_of_a_good_robot(path, capsys):
+def test_a_good_robot_has_no_findings(path, capsys):
     assert check_urdf.main([str(path), '--strict']) == 0
     assert capsys.readouterr().err == ''
 

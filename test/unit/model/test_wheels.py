@@ -66,7 +66,7 @@ def test_sphere_is_a_wheel_about_any_axis():
         {'driven': ()},
     ],
 )
-def test_what_is_no_wheel(options):
+def test_links_that_are_not_wheels(options):
     assert wheels_of(**options) == ()
 
 

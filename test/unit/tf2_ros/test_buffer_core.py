@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The transform buffer: laws first, then agreement with kinematics, then tf2's words."""
+"""BufferCore: its laws, agreement with forward kinematics, and the texts of tf2."""
 
 import math
 
@@ -117,7 +117,7 @@ def test_at_a_time_between_a_chain_is_the_product_of_its_parts(start, end, passe
 
 @pytest.mark.parametrize('path', ['urdf/amr.urdf', 'test/fixtures/urdf/arm.urdf'])
 @given(seed=st.floats(-1.0, 1.0))
-def test_a_robot_stands_as_forward_kinematics_says(path, seed):
+def test_lookups_agree_with_forward_kinematics(path, seed):
     robot = load(ROOT / path)
     positions = {
         joint.name: seed / (1 + index)
@@ -215,7 +215,7 @@ def test_a_static_transform_replaces_a_moving_one_and_the_other_way_round():
         buffer.lookup_transform('odom', 'base', 77)
 
 
-def test_clearing_forgets_what_moves_and_keeps_what_is_static():
+def test_clear_drops_moving_and_keeps_static_transforms():
     buffer = buffer_of(at_x('odom', 'base', 1.0, 5), static=[at_x('base', 'laser', 1.0)])
     buffer.clear()
     assert buffer.lookup_transform('base', 'laser').transform.translation == (1.0, 0.0, 0.0)
@@ -223,7 +223,7 @@ def test_clearing_forgets_what_moves_and_keeps_what_is_static():
     assert buffer.set_transform(at_x('odom', 'base', 1.0, 1)) is None
 
 
-def test_what_is_missing_is_told_in_the_words_of_tf2():
+def test_a_missing_frame_is_reported_as_by_tf2():
     buffer = buffer_of(static=[at_x('odom', 'base_link', 1.0)])
     with pytest.raises(
         LookupException,
@@ -245,7 +245,7 @@ def test_what_is_missing_is_told_in_the_words_of_tf2():
 @pytest.mark.parametrize(
     ('name', 'said'), [('', 'cannot be empty'), ('/odom', "cannot start with a '/'")]
 )
-def test_a_name_that_cannot_be_is_told_in_the_words_of_tf2(name, said):
+def test_an_invalid_name_is_reported_as_by_tf2(name, said):
     buffer = buffer_of(static=[at_x('/odom', '/base', 1.0)])
     with pytest.raises(
         InvalidArgumentException,
@@ -307,7 +307,7 @@ def test_a_loop_is_named_and_does_not_hang(time):
     assert buffer.trees() == {'b': ['a', 'c'], 'map': ['camera']}
 
 
-def test_a_refusal_is_told_and_changes_nothing():
+def test_a_refused_transform_is_reported_and_changes_nothing():
     buffer = buffer_of(at_x('odom', 'base', 1.0, 100 * NANOSECONDS))
     for stamped, kind in (
         (at_x('base', '/base', 1.0), 'TF_SELF_TRANSFORM'),
@@ -321,7 +321,7 @@ def test_a_refusal_is_told_and_changes_nothing():
     assert [record.samples for record in buffer.records()] == [1]
 
 
-def test_records_tell_what_is_known():
+def test_records_describe_each_frame():
     buffer = BufferCore()
     buffer.set_transform(at_x('odom', 'base', 1.0, 1 * NANOSECONDS), 'wheels')
     buffer.set_transform(at_x('odom', 'base', 1.0, 3 * NANOSECONDS), 'odometry')

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a transform buffer takes in, and whom it takes for two publishers of one frame."""
+"""Which transforms BufferCore accepts, and when it detects two publishers of one frame."""
 
 import math
 
@@ -35,7 +35,7 @@ def stamped(parent='odom', child='base', place=(0.0, 0.0, 0.0), turn=UP, time=0)
         ({'turn': (1.0, 0.0, 0.0, 1.0)}, 'TF_DENORMALIZED_QUATERNION: .* "base" from .* "me"'),
     ],
 )
-def test_what_is_of_no_use_is_refused_in_the_words_of_tf2(fault, said):
+def test_an_unusable_transform_is_refused_as_by_tf2(fault, said):
     with pytest.raises(InvalidArgumentException, match=said):
         validated(stamped(**fault), 'me')
 
@@ -75,7 +75,7 @@ def test_two_nodes_that_publish_one_frame_by_turns_are_named():
     )
 
 
-def test_one_parent_from_two_nodes_is_a_quarrel_too():
+def test_one_parent_from_two_nodes_is_a_conflict_too():
     other = ('odom', 'ekf', False)
     assert (
         '(from "wheels") and as moving in "odom" (from "ekf")' in warnings(*[ODOM, other] * 2)[-1]
@@ -99,7 +99,7 @@ def test_turns_that_take_minutes_are_none():
         (('odom', 'a', False), ('odom', 'a', True)),
     ],
 )
-def test_what_is_static_does_not_change_even_once(first, second):
+def test_a_static_transform_must_not_change_once(first, second):
     said = warnings(first, second, second)
     assert said[0] == said[2] == ''
     assert said[1].startswith('TF_TWO_PARENTS: frame "base" is published as ')

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is told of a buffer: tf2's list and YAML, the tree, the graph."""
+"""The frames of a buffer as text: tf2's list and YAML, the tree, the graph."""
 
 import pytest
 import yaml
@@ -49,7 +49,7 @@ def test_the_yaml_is_that_of_tf2():
     assert frames_as_yaml([]) == '[]'
 
 
-def test_the_yaml_can_be_read_and_tells_the_delay():
+def test_the_yaml_can_be_read_and_has_the_delay():
     read = yaml.safe_load(frames_as_yaml(ROBOT, START + 3 * NANOSECONDS))
     assert list(read) == ['odom', 'laser', 'base']
     assert read['odom']['transform_delay'] == 1.0
@@ -84,7 +84,7 @@ def test_the_tree_is_indented():
     assert as_tree([]) == ''
 
 
-def test_a_loop_is_cut_and_told():
+def test_a_loop_is_cut_and_marked():
     loop = [static('a', 'b'), static('b', 'a'), static('below', 'b')]
     assert [(name, depth) for name, _, depth in tree_order(loop)] == [
         ('a', 0),

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The memory of one frame: order, age, interpolation, and what is said of times beyond it."""
+"""TimeCache: order, age, interpolation, and the errors for times outside of it."""
 
 import math
 
@@ -124,7 +124,7 @@ def test_between_two_parents_the_frame_is_where_the_earlier_sample_says():
         ),
     ],
 )
-def test_beyond_what_is_known_is_an_error_in_the_words_of_tf2(stamps, time, said):
+def test_extrapolation_is_an_error_as_in_tf2(stamps, time, said):
     frame = frame_of([at_x(stamp * NANOSECONDS, 0.0) for stamp in stamps])
     with pytest.raises(ExtrapolationException, match=f'^{said}$'):
         frame.get_data(time * NANOSECONDS)
