@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``python -m benchmarks``: the speed of the whole stack compared with MuJoCo alone, and its start.
+Measure the stack: its speed compared with MuJoCo alone, its start, and the load of its parts.
 
 The stack is started as a user starts it, in a ROS domain of its own: once as fast as possible
 (real-time factor 0), to measure its speed, and once in real time, to measure a warm start, the

@@ -7,7 +7,7 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 import enum
 from pathlib import Path
@@ -115,10 +115,9 @@ class EntityManager:
         self._namespaces: set[str] = set()
         """The namespaces that have a controller manager; used on the control thread only."""
 
-    @property
-    def entities(self) -> Iterable[Entity]:
-        """All entities, in the order in which they were spawned."""
-        return tuple(self._entities.values())
+    def __iter__(self) -> Iterator[Entity]:
+        """Iterate over all entities, in the order in which they were spawned."""
+        return iter(tuple(self._entities.values()))
 
     def find(self, name: str) -> Entity:
         """Return an entity by name. Raises RequestError, which lists the names that exist."""

@@ -171,7 +171,7 @@ class EntityServices:
     async def _matching(self, filters: EntityFilters) -> list[str]:
         """Return the names of the entities that match all filters. Raises RequestError."""
         check_bounds(filters.bounds)
-        entities: Collection[Entity] = matching(self._entities.entities, filters)
+        entities: Collection[Entity] = matching(self._entities, filters)
         names = [entity.name for entity in entities]
         if filters.bounds.type == Bounds.TYPE_EMPTY:
             return names
