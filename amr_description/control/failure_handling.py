@@ -13,7 +13,7 @@ from typing import Any
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.loaded_controller import LoadedController
-from amr_description.control.plugin_errors import log_traceback, one_line
+from amr_description.control.plugin_errors import error_line, log_traceback
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import names_of, Strictness, SwitchExecution, SwitchPlanner
 from amr_description.errors import AmrError, ControllerError
@@ -57,7 +57,7 @@ class FailureHandler:
             self._log(
                 Severity.ERROR,
                 f'Caught exception of type : {type(error).__name__} while {doing} controller '
-                f"'{controller.name}': {one_line(error)}",
+                f"'{controller.name}': {error_line(error)}",
             )
             log_traceback(self._log, error)
         else:

@@ -13,10 +13,10 @@ def describe(error: Exception) -> str:
     """Return the text of an error, with its type in front unless it is one of ours."""
     if isinstance(error, AmrError):
         return _text_of(error)
-    return f'{type(error).__name__}: {one_line(error)}'
+    return f'{type(error).__name__}: {error_line(error)}'
 
 
-def one_line(error: Exception) -> str:
+def error_line(error: Exception) -> str:
     """Return the text of an error without line breaks."""
     return unwrap(_text_of(error))
 

@@ -145,7 +145,7 @@ def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
     )
 
 
-def read_imu_noise(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
+def _read_imu_noise(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
     """Yield the noise of each state interface that has some, such as ``angular_velocity.x``."""
     for quantity in IMU_QUANTITIES:
         for axis in 'xyz':
@@ -213,7 +213,7 @@ def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> G
             expected='the link that the sensor is mounted on',
         )
     pose = _read_pose(element, reader)
-    noise = tuple(read_imu_noise(element, reader))
+    noise = tuple(_read_imu_noise(element, reader))
     return GazeboSensor(name, element.get('type', ''), link, pose, line_of(element), noise)
 
 

@@ -77,7 +77,7 @@ def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) ->
     reader = reader.of(f'ros2_control {quote(name)}')
     if not name:
         reader.error(element, '<ros2_control> has no attribute "name"')
-    refuse_unknown_children(element, _CHILDREN, reader)
+    _refuse_unknown_children(element, _CHILDREN, reader)
     kind = _read_type(element, reader)
     hardware = _read_hardware_element(element, reader)
     joints = tuple(_read_joints(element, robot, reader))
@@ -85,16 +85,16 @@ def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) ->
     return HardwareInfo(
         name=name,
         type=kind,
-        plugin='' if hardware is None else read_text(hardware, 'plugin', reader),
+        plugin='' if hardware is None else _read_text(hardware, 'plugin', reader),
         group='' if hardware is None else hardware.findtext('group', '').strip(),
-        parameters={} if hardware is None else read_parameters(hardware, reader),
+        parameters={} if hardware is None else _read_parameters(hardware, reader),
         rw_rate=_read_rate(element, reader),
         is_async=reader.flag(element, 'is_async', False),
         joints=joints,
         sensors=_read_components(element, ComponentType.SENSOR, reader),
         gpios=_read_components(element, ComponentType.GPIO, reader),
         transmissions=tuple(
-            read_transmission(child, reader) for child in element.iterchildren('transmission')
+            _read_transmission(child, reader) for child in element.iterchildren('transmission')
         ),
         line=line_of(element),
     )
@@ -124,7 +124,7 @@ def _read_hardware_element(
             fix='add <hardware><plugin>amr_description/MujocoSystem</plugin></hardware>',
         )
         return None
-    refuse_unknown_children(hardware, ('plugin', 'group', 'param'), reader)
+    _refuse_unknown_children(hardware, ('plugin', 'group', 'param'), reader)
     return hardware
 
 
@@ -165,7 +165,9 @@ def _read_joints(
                 f"Joint '{name}' is of type 'fixed'",
                 expected='a joint that moves: fixed joints do not make sense in ros2_control',
             )
-        yield read_component(child, ComponentType.JOINT, reader, _read_mimic(child, joint, reader))
+        yield _read_component(
+            child, ComponentType.JOINT, reader, _read_mimic(child, joint, reader)
+        )
 
 
 def _read_mimic(
@@ -209,10 +211,10 @@ def _check_mimicked(
 def _read_components(
     element: etree._Element, kind: ComponentType, reader: ElementReader
 ) -> tuple[ComponentInfo, ...]:
-    return tuple(read_component(child, kind, reader) for child in element.iterchildren(kind))
+    return tuple(_read_component(child, kind, reader) for child in element.iterchildren(kind))
 
 
-def read_component(
+def _read_component(
     element: etree._Element,
     kind: ComponentType,
     reader: ElementReader,
@@ -221,7 +223,7 @@ def read_component(
     """Return a ``<joint>``, ``<sensor>`` or ``<gpio>`` of a ``<ros2_control>`` block."""
     name = reader.required(element, 'name')
     reader = reader.of(f'{reader.label}, {kind} {quote(name)}')
-    refuse_unknown_children(element, _COMPONENT_CHILDREN[kind], reader)
+    _refuse_unknown_children(element, _COMPONENT_CHILDREN[kind], reader)
     limited = _limits_enabled(element, reader)
     commands, states = (_read_interfaces(element, tag, limited, reader) for tag in _INTERFACE_TAGS)
     return ComponentInfo(
@@ -229,7 +231,7 @@ def read_component(
         type=kind,
         command_interfaces=commands,
         state_interfaces=states,
-        parameters=read_parameters(element, reader),
+        parameters=_read_parameters(element, reader),
         mimic=mimic,
         line=line_of(element),
     )
@@ -256,7 +258,7 @@ def _read_interface(
     element: etree._Element, limited: bool, reader: ElementReader
 ) -> InterfaceInfo:
     name = reader.required(element, 'name')
-    refuse_unknown_children(element, ('param', 'limits'), reader)
+    _refuse_unknown_children(element, ('param', 'limits'), reader)
     data_type = element.get('data_type', 'double')
     if data_type not in _DATA_TYPES:
         reader.error(
@@ -265,7 +267,7 @@ def _read_interface(
             found=quote(data_type),
             expected=f'one of {", ".join(_DATA_TYPES)}',
         )
-    parameters = read_parameters(element, reader)
+    parameters = _read_parameters(element, reader)
     numbers = {
         key: _parameter_number(element, key, parameters.pop(key), reader)
         for key in _NUMERIC_PARAMETERS
@@ -336,16 +338,16 @@ def _parameter_number(
     return None
 
 
-def read_transmission(element: etree._Element, reader: ElementReader) -> TransmissionInfo:
+def _read_transmission(element: etree._Element, reader: ElementReader) -> TransmissionInfo:
     """Return a ``<transmission>``."""
     name = reader.required(element, 'name')
     reader = reader.of(f'{reader.label}, transmission {quote(name)}')
-    refuse_unknown_children(element, ('plugin', 'joint', 'actuator', 'param'), reader)
+    _refuse_unknown_children(element, ('plugin', 'joint', 'actuator', 'param'), reader)
     joints, actuators = (
         tuple(_read_end(child, reader) for child in element.iterchildren(tag))
         for tag in ('joint', 'actuator')
     )
-    return TransmissionInfo(name, read_text(element, 'plugin', reader), joints, actuators)
+    return TransmissionInfo(name, _read_text(element, 'plugin', reader), joints, actuators)
 
 
 def _read_end(element: etree._Element, reader: ElementReader) -> TransmissionEnd:
@@ -362,7 +364,7 @@ def _read_end(element: etree._Element, reader: ElementReader) -> TransmissionEnd
     )
 
 
-def refuse_unknown_children(
+def _refuse_unknown_children(
     element: etree._Element, known: tuple[str, ...], reader: ElementReader
 ) -> None:
     """Report every child element whose tag is not in ``known``."""
@@ -372,7 +374,7 @@ def refuse_unknown_children(
             reader.error(child, f'invalid tag name {quote(child.tag)}', expected=expected)
 
 
-def read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
+def _read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
     """Return the text of a child that must be there; '' after a report."""
     text = (element.findtext(tag) or '').strip()
     if not text:
@@ -380,7 +382,7 @@ def read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
     return text
 
 
-def read_parameters(element: etree._Element, reader: ElementReader) -> dict[str, str]:
+def _read_parameters(element: etree._Element, reader: ElementReader) -> dict[str, str]:
     """Return the ``<param name="…">text</param>`` children of an element."""
     parameters = {}
     for child in element.iterchildren('param'):

@@ -181,7 +181,14 @@ def moments_along_axes(inertia: Inertia, pose: Transform) -> Vector:
 
 
 def farthest(solid: Solid, direction: Vector, less: float = 0.0) -> Vector:
-    """Return the farthest point of a solid in a direction; ``less`` (m) thins it on all sides."""
+    """
+    Return the farthest point of a solid in a direction, the support function of GJK.
+
+    Args:
+        solid: in some frame.
+        direction: in the same frame, of any length.
+        less: by how much the solid is made thinner on each side, m.
+    """
     local = rotate(conjugate(solid.pose.rotation), direction)
     half = tuple(max(0.0, each - less) for each in half_sizes(solid.shape))
     match solid.shape:

@@ -72,7 +72,12 @@ def read_stream(stream: BinaryIO, source: str) -> str:
 
 
 def decode(data: bytes, source: str) -> str:
-    """Return the text of a description: UTF-8, or the encoding that its XML declaration names."""
+    """
+    Return the text of a description, in UTF-8 or the encoding of its XML declaration.
+
+    Raises:
+        DescriptionError: it is too large, or not in that encoding.
+    """
     if len(data) > MAX_BYTES:
         raise DescriptionError(f'{source}: {_TOO_LARGE}')
     match = _DECLARED_ENCODING.match(data)

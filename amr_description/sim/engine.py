@@ -165,7 +165,7 @@ class Engine:
         self._kinematics_at = now
 
 
-def one_line(text: str) -> str:
+def compiler_message(text: str) -> str:
     """Return a message of MuJoCo without its line breaks and its leading ``Error:``."""
     return unwrap(text).removeprefix('Error: ')
 
@@ -182,5 +182,5 @@ def compiler_warnings(log: Log, source: str) -> Iterator[None]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter('always', UserWarning)
         yield
-    for line in dict.fromkeys(one_line(str(warning.message)) for warning in caught):
+    for line in dict.fromkeys(compiler_message(str(warning.message)) for warning in caught):
         log(Severity.WARN, f'{source}: MuJoCo: {line}')

@@ -25,7 +25,7 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.sim.actuators import rotor_name
-from amr_description.sim.engine import Engine, one_line
+from amr_description.sim.engine import compiler_message, Engine
 
 FALL_HEIGHT = -0.1
 """m; a robot whose root is below this height, with no ground under it, is falling."""
@@ -130,7 +130,7 @@ class FaultMonitor:
             return  # what follows from the first bad value is not reported
         bad = _BAD_VALUE.search(text)
         if bad is None:
-            self._report(Severity.WARN, f'mujoco {text[:20]}', f'MuJoCo: {one_line(text)}')
+            self._report(Severity.WARN, f'mujoco {text[:20]}', f'MuJoCo: {compiler_message(text)}')
         elif bad[1] == 'CTRL':
             name = name_of_actuator(self._engine.model, int(bad[2]))
             value = float(self._engine.data.ctrl[int(bad[2])])

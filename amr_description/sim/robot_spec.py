@@ -26,7 +26,7 @@ from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
 from amr_description.model.xml_reader import parse_xml
 from amr_description.sim.actuators import add_actuators, command_bounds
-from amr_description.sim.engine import compiler_warnings, one_line
+from amr_description.sim.engine import compiler_message, compiler_warnings
 from amr_description.sim.friction import (
     apply_link_frictions,
     link_frictions,
@@ -134,7 +134,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
             spec.copy().compile()
     except ValueError as cause:
         raise SpawnError(
-            f'{robot.source}: MuJoCo refuses the model: {one_line(str(cause))}',
+            f'{robot.source}: MuJoCo refuses the model: {compiler_message(str(cause))}',
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)

@@ -21,7 +21,7 @@ from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
-from amr_description.sim.engine import compiler_warnings, Engine, LONGEST_STEP, one_line
+from amr_description.sim.engine import compiler_message, compiler_warnings, Engine, LONGEST_STEP
 from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
 from amr_description.sim.overlap import refuse_overlap
 from amr_description.sim.robot_spec import build_robot, RobotSpec
@@ -97,7 +97,7 @@ class MujocoWorld:
                 self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
                 """Model and data, for this package and its tests."""
         except ValueError as cause:
-            raise SimulationError(f"world '{world}': {one_line(str(cause))}") from cause
+            raise SimulationError(f"world '{world}': {compiler_message(str(cause))}") from cause
         self._log = log
         self.faults = FaultMonitor(self.engine, log)
         """Checks the state after every step; its ``on_fault`` may be set."""
@@ -223,7 +223,7 @@ class MujocoWorld:
         except ValueError as cause:
             self._delete(name)
             raise SpawnError(
-                f"'{name}' cannot be put into the world: {one_line(str(cause))}",
+                f"'{name}' cannot be put into the world: {compiler_message(str(cause))}",
                 SpawnCode.OPERATION_FAILED,
             ) from cause
 

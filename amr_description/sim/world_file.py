@@ -41,7 +41,7 @@ from amr_description.ament_index import OWN_PACKAGE, package_share
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.parameters import parameter
-from amr_description.sim.engine import one_line
+from amr_description.sim.engine import compiler_message
 from amr_description.sim.friction import apply_default_friction
 
 AS_IN_WORLD = 'world'
@@ -141,7 +141,9 @@ def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.M
     try:
         spec = mujoco.MjSpec.from_file(str(path))
     except ValueError as cause:
-        raise SimulationError(f"world '{world}': {path}: {one_line(str(cause))}") from cause
+        raise SimulationError(
+            f"world '{world}': {path}: {compiler_message(str(cause))}"
+        ) from cause
     apply_default_friction(spec, path)
     prepare_world(spec, settings)
     return spec

@@ -93,7 +93,18 @@ class Buffer:
         time: Time | TimeMessage,
         timeout: Duration = Duration(),  # noqa: B008 - never changed
     ) -> TransformStamped:
-        """Return the pose of ``source_frame`` in ``target_frame``, waiting up to ``timeout``."""
+        """
+        Return the pose of ``source_frame`` in ``target_frame``.
+
+        Args:
+            target_frame: the frame to which coordinates are transformed.
+            source_frame: the frame in which they are given.
+            time: of the transform; ``Time()``: the latest one.
+            timeout: how long to wait for it.
+
+        Raises:
+            TransformException: it is not known by then; one of its subclasses says why.
+        """
         return self._wait(_simple(target_frame, source_frame, time), timeout)
 
     def lookup_transform_full(
@@ -105,7 +116,20 @@ class Buffer:
         fixed_frame: str,
         timeout: Duration = Duration(),  # noqa: B008
     ) -> TransformStamped:
-        """Return the pose of ``source_frame`` at one time in ``target_frame`` at another."""
+        """
+        Return the pose of ``source_frame`` at one time in ``target_frame`` at another.
+
+        Args:
+            target_frame: the frame to which coordinates are transformed.
+            target_time: the time of ``target_frame``.
+            source_frame: the frame in which they are given.
+            source_time: the time of ``source_frame``.
+            fixed_frame: a frame that does not move in between, such as ``odom``.
+            timeout: how long to wait.
+
+        Raises:
+            TransformException: it is not known by then; one of its subclasses says why.
+        """
         times = (target_time, source_time)
         return self._wait(_full(target_frame, source_frame, fixed_frame, *times), timeout)
 

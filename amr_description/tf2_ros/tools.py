@@ -52,7 +52,16 @@ def listening[Listener: TransformListener](
 def wait_for_transform(
     node: Node, buffer: Buffer, source: str, target: str, time: Time | None = None
 ) -> None:
-    """Wait until a transform can be looked up; log at once, and every second, why it cannot."""
+    """
+    Wait until a transform can be looked up; log at once, and every second, why it cannot.
+
+    Args:
+        node: logs.
+        buffer: in which it is looked up.
+        source: the frame to which coordinates are transformed, as tf2_echo calls it.
+        target: the frame in which they are given.
+        time: of the transform; None: the latest.
+    """
     lookup = (source, target, time or Time())
     timeout = Duration()
     while not (found := buffer.can_transform(*lookup, timeout, return_debug_tuple=True))[0]:
