@@ -45,7 +45,7 @@ ARROWS = {
     'viewer/ros': {'viewer', 'ros', 'model'},
     'bringup': {'model'},
     'cli': {'bringup', 'control/ros', 'controllers', 'ros', 'sim', 'model'},
-    'testing': {'bringup', 'control/ros', 'ros', 'control', 'model'},
+    'testing': {'bringup', 'control/ros', 'nodes', 'ros', 'control', 'model'},  # starts mujoco_sim
 }
 ARROWS['nodes'] = ARROWS.keys() - {'bringup', 'cli', 'testing', 'amr_description'}
 ROS = {'control/ros', 'sim/ros', 'viewer/ros', 'ros', 'tf2_ros', 'nodes', 'cli', 'testing'}
