@@ -27,10 +27,10 @@ from rclpy.utilities import remove_ros_args
 
 from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.spawner import (
-    _yellow,
     exclusive_lock,
     files_in_arguments,
     Spawner,
+    yellow,
 )
 from amr_description.control.ros.spawner_arguments import parse, SpawnOptions
 from amr_description.errors import ParameterError
@@ -96,7 +96,7 @@ def _manager_name(node: Node, options: SpawnOptions) -> str:
             f"standard way '--ros-args -r __ns:={node.get_namespace()}' is not allowed!"
         )
     node.get_logger().warning(
-        _yellow(
+        yellow(
             "The '--namespace' argument is deprecated and will be removed in future releases. Use "
             'the ROS 2 standard way of setting the node namespacing using --ros-args -r '
             '__ns:=<namespace>'

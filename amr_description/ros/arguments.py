@@ -1,13 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A robot description named on a node's command line: a file and, for xacro, its arguments.
+The words of a node's command line: its ROS arguments, and a robot description named before them.
 
 ``robot_state_publisher robot.urdf.xacro wheel_radius:=0.2 --ros-args …``
 
-ROS arguments as words: which stand on a command line, and which go on to other nodes.
-
-rcl's grammar, between ``--ros-args`` and ``--`` (or the end)::
+rcl's grammar of ROS arguments, between ``--ros-args`` and ``--`` (or the end)::
 
     -r, --remap [NODE:]FROM:=TO     -p, --param [NODE:]NAME:=VALUE     --params-file FILE
     --log-level LEVEL   --log-config-file FILE   -e, --enclave ENCLAVE

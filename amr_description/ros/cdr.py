@@ -10,12 +10,10 @@ and the last two are options, then the fields, numbers aligned to their size fro
 and sequences begin with their length as uint32, that of a string counts the zero at its end. What
 follows the last field is padding. Bytes that end too early raise ValueError.
 
+:class:`HeadReader` reads only the beginning of a ``sensor_msgs/JointState``, its stamp and joints:
+who thins joint states out needs no more of most of them.
+
 This module imports no rclpy.
-
-The beginning of a serialized ``sensor_msgs/JointState``: its stamp and joints.
-
-Who thins joint states out needs no more of most of them, and decoding a whole one takes rclpy a
-hundred times as long. This module imports no rclpy.
 """
 
 from dataclasses import dataclass

@@ -3,7 +3,7 @@
 """
 The ``Log`` port over a node's logger: the caller only stores the line, a thread emits it.
 
-rcutils writes to stderr and to ``/rosout``, either of which may block; the owner's tick may not.
+rcutils writes to stderr and to ``/rosout``, which may block; the control thread must not.
 """
 
 import queue

@@ -1,12 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Keeps two spawners of this host from working on one controller at the same time.
+What ``spawner`` does: take controllers through their states, with their parameter files.
 
-One would configure it anew while the other activates it. Spawners of other controllers, and of
-other robots, do not wait for each other: the original has a single lock for the whole machine.
-
-Where the parameter files of a spawner speak of a controller, and what it takes from there.
+Two spawners of this host never work on one controller at the same time: one would configure it
+anew while the other activates it (:func:`exclusive_lock`). Spawners of other controllers, and of
+other robots, do not wait for each other; ros2_control has a single lock for the whole machine.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -28,8 +27,136 @@ from amr_description.parameter_files import EVERY_NODE, read_parameter_file, sec
 from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.service_calls import NoAnswerError, wait_until
 
-_EVERY = 10.0
-"""s: how often it is said that another one has the lock."""
+_LOG_PERIOD = 10.0
+"""s: how often it is logged that another one has the lock."""
+
+
+class Spawner:
+    """Takes controllers through their states; ``files``: parameter files for all of them."""
+
+    def __init__(
+        self, node: Node, manager: ManagerClient, options: SpawnOptions, files: Sequence[str] = ()
+    ) -> None:
+        self._log = node.get_logger()
+        self._manager = manager
+        self._options = options
+        self._files = tuple(files)
+
+    def spawn(self, stopped: Callable[[], bool] = lambda: False) -> None:
+        """
+        Spawn all controllers, or those before ``stopped()``, which is asked before each.
+
+        Raises:
+            ControllerError: One has failed; the reason is in it. The others are not spawned.
+            ParameterError: A parameter file is no good.
+        """
+        group = []
+        for plan in self._options.plans:
+            if stopped():
+                return
+            if not self._prepare(plan):
+                continue
+            if self._options.as_group:
+                group.append(plan.name)
+            else:
+                self._activate(
+                    [plan.name],
+                    done=f'Configured and activated {plan.name}',
+                    failed=f'Failed to activate controller : {plan.name}',
+                )
+        if group and not stopped():
+            self._activate(
+                group,
+                done=f'Configured and activated all the parsed controllers list : {group}!',
+                failed=f'Failed to activate the parsed controllers list : {group}',
+            )
+
+    def unload(self) -> None:
+        """Deactivate and unload those that are loaded. Raises ControllerError: one failed."""
+        try:
+            if self._manager.is_there():
+                self._unload()
+                return
+        except NoAnswerError:
+            if self._manager.is_there():
+                raise
+        # As when a Ctrl-C ends a whole stack.
+        self._log.info(f'{self._manager.name} is gone, and its controllers with it')
+
+    def _unload(self) -> None:
+        states = self._manager.states()
+        loaded = [plan.name for plan in self._options.plans if plan.name in states]
+        active = [name for name in loaded if states[name] == 'active']
+        if not loaded:
+            self._log.info('No active controllers to unload.')
+            return
+        if active:
+            self._log.info('Deactivating and unloading controllers...')
+            message = self._switch(deactivate=active)
+            if message is not None:
+                raise ControllerError(f'Failed to deactivate controller : {active}: {message}')
+            self._log.info(f'Successfully deactivated controllers : {active}')
+        failed = [name for name in loaded if not self._manager.unload(name)]
+        if failed:
+            reason = self._manager.logged(*failed) or 'see the log of the manager'
+            raise ControllerError(f'Failed to unload controller : {", ".join(failed)}: {reason}')
+        self._log.info(f'Successfully unloaded controllers : {loaded}')
+
+    def _prepare(self, plan: ControllerPlan) -> bool:
+        """Load and configure a controller; return whether it is now to be activated."""
+        name = plan.name
+        state = self._manager.states().get(name)
+        if state is None:
+            self._set_parameters(plan)
+            if not self._manager.load(name):
+                raise ControllerError(self._failure(f'Failed loading controller {name}', name))
+            self._log_colored(BLUE, f'Loaded {name}')
+        else:
+            self._log.warning(yellow('Controller already loaded, skipping load_controller'))
+        if state == 'active':
+            self._log.info(f'Controller {name} is active already; nothing to do')
+            return False
+        if plan.load_only:
+            return False
+        if not self._manager.configure(name):
+            raise ControllerError(self._failure(f'Failed to configure controller {name}', name))
+        return not plan.inactive
+
+    def _activate(self, names: Sequence[str], *, done: str, failed: str) -> None:
+        """Activate with one request. Raises ControllerError."""
+        message = self._switch(activate=names)
+        if message is not None:
+            raise ControllerError(f'{failed}: {message}' if message else failed)
+        self._log_colored(GREEN, done)
+
+    def _switch(self, **names: Sequence[str]) -> str | None:
+        return self._manager.switch(
+            **names,
+            timeout=self._options.switch_timeout,
+            activate_asap=self._options.activate_asap,
+        )
+
+    def _set_parameters(self, plan: ControllerPlan) -> None:
+        name, files = plan.name, (*self._files, *plan.files)
+        parameters: dict[str, str | list[str]] = {}
+        if plan.ros_args:
+            parameters['node_options_args'] = list(plan.ros_args)
+        entries = controller_entries(name, files, self._manager.namespace)
+        if plan.files and not entries:
+            if not self._manager.has_type(name):
+                raise ParameterError(not_found(name, files))
+            self._log.info(f'{not_found(name, files)}; the manager knows its type')
+        parameters |= manager_parameters(name, entries)
+        self._manager.set_parameters(name, parameters)
+        for key, value in parameters.items():
+            self._log_colored(CYAN, f'Setting controller param "{key}" to "{value}" for {name}')
+
+    def _failure(self, what: str, name: str) -> str:
+        reasons = self._manager.reasons(name)
+        return f'{what}: {reasons}' if reasons else f'{what}: see the log of the manager'
+
+    def _log_colored(self, color: str, text: str) -> None:
+        self._log.info(colored(text, color, sys.stderr))
 
 
 @contextmanager
@@ -37,19 +164,19 @@ def exclusive_lock(node: Node, manager: str, controllers: Sequence[str]) -> Iter
     """
     Be the only spawner of these controllers of ``manager`` (an absolute name) while inside.
 
-    The locks are files in ``$ROS_HOME/locks`` (``~/.ros/locks``), and end with the process. Where
-    that folder cannot be written the spawner does without.
+    The locks are files in ``$ROS_HOME/locks`` (``~/.ros/locks``), and end with the process, in any
+    case. Where that folder cannot be written there is no lock.
     """
-    place = f'{node.context.get_domain_id()}{manager.replace("/", ".")}'
+    prefix = f'{node.context.get_domain_id()}{manager.replace("/", ".")}'
     with ExitStack() as stack:
         for name in sorted(set(controllers)):  # in one order, so that no two wait in a circle
             try:
-                path = _folder() / f'spawner.{place}.{name}.lock'
+                path = _folder() / f'spawner.{prefix}.{name}.lock'
                 file = stack.enter_context(path.open('a'))
             except (OSError, RuntimeError) as error:
                 node.get_logger().debug(f'without a lock: {error}')
                 continue
-            _lock(node, file.fileno(), f'controller {name} of {manager} ({path})')
+            _acquire(node, file.fileno(), f'controller {name} of {manager} ({path})')
         yield
 
 
@@ -60,7 +187,7 @@ def _folder() -> Path:
     return folder
 
 
-def _lock(node: Node, descriptor: int, what: str) -> None:
+def _acquire(node: Node, descriptor: int, what: str) -> None:
     def taken() -> bool | None:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -68,10 +195,10 @@ def _lock(node: Node, descriptor: int, what: str) -> None:
             return None
         return True
 
-    def say() -> None:
+    def log_wait() -> None:
         node.get_logger().warning(f'Waiting for the spawner that works on {what}')
 
-    wait_until(node, taken, say, every=_EVERY)
+    wait_until(node, taken, log_wait, every=_LOG_PERIOD)
 
 
 def files_in_arguments(words: Sequence[str]) -> list[str]:
@@ -84,7 +211,7 @@ def controller_entries(
     name: str, files: Sequence[str], namespace: str
 ) -> dict[str, dict[str, Any]]:
     """
-    Return file → what it says of a controller, for those files that do; perhaps none.
+    Return a controller's parameters in each of the files that have any.
 
     Raises ParameterError: a file is no good, or all that speak of the controller lack the
     ``namespace`` that it has.
@@ -105,7 +232,7 @@ def controller_entries(
 
 
 def not_found(name: str, files: Sequence[str]) -> str:
-    """Say that none of the files speaks of a controller."""
+    """Return the message that no file has parameters for a controller."""
     return f'Controller : {name} parameters not found in parameter files : {list(files)}'
 
 
@@ -161,131 +288,5 @@ def _text(value: Any, name: str, key: str, path: str) -> str:
     return value
 
 
-class Spawner:
-    """Takes controllers through their states; ``files``: parameter files for all of them."""
-
-    def __init__(
-        self, node: Node, manager: ManagerClient, options: SpawnOptions, files: Sequence[str] = ()
-    ) -> None:
-        self._log = node.get_logger()
-        self._manager = manager
-        self._options = options
-        self._files = tuple(files)
-
-    def spawn(self, stopped: Callable[[], bool] = lambda: False) -> None:
-        """
-        Spawn all, or go on until ``stopped()``, which is asked before each.
-
-        Raises ControllerError, with the reason, at the first that fails; ParameterError.
-        """
-        group = []
-        for plan in self._options.plans:
-            if stopped():
-                return
-            if not self._prepare(plan):
-                continue
-            if self._options.as_group:
-                group.append(plan.name)
-            else:
-                self._activate(
-                    [plan.name],
-                    done=f'Configured and activated {plan.name}',
-                    failed=f'Failed to activate controller : {plan.name}',
-                )
-        if group and not stopped():
-            self._activate(
-                group,
-                done=f'Configured and activated all the parsed controllers list : {group}!',
-                failed=f'Failed to activate the parsed controllers list : {group}',
-            )
-
-    def unload(self) -> None:
-        """Deactivate and unload what is there of them. Raises ControllerError: not all went."""
-        try:
-            if self._manager.is_there():
-                self._unload()
-                return
-        except NoAnswerError:
-            if self._manager.is_there():
-                raise
-        # As when a Ctrl-C ends a whole stack.
-        self._log.info(f'{self._manager.name} is gone, and its controllers with it')
-
-    def _unload(self) -> None:
-        states = self._manager.states()
-        loaded = [plan.name for plan in self._options.plans if plan.name in states]
-        active = [name for name in loaded if states[name] == 'active']
-        if not loaded:
-            self._log.info('No active controllers to unload.')
-            return
-        if active:
-            self._log.info('Deactivating and unloading controllers...')
-            message = self._switch(deactivate=active)
-            if message is not None:
-                raise ControllerError(f'Failed to deactivate controller : {active}: {message}')
-            self._log.info(f'Successfully deactivated controllers : {active}')
-        failed = [name for name in loaded if not self._manager.unload(name)]
-        if failed:
-            reason = self._manager.logged(*failed) or 'see the log of the manager'
-            raise ControllerError(f'Failed to unload controller : {", ".join(failed)}: {reason}')
-        self._log.info(f'Successfully unloaded controllers : {loaded}')
-
-    def _prepare(self, plan: ControllerPlan) -> bool:
-        """Load and configure; tell whether it is now to be activated."""
-        name = plan.name
-        state = self._manager.states().get(name)
-        if state is None:
-            self._set_parameters(plan)
-            if not self._manager.load(name):
-                raise ControllerError(self._failure(f'Failed loading controller {name}', name))
-            self._say(BLUE, f'Loaded {name}')
-        else:
-            self._log.warning(_yellow('Controller already loaded, skipping load_controller'))
-        if state == 'active':
-            self._log.info(f'Controller {name} is active already; nothing to do')
-            return False
-        if plan.load_only:
-            return False
-        if not self._manager.configure(name):
-            raise ControllerError(self._failure(f'Failed to configure controller {name}', name))
-        return not plan.inactive
-
-    def _activate(self, names: Sequence[str], *, done: str, failed: str) -> None:
-        """Activate with one request. Raises ControllerError."""
-        message = self._switch(activate=names)
-        if message is not None:
-            raise ControllerError(f'{failed}: {message}' if message else failed)
-        self._say(GREEN, done)
-
-    def _switch(self, **names: Sequence[str]) -> str | None:
-        return self._manager.switch(
-            **names,
-            timeout=self._options.switch_timeout,
-            activate_asap=self._options.activate_asap,
-        )
-
-    def _set_parameters(self, plan: ControllerPlan) -> None:
-        name, files = plan.name, (*self._files, *plan.files)
-        parameters: dict[str, str | list[str]] = {}
-        if plan.ros_args:
-            parameters['node_options_args'] = list(plan.ros_args)
-        entries = controller_entries(name, files, self._manager.namespace)
-        if plan.files and not entries:
-            if not self._manager.has_type(name):
-                raise ParameterError(not_found(name, files))
-            self._log.info(f'{not_found(name, files)}; the manager knows its type')
-        parameters |= manager_parameters(name, entries)
-        self._manager.set_parameters(name, parameters)
-        for key, value in parameters.items():
-            self._say(CYAN, f'Setting controller param "{key}" to "{value}" for {name}')
-
-    def _failure(self, what: str, name: str) -> str:
-        reasons = self._manager.reasons(name)
-        return f'{what}: {reasons}' if reasons else f'{what}: see the log of the manager'
-
-    def _say(self, color: str, text: str) -> None:
-        self._log.info(colored(text, color, sys.stderr))
-
-
-def _yellow(text: str) -> str:
+def yellow(text: str) -> str:
     return colored(text, YELLOW, sys.stderr)

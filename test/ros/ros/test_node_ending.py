@@ -33,7 +33,7 @@ def test_no_service_of_it_stays(node):
 
 
 def test_what_rclpy_leaves_is_why(node):
-    """When this fails rclpy has mended it, and node_ending.py may go."""
+    """When this fails, rclpy is newer than 7.1.6, and destroy_type_description_service may go."""
     guest = Node('guest')
     guest.destroy_node()
     assert wait_until(
