@@ -83,7 +83,7 @@ def bring(node: Node, manager: ManagerClient, names: Sequence[str], action: str)
 def _bring_one(
     node: Node, manager: ManagerClient, name: str, action: str, known: Sequence[str]
 ) -> bool:
-    """Tell what came of it, in the original's words, and whether it is there."""
+    """Log the outcome as ros2_control does; return whether the state was reached."""
     log, target = node.get_logger(), _TARGETS[action]
     if name not in known:
         text = (
@@ -109,7 +109,7 @@ def _bring_one(
 
 
 def spawn(args: list[str] | None) -> None:
-    """Do what the command line says."""
+    """Configure or activate as the command line asks."""
     with ros(args):
         words = sys.argv if args is None else ['hardware_spawner', *args]
         options = parser().parse_args(remove_ros_args(words)[1:])

@@ -160,11 +160,11 @@ def serve(board: SimulatedMotorBoard, line: int, until: Callable[[], bool]) -> N
     with suppress(OSError):  # EIO: hung up
         while not until():
             ready, _, _ = select.select([line], [], [], _STEP)
-            heard = os.read(line, 4096) if ready else b''
+            data = os.read(line, 4096) if ready else b''
             now = time.monotonic()
             board.advance(now - before)
             before = now
-            answer = board.receive(heard)
+            answer = board.receive(data)
             if answer:
                 with suppress(BlockingIOError):  # nobody reads it; a wire keeps nothing either
                     os.write(line, answer)

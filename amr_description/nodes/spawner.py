@@ -40,7 +40,7 @@ from amr_description.ros.signals import StopRequests
 
 
 def spawn(args: list[str] | None) -> None:
-    """Do what the command line says."""
+    """Spawn as the command line asks."""
     with ros(args) as stop:
         words = ['spawner', *args] if args is not None else sys.argv
         options = parse(remove_ros_args(words)[1:])

@@ -66,7 +66,7 @@ def unload(
 
 
 def unspawn(args: list[str] | None) -> None:
-    """Do what the command line says."""
+    """Unload as the command line asks."""
     with ros(args):
         words = sys.argv if args is None else ['unspawner', *args]
         options = parser().parse_args(remove_ros_args(words)[1:])

@@ -35,7 +35,7 @@ def use_quick_discovery() -> None:
 def use_whole_graph() -> None:
     """
     Have the participant of this process, and those of its children, learn of the whole graph
-    through a discovery server too, which else tells a node only of the topics that it uses itself.
+    through a discovery server too, which otherwise shows a node only the topics that it uses.
 
     A search by type (``create``'s for the simulator) would never end, and ``ros2 topic list`` find
     nothing. Without ``ROS_DISCOVERY_SERVER`` it changes nothing; nor where a user has decided.

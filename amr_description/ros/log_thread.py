@@ -18,17 +18,17 @@ from amr_description.text import encodable, unwrap
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 _MOST_WAITING = 2000
-"""Lines: what is said beyond them, faster than it can be written, is counted and dropped."""
-_PATIENCE = 5.0
+"""Lines: those beyond, logged faster than they can be written, are counted and dropped."""
+_STOP_TIMEOUT = 5.0
 """s: how long :meth:`LogThread.stop` waits for a terminal that takes nothing."""
 
 
 class LogThread:
     """
-    Emits the lines of all components, in the order in which they were said.
+    Emits the lines of all loggers, in the order in which they were logged.
 
-    A component that says a line at every update, thousands a second, must neither fill the memory
-    nor keep the process from ending: what is too much is dropped, and that is said.
+    A plugin that logs a line at every update, thousands a second, must neither fill the memory nor
+    keep the process from ending: lines that are too many are dropped, and their number is logged.
     """
 
     def __init__(self) -> None:
@@ -44,7 +44,7 @@ class LogThread:
     def stop(self) -> None:
         """Emit what waits, and end."""
         self._lines.end()
-        self._thread.join(_PATIENCE)
+        self._thread.join(_STOP_TIMEOUT)
 
     def _run(self) -> None:
         while (line := self._lines.get()) is not None:
@@ -91,20 +91,20 @@ class NodeLog:
     def __init__(self, logger: RcutilsLogger, lines: Lines) -> None:
         self._logger = logger
         self._lines = lines
-        self._last_said: dict[str, float] = {}
+        self._last_logged: dict[str, float] = {}
 
     def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
-        """Say ``text``, unless something like it was said within ``throttle`` s of wall time."""
+        """Log ``text``, unless its like was logged within ``throttle`` s of wall time."""
         if throttle > 0.0:
             key, now = _FIRST_NUMBER.sub('', text), time.monotonic()
-            if now - self._last_said.get(key, -float('inf')) < throttle:
+            if now - self._last_logged.get(key, -float('inf')) < throttle:
                 return
-            self._last_said[key] = now
+            self._last_logged[key] = now
         self._lines.put(self._logger, severity, text)
 
 
 def log_error(log: Log, error: Exception) -> str:
-    """Say in one line what went wrong, and at DEBUG where; return the line."""
+    """Log an error in one line, and its traceback at DEBUG; return the line."""
     line = unwrap(describe(error))
     log(Severity.ERROR, line)
     log_traceback(log, error)

@@ -251,7 +251,7 @@ class ExecutorThread:
     def _run(self) -> None:
         try:
             spin(self.executor, self._ending.is_set)
-        except BaseException:  # sys.exit() in a stranger's class, too: nobody else would see it
+        except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             traceback.print_exc()
             self._on_failure()
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a program needs that asks others and then ends: waiting in words, and calling services."""
+"""For a program that asks other nodes and then ends: wait for something, and call services."""
 
 from collections.abc import Callable
 import re
@@ -25,7 +25,7 @@ class NoAnswerError(AmrError):
 
 def client_node(name: str) -> Node:
     """Make the node of such a program. Raises ParameterError: ``name`` is none."""
-    # Made before anything is said: an executor that is interrupted half-made complains.
+    # Made before anything is logged: an executor that is interrupted half-made complains.
     rclpy.get_global_executor()
     with argument_errors():
         validate_node_name(name)  # Node() does so too, but leaves a warning behind
@@ -40,25 +40,32 @@ def name_of_type(interface_type: type) -> str:
 def wait_until[Result](
     node: Node,
     condition: Callable[[], Result | None],
-    say: Callable[[], object] = lambda: None,
+    on_wait: Callable[[], object] = lambda: None,
     *,
     every: float = 1.0,
     timeout: float = 0.0,
 ) -> Result | None:
     """
-    Serve the node, by its executor if it has one, until ``condition()`` is something; return it.
+    Spin a node, by its executor if it has one, until ``condition()`` is not ``None``.
 
-    ``say`` is called every ``every`` s of waiting. ``timeout``: s, 0 for ever; then ``None``.
+    Args:
+        node: It is spun here.
+        condition: Asked after every callback, and 20 times a second.
+        on_wait: Called every ``every`` s.
+        every: s.
+        timeout: s; 0: without end.
+
+    Returns:
+        What ``condition()`` returned; ``None``: the time is over.
     """
-    start = time.monotonic()
-    said = start
+    start = last = time.monotonic()
     while (result := condition()) is None:
         now = time.monotonic()
         if timeout and now - start >= timeout:
             return None
-        if now - said >= every:
-            said = now
-            say()
+        if now - last >= every:
+            last = now
+            on_wait()
         rclpy.spin_once(node, executor=node.executor, timeout_sec=_POLL)
     return result
 
@@ -98,7 +105,7 @@ def call(
     Call a service that is there, once; return the response. Raises NoAnswerError.
 
     ``attempts``: how often to wait ``timeout`` s for the response. Each wait that is in vain is
-    told, in the words of ros2_control. The request is not sent again: what it asks for would be
+    logged, in the words of ros2_control. The request is not sent again: what it asks for would be
     done again, by a server that is only slow. A server that goes away ends the wait.
     """
     client = node.create_client(service_type, name)

@@ -108,7 +108,7 @@ def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: DynamicJo
 
 
 def commands_sample(message: Float64MultiArray) -> CommandsSample:
-    """Keep the numbers; the layout tells nothing of a plain list."""
+    """Keep the numbers; a plain list needs no layout."""
     return CommandsSample(tuple(message.data))
 
 

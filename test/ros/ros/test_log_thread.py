@@ -71,7 +71,7 @@ def test_a_storm_is_cut_short_and_that_is_said(monkeypatch):
 
 
 def test_a_terminal_that_takes_nothing_does_not_keep_the_process_from_ending(monkeypatch):
-    monkeypatch.setattr(log_thread, '_PATIENCE', 0.01)
+    monkeypatch.setattr(log_thread, '_STOP_TIMEOUT', 0.01)
     logger, logs = Logger(), LogThread()
     logs.log_of(logger)(Severity.INFO, 'never written')
     logs.stop()
