@@ -10,14 +10,14 @@ const MOST = 3;
 export function announce(store: Store): HTMLElement {
   const live = h('div', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
   const toasts = h('div', { class: 'toasts' });
-  let heard = store.notices[0];
-  let count = heard?.count ?? 0;
+  let announced = store.notices[0];
+  let count = announced?.count ?? 0;
 
   store.watch(['notice'], () => {
     const [latest] = store.notices;
-    if (latest !== undefined && (latest !== heard || latest.count !== count)) {
-      const repeated = latest === heard;
-      heard = latest;
+    if (latest !== undefined && (latest !== announced || latest.count !== count)) {
+      const repeated = latest === announced;
+      announced = latest;
       count = latest.count;
       if (repeated) {
         toasts.firstElementChild?.remove();

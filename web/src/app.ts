@@ -12,7 +12,7 @@ export interface App {
   pilot: Pilot;
 }
 
-/** A part of the page with a title; it is told of states only while it can be seen. */
+/** A part of the page with a title; it gets states only while it is visible. */
 export interface Panel {
   readonly id: string;
   readonly title: string;

@@ -34,7 +34,7 @@ export function rollPitchYaw([x, y, z, w]: Quaternion): Vector {
   ];
 }
 
-/** The frames of a layout that are nobody's child, in the order in which they are named. */
+/** The root frames of a layout, in the order in which they are named. */
 export function rootsOf(layout: Layout): string[] {
   const children = new Set(layout.frames.map(({ name }) => name));
   return [...new Set(layout.frames.map(({ parent }) => parent))].filter(

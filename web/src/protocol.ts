@@ -1,13 +1,13 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /**
- * What the page and the node `viewer` say to each other, over one WebSocket at `/ws`.
+ * The messages between the page and the node `viewer`, over one WebSocket at `/ws`.
  *
- * Text frames are JSON, one message each, told apart by `type`. The only binary frames are states,
- * from the node to the page; see `stateLayout` below. Lengths are in m, angles in rad, times in s,
+ * Text frames are JSON, one message each, with its `type`. The only binary frames are states, from
+ * the node to the page; see the end of this file. Lengths are in m, angles in rad, times in s,
  * frames and axes as in REP 103 (x ahead, y left, z up), quaternions in the order x, y, z, w.
  *
- * The node's side of this page is amr_description/viewer/protocol.py; a test holds the two equal.
+ * The node's side is in amr_description/viewer/protocol.py; a test compares the two.
  */
 
 export const PROTOCOL = 'amr.v1'; // the WebSocket's subprotocol: a page of another version is refused
@@ -28,7 +28,7 @@ export interface Hello {
   drive_timeout: number; // s after the last `drive` until the node stops the robot by itself
 }
 
-/** What there is in the ROS graph. Sent on every change. */
+/** The robots and simulators of the ROS graph. Sent on every change. */
 export interface Graph {
   type: 'graph';
   robots: RobotInfo[];
@@ -53,7 +53,7 @@ export interface SimulatorInfo {
   entities: string[]; // what is in its world, by the names that `delete` takes
 }
 
-/** A robot's description. Sent when it first comes, and when it changes. */
+/** A robot's description. Sent when it was received, and when it has changed. */
 export interface Model {
   type: 'model';
   robot: string;
@@ -80,7 +80,7 @@ export interface Finding {
   remedy: string; // what would do; may be empty
 }
 
-/** The static surroundings, drawn in the frame `world`. Sent when they come and when they change. */
+/** The static shapes of the world, in the frame `world`. Sent when received, and when changed. */
 export interface World {
   type: 'world';
   simulator: string;
@@ -97,7 +97,7 @@ export interface Shape {
   points: number[]; // of 'triangles' only: x, y, z of three corners a triangle
 }
 
-/** What stands where in the states that follow. Sent before the first state, and on every change. */
+/** The order of the values in the states. Sent before the first state, and on every change. */
 export interface Layout {
   type: 'layout';
   id: number; // 0..65535; a state with another id is of an older layout and is dropped
@@ -105,7 +105,7 @@ export interface Layout {
   robots: { id: string; joints: string[]; wheels: string[] }[];
 }
 
-/** The simulator's clock and health; sent a few times a second while there is one. */
+/** State, time and real-time factors of a simulator; sent a few times per second. */
 export interface SimulationStatus {
   type: 'simulation';
   simulator: string;
@@ -115,7 +115,7 @@ export interface SimulationStatus {
   real_factor: number | null; // the one that is, over the last second
 }
 
-/** Time went back (a reset): trails and plots begin anew. */
+/** Time has jumped back (a reset): trails and plots are cleared. */
 export interface TimeReset {
   type: 'reset';
   time: number;
@@ -134,7 +134,7 @@ export interface Diagnostics {
   items: { level: 'ok' | 'warn' | 'error' | 'stale'; name: string; message: string }[];
 }
 
-/** Who drives; sent to every page on every change. */
+/** The page that drives a robot; sent to every page on every change. */
 export interface Driver {
   type: 'driver';
   robot: string;
@@ -142,7 +142,7 @@ export interface Driver {
   stopped: string | null; // who drove until another page stopped the robot: it must let go
 }
 
-/** The answer to a request, by its `id`. */
+/** The reply to a request, by its `id`. */
 export interface Reply {
   type: 'reply';
   id: number;
@@ -150,7 +150,7 @@ export interface Reply {
   message: string; // one line: what was done, or what was asked, found, and would do
 }
 
-/** Something that a person should know: a robot went away, a plain Twist nobody hears … */
+/** A line for the user: a robot has left the graph, a Twist without subscribers … */
 export interface Notice {
   type: 'notice';
   level: 'info' | 'warning' | 'error';
@@ -164,9 +164,10 @@ export type ServerMessage =
 // ---- page -> node: text ------------------------------------------------------------------------
 
 /**
- * Drive a robot: while a key, the joystick or a gamepad says so, at most 60 times a second. The
- * first one takes the wheel, if nobody has it; `stop` (or drive_timeout without a `drive`) stops
- * the robot and gives it back. Without an `id` there is no reply, but for a refusal.
+ * Drive a robot, with the keyboard, the joystick or a gamepad, at most 60 times per second. The
+ * first message acquires the robot's lock, if no other page holds it; `stop` (or drive_timeout
+ * without a `drive`) stops the robot and releases the lock. There is no reply, as there is no `id`;
+ * a refusal is a notice.
  */
 export interface Drive {
   type: 'drive';
@@ -175,7 +176,7 @@ export interface Drive {
   angular: number; // rad/s to the left, of the same bounds
 }
 
-/** Stop a robot, whoever drives it: everybody may. Null: all robots. */
+/** Stop a robot, whichever page drives it. Null: all robots. */
 export interface Stop {
   type: 'stop';
   robot: string | null;
@@ -203,23 +204,23 @@ export type ClientMessage = Drive | Stop | SetJoints | Request;
 // ---- node -> page: binary ----------------------------------------------------------------------
 
 /**
- * A state, little-endian. Not a number stands for what is not known.
+ * A state, little-endian. NaN: not known.
  *
  *     0  u8   1, the kind of the frame
  *     1  u8   0
  *     2  u16  id of the layout
- *     4  u32  number of the state; it grows by one a state, so that gaps can be seen
- *     8  f64  time, s, of /clock where there is a simulator, else of the system
+ *     4  u32  number of the state, one more for each, so that gaps can be detected
+ *     8  f64  time, s, of /clock if it is published, else of the system
  *    16  f32  …
  *
- * and the f32 are: for each frame of the layout its pose in its parent (x y z qx qy qz qw); then
+ * The f32 values are: for each frame of the layout its pose in its parent (x y z qx qy qz qw); then
  * for each robot of the layout
  *
  *     position of each joint, then the velocity of each,
- *     then the velocity that each is commanded                   3 × joints
+ *     then the commanded velocity of each                        3 × joints
  *     odometry: x y z qx qy qz qw, linear x, angular z           9, in the frame of the message
- *     truth: the same                                            9, in `world`
- *     command: linear x, angular z                               2, the last on the command topic
+ *     ground truth: the same                                     9, in `world`
+ *     command: linear x, angular z                               2, the latest on the command topic
  *     wheels: contact, normal force, slip along, slip across     4 × wheels
  */
 export const HEADER_BYTES = 16;

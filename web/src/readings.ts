@@ -21,7 +21,7 @@ export interface JointReading {
 export interface WheelReading {
   name: string;
   speed: number; // rad/s, of its joint
-  contact: boolean | null; // null: nobody says
+  contact: boolean | null; // null: unknown
   force: number; // N, normal
   along: number; // m/s of slip
   across: number; // m/s

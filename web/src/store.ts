@@ -1,13 +1,13 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** What the page knows: everything the node said, and what the person chose. One writer, here. */
+/** The state of the page: the messages of the node, and what the user chose. Written only here. */
 import type {
   Controllers, Diagnostics, Graph, Hello, Layout, Model, Notice, RobotInfo, ServerMessage,
   SimulationStatus, SimulatorInfo, World,
 } from './protocol';
 import type { Link } from './connection';
 
-/** What can change; a listener hears of the topics it asked for. */
+/** What can change; a listener is called for the topics that it subscribed to. */
 export type Topic =
   | 'link' | 'hello' | 'graph' | 'model' | 'world' | 'layout' | 'simulation' | 'reset'
   | 'controllers' | 'diagnostics' | 'driver' | 'notice' | 'robot' | 'frame' | 'selection';
@@ -74,7 +74,7 @@ export class Store {
     return this.graph?.simulators[0] ?? null;
   }
 
-  /** Status of the simulator; null while there is none or it has said nothing. */
+  /** Status of the simulator; null while there is none, or none was received. */
   get simulation(): SimulationStatus | null {
     return this.simulator === null ? null : (this.simulations.get(this.simulator.id) ?? null);
   }
@@ -83,19 +83,19 @@ export class Store {
     return this.robot === null ? null : (this.models.get(this.robot.id) ?? null);
   }
 
-  /** The joints of a robot that turn without end, as wheels do. */
+  /** The continuous joints of a robot, such as wheels. */
   turningJoints(robot: string): string[] {
     const joints = this.models.get(robot)?.joints ?? [];
     return joints.filter(({ kind }) => kind === 'continuous').map(({ name }) => name);
   }
 
-  /** Who drives the robot: this page, another one by its name, or nobody. */
+  /** Which page drives the robot: this one, another one by its name, or none. */
   get driver(): { me: boolean; name: string } | null {
     const name = this.robot === null ? null : (this.drivers.get(this.robot.id) ?? null);
     return name === null ? null : { me: name === this.client, name };
   }
 
-  /** The controller that hears the commands, where it is known and does not run. */
+  /** The controller that takes the commands, if it is known and not active. */
   get deafController(): { name: string; state: string } | null {
     const topic = this.robot?.command?.topic.split('/') ?? [];
     const here = this.robot === null ? undefined : this.controllers.get(this.robot.id);
@@ -124,7 +124,7 @@ export class Store {
     this.tell('selection');
   }
 
-  /** Tell the person something; what is said again is counted. */
+  /** Show the user a notice; equal ones in a row are counted. */
   note(level: Notice['level'], text: string): void {
     const [latest] = this.notices;
     if (latest !== undefined && latest.text === text && latest.level === level) {
@@ -142,7 +142,7 @@ export class Store {
     this.tell('notice');
   }
 
-  /** Take in what the node said. A kind of message unknown here is of a newer node: let it be. */
+  /** Handle a message of the node. Unknown types are of a newer node, and ignored. */
   take(message: ServerMessage): void {
     switch (message.type) {
       case 'hello':
@@ -181,7 +181,7 @@ export class Store {
     }
   }
 
-  /** A new connection: the node will say all it knows, and what an older one said is void. */
+  /** A new connection: the node sends everything again, and older messages are void. */
   private begin(hello: Hello): void {
     const before = this.hello;
     this.hello = hello;

@@ -93,7 +93,7 @@ export class Tabs {
     }
   }
 
-  /** Show a tab to somebody who has not chosen one. */
+  /** Show a tab unless the user has chosen one. */
   suggest(id: string): void {
     if (recall(this.name) === null) {
       this.show(id, false);

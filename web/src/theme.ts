@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Light or dark: as the system says, until the person says otherwise. */
+/** Light or dark: as the system is set, until the user chooses. */
 import { recall, remember } from './remember';
 
 export type Theme = 'light' | 'dark';

@@ -14,7 +14,7 @@ export interface Pad {
   readonly buttons: readonly { readonly pressed: boolean }[];
 }
 
-/** What a gamepad asks for; null when nobody touches its sticks. */
+/** The command of a gamepad; null while its sticks are at rest. */
 export function demandOf({ axes }: Pad): Demand | null {
   const drive = fromStick(axes[0] ?? 0, axes[1] ?? 0, DEAD);
   const turn = fromStick(axes[2] ?? 0, 0, DEAD);
@@ -26,7 +26,7 @@ export function wantsStop({ buttons }: Pad): boolean {
   return buttons[STOP_BUTTON]?.pressed === true;
 }
 
-/** Read gamepads while there is one; `onName` hears which one, null when it is gone. */
+/** Read gamepads while one is connected; `onName` gets its name, null when it is gone. */
 export function listenToGamepads(pilot: Pilot, onName: (name: string | null) => void): void {
   let running = false;
   let stopped = false; // one press is one stop

@@ -16,7 +16,7 @@ export function listenToKeys(pilot: Pilot): void {
       event.preventDefault();
       pilot.stop();
     } else if (MODIFIERS.has(event.code)) {
-      // While ⌘ is down, macOS never says that another key went up.
+      // While ⌘ is down, macOS sends no key-up of other keys.
       down.clear();
       tell();
     } else if (isDriveKey(event.code) && isForDriving(event)) {

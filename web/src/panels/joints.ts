@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** joint_state_publisher_gui: a slider a joint where somebody listens; else what joints do. */
+/** A slider for each joint if joint_state_publisher runs; else the positions of the joints. */
 import type { App, Panel } from '../app';
 import { button, h, setText } from '../dom';
 import { degrees, fixed, UNKNOWN } from '../format';

@@ -17,7 +17,7 @@ export class ModelPanel implements Panel {
     app.store.watch(['model', 'graph', 'robot'], () => this.show());
   }
 
-  /** How many findings there are that somebody should look at. */
+  /** The number of findings that are errors or warnings. */
   get toLookAt(): number {
     const findings = this.app.store.model?.findings ?? [];
     return findings.filter(({ level }) => level !== 'note').length;

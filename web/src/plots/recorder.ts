@@ -32,7 +32,7 @@ export class Recorder {
   /** `turning`: the joints of a robot that are taken for wheels where no simulator names them. */
   constructor(private readonly turning: (robot: string) => readonly string[]) {}
 
-  /** Keep a state. `factor`: the real-time factor now, null where nobody says. */
+  /** Keep a state. `factor`: the real-time factor now, null if unknown. */
   record(state: State, factor: number | null): void {
     for (const { id } of state.layout.robots) {
       const robot = robotOf(state, id);

@@ -24,7 +24,7 @@ export class CameraRig {
   private heading = 0; // rad, of the robot as the camera follows it
   private lift = 0; // m, from the robot's base up to what the camera looks at
 
-  /** `changed` is told when the camera has been moved, `goHome` that Home was pressed. */
+  /** `changed` is called when the camera has moved, `goHome` when Home was pressed. */
   constructor(
     canvas: HTMLCanvasElement,
     private readonly changed: () => void,

@@ -26,7 +26,7 @@ export class RobotEntry {
     this.measure();
   }
 
-  /** Take over what a state says of it; `joints` as the layout has them. */
+  /** Apply a state; `joints` in the order of the layout. */
   read(tree: FrameTree, joints: readonly string[], state: RobotState | null): void {
     this.state = state;
     const prefix = this.prefixIn(tree);
@@ -70,7 +70,7 @@ export class RobotEntry {
     return isPlain ? '' : own;
   }
 
-  /** Joints that nobody tells the positions of are where TF has their links. */
+  /** Place the links of joints without published positions as in TF. */
   private readUnknownJoints(
     tree: FrameTree, prefix: string, places: ReadonlyMap<string, number>,
   ): void {

@@ -23,7 +23,7 @@ export function managerOf(files: Files): LoadingManager {
   return manager;
 }
 
-/** Fetch and read a mesh. Throws an Error that says what went wrong, for a person. */
+/** Fetch and read a mesh. Throws an Error with a message for the user. */
 export async function loadMesh(
   name: string,
   files: Files,

@@ -21,7 +21,7 @@ import { WORLD } from './placement';
 import { PALETTES, type Palette } from './theme';
 import { BadModel, readUrdf } from './urdf';
 
-/** What a view tells its scene. */
+/** The settings of a view for its scene. */
 export interface RobotEvents {
   changed(): void; // a mesh has come
   problem(text: string): void; // something cannot be drawn
@@ -92,7 +92,7 @@ export class RobotView {
     }
   }
 
-  /** Put a link where TF has it in its parent: for joints whose positions nobody publishes. */
+  /** Put a link where TF has it in its parent: for joints without published positions. */
   setLinkPose(link: string, inParent: Matrix4): void {
     const joint = this.parts.find(({ name }) => name === link)?.joint;
     if (joint) {
@@ -113,7 +113,7 @@ export class RobotView {
     return new Map(below.map(({ name, pose }) => [name, toBase.clone().multiply(pose)]));
   }
 
-  /** Put the base somewhere; null: nobody knows where it is. */
+  /** Set the pose of the base; null: unknown. */
   place(pose: Matrix4 | null): void {
     this.object.visible = pose !== null;
     if (pose !== null) {

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The trails of a robot: where it truly went, and where its odometry says it went. */
+/** The trails of a robot: ground truth and odometry. */
 import {
   BufferAttribute,
   BufferGeometry,

@@ -3,7 +3,7 @@
 /** A URDF, made ready for urdf-loader: what RViz reads in it, though the loader does not. */
 import type { Files } from './meshes';
 
-/** A URDF cannot be drawn; the message says why. */
+/** A URDF that cannot be drawn; the message is the reason. */
 export class BadModel extends Error {
   override readonly name = 'BadModel';
 }
