@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who is there: actions with their types, their clients and their servers."""
+"""The actions of the ROS graph, with their types, clients and servers."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from rclpy.node import Node
 
 from amr_description.cli import graph
 
-Ends = list[tuple[str, list[str]]]
+ActionEndpoints = list[tuple[str, list[str]]]
 """Full names of nodes, each with the types under which it uses an action."""
 
 
@@ -23,21 +23,23 @@ def actions(node: Node) -> list[tuple[str, list[str]]]:
 
 
 def types_of_action(node: Node, action: str) -> list[str]:
-    """Return the types under which an action, given by its absolute name, is used."""
+    """Return the types of an action, given by its absolute name; none if it is not there."""
     return dict(get_action_names_and_types(node)).get(action, [])
 
 
-def clients_of(node: Node, action: str) -> Ends:
+def clients_of(node: Node, action: str) -> ActionEndpoints:
     """Return the clients of an action, given by its absolute name."""
-    return _ends(node, action, get_action_client_names_and_types_by_node)
+    return _endpoints(node, action, get_action_client_names_and_types_by_node)
 
 
-def servers_of(node: Node, action: str) -> Ends:
+def servers_of(node: Node, action: str) -> ActionEndpoints:
     """Return the servers of an action, given by its absolute name."""
-    return _ends(node, action, get_action_server_names_and_types_by_node)
+    return _endpoints(node, action, get_action_server_names_and_types_by_node)
 
 
-def _ends(node: Node, action: str, of_node: Callable[..., list[tuple[str, list[str]]]]) -> Ends:
+def _endpoints(
+    node: Node, action: str, of_node: Callable[..., list[tuple[str, list[str]]]]
+) -> ActionEndpoints:
     found = (
         (other.full_name, dict(of_node(node, other.name, other.namespace)).get(action))
         for other in graph.nodes(node, hidden=True)

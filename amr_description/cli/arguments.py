@@ -1,12 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Flags that verbs share, and the types of values on a command line."""
+"""The flags that several verbs have, and the types of values on a command line."""
 
 from argparse import ArgumentParser, ArgumentTypeError
 
 
 def add_node_arguments(parser: ArgumentParser) -> None:
-    """Add the flags of a verb that makes a node: ``spin_time``, s, and ``use_sim_time``."""
+    """Add the flags of a verb that creates a node: ``spin_time``, s, and ``use_sim_time``."""
     parser.add_argument(
         '--spin-time',
         type=nonnegative_float,
@@ -20,12 +20,33 @@ def add_node_arguments(parser: ArgumentParser) -> None:
 
 
 def add_graph_arguments(parser: ArgumentParser) -> None:
-    """Add the flags of a verb that looks at the graph."""
+    """Add the flags of a verb that queries the graph."""
     add_node_arguments(parser)
     parser.add_argument(
         '--no-daemon',
         action='store_true',
         help='Accepted for scripts: there is no daemon, every answer is fresh',
+    )
+
+
+def add_hidden_nodes_argument(parser: ArgumentParser) -> None:
+    """Add ``include_hidden_nodes``."""
+    parser.add_argument(
+        '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
+    )
+
+
+def add_remote_node_arguments(parser: ArgumentParser, *, optional: bool = False) -> None:
+    """Add the name of the node that a verb is about, and how long to wait for it."""
+    add_graph_arguments(parser)
+    parser.add_argument('node_name', nargs='?' if optional else None, help='Name of the ROS node')
+    add_hidden_nodes_argument(parser)
+    parser.add_argument(
+        '--timeout',
+        metavar='N',
+        type=nonnegative_float,
+        default=1.0,
+        help='Wait for N seconds until node becomes available (default: 1)',
     )
 
 

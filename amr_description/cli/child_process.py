@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Run a child to its end as a shell would: its terminal, its signals, its exit code."""
+"""Runs a child process to its end like a shell: with the terminal, signals and exit code."""
 
 from collections.abc import Mapping, Sequence
 import os
@@ -24,13 +24,13 @@ def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
     """
     Run a command with our stdin, stdout and stderr; return its exit code.
 
-    That is minus the number of a signal that ended it. A signal from the terminal reaches the
-    child by itself, as it is of the same process group. One that a process sent to us is passed
-    on, so that no ``kill`` of this process leaves the child behind. SIGINT is passed on only if
-    the child is still there after a while: whoever sent it may have sent it to the whole
-    group (``timeout -s INT``), and a second SIGINT would break into the child's clean-up.
+    The exit code is minus the number of a signal that ended it. A signal from the terminal reaches
+    the child by itself, as it is in the same process group. A signal that a process sends to us is
+    passed on, so a ``kill`` of this process does not leave the child behind. SIGINT is passed on
+    only if the child is still running after a while: it may have been sent to the whole group
+    (``timeout -s INT``), and a second SIGINT would interrupt the child's clean-up.
 
-    :raises AmrError: The command cannot be started.
+    Raises AmrError if the command cannot be started.
     """
     watched = _FORWARDED | {signal.SIGCHLD}
     previous = signal.pthread_sigmask(signal.SIG_BLOCK, watched)

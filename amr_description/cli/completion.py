@@ -1,13 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Tab completion: what may come next on a command line of ``ros2``.
+Tab completion of ``ros2``.
 
-On Tab the shell runs ``ros2`` itself, with the line in its environment (scripts/activate registers
-that). Our parsers tell where on it the cursor is, argcomplete reads them; names of verbs, flags
-and choices are theirs. What else there is to choose from is told by a function of
-:mod:`~amr_description.cli.completers`, found by the name of the argument. It is imported only
-then, so that nothing but what is fed from the graph takes the time of a discovery.
+On Tab the shell runs ``ros2`` with the command line in its environment (scripts/activate registers
+that). argcomplete completes verbs, flags and choices from our parsers. Other arguments are
+completed by a function of :mod:`~amr_description.cli.completers`, found by the name of the
+argument and imported only then, so only arguments from the graph take the time of a discovery.
 """
 
 from argparse import Action, Namespace
@@ -30,19 +29,19 @@ class Completer:
         self._name = name
 
     def __call__(self, *, prefix: str, parsed_args: Namespace, **_more: Any) -> Iterable[str]:
-        """Return the words to choose from; argcomplete leaves out what does not fit."""
+        """Return the possible words; argcomplete removes those without the prefix."""
         try:
             function = resolve(f'amr_description.cli.completers.{self._name}')
             found = list(function(parsed_args, prefix))
-        except AmrError:  # nobody can be told amid a line
+        except AmrError:  # an error cannot be shown within a command line
             return []
-        if prefix and not prefix.startswith('/'):  # names are understood without their slash, too
+        if prefix and not prefix.startswith('/'):  # names are valid without their slash, too
             found += [word.removeprefix('/') for word in found if word.startswith('/')]
         return found
 
 
 def complete(parser: LazyParser) -> NoReturn:
-    """Tell the shell, and end the process."""
+    """Print the completions for the shell, and end the process."""
     import argcomplete
     from argcomplete.completers import SuppressCompleter
 
@@ -65,7 +64,7 @@ def _words(line: str) -> list[str]:
     """Return the finished words after the name of the program."""
     try:
         words = shlex.split(line)
-    except ValueError:  # an open quotation, which is of the last word
+    except ValueError:  # an open quote, in the last word
         words = line.split()
     return words[1:] if line.endswith(' ') else words[1:-1]
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``ros2 topic echo`` prints of each message."""
+"""The output of ``ros2 topic echo`` for each message."""
 
 from argparse import Namespace
 from collections.abc import Mapping

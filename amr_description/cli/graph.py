@@ -1,8 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who is there: topics with their types, and nodes, once discovery has come to rest."""
+"""
+The ROS graph: topics and services with their types, and nodes, once discovery has settled.
 
-from collections.abc import Callable
+Names of topics, services and nodes are absolute, unless a function says otherwise.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 import os
 import time
@@ -11,17 +15,20 @@ from rclpy.node import Node
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
 from amr_description.cli.local_participants import count_local_participants
+from amr_description.cli.names import full_name
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
+from amr_description.text import did_you_mean
 
-_QUIET = 0.4  # s without news before discovery counts as done; Fast DDS asks again after 0.28 s
-_QUIET_WITH_SERVER = 1.5  # s; a discovery server is asked step by step, each 0.45 s later
-_AT_MOST = 5.0  # s; a graph may go on changing for ever, and Fast DDS may be silent for 3 s
-_PATIENCE = 2.0  # s for something asked for by its name
+_QUIET = 0.4  # s without changes until discovery is complete; Fast DDS repeats after 0.28 s
+_QUIET_WITH_SERVER = 1.5  # s; discovery by a server has several steps, 0.45 s each
+_LONGEST_DISCOVERY = 5.0  # s; a graph may never stop changing, and Fast DDS may pause for 3 s
+_LOOKUP_TIMEOUT = 2.0  # s to wait for a given name
+_SHOWN_NODES = 5  # in an error
 
-_NODE_LISTS = 'ros_discovery_info'  # each participant publishes its nodes there (rmw_dds_common)
-_OF_EVERY_NODE = '/parameter_events'
+_NODE_LISTS = 'ros_discovery_info'  # on it participants publish their nodes (rmw_dds_common)
+_PARAMETER_EVENTS = '/parameter_events'
 
 
 @dataclass(frozen=True, order=True)
@@ -34,7 +41,7 @@ class NodeName:
 
     @property
     def hidden(self) -> bool:
-        """Whether its name, or a namespace that it is in, begins with an underscore."""
+        """Whether its name, or one of its namespaces, begins with an underscore."""
         return topic_or_service_is_hidden(self.full_name)
 
 
@@ -42,35 +49,38 @@ def wait_for_discovery(
     session: Session, at_least: float, found: Callable[[], bool] | None = None
 ) -> None:
     """
-    Wait until the graph is complete, and at least so many seconds.
+    Wait until the graph is complete.
 
-    It is when everybody on this host was found and no news came for 0.4 s, or longer where news
-    came late: on a busy machine they come in batches.
+    It is complete when all participants of this host are found, and nothing has changed for 0.4 s.
+    On a busy machine changes come in batches, so after late changes the wait is longer.
 
-    :param found: Tells whether what was asked for is there. If not, wait up to 2 s: it may be on
-        another host.
+    Args:
+        session: of the verb.
+        at_least: shortest time to wait, s.
+        found: returns whether a wanted name is there. If not, wait for it, up to 2 s in all: it
+            may be on another host.
     """
     start = last_change = time.monotonic()
     known = None
     least = _QUIET_WITH_SERVER if os.environ.get('ROS_DISCOVERY_SERVER') else _QUIET
 
-    def at_rest() -> bool:
+    def is_complete() -> bool:
         nonlocal known, last_change
         now = time.monotonic()
-        seen = _snapshot(session.node)
-        if seen != known:
-            known, last_change = seen, now
-        patience = max(least, (last_change - start) * 0.5)
-        quiet = now - start >= at_least and now - last_change >= patience
-        return quiet and _all_local_found(session.node)
+        snapshot = _snapshot(session.node)
+        if snapshot != known:
+            known, last_change = snapshot, now
+        quiet = max(least, (last_change - start) * 0.5)
+        is_quiet = now - start >= at_least and now - last_change >= quiet
+        return is_quiet and _all_local_found(session.node)
 
-    session.spin(at_rest, max(at_least, _AT_MOST))
+    session.spin(is_complete, max(at_least, _LONGEST_DISCOVERY))
     if found is not None:
-        session.spin(found, start + max(at_least, _PATIENCE) - time.monotonic())
+        session.spin(found, start + max(at_least, _LOOKUP_TIMEOUT) - time.monotonic())
 
 
 def _snapshot(node: Node) -> object:
-    """Return something that is equal as long as nobody comes, goes, or changes what it does."""
+    """Return a value that is equal as long as the graph does not change."""
     topics = node.get_topic_names_and_types()
     endpoints = [(node.count_publishers(t), node.count_subscribers(t)) for t, _ in topics]
     services = node.get_service_names_and_types()
@@ -79,10 +89,10 @@ def _snapshot(node: Node) -> object:
 
 def _all_local_found(node: Node) -> bool:
     """
-    Tell whether all participants of this host were found, and what they publish and subscribe to.
+    Return whether all participants of this host are found, with their endpoints.
 
-    Fast DDS tells these two apart from each other, either may come up to a second later. Each
-    participant of ROS both publishes and reads the lists of nodes.
+    Fast DDS discovers a participant and its endpoints separately, either up to a second later than
+    the other. Each participant of ROS both publishes and subscribes to the lists of nodes.
     """
     there = count_local_participants(node.context.get_domain_id())
     ends = (
@@ -91,7 +101,7 @@ def _all_local_found(node: Node) -> bool:
     )
     if any(len(found) < there for found in ends):
         return False
-    announcers = node.get_publishers_info_by_topic(_OF_EVERY_NODE)
+    announcers = node.get_publishers_info_by_topic(_PARAMETER_EVENTS)
     return all(endpoint_node(publisher) is not None for publisher in announcers)
 
 
@@ -105,17 +115,17 @@ def topics(node: Node, *, hidden: bool = False) -> list[tuple[str, list[str]]]:
 
 
 def types_of(node: Node, topic: str) -> list[str]:
-    """Return the types under which a topic, given by its absolute name, is used."""
+    """Return the types of a topic; none if it is not there."""
     return dict(node.get_topic_names_and_types()).get(topic, [])
 
 
 def is_published(node: Node, topic: str) -> bool:
-    """Tell whether a topic is there under any type."""
+    """Return whether a topic is there, with any type."""
     return bool(types_of(node, topic))
 
 
 def only_type_of(node: Node, topic: str) -> str:
-    """Return the type of a topic, given by its absolute name. Raises AmrError: not just one."""
+    """Return the type of a topic. Raises AmrError if there is none, or several."""
     types = types_of(node, topic)
     if not types:
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
@@ -129,17 +139,88 @@ def only_type_of(node: Node, topic: str) -> str:
 
 
 def wait_for_type(session: Session, topic: str) -> str:
-    """Wait, for ever, until a topic is there; return its type. Raises AmrError: several."""
-    if not session.spin(lambda: is_published(session.node, topic), _PATIENCE):
+    """Wait without limit for a topic; return its type. Raises AmrError if there are several."""
+    if not session.spin(lambda: is_published(session.node, topic), _LOOKUP_TIMEOUT):
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
         session.spin(lambda: is_published(session.node, topic))
     return only_type_of(session.node, topic)
 
 
 def nodes(node: Node, *, hidden: bool = False) -> list[NodeName]:
-    """Return the nodes, sorted by full name; one that is there twice stands there twice."""
+    """Return the nodes, sorted by full name; two nodes of one name are two entries."""
     found = (
         NodeName(f'{namespace.rstrip("/")}/{name}', name, namespace)
         for name, namespace in node.get_node_names_and_namespaces()
     )
     return sorted(n for n in found if hidden or not n.hidden)
+
+
+def node_name(word: str) -> str:
+    """Return the full name of a node as it is typed, with or without the first slash."""
+    return '/' + word.removeprefix('/')
+
+
+def find_node(session: Session, word: str, timeout: float) -> str:
+    """
+    Return the full name of a node once it is there, hidden or not.
+
+    Args:
+        session: of the verb.
+        word: the node's name as it is typed.
+        timeout: how long to wait for it, s.
+
+    Raises:
+        AmrError: it is not a name, or the node is not there.
+    """
+    name = full_name(session.node, node_name(word), 'a node')
+
+    def known() -> list[str]:
+        return [node.full_name for node in nodes(session.node, hidden=True)]
+
+    if not session.spin(lambda: name in known(), timeout):
+        wait_for_discovery(session, 0.0)
+    if name not in known():
+        others = [node.full_name for node in nodes(session.node)]
+        raise AmrError(f'Node not found{_other_nodes(name, others)}')
+    return name
+
+
+def _other_nodes(name: str, known: Sequence[str]) -> str:
+    """Return the end of an error: which nodes could be meant, or which there are."""
+    if not known:
+        return ': there are no nodes'
+    more = ', ...' if len(known) > _SHOWN_NODES else ''
+    return did_you_mean(name, known) or f'; there are {", ".join(known[:_SHOWN_NODES])}{more}'
+
+
+def services(node: Node, *, hidden: bool = False) -> list[tuple[str, list[str]]]:
+    """Return name and types of each service, sorted; with ``hidden`` also those with a ``_``."""
+    return [
+        (name, types)
+        for name, types in sorted(node.get_service_names_and_types())
+        if hidden or not topic_or_service_is_hidden(name)
+    ]
+
+
+def types_of_service(node: Node, service: str) -> list[str]:
+    """Return the types of a service, with servers or clients; none if it is not there."""
+    return dict(node.get_service_names_and_types()).get(service, [])
+
+
+def explain_absent_service(
+    service: str, type_name: str, known: Iterable[tuple[str, list[str]]]
+) -> str:
+    """
+    Return why a call gets no response, '' if unknown: another type, or another name.
+
+    Args:
+        service: the name that is called.
+        type_name: the type that it is called with.
+        known: name and types of all services, including that of the call itself.
+    """
+    types = dict(known)
+    others = [name for name in types.pop(service, []) if name != type_name]
+    if others:
+        return f'you call {service} as {type_name}, but it is {" and ".join(others)}; use that'
+    hint = did_you_mean(service, types)
+    return f'there is no service {service}{hint}' if hint else ''

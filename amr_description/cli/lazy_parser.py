@@ -1,13 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A command line read by tables.
+A parser for commands and verbs that imports only the modules that a command line needs.
 
 A table maps the name of a command or verb to its module. Such a module has a docstring, whose
-first line is the help and whose rest stands below the arguments, and either
+first line is the help and whose rest is printed below the arguments, and either
 
 - ``main(args) -> int``, and ``add_arguments(parser)``: a verb; or
-- ``VERBS``, a table of its own, and perhaps ``add_arguments(parser)``: a group of verbs.
+- ``VERBS``, a table of its own, and optionally ``add_arguments(parser)``: a group of verbs.
 
 It is imported when a command line reaches it, or when its line of help is printed.
 """
@@ -23,44 +23,45 @@ from typing import Any
 
 class LazyParser(argparse.ArgumentParser):
     """
-    A parser that learns from its module what it reads, once it has to read.
+    A parser that imports its module, for the arguments, when it parses.
 
-    Options may stand between words that may be left out, wherever ``argparse`` can read that.
+    Options may stand between optional positional arguments, wherever ``argparse`` supports that.
     """
 
     def __init__(self, *args: Any, module: str = '', **kwargs: Any) -> None:
-        """Take the dotted name of the module, besides the arguments of ``ArgumentParser``."""
+        """``module``: its dotted name; the rest as for ``ArgumentParser``."""
         kwargs.setdefault('formatter_class', argparse.RawDescriptionHelpFormatter)
         super().__init__(*args, **kwargs)
         self._module = module
         self._table: Mapping[str, str] = {}
-        self._mixes = True
+        self._intermixed = True
 
     def parse_known_args(
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
         """Import the module first."""
         if self._module:
-            self._learn(importlib.import_module(self._module))
+            self._load(importlib.import_module(self._module))
         if self._table:
             self._add_table(args or ())
-        if not (self._mixes and self._can_mix(args or ())):
+        if not (self._intermixed and self._can_intermix(args or ())):
             return super().parse_known_args(args, namespace)
-        self._mixes = False  # it calls this method, for options and for positional words
+        self._intermixed = False  # it calls this method, for options and for positional arguments
         try:
             return self.parse_known_intermixed_args(args, namespace)
         finally:
-            self._mixes = True
+            self._intermixed = True
 
     def expand(self, words: Sequence[str]) -> 'list[LazyParser]':
         """
-        Learn what these words of a command line need, for one who looks at parsers from outside.
+        Load all parsers for these words of a command line, for argcomplete.
 
-        Returns the parsers that the words lead to, this one first. They read words in order.
+        Returns:
+            This parser, and those of the command and verb. They do not intermix arguments.
         """
-        self._mixes = False
+        self._intermixed = False
         if self._module:
-            self._learn(importlib.import_module(self._module))
+            self._load(importlib.import_module(self._module))
         if not self._table:
             return [self]
         table = self._table
@@ -68,8 +69,8 @@ class LazyParser(argparse.ArgumentParser):
         rest = list(dropwhile(lambda word: word not in table, words))
         return [self, *(subparsers.choices[rest[0]].expand(rest[1:]) if rest else [])]
 
-    def _can_mix(self, args: Sequence[str]) -> bool:
-        """Tell whether ``argparse`` can do it: no ``--``, open end, or alternative to a word."""
+    def _can_intermix(self, args: Sequence[str]) -> bool:
+        """Return whether argparse supports that: no ``--``, open end, or alternative to a word."""
         words = self._get_positional_actions()
         open_ended = [a for a in words if a.nargs in (argparse.PARSER, argparse.REMAINDER)]
         groups = [group._group_actions for group in self._mutually_exclusive_groups]
@@ -77,10 +78,10 @@ class LazyParser(argparse.ArgumentParser):
         return '--' not in args and not open_ended and alternatives.isdisjoint(words)
 
     def read_table(self, table: Mapping[str, str]) -> None:
-        """Read one name of a table, and hand what follows it to the parser of its module."""
+        """Parse a name of the table, and the following words with the parser of its module."""
         self._table = table
 
-    def _learn(self, module: ModuleType) -> None:
+    def _load(self, module: ModuleType) -> None:
         self._module = ''
         self.description, self.epilog = _description(module), _epilog(module)
         if hasattr(module, 'add_arguments'):
@@ -93,7 +94,7 @@ class LazyParser(argparse.ArgumentParser):
     def _add_table(
         self, args: Sequence[str], *, with_help: bool = False
     ) -> '_SubParsersAction[LazyParser]':
-        """Add the names of the table; with their lines of help only if those are to be seen."""
+        """Add the names of the table; with lines of help only if they will be printed."""
         table, self._table = self._table, {}
         self.set_defaults(main=lambda _args: self.print_help() or 0)
         call = f'Call `{self.prog} <command> -h` for more detailed usage.'
@@ -111,13 +112,13 @@ class LazyParser(argparse.ArgumentParser):
 
 
 def run(parser: LazyParser, argv: Sequence[str]) -> int:
-    """Read a command line and run the verb that it names; print the help if it names none."""
+    """Parse a command line and run its verb; without a verb, print the help."""
     args = parser.parse_args(argv)
     return args.main(args)
 
 
 def _asks_for_help(args: Sequence[str], table: Mapping[str, str]) -> bool:
-    """Tell whether the lines of help will be printed: on demand, or where no name is given."""
+    """Return whether lines of help will be printed: on request, or without a name."""
     before_name = list(takewhile(lambda word: word not in table, args))
     return len(before_name) == len(args) or not {'-h', '--help'}.isdisjoint(before_name)
 

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How many DDS participants run on this host: whom discovery has yet to find.
+Counts the DDS participants on this host, which discovery has to find.
 
 Each listens to its discovery messages at a UDP port of its own, and by the port formula of the
 DDS standard (DDSI-RTPS 2.5, 9.6.2.3) that port tells its domain:

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The way in and out of every command.
+The entry point of every command, and its exit codes.
 
 ================================================  =============================  ============
 what happened                                     what it prints                 exit code
@@ -12,7 +12,7 @@ an :class:`~amr_description.errors.AmrError`      its line, on stderr           
 the command line is wrong                         argparse's usage and error     2
 Ctrl-C                                            nothing                        2 (SIGINT)
 SIGTERM while ROS is in use                       nothing                        15 (SIGTERM)
-the reader of the output is gone (``| head``)     nothing                        141
+the reader of the output has closed (``| head``)  nothing                        141
 the output cannot be written, as on a full disk   why, on stderr                 1
 any other exception: a bug                        its traceback                  1
 ================================================  =============================  ============
@@ -38,7 +38,7 @@ def main(command: str, argv: Sequence[str]) -> int:
     """
     Run one of :data:`PROGRAMS` with the arguments after its name; return its exit code.
 
-    Ready for ``sys.exit()``: everything is written out, and nothing is left to fail at exit.
+    For ``sys.exit()``: all output is flushed, so nothing can fail at exit.
     """
     try:
         streams.open_missing()

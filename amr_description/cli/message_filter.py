@@ -11,7 +11,7 @@ Filter = Callable[[Any], bool]
 
 
 def make_filter(expression: str | None) -> Filter:
-    """Return what tells whether a message is wanted. Raises UsageError."""
+    """Return the predicate of an expression; None accepts all messages. Raises UsageError."""
     if expression is None:
         return lambda _message: True
     try:
@@ -21,7 +21,7 @@ def make_filter(expression: str | None) -> Filter:
 
     def wanted(message: Any) -> bool:
         try:
-            return bool(eval(code, {'m': message}))  # what the user typed, in the user's shell
+            return bool(eval(code, {'m': message}))  # typed by the user who runs us
         except Exception as error:
             raise AmrError(
                 f"--filter '{expression}' fails on a message: {type(error).__name__}: {error}"

@@ -1,13 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How many bytes a topic takes.
+The measurements of ``ros2 topic hz``, ``delay`` and ``bw``, over a window of messages.
 
-What is said of a window of times: their mean, and how they scatter.
-
-How old messages are when they arrive.
-
-The rate at which messages arrive.
+Times are in ns as they arrive, and in s in reports; the text of a report is what the verb prints.
 """
 
 from collections import deque
@@ -18,13 +14,14 @@ from typing import Self
 
 from amr_description.clock import NANOSECONDS
 
-# From how many bytes per second on, the divisor, its decimals and its name. (1 KB is 1000 B.)
+_REPORT_PERIOD = NANOSECONDS  # of the rate
+# (least bytes per second, divisor, decimals, name); 1 KB is 1000 B.
 _UNITS = ((1e6, 1e6, 2, 'MB'), (1e3, 1e3, 2, 'KB'), (0.0, 1.0, 0, 'B'))
 
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """Bytes per second, and the sizes of the messages of the window, in bytes."""
+    """Bytes per second, and the sizes of the messages of a window, in bytes."""
 
     rate: float
     mean: float
@@ -46,21 +43,21 @@ class Bandwidth:
 
 
 class BandwidthMeter:
-    """Takes the sizes, bytes, of messages and the times, ns, at which they arrived."""
+    """Measures bandwidth, from the sizes of messages and the times at which they arrived."""
 
     def __init__(self, window: int) -> None:
         """Keep the last ``window`` messages."""
         self._messages: deque[tuple[int, int]] = deque(maxlen=window)
 
     def add(self, now: int, size: int) -> None:
-        """Take a message, in its serialized form."""
+        """Add a message: its time, ns, and its serialized size, bytes."""
         self._messages.append((now, size))
 
     def report(self, now: int) -> Bandwidth | None:
         """
-        Return what came from the first message of the window until now; None if less than two did.
+        Return the bandwidth since the first message of the window; None: fewer than two messages.
 
-        Time that went back starts all over.
+        The window is cleared if time has jumped back.
         """
         if len(self._messages) < 2:
             return None
@@ -81,10 +78,9 @@ class BandwidthMeter:
 @dataclass(frozen=True)
 class WindowStatistics:
     """
-    Times of a window, s.
+    Statistics of the durations of a window, s.
 
-    ``deviation`` = sqrt(mean((time - mean)²)), that of the whole window and not an estimate from
-    a sample.
+    ``deviation`` = sqrt(mean((duration - mean)²)), the population's, as in the original.
     """
 
     mean: float
@@ -94,20 +90,20 @@ class WindowStatistics:
     window: int
 
     @classmethod
-    def of(cls, times: Collection[int]) -> Self:
-        """Describe times, ns, of which there is at least one."""
-        mean = sum(times) / len(times)
-        variance = sum((time - mean) ** 2 for time in times) / len(times)
+    def of(cls, durations: Collection[int]) -> Self:
+        """Return the statistics of at least one duration, ns."""
+        mean = sum(durations) / len(durations)
+        variance = sum((duration - mean) ** 2 for duration in durations) / len(durations)
         return cls(
             mean=mean / NANOSECONDS,
-            shortest=min(times) / NANOSECONDS,
-            longest=max(times) / NANOSECONDS,
+            shortest=min(durations) / NANOSECONDS,
+            longest=max(durations) / NANOSECONDS,
             deviation=sqrt(variance) / NANOSECONDS,
-            window=len(times),
+            window=len(durations),
         )
 
     def __str__(self) -> str:
-        """Return the second line of what ``ros2 topic hz`` and ``delay`` print."""
+        """Return the second line that ``ros2 topic hz`` and ``delay`` print."""
         return (
             f'\tmin: {self.shortest:.3f}s max: {self.longest:.3f}s '
             f'std dev: {self.deviation:.5f}s window: {self.window}'
@@ -115,7 +111,7 @@ class WindowStatistics:
 
 
 class Delay(WindowStatistics):
-    """The ages of the messages of a window, s."""
+    """The delays of the messages of a window, s."""
 
     def __str__(self) -> str:
         """Return the two lines that ``ros2 topic delay`` prints."""
@@ -123,44 +119,41 @@ class Delay(WindowStatistics):
 
 
 class DelayMeter:
-    """Takes the times, ns, at which messages were stamped and arrived."""
+    """Measures delays, from the stamps of messages and the times at which they arrived."""
 
     def __init__(self, window: int) -> None:
         """Keep the last ``window`` delays."""
         self._delays: deque[int] = deque(maxlen=window)
         self._last = 0
-        self._news = False
+        self._has_new = False
 
     def add(self, now: int, stamp: int) -> bool:
         """
-        Take a message; return False if time went back, which starts all over.
+        Add a message; return False, and clear the window, if time has jumped back.
 
-        Simulation time that has not begun is 0, and nothing can be said of it.
+        At time 0 simulation time has not started, and the delay is unknown.
         """
-        went_back = now < self._last
-        if went_back:
+        jumped_back = now < self._last
+        if jumped_back:
             self._delays.clear()
-            self._news = False
+            self._has_new = False
         self._last = now
         if now > 0:
             self._delays.append(now - stamp)
-            self._news = True
-        return not went_back
+            self._has_new = True
+        return not jumped_back
 
     @property
     def started(self) -> bool:
-        """Whether there is a delay to report, be it old or new."""
+        """Whether the window has any delay, reported or not."""
         return bool(self._delays)
 
     def report(self) -> Delay | None:
-        """Return the delays if messages came since the last report, else None."""
-        if not self._news:
+        """Return the delays if there are messages since the last report, else None."""
+        if not self._has_new:
             return None
-        self._news = False
+        self._has_new = False
         return Delay.of(self._delays)
-
-
-_REPORT_PERIOD = NANOSECONDS
 
 
 class Rate(WindowStatistics):
@@ -177,7 +170,7 @@ class Rate(WindowStatistics):
 
 
 class RateMeter:
-    """Takes the times of messages, ns, and knows when a report is due."""
+    """Measures rates, from the times at which messages arrived; reports once per second."""
 
     def __init__(self, window: int) -> None:
         """Keep the last ``window`` intervals."""
@@ -186,7 +179,7 @@ class RateMeter:
         self._reported: int | None = None
 
     def add(self, now: int) -> bool:
-        """Take the time of a message; return False if time went back, which starts all over."""
+        """Add a message; return False, and clear the window, if time has jumped back."""
         if self._last is not None and now < self._last:
             self.__init__(self._intervals.maxlen or 0)
             self._last = now
@@ -197,7 +190,7 @@ class RateMeter:
         return True
 
     def report(self) -> Rate | None:
-        """Return the rate if messages came for a second since the last report, else None."""
+        """Return the rate if messages span a second since the last report, else None."""
         if self._last is None or not self._intervals:
             return None
         if self._reported is None:

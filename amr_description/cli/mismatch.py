@@ -1,9 +1,9 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Tells who is on a topic but uses another type: DDS connects only what has the same.
+Warns about nodes on a topic that use another type: DDS connects only endpoints of the same type.
 
-The classic is Twist where a controller wants TwistStamped; without a word nothing moves.
+The classic case: Twist for a controller that expects TwistStamped, and the robot does not move.
 """
 
 from collections.abc import Callable
@@ -17,11 +17,11 @@ from amr_description.ros.message_types import type_name
 from amr_description.ros.type_mismatch import mismatches
 
 
-class Mismatch:
-    """Looks at the other side of a topic and tells, once each, who will never be reached."""
+class TypeMismatchReporter:
+    """Prints each node on the other side of a topic with another type, once."""
 
     def __init__(self, node: Node, topic: str, message_class: Any, *, publishing: bool) -> None:
-        """Watch a topic, given by its absolute name, that ``node`` uses with a message class."""
+        """Watch a topic (absolute name) that ``node`` publishes, or subscribes to."""
         self._type_name = type_name(message_class)
         self._topic = topic
         self._publishing = publishing
@@ -30,13 +30,13 @@ class Mismatch:
             if publishing
             else node.get_publishers_info_by_topic
         )
-        self._told: set[str] = set()
+        self._printed: set[str] = set()
 
-    def tell(self) -> None:
-        """Print a line on stderr for each node that came with another type since the last call."""
+    def report(self) -> None:
+        """Print a line on stderr for each new node with another type."""
         for line in mismatches(
             self._type_name, self._topic, self._endpoints(self._topic), self._publishing
         ):
-            if line not in self._told:
-                self._told.add(line)
+            if line not in self._printed:
+                self._printed.add(line)
                 print(line, file=sys.stderr)

@@ -14,10 +14,15 @@ from amr_description.text import shorten
 
 def full_name(node: Node, name: str, what: str = 'a topic') -> str:
     """
-    Return the absolute name, as ``/chatter`` for ``chatter``.
+    Return the absolute name, ``/chatter`` for ``chatter``.
 
-    :param what: What it is the name of, with its article: the rules are the same for all.
-    :raises AmrError: It is not a name.
+    Args:
+        node: of the verb.
+        name: as it is typed.
+        what: what it is the name of, for the error; the rules are the same for all.
+
+    Raises:
+        AmrError: it is not a name.
     """
     try:
         name.encode()  # rclpy demands Unicode
@@ -26,6 +31,8 @@ def full_name(node: Node, name: str, what: str = 'a topic') -> str:
         validate_full_topic_name(expanded)
     except (InvalidTopicNameException, ValueError) as error:
         reason = str(error).splitlines()[0].removeprefix('Invalid topic name: ').rstrip(':')
-        reason = reason.removeprefix('topic ').partition(', at /')[0]  # a place in rcl's sources
+        reason = reason.removeprefix('topic ').partition(', at /')[
+            0
+        ]  # a location in the sources of rcl
         raise AmrError(f"'{shorten(name)}' is not {what}: {reason}") from error
     return expanded

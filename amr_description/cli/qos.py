@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The QoS of a verb: from its flags, or matched to the publishers there are."""
+"""The QoS of a verb: from its flags, or matched to the publishers of the topic."""
 
 from argparse import Namespace
 from collections.abc import Iterable
@@ -47,10 +47,10 @@ def for_subscription(
     args: Namespace, publishers: Iterable[QoSProfile]
 ) -> tuple[QoSProfile, list[str]]:
     """
-    Return the QoS to subscribe with, and what is to be said about it.
+    Return the QoS to subscribe with, and lines to print about it.
 
-    Without flags it is the strongest that receives from every publisher: reliable if all of them
-    are, transient local if all are. A flag switches that off altogether, as in the original.
+    Without flags it is the strongest that is compatible with every publisher: reliable, or
+    transient local, if all of them are. Any flag disables this, as in the original.
     """
     profile = from_flags(args)
     offered = list(publishers)

@@ -33,9 +33,11 @@ def add_qos_arguments(parser: ArgumentParser, verb: str, profile: str, matched: 
     """
     Add the flags.
 
-    :param verb: What the QoS is for, ``subscribe`` or ``publish``.
-    :param profile: The default of ``--qos-profile``.
-    :param matched: The policies that are matched to the publishers if no flag is given.
+    Args:
+        parser: of the verb.
+        verb: what the QoS is for, ``subscribe`` or ``publish``.
+        profile: the default of ``--qos-profile``.
+        matched: the policies that are matched to the publishers if no flag is given.
     """
     parser.add_argument(
         '--qos-profile',
@@ -67,7 +69,7 @@ def add_qos_arguments(parser: ArgumentParser, verb: str, profile: str, matched: 
 
 
 def any_override(args: Namespace) -> bool:
-    """Tell whether a flag other than ``--qos-profile`` was given."""
+    """Return whether a flag other than ``--qos-profile`` was given."""
     lease = args.qos_liveliness_lease_duration_seconds
     policies = (getattr(args, f'qos_{policy}') for policy in _POLICIES)
     return args.qos_depth >= 0 or lease is not None or any(policies)

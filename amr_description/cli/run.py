@@ -24,8 +24,8 @@ from amr_description.errors import AmrError, UsageError
 
 _OURS = 'amr_description'
 
-# (package, executable) -> the executable of ours that takes its part where the package is not
-# installed, with what makes it the same to others; that comes last, so what the user says wins.
+# (package, executable) -> our executable that replaces it if the package is not installed, with
+# the arguments that make it compatible; they come last, so arguments of the user win.
 STAND_INS = {
     ('controller_manager', 'hardware_spawner'): 'hardware_spawner',
     ('controller_manager', 'ros2_control_node'): 'ros2_control_node',
@@ -46,7 +46,7 @@ STAND_INS = {
     ('xacro', 'xacro'): 'xacro',
 }
 
-# What nothing of ours takes the part of, and what would do.
+# Packages that we do not replace, and what to use instead.
 INSTEAD = {
     ('joint_state_publisher_gui', 'joint_state_publisher_gui'): (
         "its sliders are on the page of 'ros2 launch amr_description display'"

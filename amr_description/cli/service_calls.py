@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Requests and their responses."""
+"""Service calls of verbs."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -25,10 +25,16 @@ def responses(
     session: Session, service_type: Any, requests: Mapping[str, Any], timeout: float | None
 ) -> dict[str, Any]:
     """
-    Send a request to each of several services of a type at once, as soon as it is there.
+    Call several services of one type concurrently, each as soon as it is there.
 
-    :param requests: By the names of the services.
-    :returns: What came within ``timeout`` s, by the same names.
+    Args:
+        session: of the verb.
+        service_type: of all services.
+        requests: by the names of the services.
+        timeout: for all of them, s; None: no limit.
+
+    Returns:
+        The responses that have arrived in time, by the same names.
     """
     clients = {name: session.node.create_client(service_type, name) for name in requests}
     futures: dict[str, Future] = {}

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A hidden node while a verb runs, and the ways in which a verb waits."""
+"""The hidden node of a verb, and how a verb waits."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -17,25 +17,32 @@ from amr_description import streams
 from amr_description.ros.runtime import argument_errors, ros
 from amr_description.ros.signals import StopRequested, StopRequests
 
-_POLL = 0.02  # s
-_IDLE = 0.5  # s; callbacks, signals and time-outs end the wait at once
+_POLL_PERIOD = 0.02  # s
+_IDLE_PERIOD = 0.5  # s; callbacks, signals and timeouts end the wait at once
 
 
 @dataclass(frozen=True)
 class Session:
-    """A verb's node and the executor of its callbacks, which run in the verb's own thread."""
+    """The node of a verb, and the executor of its callbacks, which run in the verb's thread."""
 
     node: Node
     executor: Executor
     stop: StopRequests
 
     def spin(
-        self, until: Callable[[], bool], timeout: float | None = None, *, poll: float = _POLL
+        self,
+        until: Callable[[], bool],
+        timeout: float | None = None,
+        *,
+        poll: float = _POLL_PERIOD,
     ) -> bool:
         """
-        Serve callbacks until ``until()``, at most for ``timeout`` s; tell whether it came true.
+        Run callbacks until ``until()`` is true, at most for ``timeout`` s.
 
-        ``until`` is asked after every callback, and every ``poll`` seconds.
+        ``until`` is called after every callback, and every ``poll`` s.
+
+        Returns:
+            False: it has not become true in time.
         """
         deadline = float('inf') if timeout is None else time.monotonic() + timeout
         while not until():
@@ -48,26 +55,28 @@ class Session:
     def serve(
         self, done: Callable[[], bool] = lambda: False, timeout: float | None = None
     ) -> None:
-        """Serve callbacks, one of which makes ``done()`` true, at most for ``timeout`` s."""
-        self.spin(done, timeout, poll=_IDLE)
+        """Run callbacks until one of them has made ``done()`` true, at most for ``timeout`` s."""
+        self.spin(done, timeout, poll=_IDLE_PERIOD)
 
     @contextmanager
     def finishing(self) -> Iterator[Callable[[], bool]]:
         """
-        Leave it to the block how it ends when a signal asks for it; only a second interrupts it.
+        Let the block finish its work after a signal; only a second signal interrupts it.
 
-        Yields what tells whether it is asked to. Nothing is served after the block.
+        Yields:
+            A function that returns whether a signal has come. No callbacks run after the block.
 
-        :raises StopRequested: After the block, if it was asked to end.
+        Raises:
+            StopRequested: after the block, if a signal has come.
         """
-        asked = threading.Event()
+        is_stopping = threading.Event()
 
-        def ask() -> None:
-            asked.set()
+        def request_stop() -> None:
+            is_stopping.set()
             self.executor.wake()
 
-        with self.stop.on_stop(ask):
-            yield asked.is_set
+        with self.stop.on_stop(request_stop):
+            yield is_stopping.is_set
         if self.stop.signum is not None:
             raise StopRequested(self.stop.signum)
 
@@ -81,30 +90,34 @@ def open_session(
     executor: Callable[[], Executor] = SingleThreadedExecutor,
 ) -> Iterator[Session]:
     """
-    Yield a session; end it in every way out.
+    Yield a session; it is closed however the block ends.
 
-    :param name: The node's name; empty: a hidden one, ``_ros2cli_<pid>``.
-    :param ros_args: What stands behind ``--ros-args``.
-    :param executor: Makes the executor. EventsExecutor takes half the time, but fails at a
-        callback that wants the message's info (SystemError, rclpy 7.1.6).
-    :raises StopRequested: (a KeyboardInterrupt) A signal asked the verb to stop.
+    Args:
+        name: of the node; by default a hidden one, ``_ros2cli_<pid>``.
+        use_sim_time: the parameter of that name.
+        ros_args: the arguments after ``--ros-args``.
+        executor: creates the executor. EventsExecutor takes half the time, but fails with
+            callbacks that take a message's info (SystemError, rclpy 7.1.6).
+
+    Raises:
+        StopRequested: (a KeyboardInterrupt) a signal has asked the verb to stop.
     """
     streams.keep_libraries_off_stdout()
     with ros(['--ros-args', *ros_args] if ros_args else []) as stop:
         with argument_errors():
             node = _make_node(name or f'_ros2cli_{os.getpid()}', use_sim_time)
-        serving = executor()
-        serving.add_node(node)
+        spinner = executor()
+        spinner.add_node(node)
         try:
-            yield Session(node, serving, stop)
+            yield Session(node, spinner, stop)
         finally:
             stop.leave()
-            serving.shutdown()
+            spinner.shutdown()
             node.destroy_node()
 
 
 def _make_node(name: str, use_sim_time: bool) -> Node:
-    """Make a node with as few endpoints as possible: each costs time, here and elsewhere."""
+    """Create a node with as few endpoints as possible: each costs time, in every process."""
     return Node(
         name,
         enable_rosout=False,

@@ -105,7 +105,7 @@ def failure_to_json(file: str, error: str, code: int) -> str:
 
 
 def _finite(values: dict[str, object]) -> dict[str, object]:
-    """Return the values, None for what JSON cannot hold: a robot that explodes knows no end."""
+    """Return the values, with None for infinity and NaN, which JSON does not have."""
     return {
         name: None if isinstance(value, float) and not math.isfinite(value) else value
         for name, value in values.items()

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What was typed as YAML -> a mapping, or one line that says where it is wrong."""
+"""YAML from a command line: values, or one line that says where it is wrong."""
 
 from typing import Any
 

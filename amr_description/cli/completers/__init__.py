@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What there is to choose from, for tab completion: a function per kind of word.
+Tab completion: a function for each kind of argument.
 
-Each takes what of the command line is already read, and the beginning of the word, and returns
-words that may stand there. What does not begin so is left out later.
+It takes the parsed part of the command line and the prefix of the word, and returns the possible
+words. Words without the prefix are removed later.
 
 ============ ===================================================================================
 installed.py packages, executables, stacks, interfaces: at once
-graph.py     nodes, topics, services and so on, once discovery has come to rest
-manager.py   controllers and hardware components, asked of the controller manager
+graph.py     nodes, topics, services and so on, after discovery
+manager.py   controllers and hardware components of the controller manager
 ============ ===================================================================================
 """
 
@@ -46,4 +46,4 @@ COMPLETERS = {
     'service find service_type': 'graph:used_service_types',
     'topic pub values': 'installed:message',
 }
-"""The name of an argument, perhaps behind those of command and verb -> ``module:function``."""
+"""Name of an argument, also after those of command and verb -> ``module:function``."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who is there."""
+"""Completions from the ROS graph."""
 
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
@@ -13,7 +13,6 @@ from amr_description.cli.actions import actions as known_actions
 from amr_description.cli.completers import installed
 from amr_description.cli.names import full_name
 from amr_description.cli.param.requests import list_all
-from amr_description.cli.services import services as known_services
 from amr_description.cli.session import open_session, Session
 
 _LIST_CONTROLLERS = '/list_controllers'
@@ -21,7 +20,7 @@ _LIST_CONTROLLERS = '/list_controllers'
 
 @contextmanager
 def discovered() -> Iterator[Session]:
-    """Yield a session that has found everybody; no longer than needed, as a person waits."""
+    """Yield a session after a discovery that is as short as possible: a user waits for it."""
     with open_session() as session:
         graph.wait_for_discovery(session, 0.0)
         yield session
@@ -42,7 +41,7 @@ def topics(_args: Namespace, _prefix: str) -> Iterable[str]:
 def services(_args: Namespace, _prefix: str) -> Iterable[str]:
     """Return services."""
     with discovered() as session:
-        return [name for name, _ in known_services(session.node)]
+        return [name for name, _ in graph.services(session.node)]
 
 
 def actions(_args: Namespace, _prefix: str) -> Iterable[str]:
@@ -52,21 +51,21 @@ def actions(_args: Namespace, _prefix: str) -> Iterable[str]:
 
 
 def message_types(args: Namespace, prefix: str) -> Iterable[str]:
-    """Return the types of the topic on the line; of one that nobody uses, all there are."""
+    """Return the types of the topic on the line; all types if it is not there."""
     with discovered() as session:
         known = _types(session.node, args.topic_name, graph.topics(session.node, hidden=True))
     return known or _of_kind('msg', args, prefix)
 
 
 def service_types(args: Namespace, prefix: str) -> Iterable[str]:
-    """Return the types of the service on the line; of one that nobody offers, all there are."""
+    """Return the types of the service on the line; all types if it is not there."""
     with discovered() as session:
-        known = _types(session.node, args.service_name, known_services(session.node, hidden=True))
+        known = _types(session.node, args.service_name, graph.services(session.node, hidden=True))
     return known or _of_kind('srv', args, prefix)
 
 
 def action_types(args: Namespace, prefix: str) -> Iterable[str]:
-    """Return the types of the action on the line; of one that nobody offers, all there are."""
+    """Return the types of the action on the line; all types if it is not there."""
     with discovered() as session:
         known = _types(session.node, args.action_name, known_actions(session.node))
     return known or _of_kind('action', args, prefix)
@@ -81,7 +80,7 @@ def used_message_types(_args: Namespace, _prefix: str) -> Iterable[str]:
 def used_service_types(_args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the types of all services."""
     with discovered() as session:
-        return {name for _, types in known_services(session.node) for name in types}
+        return {name for _, types in graph.services(session.node) for name in types}
 
 
 def parameters(args: Namespace, _prefix: str) -> Iterable[str]:
@@ -92,9 +91,9 @@ def parameters(args: Namespace, _prefix: str) -> Iterable[str]:
 
 
 def controller_managers(_args: Namespace, _prefix: str) -> Iterable[str]:
-    """Return the nodes that can be asked for controllers."""
+    """Return the controller managers."""
     with discovered() as session:
-        names = [name for name, _ in known_services(session.node)]
+        names = [name for name, _ in graph.services(session.node)]
     return [
         name.removesuffix(_LIST_CONTROLLERS) for name in names if name.endswith(_LIST_CONTROLLERS)
     ]

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is installed; nothing here needs the graph."""
+"""Completions from what is installed, without the graph."""
 
 from argparse import Namespace
 from collections.abc import Iterable
@@ -16,7 +16,7 @@ def packages(_args: Namespace, _prefix: str) -> Iterable[str]:
 
 
 def run_packages(_args: Namespace, _prefix: str) -> Iterable[str]:
-    """Return the packages with executables, and those that ours stand in for."""
+    """Return the packages with executables, and those that ours replace."""
     from amr_description.cli.run import STAND_INS
 
     folders = installed_packages().items()
@@ -93,7 +93,7 @@ def request(args: Namespace, _prefix: str) -> Iterable[str]:
 
 
 def _fields(value: Any) -> str:
-    """Return YAML on one line, as one would type it."""
+    """Return YAML on one line, as it would be typed."""
     import yaml
 
     from amr_description.cli.message_text import to_yaml

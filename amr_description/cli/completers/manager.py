@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the controller manager of the line has."""
+"""Completions from the controller manager on the line."""
 
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
@@ -10,7 +10,7 @@ from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session
 from amr_description.control.ros.client import ManagerClient
 
-_TIMEOUT = 2.0  # s; a person waits
+_TIMEOUT = 2.0  # s; a user waits
 
 
 @contextmanager
@@ -37,7 +37,7 @@ def inactive_controllers(args: Namespace, _prefix: str) -> Iterable[str]:
 
 
 def loadable_controllers(args: Namespace, _prefix: str) -> Iterable[str]:
-    """Return the controllers that the manager has a type for and has not loaded."""
+    """Return the controllers that are not loaded and whose type the manager knows."""
     with _manager(args) as manager:
         return set(manager.typed_controllers()) - manager.states().keys()
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which controller commands which: as an indented tree, and in the DOT language."""
+"""The chains of controllers, as an indented tree and in the DOT language."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -18,7 +18,7 @@ def owner_of(interface: str, controllers: Sequence[Any]) -> str:
 
 
 def commands(controller: Any, controllers: Sequence[Any]) -> dict[str, list[str]]:
-    """Return whom a controller commands -> by which interfaces."""
+    """Return target -> the interfaces by which a controller commands it."""
     targets: dict[str, list[str]] = {}
     for interface in controller.required_command_interfaces:
         targets.setdefault(owner_of(interface, controllers), []).append(interface)
@@ -45,7 +45,7 @@ def _branches(controller: Any, by_name: dict[str, Any], above: tuple[str, ...]) 
 
 
 def dot(controllers: Sequence[Any]) -> Iterator[str]:
-    """Yield the lines of a directed graph: controllers, the hardware, and what leads where."""
+    """Yield the lines of a directed graph of controllers, hardware and command interfaces."""
     yield 'digraph controllers {'
     yield '    rankdir=LR;'
     yield '    node [shape=box];'

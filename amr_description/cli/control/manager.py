@@ -1,13 +1,17 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the verbs of ``ros2 control`` share: which controller manager, and how to ask it."""
+"""What the verbs of ``ros2 control`` share: the controller manager, and calls of its services."""
 
 from argparse import ArgumentParser, Namespace, REMAINDER
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TYPE_CHECKING
 
-from amr_description.cli.arguments import add_node_arguments, unicode_text
+from amr_description.cli.arguments import (
+    add_hidden_nodes_argument,
+    add_node_arguments,
+    unicode_text,
+)
 from amr_description.errors import AmrError
 
 if TYPE_CHECKING:
@@ -15,11 +19,11 @@ if TYPE_CHECKING:
     from amr_description.control.ros.client import ManagerClient
 
 _DEFAULT = 'controller_manager'
-_SILENT = 1.0  # s; usual discovery is not worth a line
+_SILENT = 1.0  # s; a normal discovery is not logged
 
 
 def add_manager_arguments(parser: ArgumentParser) -> None:
-    """Add the flags that every verb reads."""
+    """Add the flags that every verb has."""
     add_node_arguments(parser)
     parser.add_argument(
         '-c',
@@ -28,9 +32,7 @@ def add_manager_arguments(parser: ArgumentParser) -> None:
         default=_DEFAULT,
         help=f'Name of the controller manager ROS node (default: {_DEFAULT})',
     )
-    parser.add_argument(
-        '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
-    )
+    add_hidden_nodes_argument(parser)
     parser.add_argument(
         '--ros-args',
         nargs=REMAINDER,
@@ -48,9 +50,9 @@ def add_controller_argument(parser: ArgumentParser, purpose: str) -> None:
 
 def ask(args: Namespace, service_type: Any) -> Any:
     """
-    Return the response of a service of the controller manager that takes no fields.
+    Return the response of a service of the controller manager whose request has no fields.
 
-    :raises AmrError: No answer.
+    Raises AmrError if there is no response.
     """
     with open_manager(args, first=service_type) as manager:
         return manager.query(service_type)
@@ -68,7 +70,7 @@ def open_manager(args: Namespace, first: Any = None) -> 'Iterator[ManagerClient]
 
 
 def failure(text: str, reason: str) -> AmrError:
-    """Return the error to raise; the services only say that they failed, so say why."""
+    """Return an error with the reason, which the responses of the services do not have."""
     return AmrError(f'{text}: {reason}' if reason else text)
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The text of an interface definition, with what it is made of written below each field."""
+"""The text of an interface definition, with the definition of each field's type below it."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ _FIELD_OF_MESSAGE = re.compile(
 
 @dataclass(frozen=True)
 class Definition:
-    """What a file says: the lines of a .msg, .srv or .action, or OMG IDL."""
+    """The text of a .msg, .srv, .action or .idl file."""
 
     text: str
     idl: bool = False
@@ -25,7 +25,7 @@ class Definition:
 
 @dataclass(frozen=True)
 class Comments:
-    """Where comments and blank lines are kept."""
+    """Which comments and blank lines are kept."""
 
     at_top: bool = True
     below: bool = False
@@ -39,11 +39,15 @@ def expand(
     """
     Yield the lines of an interface, each field of a message type followed by its definition.
 
-    That is indented by one tab more than the field. IDL is not understood, only shown.
+    The definition is indented by one tab more than the field. IDL is printed as it is.
 
-    :param name: ``package/msg/Name``, or srv or action.
-    :param read: Returns the definition of such a name.
-    :raises AmrError: A message contains itself.
+    Args:
+        name: ``package/msg/Name``, or srv or action.
+        read: returns the definition of such a name.
+        comments: which comments are kept.
+
+    Raises:
+        AmrError: a message contains itself.
     """
     yield from _expand((name,), read, comments.at_top, comments.below)
 
@@ -51,7 +55,7 @@ def expand(
 def _expand(
     names: tuple[str, ...], read: Callable[[str], Definition], comments: bool, below: bool
 ) -> Iterator[str]:
-    """``names``: the interface and those that it stands in, outermost first."""
+    """``names``: the interface and those that contain it, outermost first."""
     package = names[-1].partition('/')[0]
     indent = '\t' * (len(names) - 1)
     definition = read(names[-1])
@@ -71,15 +75,13 @@ def message_type_of(line: str, package: str) -> str | None:
     """
     Return the message type of the field that a line declares: ``package/msg/Name``.
 
-    None: it declares something else, or nothing.
-
-    :param package: That of the definition, which may leave it out.
+    None: it declares something else, or nothing. ``package`` is the default of the type's package.
     """
     field = _FIELD_OF_MESSAGE.match(line)
     return f'{field["package"] or package}/msg/{field["message"]}' if field else None
 
 
 def _without_comment(line: str) -> str:
-    """Return what stands before the comment; rosidl knows no quoted ``#``."""
+    """Return the part before the comment; in rosidl a ``#`` cannot be quoted."""
     before, mark, _ = line.partition(_COMMENT)
     return before.strip() if mark else line.rstrip()

@@ -14,7 +14,7 @@ from amr_description.cli.interface.kinds import kind_of, KINDS
 from amr_description.errors import AmrError
 from amr_description.text import did_you_mean, shorten
 
-_RESOURCE = 'rosidl_interfaces'  # what rosidl registers for each of these packages
+_RESOURCE = 'rosidl_interfaces'  # registered by rosidl for each package with interfaces
 
 
 def all_interfaces() -> Mapping[str, list[str]]:
@@ -57,7 +57,7 @@ def split_name(name: str) -> tuple[str, str, str]:
 
 
 def _path(name: str) -> Path:
-    """Return the file that people wrote; the .idl, made from it, if there is no other."""
+    """Return the source file of an interface; if there is none, the .idl generated from it."""
     package, kind, interface = split_name(name)
     prefix = packages().get(package)
     if prefix is None:
@@ -72,7 +72,7 @@ def _path(name: str) -> Path:
 
 
 def _interfaces(package: str) -> list[str]:
-    """Raises LookupError: it defines none."""
+    """Return its interfaces and files. Raises LookupError if it defines none."""
     content, _ = get_resource(_RESOURCE, package)
     found = {os.path.splitext(line.strip())[0] for line in content.splitlines()}
     return sorted(name for name in found if kind_of(name) in KINDS and '_' not in name)

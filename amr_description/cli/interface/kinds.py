@@ -5,7 +5,7 @@
 from argparse import ArgumentParser, Namespace
 
 KINDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
-"""The second part of an interface's name -> what it is."""
+"""The second part of an interface's name -> its kind in words."""
 
 
 def add_kind_arguments(parser: ArgumentParser) -> None:
@@ -20,7 +20,7 @@ def add_kind_arguments(parser: ArgumentParser) -> None:
 
 
 def wanted_kinds(args: Namespace) -> list[str]:
-    """Return the kinds that the flags ask for; all of them if there is no flag."""
+    """Return the kinds that the flags select; without flags all of them."""
     chosen = [kind for kind in KINDS if getattr(args, f'only_{kind}s')]
     return chosen or list(KINDS)
 

@@ -7,7 +7,7 @@ import sys
 
 from amr_description.cli.lifecycle.managed import (
     add_lifecycle_arguments,
-    find_node,
+    find_lifecycle_node,
     lifecycle_nodes,
     no_response,
 )
@@ -33,7 +33,7 @@ def main(args: Namespace) -> int:
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         if args.node_name:
-            nodes = [find_node(session, args)]
+            nodes = [find_lifecycle_node(session, args)]
         else:
             graph.wait_for_discovery(session, args.spin_time)
             nodes = lifecycle_nodes(session.node, hidden=args.include_hidden_nodes)

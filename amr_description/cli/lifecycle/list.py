@@ -4,7 +4,7 @@
 
 from argparse import ArgumentParser, Namespace
 
-from amr_description.cli.lifecycle.managed import add_lifecycle_arguments, ask, find_node
+from amr_description.cli.lifecycle.managed import add_lifecycle_arguments, ask, find_lifecycle_node
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -24,7 +24,7 @@ def main(args: Namespace) -> int:
 
     service = 'get_transition_graph' if args.all else 'get_available_transitions'
     with open_session(use_sim_time=args.use_sim_time) as session:
-        node = find_node(session, args)
+        node = find_lifecycle_node(session, args)
         request = GetAvailableTransitions.Request()
         response = ask(session, node, service, GetAvailableTransitions, request, args.timeout)
     for description in response.available_transitions:

@@ -1,12 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the verbs of ``ros2 lifecycle`` share: who has a lifecycle, and how to ask."""
+"""What the verbs of ``ros2 lifecycle`` share: the nodes with a lifecycle, and their services."""
 
 from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 from typing import Any, TYPE_CHECKING
 
-from amr_description.cli.arguments import add_graph_arguments, positive_float
+from amr_description.cli.arguments import (
+    add_graph_arguments,
+    add_hidden_nodes_argument,
+    positive_float,
+)
 from amr_description.errors import AmrError
 from amr_description.text import shorten
 
@@ -16,7 +20,7 @@ if TYPE_CHECKING:
     from amr_description.cli.session import Session
 
 TIMEOUT = 5.0
-"""How long a node may take to tell its state, s."""
+"""How long to wait for the state of a node, s."""
 
 _SERVICE = 'get_state'
 _TYPE = 'lifecycle_msgs/srv/GetState'
@@ -24,14 +28,14 @@ _TYPE = 'lifecycle_msgs/srv/GetState'
 
 def add_lifecycle_arguments(parser: ArgumentParser, timeout: float | None = TIMEOUT) -> None:
     """
-    Add the flags of a verb that asks nodes.
+    Add the flags of a verb that calls services of nodes.
 
-    :param timeout: The default of ``--timeout``, s; None: for ever.
+    Args:
+        parser: of the verb.
+        timeout: the default of ``--timeout``, s; None: no limit.
     """
     add_graph_arguments(parser)
-    parser.add_argument(
-        '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
-    )
+    add_hidden_nodes_argument(parser)
     default = 'for ever' if timeout is None else f'{timeout:g}'
     parser.add_argument(
         '--timeout',
@@ -45,18 +49,17 @@ def add_lifecycle_arguments(parser: ArgumentParser, timeout: float | None = TIME
 def lifecycle_nodes(node: 'Node', *, hidden: bool) -> list[str]:
     """Return the full names of the nodes that have a lifecycle, sorted."""
     from amr_description.cli import graph
-    from amr_description.cli.services import services
 
-    served = {name for name, types in services(node, hidden=True) if _TYPE in types}
+    served = {name for name, types in graph.services(node, hidden=True) if _TYPE in types}
     names = {found.full_name for found in graph.nodes(node, hidden=hidden)}
     return sorted(name for name in names if f'{name}/{_SERVICE}' in served)
 
 
-def find_node(session: 'Session', args: Namespace) -> str:
+def find_lifecycle_node(session: 'Session', args: Namespace) -> str:
     """Return the full name of ``args.node_name`` once it is there. Raises AmrError."""
     from amr_description.cli import graph
 
-    name = '/' + args.node_name.removeprefix('/')
+    name = graph.node_name(args.node_name)
 
     def known() -> list[str]:
         return lifecycle_nodes(session.node, hidden=args.include_hidden_nodes)
@@ -65,14 +68,17 @@ def find_node(session: 'Session', args: Namespace) -> str:
     if name in known():
         return name
     there = {node.full_name: node.hidden for node in graph.nodes(session.node, hidden=True)}
-    raise AmrError(explain_absence(name, there, known()))
+    raise AmrError(explain_no_lifecycle(name, there, known()))
 
 
-def explain_absence(name: str, nodes: Mapping[str, bool], managed: list[str]) -> str:
+def explain_no_lifecycle(name: str, nodes: Mapping[str, bool], managed: list[str]) -> str:
     """
-    Return the line for a node that is not one of the managed ones.
+    Return the line for a node without a lifecycle.
 
-    :param nodes: Whether each is hidden, by their full names.
+    Args:
+        name: full name of the node.
+        nodes: all nodes; full name -> whether it is hidden.
+        managed: the nodes with a lifecycle.
     """
     if name not in nodes:
         reason = 'is not there'

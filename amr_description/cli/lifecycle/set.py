@@ -14,7 +14,7 @@ from typing import Any
 from amr_description.cli.lifecycle.managed import (
     add_lifecycle_arguments,
     ask,
-    find_node,
+    find_lifecycle_node,
     TIMEOUT,
 )
 from amr_description.errors import AmrError
@@ -34,7 +34,7 @@ def main(args: Namespace) -> int:
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
-        node = find_node(session, args)
+        node = find_lifecycle_node(session, args)
         available = ask(
             session,
             node,

@@ -30,7 +30,7 @@ def main(args: Namespace) -> int:
     from amr_description.cli import graph
     from amr_description.cli.session import open_session
 
-    name = '/' + args.node_name.removeprefix('/')
+    name = graph.node_name(args.node_name)
     with open_session(use_sim_time=args.use_sim_time) as session:
 
         def named() -> 'list[NodeName]':

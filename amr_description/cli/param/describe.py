@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import sys
 from typing import TYPE_CHECKING
 
-from amr_description.cli.arguments import unicode_text
-from amr_description.cli.param.arguments import add_node_arguments
+from amr_description.cli.arguments import add_remote_node_arguments, unicode_text
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
-    add_node_arguments(parser)
+    add_remote_node_arguments(parser)
     parser.add_argument(
         'parameter_names', nargs='+', type=unicode_text, help='Names of the parameters'
     )

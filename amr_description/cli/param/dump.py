@@ -10,12 +10,12 @@ examples:
 
 from argparse import ArgumentParser, Namespace
 
-from amr_description.cli.param.arguments import add_node_arguments
+from amr_description.cli.arguments import add_remote_node_arguments
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
-    add_node_arguments(parser)
+    add_remote_node_arguments(parser)
 
 
 def main(args: Namespace) -> int:

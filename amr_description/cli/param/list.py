@@ -8,8 +8,7 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
-from amr_description.cli.arguments import unicode_text
-from amr_description.cli.param.arguments import add_node_arguments
+from amr_description.cli.arguments import add_remote_node_arguments, unicode_text
 
 if TYPE_CHECKING:
     from amr_description.cli.session import Session
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
-    add_node_arguments(parser, optional=True)
+    add_remote_node_arguments(parser, optional=True)
     parser.add_argument(
         '--param-prefixes',
         nargs='+',
@@ -69,10 +68,10 @@ def main(args: Namespace) -> int:
 def _nodes(session: 'Session', args: Namespace) -> Sequence[str]:
     """Return the full names of the nodes whose parameters are wanted. Raises AmrError."""
     from amr_description.cli import graph
-    from amr_description.cli.param.remote import find_node
 
     if args.node_name:
-        return [find_node(session, args)]
+        timeout = max(args.timeout, args.spin_time)
+        return [graph.find_node(session, args.node_name, timeout)]
     graph.wait_for_discovery(session, args.spin_time)
     services = dict(session.node.get_service_names_and_types())
     nodes = graph.nodes(session.node, hidden=args.include_hidden_nodes)

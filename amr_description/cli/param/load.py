@@ -12,7 +12,7 @@ from pathlib import Path
 import sys
 from typing import TYPE_CHECKING
 
-from amr_description.cli.param.arguments import add_node_arguments
+from amr_description.cli.arguments import add_remote_node_arguments
 from amr_description.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
-    add_node_arguments(parser)
+    add_remote_node_arguments(parser)
     parser.add_argument('parameter_file', type=Path, help='Parameter file')
     parser.add_argument(
         '--no-use-wildcard',

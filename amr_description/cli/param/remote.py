@@ -17,36 +17,20 @@ from rcl_interfaces.msg import (
 from rcl_interfaces.srv import GetParameters, SetParameters
 
 from amr_description.cli import graph
-from amr_description.cli.names import full_name
 from amr_description.cli.param.requests import ask_all, describe_all, list_all
 from amr_description.cli.param.values import advice, to_message, typed, Value
 from amr_description.cli.session import open_session, Session
 from amr_description.errors import AmrError
 from amr_description.text import did_you_mean, shorten
 
-_SHOWN = 5  # names in an error
-
 
 @contextmanager
 def remote_parameters(args: Namespace) -> 'Iterator[RemoteParameters]':
-    """Yield the parameters of the node that a command line names. Raises AmrError: not there."""
+    """Yield the parameters of ``args.node_name``. Raises AmrError if it is not there."""
     with open_session(use_sim_time=args.use_sim_time) as session:
-        yield RemoteParameters(session, find_node(session, args))
-
-
-def find_node(session: Session, args: Namespace) -> str:
-    """Return the full name of the node that a command line names. Raises AmrError: not there."""
-    name = full_name(session.node, '/' + args.node_name.removeprefix('/'), 'a node')
-
-    def known() -> list[str]:
-        return [node.full_name for node in graph.nodes(session.node, hidden=True)]
-
-    if not session.spin(lambda: name in known(), max(args.timeout, args.spin_time)):
-        graph.wait_for_discovery(session, 0.0)
-    if name not in known():
-        others = [node.full_name for node in graph.nodes(session.node)]
-        raise AmrError(f'Node not found{_instead(name, others)}')
-    return name
+        yield RemoteParameters(
+            session, graph.find_node(session, args.node_name, max(args.timeout, args.spin_time))
+        )
 
 
 class RemoteParameters:
@@ -62,21 +46,21 @@ class RemoteParameters:
         return self._answer(list_all(self._session, [self.node]))
 
     def values(self, names: Sequence[str]) -> dict[str, ParameterValue]:
-        """Return the values of those parameters that there are and that were given one."""
+        """Return the values of the parameters that are declared and have one."""
         response = self._ask('get_parameters', GetParameters, GetParameters.Request(names=names))
         if len(response.values) == len(names):
             return dict(zip(names, response.values, strict=True))
-        # If one has no value, nodes tell of none.
+        # If one has no value, nodes return none at all.
         each = [self.values([name]) for name in names] if len(names) > 1 else []
         return {name: value for found in each for name, value in found.items()}
 
     def descriptors(self, names: Sequence[str]) -> dict[str, ParameterDescriptor]:
-        """Return the descriptors of those parameters that there are."""
+        """Return the descriptors of the parameters that are declared."""
         known = sorted(set(self.names()) & set(names))
         return self._answer(describe_all(self._session, {self.node: known}))
 
     def set(self, values: Mapping[str, Value]) -> dict[str, SetParametersResult]:
-        """Set parameters one by one; return what the node says to each."""
+        """Set parameters one by one; return the result of each."""
         empty = [name for name, value in values.items() if value == []]
         types = {k: d.type for k, d in self.descriptors(empty).items()} if empty else {}
         return self._set({name: to_message(v, types.get(name, 0)) for name, v in values.items()})
@@ -86,7 +70,7 @@ class RemoteParameters:
         return self._set({name: ParameterValue()})[name]
 
     def absence(self, name: str) -> str:
-        """Say why a parameter has no value."""
+        """Return why a parameter has no value."""
         names = self.names()
         if name in names:
             return f"'{name}' of {self.node} is declared, but was given no value"
@@ -94,9 +78,11 @@ class RemoteParameters:
 
     def explain(self, name: str, text: str) -> str:
         """
-        Return what the node's refusal to set a parameter left out; perhaps nothing.
+        Return what the node's error about setting a parameter omits, or ''.
 
-        :param text: The value as YAML.
+        Args:
+            name: of the parameter.
+            text: the value as YAML.
         """
         descriptor = self.descriptors([name]).get(name)
         if descriptor is None:
@@ -121,15 +107,8 @@ class RemoteParameters:
 
 
 def no_answer(node: str) -> str:
-    """Say that a node's parameter services do not answer."""
+    """Return the line for a node whose parameter services do not answer."""
     return (
         f'Wait for service timed out waiting for parameter services for node {node}: it has none, '
         'or is busy'
     )
-
-
-def _instead(name: str, known: Sequence[str]) -> str:
-    if not known:
-        return ': there are no nodes'
-    more = ', ...' if len(known) > _SHOWN else ''
-    return did_you_mean(name, known) or f'; there are {", ".join(known[:_SHOWN])}{more}'

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The parameter services of nodes: several are asked at a time, and no wait is endless."""
+"""The parameter services of nodes, of several concurrently, with timeouts."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -10,17 +10,24 @@ from rcl_interfaces.srv import DescribeParameters, ListParameters
 
 from amr_description.cli.session import Session
 
-_SERVICE_TIMEOUT = 5.0  # s, for a node that is there to offer its services
-_RESPONSE_TIMEOUT = 10.0  # s; a node may do real work when it is set
+_SERVICE_TIMEOUT = 5.0  # s until the services of a node are there
+_RESPONSE_TIMEOUT = 10.0  # s; a node may have work to do when a parameter is set
 
 
 def ask_all[Response](
     session: Session, service: str, service_type: Any, requests: Mapping[str, Any]
 ) -> dict[str, Response]:
     """
-    Send a request to each node, by its full name; return the responses that came in time.
+    Send a request to each of several nodes.
 
-    :param service: The service's name below that of the node.
+    Args:
+        session: of the verb.
+        service: name of the service below that of the node.
+        service_type: of the service.
+        requests: by the full names of the nodes.
+
+    Returns:
+        The responses that have arrived in time, by the same names.
     """
     clients = {
         node: session.node.create_client(service_type, f'{node}/{service}') for node in requests

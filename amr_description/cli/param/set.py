@@ -10,14 +10,13 @@ with a dash and is not a plain number stands '--': ros2 param set /node limit --
 
 from argparse import ArgumentParser, Namespace
 
-from amr_description.cli.arguments import unicode_text
-from amr_description.cli.param.arguments import add_node_arguments
+from amr_description.cli.arguments import add_remote_node_arguments, unicode_text
 from amr_description.errors import AmrError
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
-    add_node_arguments(parser)
+    add_remote_node_arguments(parser)
     parser.add_argument('parameter_name', type=unicode_text, help='Name of the parameter')
     parser.add_argument('value', help='Value of the parameter')
 

@@ -54,7 +54,7 @@ def typed(text: str) -> Value:
 
 
 def has_type(value: Any) -> bool:
-    """Tell whether a parameter can have a value that YAML gave."""
+    """Return whether a value from YAML can be the value of a parameter."""
     elements = value if isinstance(value, list) else [value]
     kinds = {type(element) for element in elements}
     if kinds == {bytes}:  # what dump writes of a byte array
@@ -64,10 +64,14 @@ def has_type(value: Any) -> bool:
 
 def to_message(value: Value, wanted: int = ParameterType.PARAMETER_NOT_SET) -> ParameterValue:
     """
-    Return a value as it is sent.
+    Return a value as a message.
 
-    :param wanted: The type of the parameter: that of an empty list, if it is an array's.
-    :raises ParameterError: An integer does not fit.
+    Args:
+        value: the value.
+        wanted: the type of the parameter; an empty list gets it if it is that of an array.
+
+    Raises:
+        ParameterError: an integer is too large.
     """
     if value == []:
         is_array = TYPE_NAMES[wanted].endswith('array')
@@ -87,7 +91,7 @@ def as_text(value: Value) -> str:
 
 
 def advice(text: str, wanted: int) -> str:
-    """Return what the parameter is, and how to write what was typed so that it is that too."""
+    """Return the type of the parameter, and how to write ``text`` with this type."""
     kind = TYPE_NAMES[wanted]
     article = 'an' if kind.startswith('integer') else 'a'
     try:
@@ -99,9 +103,9 @@ def advice(text: str, wanted: int) -> str:
 
 def _rewritten(text: str, wanted: int) -> str:
     """
-    Return the same as another type; empty if that type has nothing like it.
+    Return the same value with another type, as YAML; '' if that type has no such value.
 
-    :raises AmrError: It is not YAML.
+    Raises AmrError if ``text`` is not YAML.
     """
     if wanted == ParameterType.PARAMETER_BOOL:
         return 'true or false'
@@ -122,12 +126,12 @@ def _rewritten(text: str, wanted: int) -> str:
 
 
 def _quoted(text: str) -> str:
-    """Return what a shell hands over as a YAML string."""
+    """Return a YAML string, quoted for a shell."""
     return f"'{json.dumps(shorten(text), ensure_ascii=False)}'"
 
 
 def _integer(value: Any) -> int:
-    """Raises TypeError or ValueError: it is not a whole number."""
+    """Return a whole number. Raises TypeError or ValueError if it is not one."""
     if float(value) != int(value):
         raise ValueError
     return int(value)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from amr_description.cli.session import Session
 
-_PATIENCE = 2.0  # s of waiting before it is looked into
+_HINT_AFTER = 2.0  # s of waiting until a hint is printed
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -94,25 +94,25 @@ def _call(session: 'Session', client: 'Client', request: Any, timeout: float | N
 
 
 def _wait_for_service(session: 'Session', client: 'Client', timeout: float | None) -> None:
-    """Wait for the service, and say so. Raises AmrError."""
-    from amr_description.cli.services import explain_absence, services
+    """Wait for the service, and print that. Raises AmrError."""
+    from amr_description.cli import graph
     from amr_description.ros.message_types import type_name
 
     if client.service_is_ready():
         return
     print('waiting for service to become available...')
     left = float('inf') if timeout is None else timeout
-    if session.spin(client.service_is_ready, min(left, _PATIENCE)):
+    if session.spin(client.service_is_ready, min(left, _HINT_AFTER)):
         return
-    hint = explain_absence(
+    hint = graph.explain_absent_service(
         client.service_name,
         type_name(client.srv_type),
-        services(session.node, hidden=True),
+        graph.services(session.node, hidden=True),
     )
-    if left > _PATIENCE:
+    if left > _HINT_AFTER:
         if hint:
             print(f'WARNING: {hint}', file=sys.stderr)
-        if session.spin(client.service_is_ready, left - _PATIENCE):
+        if session.spin(client.service_is_ready, left - _HINT_AFTER):
             return
         hint = ''
     raise AmrError(

@@ -20,16 +20,15 @@ def main(args: Namespace) -> int:
     """Print type, clients and servers; 0."""
     from amr_description.cli import graph
     from amr_description.cli.names import full_name
-    from amr_description.cli.services import types_of_service
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         node = session.node
         service = full_name(node, args.service_name, 'a service')
         graph.wait_for_discovery(
-            session, args.spin_time, lambda: bool(types_of_service(node, service))
+            session, args.spin_time, lambda: bool(graph.types_of_service(node, service))
         )
-        types = types_of_service(node, service)
+        types = graph.types_of_service(node, service)
         if not types:
             raise AmrError(f"Unknown service '{args.service_name}'")
         print(f'Type: {types[0] if len(types) == 1 else types}')

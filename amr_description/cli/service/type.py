@@ -20,16 +20,15 @@ def main(args: Namespace) -> int:
     """Print one type per line; 0, or 1 and nothing if the service is not known."""
     from amr_description.cli import graph
     from amr_description.cli.names import full_name
-    from amr_description.cli.services import types_of_service
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         node = session.node
         service = full_name(node, args.service_name, 'a service')
         graph.wait_for_discovery(
-            session, args.spin_time, lambda: bool(types_of_service(node, service))
+            session, args.spin_time, lambda: bool(graph.types_of_service(node, service))
         )
-        types = types_of_service(node, service)
+        types = graph.types_of_service(node, service)
     for name in types:
         print(name)
     return 0 if types else 1

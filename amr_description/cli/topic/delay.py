@@ -16,7 +16,7 @@ from amr_description.cli.arguments import add_node_arguments, positive_int
 from amr_description.errors import AmrError
 
 _WINDOW = 10000
-_AGES = 1e8  # s; no message takes three years, but simulation time begins in 1970
+_OTHER_CLOCK_DELAY = 1e8  # s; three years: one of the two is simulation time
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -47,15 +47,15 @@ def main(args: Namespace) -> int:
             if not meter.add(clock.now().nanoseconds, stamp_of(message)):
                 print('time has reset, resetting counters')
 
-        told = False
+        has_warned = False
 
         def report() -> None:
-            nonlocal told
+            nonlocal has_warned
             delay = meter.report()
             if delay is not None:
                 print(delay)
-                if abs(delay.mean) > _AGES and not told:
-                    told = True
+                if abs(delay.mean) > _OTHER_CLOCK_DELAY and not has_warned:
+                    has_warned = True
                     print(_other_clock(topic.name, args.use_sim_time), file=sys.stderr)
             elif meter.started:
                 print('no new messages')
@@ -76,12 +76,12 @@ def _other_clock(topic: str, use_sim_time: bool) -> str:
 
 def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
     """
-    Return what reads the stamp, ns, out of a serialized message.
+    Return a function that reads the stamp, ns, from a serialized message.
 
-    A header that comes first is read alone: the whole of a large image takes longer to read than
-    to arrive.
+    If the header comes first, only it is decoded: to decode a large image takes longer than its
+    transport.
 
-    :raises AmrError: Messages of this class have no header.
+    Raises AmrError if messages of this class have no header.
     """
     from rclpy.serialization import deserialize_message
     from rclpy.time import Time

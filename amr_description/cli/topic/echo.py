@@ -109,7 +109,7 @@ def _add_appearance(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print messages until ``--once``, ``--timeout`` or Ctrl-C; 0 for the first two."""
     from amr_description.cli import graph
-    from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.ros.message_types import message_type
@@ -125,7 +125,7 @@ def main(args: Namespace) -> int:
         )
         type_name = args.message_type or graph.only_type_of(session.node, topic)
         message_class = message_type(type_name)
-        Mismatch(session.node, topic, message_class, publishing=False).tell()
+        TypeMismatchReporter(session.node, topic, message_class, publishing=False).report()
         printed = _subscribe(session, args, topic, message_class)
         session.serve(lambda: args.once and printed(), args.timeout)
     return 0
@@ -134,7 +134,7 @@ def main(args: Namespace) -> int:
 def _subscribe(
     session: 'Session', args: Namespace, topic: str, message_class: Any
 ) -> Callable[[], bool]:
-    """Have the messages printed; return what tells whether one was."""
+    """Print the messages; return a function that tells whether one was printed."""
     from rclpy.event_handler import SubscriptionEventCallbacks
 
     from amr_description.cli import qos

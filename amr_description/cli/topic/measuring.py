@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``ros2 topic hz``, ``bw`` and ``delay`` share: a topic waited for, heard, reported on."""
+"""What ``ros2 topic hz``, ``bw`` and ``delay`` share: they wait for a topic, and report on it."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -21,27 +21,27 @@ _PERIOD = 1.0  # s
 
 @dataclass(frozen=True)
 class MeasuredTopic:
-    """A topic that is there, by its absolute name."""
+    """A topic of the graph; ``name`` is absolute."""
 
     session: Session
     name: str
     message_class: Any
 
     def subscribe(self, receive: Callable[[Any], None], *, raw: bool = True) -> None:
-        """Have ``receive`` called with each message, or its bytes if ``raw``."""
+        """Call ``receive`` with each message, or with its bytes if ``raw``."""
         self.session.node.create_subscription(
             self.message_class, self.name, receive, qos_profile_sensor_data, raw=raw
         )
 
     def every_second(self, report: Callable[[], None]) -> None:
-        """Have ``report`` called once a second, also while simulation time stands still."""
+        """Call ``report`` once per second, also while simulation time is stopped."""
         clock = Clock(clock_type=ClockType.STEADY_TIME)
         self.session.node.create_timer(_PERIOD, report, clock=clock)
 
 
 @contextmanager
 def measured_topic(name: str, *, use_sim_time: bool) -> Iterator[MeasuredTopic]:
-    """Yield a topic once it is there, and serve its callbacks until Ctrl-C. Raises AmrError."""
+    """Yield a topic once it is there, then run callbacks until Ctrl-C. Raises AmrError."""
     with open_session(use_sim_time=use_sim_time, executor=EventsExecutor) as session:
         topic = full_name(session.node, name)
         message_class = message_type(graph.wait_for_type(session, topic))

@@ -27,12 +27,12 @@ from amr_description.errors import AmrError
 if TYPE_CHECKING:
     from rclpy.publisher import Publisher
 
-    from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.session import Session
 
-# s, at most. A subscriber learns of us up to 0.1 s later than we of it, on a busy machine still
-# later, and what a publisher that is gone sent too early is lost. (Fast DDS's confirmation comes
-# within 0.1 s or with the next heartbeat, after 3 s, although the message arrived at once.)
+# s, at most. A subscriber discovers us up to 0.1 s after we have discovered it, on a busy machine
+# even later, and until then messages of a publisher that ends are lost. (Fast DDS acknowledges
+# within 0.1 s, or with the next heartbeat after 3 s, although the message has arrived at once.)
 _DELIVERY_TIME = 0.5
 
 
@@ -115,7 +115,7 @@ def main(args: Namespace) -> int:
 
     from amr_description.cli import qos
     from amr_description.cli.message_fields import set_fields
-    from amr_description.cli.mismatch import Mismatch
+    from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_mapping
@@ -134,7 +134,7 @@ def main(args: Namespace) -> int:
     with open_session(name=args.node_name, use_sim_time=args.use_sim_time) as session:
         topic = full_name(session.node, args.topic_name)
         publisher = session.node.create_publisher(type(message), topic, qos.from_flags(args))
-        others = Mismatch(session.node, topic, type(message), publishing=True)
+        others = TypeMismatchReporter(session.node, topic, type(message), publishing=True)
         _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)
         print('publisher: beginning loop')
         _Loop(session, publisher, message, stamps, args.print).run(times, args.rate, others)
@@ -148,9 +148,9 @@ def _wait_for_subscriptions(
     publisher: 'Publisher',
     awaited: int,
     timeout: float | None,
-    others: 'Mismatch',
+    others: 'TypeMismatchReporter',
 ) -> None:
-    """Wait until so many subscriptions match; say so every second. Raises AmrError."""
+    """Wait for this many matching subscriptions; print that every second. Raises AmrError."""
 
     def matched() -> bool:
         return publisher.get_subscription_count() >= awaited
@@ -165,11 +165,11 @@ def _wait_for_subscriptions(
             )
         session.spin(matched, min(left, 1.0))
         left -= 1.0
-        others.tell()
+        others.report()
 
 
 class _Loop:
-    """Publishes one message again and again."""
+    """Publishes one message repeatedly."""
 
     def __init__(
         self,
@@ -186,14 +186,14 @@ class _Loop:
         self._print_every = print_every
         self._count = 0
 
-    def run(self, times: int, rate: float, others: 'Mismatch') -> None:
-        """Publish at once and then at ``rate``, Hz: ``times`` times, or for ever if that is 0."""
+    def run(self, times: int, rate: float, others: 'TypeMismatchReporter') -> None:
+        """Publish at once, then at ``rate`` (Hz): ``times`` times; 0: without limit."""
         self._publish()
         if times == 1:
             return
         node = self._session.node
         timer = node.create_timer(1.0 / rate, self._publish)
-        watch = node.create_timer(1.0, others.tell)
+        watch = node.create_timer(1.0, others.report)
         self._session.serve(lambda: 0 < times <= self._count)
         node.destroy_timer(watch)
         node.destroy_timer(timer)

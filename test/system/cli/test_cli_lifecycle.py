@@ -9,7 +9,7 @@ from fixtures.cli.commands import ros2, running_node, started
 from lifecycle_msgs.msg import Transition
 import pytest
 
-from amr_description.cli.lifecycle.managed import explain_absence
+from amr_description.cli.lifecycle.managed import explain_no_lifecycle
 from amr_description.cli.lifecycle.set import chosen
 from amr_description.errors import AmrError
 
@@ -92,10 +92,10 @@ def test_an_unknown_node_gets_one_line(words):
 
 def test_why_a_node_is_not_found():
     nodes = {'/a': False, '/_b': True}
-    assert explain_absence('/a', nodes, []) == (
+    assert explain_no_lifecycle('/a', nodes, []) == (
         "Node not found: '/a' has no lifecycle; no node has one"
     )
-    assert '--include-hidden-nodes would consider it' in explain_absence('/_b', nodes, ['/c'])
+    assert '--include-hidden-nodes would consider it' in explain_no_lifecycle('/_b', nodes, ['/c'])
 
 
 def test_a_label_goes_before_a_number():

@@ -7,7 +7,7 @@ import signal
 from fixtures.cli.commands import ros2, running_node, shell, started
 import pytest
 
-from amr_description.cli.services import explain_absence
+from amr_description.cli.graph import explain_absent_service
 from amr_description.errors import AmrError
 from amr_description.ros.message_types import action_type, message_type, service_type, type_name
 
@@ -123,13 +123,13 @@ def test_a_pipe_may_be_closed(fixture_node, tmp_path):
 
 def test_why_nobody_answers():
     known = [('/set_it', ['a/srv/A', 'a/srv/Ours']), ('/trig', ['a/srv/B'])]
-    assert explain_absence('/set_it', 'a/srv/Ours', known) == (
+    assert explain_absent_service('/set_it', 'a/srv/Ours', known) == (
         'you call /set_it as a/srv/Ours, but it is a/srv/A; use that'
     )
-    assert explain_absence('/trg', 'a/srv/B', known) == (
+    assert explain_absent_service('/trg', 'a/srv/B', known) == (
         'there is no service /trg; did you mean /trig?'
     )
-    assert explain_absence('/else', 'a/srv/B', [*known, ('/else', ['a/srv/B'])]) == ''
+    assert explain_absent_service('/else', 'a/srv/B', [*known, ('/else', ['a/srv/B'])]) == ''
 
 
 @pytest.mark.parametrize(
