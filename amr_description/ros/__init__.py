@@ -7,6 +7,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``runtime.py``          start, spin and end a program; exit codes
 ``signals.py``          SIGINT, SIGTERM, SIGHUP and the end of the bring-up as one request to stop
 ``discovery.py``        have Fast DDS find other processes at once
+``transport.py``        have Fast DDS send by UDP, so that no killed process holds us up
 ``rclpy_internals.py``  the private members of rclpy that are used, and nothing else uses
 
 ``arguments.py``        ROS arguments of a command line; a robot description named there

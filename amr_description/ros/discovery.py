@@ -19,17 +19,9 @@ import os
 from pathlib import Path
 
 PROFILE = Path(__file__).with_suffix('.xml')
+"""The limit by itself; the profiles of ``transport.py`` have it too."""
+
 _SUPER_CLIENT = 'ROS_SUPER_CLIENT'
-_VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
-
-
-def use_quick_discovery() -> None:
-    """
-    Have the participant of this process, made with its first node, and those of its children use
-    the profile. A user's own profile is left alone.
-    """
-    if not any(os.environ.get(variable) for variable in _VARIABLES):
-        os.environ[_VARIABLES[0]] = str(PROFILE)
 
 
 def use_whole_graph() -> None:

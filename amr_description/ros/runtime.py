@@ -58,7 +58,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from amr_description.errors import AmrError, ParameterError
-from amr_description.ros.discovery import use_quick_discovery, use_whole_graph
+from amr_description.ros.discovery import use_whole_graph
 from amr_description.ros.rclpy_internals import (
     cancel_tasks,
     destroy_type_description_service,
@@ -67,6 +67,7 @@ from amr_description.ros.rclpy_internals import (
     UnknownROSArgsError,
 )
 from amr_description.ros.signals import StopRequested, StopRequests
+from amr_description.ros.transport import udp_only
 from amr_description.text import unwrap
 
 # Only a bound, s: messages, timers and Executor.wake() end the wait at once.
@@ -134,9 +135,8 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
     """
     with StopRequests(wake=rclpy.try_shutdown) as stop:
         try:
-            use_quick_discovery()
             use_whole_graph()
-            with argument_errors():
+            with argument_errors(), udp_only():
                 rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
             yield stop
         finally:

@@ -46,7 +46,8 @@ from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
-from amr_description.ros.discovery import use_quick_discovery, use_whole_graph
+from amr_description.ros.discovery import use_whole_graph
+from amr_description.ros.transport import udp_only
 from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import own_domain, simulator
 from amr_description.testing.readings import Joint, Motion
@@ -155,10 +156,10 @@ class Simulation:
 
     def _ros(self, stack: ExitStack) -> Context:
         """Make a context and a node; the test may have initialised rclpy itself, or not."""
-        use_quick_discovery()
         use_whole_graph()
         context = Context()
-        rclpy.init(args=[], context=context)
+        with udp_only():
+            rclpy.init(args=[], context=context)
         stack.callback(context.try_shutdown)
         executor = SingleThreadedExecutor(context=context)
         stack.callback(executor.shutdown)

@@ -1,0 +1,83 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Have Fast DDS use UDP alone: no participant of ours shares memory with another process.
+
+The shared-memory transport of Fast DDS 2.14 guards its ports by mutexes in ``/dev/shm`` that are
+not robust: a process that is killed while it holds one, or while it makes a port, leaves it so for
+ever. Whoever publishes to that port then waits for 2 s, or for good. rclpy keeps the interpreter's
+lock while it publishes, so every thread of the process waits with it: control loop, services,
+signal handlers, any watchdog in Python; a publishing thread does not help, and only SIGKILL ends
+the process. Sending by UDP waits for nobody: what a receiver, or a network, cannot take is
+dropped, and sent again if reliable.
+
+Peers that have shared memory as well are reached by UDP. Of images of 0.9 MB at 30 Hz, best
+effort, 93 % arrived by UDP, and 28 % through a shared segment of 0.5 MB, as is the default; the
+processor time is the same. The sockets ask for buffers of 4 MB, and get what ``net.core.rmem_max``
+grants.
+
+``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`` has rmw_fastrtps_cpp add a shared-memory transport of
+its own to whatever a profile says. So rclpy is initialised with the range SUBNET instead, together
+with a profile that keeps discovery on this host as LOCALHOST does.
+
+==================================  =================================================
+what the user has set               what holds
+==================================  =================================================
+nothing of the below                ``udp.xml``, with LOCALHOST ``udp_localhost.xml``
+``FASTDDS_BUILTIN_TRANSPORTS``      that, and ``discovery.xml``
+``FASTRTPS_DEFAULT_PROFILES_FILE``  that file, and nothing of ours
+==================================  =================================================
+
+This module imports no rclpy.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import os
+from pathlib import Path
+
+from amr_description.ros.discovery import PROFILE
+
+UDP = Path(__file__).with_name('udp.xml')
+UDP_LOCALHOST = Path(__file__).with_name('udp_localhost.xml')
+
+_PROFILE_VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
+_TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
+_RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+_LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'  # deprecated; 1 wins over the range and over static peers
+_OURS = {str(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST)}
+
+
+@contextmanager
+def udp_only() -> Iterator[None]:
+    """
+    Inside, initialise a context of rclpy; its participant will have no shared memory.
+
+    The profile stays in the environment: Fast DDS reads it when the first node is made.
+    """
+    theirs = {os.environ.get(variable, '') for variable in _PROFILE_VARIABLES} - _OURS - {''}
+    if theirs:
+        yield
+    elif os.environ.get(_TRANSPORTS):
+        os.environ[_PROFILE_VARIABLES[0]] = str(PROFILE)
+        yield
+    else:
+        changes = _changes(os.environ.get(_LOCALHOST_ONLY), os.environ.get(_RANGE))
+        os.environ[_PROFILE_VARIABLES[0]] = str(UDP_LOCALHOST if changes else UDP)
+        previous = {variable: os.environ.get(variable) for variable in changes}
+        os.environ.update(changes)
+        try:
+            yield
+        finally:
+            for variable, value in previous.items():
+                if value is None:
+                    del os.environ[variable]
+                else:
+                    os.environ[variable] = value
+
+
+def _changes(localhost_only: str | None, discovery_range: str | None) -> dict[str, str]:
+    """What to tell rcl where the user keeps discovery on this host; elsewhere nothing."""
+    if localhost_only == '1':
+        return {_LOCALHOST_ONLY: '0', _RANGE: 'SUBNET', 'ROS_STATIC_PEERS': ''}
+    return {_RANGE: 'SUBNET'} if discovery_range == 'LOCALHOST' else {}

@@ -1,0 +1,130 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Participants without shared memory, which a killed process cannot hold up."""
+
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import signal
+
+import pytest
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+from support.running_programs import PATIENCE, Program
+
+from amr_description.ros.discovery import PROFILE
+from amr_description.ros.service_calls import wait_until
+from amr_description.ros.transport import UDP, UDP_LOCALHOST, udp_only
+
+VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
+RANGE, LOCALHOST_ONLY = 'ROS_AUTOMATIC_DISCOVERY_RANGE', 'ROS_LOCALHOST_ONLY'
+TRANSPORTS, PEERS = 'FASTDDS_BUILTIN_TRANSPORTS', 'ROS_STATIC_PEERS'
+
+
+@pytest.fixture(autouse=True)
+def untouched(monkeypatch):
+    """Nothing set by the user but the range, this host; all is as before in the end."""
+    for variable in (*VARIABLES, LOCALHOST_ONLY, TRANSPORTS, PEERS):
+        monkeypatch.setenv(variable, '')  # what is deleted below comes back as it was
+        monkeypatch.delenv(variable)
+    monkeypatch.setenv(RANGE, 'LOCALHOST')
+
+
+def test_localhost_is_kept_by_the_profile_as_rmw_would_add_shared_memory_to_it():
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
+        assert os.environ[RANGE] == 'SUBNET'
+    assert os.environ[RANGE] == 'LOCALHOST'
+    with udp_only():  # what a parent of ours has left is not the user's
+        assert os.environ[RANGE] == 'SUBNET'
+
+
+@pytest.mark.parametrize('discovery_range', ['SUBNET', 'OFF', 'SYSTEM_DEFAULT', None])
+def test_another_range_stays(monkeypatch, discovery_range):
+    if discovery_range is None:
+        monkeypatch.delenv(RANGE)
+    else:
+        monkeypatch.setenv(RANGE, discovery_range)
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP)
+        assert os.environ.get(RANGE) == discovery_range
+
+
+def test_the_old_variable_for_localhost_counts_as_well(monkeypatch):
+    monkeypatch.delenv(RANGE)
+    monkeypatch.setenv(LOCALHOST_ONLY, '1')
+    monkeypatch.setenv(PEERS, '10.0.0.1')
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
+        assert (os.environ[LOCALHOST_ONLY], os.environ[PEERS]) == ('0', '')
+    assert (os.environ[LOCALHOST_ONLY], os.environ[PEERS]) == ('1', '10.0.0.1')
+    assert RANGE not in os.environ
+
+
+@pytest.mark.parametrize('variable', VARIABLES)
+def test_a_profile_of_the_users_stays(monkeypatch, variable):
+    monkeypatch.setenv(variable, '/their/profile.xml')
+    with udp_only():
+        assert os.environ[RANGE] == 'LOCALHOST'
+        assert {os.environ.get(each) for each in VARIABLES} == {'/their/profile.xml', None}
+
+
+def test_transports_of_the_users_stay(monkeypatch):
+    monkeypatch.setenv(TRANSPORTS, 'LARGE_DATA')
+    with udp_only():
+        assert os.environ[RANGE] == 'LOCALHOST'
+        assert os.environ[VARIABLES[0]] == str(PROFILE)
+
+
+@pytest.mark.parametrize('profile', [PROFILE, UDP, UDP_LOCALHOST])
+def test_every_profile_listens_before_it_announces(profile):
+    assert '<throughputController>' in profile.read_text(encoding='utf-8')
+
+
+@pytest.mark.parametrize('discovery_range', ['LOCALHOST', 'SUBNET'])
+def test_a_program_maps_no_shared_memory_and_fast_dds_has_no_complaint(discovery_range):
+    with Program.module('talker', env={RANGE: discovery_range}) as talker:
+        talker.expect('Hello World: 0')
+        assert 'XML' not in talker.output
+        maps = Path(f'/proc/{talker.process.pid}/maps').read_text(encoding='utf-8')
+        assert 'librmw_fastrtps_cpp' in maps
+        assert '/dev/shm/fastrtps' not in maps
+
+
+def test_programs_with_shared_memory_are_reached():
+    rclpy.init(args=[])  # as any program does
+    try:
+        node, heard = Node('any_program'), []
+        assert '/dev/shm/fastrtps' in Path('/proc/self/maps').read_text(encoding='utf-8')
+        node.create_subscription(String, 'topic', heard.append, 10)
+        with Program.module('talker'):
+            assert wait_until(node, lambda: heard or None, timeout=PATIENCE)
+        node.destroy_node()
+    finally:
+        rclpy.try_shutdown()
+
+
+def test_ports_that_killed_processes_left_half_made_hold_nobody_up():
+    with half_made_ports(), Program.module('talker') as talker:
+        talker.expect('Hello World: 1')
+        assert talker.end(signal.SIGINT) == 0
+
+
+@contextmanager
+def half_made_ports():
+    """
+    The ports of the next participants of the domain, as one that is killed may leave them.
+
+    Whoever has shared memory waits for good, as for somebody who is about to fill them.
+    """
+    first = 7400 + 250 * int(os.environ['ROS_DOMAIN_ID']) + 11
+    paths = [Path(f'/dev/shm/fastrtps_port{first + 2 * number}') for number in range(16)]
+    made = [path for path in paths if not path.exists()]
+    for path in made:
+        path.write_bytes(bytes(52400))
+    try:
+        yield
+    finally:
+        for path in made:
+            path.unlink()
