@@ -25,13 +25,18 @@ from rclpy.node import Node
 from amr_description.ros.arguments import inherited, ros_arguments
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
+from amr_description.ros.service_calls import wait_for_clients
 from amr_description.sim.ros import (
     entity_services,
     simulation_services,
     spawn_services,
 )
 from amr_description.sim.ros.entity_services import EntityServices
-from amr_description.sim.ros.simulation import Simulation, SimulationParameters
+from amr_description.sim.ros.simulation import (
+    Simulation,
+    SimulationParameters,
+    SimulationState,
+)
 from amr_description.sim.ros.simulation_services import SimulationServices, WorldServices
 from amr_description.sim.ros.spawn_services import SpawnServices
 from amr_description.sim.ros.world_markers import publish_world
@@ -88,6 +93,8 @@ def simulate(args: list[str] | None) -> int:
         executor.add_node(sim.node)
         try:
             serve(executor, stop, simulation.start, until=lambda: simulation.has_ended)
+            if simulation.state is SimulationState.QUITTING:
+                wait_for_clients(sim.node, '~/set_simulation_state')
         finally:
             sim.close()
             executor.shutdown()

@@ -18,6 +18,12 @@ from amr_description.ros.runtime import argument_errors
 _POLL = 0.05
 """s: how soon a change of the graph is seen; messages and responses are seen at once."""
 
+_GRAPH_POLL = 0.01
+"""s between two looks at the graph alone."""
+
+_LAST_ANSWER = 0.2
+"""s for which the answer of a server that is gone may still wait behind other messages."""
+
 
 class NoAnswerError(AmrError):
     """A service did not answer in time."""
@@ -137,6 +143,19 @@ def call_with(
     )
 
 
+def wait_for_clients(node: Node, service: str, timeout: float = 0.5) -> None:
+    """
+    Before the end of a node whose last deed was an answer: wait until it has been taken.
+
+    rclpy cannot tell when a response is acknowledged. A client that was made for one call is gone
+    when it has it; of one that stays nothing is known, and ``timeout`` s are enough to send a
+    response again that was lost. ``service`` may be a name such as ``~/set_state``.
+    """
+    deadline = time.monotonic() + timeout
+    while node.count_clients(service) and time.monotonic() < deadline:
+        time.sleep(_GRAPH_POLL)
+
+
 def _answer(
     node: Node,
     client: Client,
@@ -147,18 +166,18 @@ def _answer(
     attempts: int,
 ) -> Any:
     """Wait for the response of a service. Raises NoAnswerError."""
-    service, was_there, is_gone = client.srv_name, False, False
+    service, was_there, gone_since = client.srv_name, False, 0.0
 
     def answered_or_gone() -> Any | None:
-        nonlocal was_there, is_gone
+        nonlocal was_there, gone_since
         if (response := answered()) is not None:
             return response
-        if is_gone:
-            raise NoAnswerError(f'service {service} went away before it answered')
-        is_there = client.service_is_ready()
-        # Who answers as its last deed is gone before the response is taken: look once more.
-        is_gone = was_there and not is_there
-        was_there = is_there
+        if client.service_is_ready():
+            was_there, gone_since = True, 0.0
+        elif was_there:
+            gone_since = gone_since or time.monotonic()
+            if time.monotonic() - gone_since > _LAST_ANSWER:
+                raise NoAnswerError(f'service {service} went away before it answered')
         return None
 
     for attempt in range(1, attempts + 1):

@@ -13,7 +13,12 @@ from std_srvs.srv import Trigger
 from support.manager_host import ros_in_this_process
 from support.ros_processes import PATIENCE
 
-from amr_description.ros.service_calls import ask_until_answered, call, NoAnswerError
+from amr_description.ros.service_calls import (
+    ask_until_answered,
+    call,
+    call_with,
+    NoAnswerError,
+)
 
 
 class Server(Node):
@@ -33,6 +38,30 @@ class Server(Node):
             self.destroy_service(self.service)
         response.message = await self.answer
         return response
+
+
+class ClientOfTheDeparted:
+    """Its server is there at the first two looks; the response is ready some looks later."""
+
+    srv_name = '/departed'
+
+    def __init__(self, looks):
+        self.looks = looks
+        self.seen_ready = 0
+
+    def service_is_ready(self):
+        self.seen_ready += 1
+        return self.seen_ready <= 2
+
+    def call_async(self, _):
+        return self
+
+    def done(self):
+        self.looks -= 1
+        return self.looks < 0
+
+    def result(self):
+        return 'the last answer'
 
 
 @pytest.fixture(scope='module', autouse=True)
@@ -111,6 +140,11 @@ def test_a_server_that_goes_away_is_not_waited_for(server, caller):
     with pytest.raises(NoAnswerError, match='^service /slow went away before it answered$'):
         trigger(caller, timeout=PATIENCE)
     server.answer.set_result('late')
+
+
+def test_the_answer_of_a_server_that_is_gone_is_taken_behind_what_came_before_it(caller):
+    client = ClientOfTheDeparted(looks=3)
+    assert call_with(caller, client, Trigger.Request(), timeout=PATIENCE) == 'the last answer'
 
 
 def test_a_question_is_asked_until_it_is_answered(server, caller):
