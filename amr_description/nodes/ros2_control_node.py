@@ -74,6 +74,7 @@ class StandAloneManager:
         """Has all nodes that were made so far."""
         self._latest = self._manager_node
         self.node, self._log = self._manager_node.node, self._manager_node.log
+        self.loop_thread.log = self._log
         try:
             self._read_options()
             self._period = round(NANOSECONDS / self._manager_node.parameters.update_rate)

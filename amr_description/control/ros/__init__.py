@@ -8,6 +8,7 @@ node serves its callbacks, and submits to the control thread what concerns a man
 
 ============================== ====================================================================
 ``loop_thread.py``             the control thread, its queue of calls, and the LoopContext
+``loop_watchdog.py``           logs when the loop stands, and in which call
 ``pacing.py``                  what paces it: the wall clock, the system clock, or ``/clock``
 ``loop_publisher.py``          what a cycle publishes; acknowledgements of commands
 ``realtime.py``                priority, cores and memory of the control thread

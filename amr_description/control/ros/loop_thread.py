@@ -11,16 +11,30 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 import gc
+import os
+from pathlib import Path
+import sys
 import threading
 import traceback
+from types import FrameType
 
 from rclpy.executors import Executor
 from rclpy.task import Future
 
+from amr_description.control.contracts import Log, null_log
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_watchdog import describe_call, is_in, LoopWatchdog
 from amr_description.ros.log_thread import LogThread
+
+_STOP_PERIOD = 0.05
+"""s between two looks at a control thread that is to end."""
+
+_STOP_MOTORS = 0.2
+"""s that hardware has for it when the process ends without its control thread."""
+
+_STDERR = 2
 
 
 class CallQueue:
@@ -31,6 +45,12 @@ class CallQueue:
         self._timeout = timeout
         self._calls: deque[Callable[[], None]] = deque()
         self._arrived = threading.Event()
+        self.cycles = 0
+        """How often :meth:`take` was called, which a cycle begins with."""
+        self.has_calls = False
+        """Whether there was something to take, the last time."""
+        self.is_waiting = False
+        """Whether the control thread has nothing to do."""
 
     def put(self, call: Callable[[], None]) -> None:
         """Queue a call, and wake the control thread if it waits."""
@@ -44,7 +64,10 @@ class CallQueue:
     def take(self) -> Iterable[Callable[[], None]]:
         """Return the calls that wait; one that is put by a call is left for the next cycle."""
         self._arrived.clear()  # before the calls are taken: one put in between wakes again
-        return [self._calls.popleft() for _ in range(len(self._calls))]
+        calls = [self._calls.popleft() for _ in range(len(self._calls))]
+        self.has_calls = bool(calls)
+        self.cycles += 1
+        return calls
 
     def wait(self, timeout: float | None = None) -> bool:
         """
@@ -53,7 +76,10 @@ class CallQueue:
         Args:
             timeout: s; None: the queue's own.
         """
-        return self._arrived.wait(self._timeout if timeout is None else timeout)
+        self.is_waiting = True
+        has_arrived = self._arrived.wait(self._timeout if timeout is None else timeout)
+        self.is_waiting = False
+        return has_arrived
 
 
 class LoopThread:
@@ -80,19 +106,31 @@ class LoopThread:
         self.on_failure: Callable[[], None] = executor.wake
         self.on_start: Callable[[], None] = lambda: None
         """Called on the control thread, before the first cycle."""
+        self.log: Log = null_log
+        """Of the watchdog; set before :meth:`start`."""
         self._calls = calls
         self._executor = executor
         self._thread = threading.Thread(target=self._run, name='control_loop')
+        self._watchdog = LoopWatchdog(calls, lambda severity, text: self.log(severity, text))
 
     def start(self) -> None:
         """Start the thread."""
         self._thread.start()
 
     def stop(self) -> None:
-        """End the loop after the present cycle, if it was started, and join the thread."""
-        if self._thread.ident is not None:
-            self._calls.put(self.loop.stop)
-            self._thread.join()
+        """
+        End the loop after the present cycle, if it was started, and join the thread.
+
+        A loop that stands will not end: then the motors are stopped, as far as that is possible
+        from here, and the process ends at once, with exit code 1.
+        """
+        if self._thread.ident is None:
+            return
+        self._calls.put(self.loop.stop)
+        while self._thread.is_alive():
+            self._thread.join(_STOP_PERIOD)
+            if frame := self._watchdog.frame_standing():
+                self._abandon(frame)
 
     def fail(self) -> None:
         """End the process because of a bug; called by the thread that found it."""
@@ -153,13 +191,33 @@ class LoopThread:
         gc.freeze()
         try:
             self.on_start()
+            self._watchdog.start()
             self.loop.run()
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             traceback.print_exc()
             self.fail()
         finally:
+            self._watchdog.stop()
             for manager in self.loop.managers:
                 self._shut_down(manager)
+
+    def _abandon(self, frame: FrameType) -> None:
+        """End the process though the control thread does not come back from ``frame``."""
+        call, is_free = describe_call(frame), not is_in(frame, ControllerManager.tick)
+        if is_free:  # nobody uses the hardware now
+            stopping = threading.Thread(target=self._stop_motors, daemon=True)
+            stopping.start()
+            stopping.join(_STOP_MOTORS)
+        line = (
+            f'[FATAL] [{Path(sys.argv[0]).stem}]: the control loop stands in {call}; this process '
+            f'ends without it; motors: {"stopped" if is_free else "left to their own watchdog"}\n'
+        )
+        os.write(_STDERR, line.encode())
+        os._exit(1)
+
+    def _stop_motors(self) -> None:
+        for manager in self.loop.managers:
+            manager.resources.shut_down()
 
     def _shut_down(self, manager: ControllerManager) -> None:
         """Stop one robot; whatever it raises, the next one has to be stopped too."""

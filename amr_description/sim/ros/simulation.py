@@ -139,6 +139,7 @@ class Simulation:
             self._pacer = WallPacer(parameters.real_time_factor, calls)
             profiler = LoopProfiler(self.log, self.world, self._pacer, publisher)
             self.loop_thread = LoopThread(calls, executor)
+            self.loop_thread.log = self.log
             self.loop_thread.loop = Loop(profiler, profiler, calls, profiler, CLOCK_PERIOD)
             self._pauses_on_fault = parameters.on_fault == 'pause'
             self.world.faults.on_fault = lambda: calls.put(self._on_fault)
