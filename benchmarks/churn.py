@@ -207,9 +207,9 @@ class Churn:
             reader.close()
         if stuck:
             self.stuck += len(stuck)
-            self._remove_ports()
+            self.remove_ports()
 
-    def _remove_ports(self) -> None:
+    def remove_ports(self) -> None:
         """
         Take away the ports of the domain in shared memory: readers wait for a dead one in them.
 

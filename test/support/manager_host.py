@@ -19,6 +19,7 @@ from amr_description.control.ros.loop_thread import CallQueue, LoopContext, Loop
 from amr_description.control.ros.pacing import WallPacer
 from amr_description.model.hardware_info import HardwareInfo, HardwareType
 from amr_description.ros.log_thread import LogThread
+from amr_description.ros.transport import udp_only
 
 PERIOD = 10_000_000
 YAML = f"""
@@ -141,8 +142,9 @@ def running_host(folder: Path):
 
 @contextmanager
 def ros_in_this_process():
-    """Have rclpy initialised while inside."""
-    rclpy.init(args=[])
+    """Have rclpy initialised while inside, as our programs do."""
+    with udp_only():
+        rclpy.init(args=[])
     try:
         yield
     finally:

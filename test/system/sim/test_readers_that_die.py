@@ -21,15 +21,16 @@ STANDS = 1.5
 """s without /clock: dead readers cost 2 s or more, a busy machine hopefully less."""
 
 
-@pytest.fixture(scope='module', autouse=True)
-def no_leftovers():
-    """Take away what killed readers leave, as the bring-up does."""
-    yield
+@pytest.fixture
+def churn():
+    """The readers; what the killed ones have left is taken away, as others would wait for it."""
+    churn = Churn(seed=1, domain=int(os.environ['ROS_DOMAIN_ID']))
+    yield churn
+    churn.remove_ports()
     remove_unused_segments(settled=0.0)
 
 
-def test_readers_that_are_killed_hold_nothing_up():
-    churn = Churn(seed=1, domain=int(os.environ['ROS_DOMAIN_ID']))
+def test_readers_that_are_killed_hold_nothing_up(churn):
     with simulator(1.0) as process, ros([]):
         node = Node('clock_observer')
         observer = ClockObserver(node, process.pid)
