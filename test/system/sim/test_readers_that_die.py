@@ -27,7 +27,7 @@ def churn():
     churn = Churn(seed=1, domain=int(os.environ['ROS_DOMAIN_ID']))
     yield churn
     churn.remove_ports()
-    remove_unused_segments(settled=0.0)
+    remove_unused_segments()
 
 
 def test_readers_that_are_killed_hold_nothing_up(churn):
