@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A table as a stranger's module may write it: annotations are text at run time."""
+"""A table as a third-party module may write it: annotations are text at run time."""
 
 from __future__ import annotations
 

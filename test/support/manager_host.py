@@ -35,8 +35,8 @@ controller_manager:
     rival_1: {{type: diff_drive_controller/DiffDriveController}}
     rival_2: {{type: diff_drive_controller/DiffDriveController}}
     wrong_number: {{type: diff_drive_controller/DiffDriveController}}
-    slow: {{type: strangers/Slow}}
-    broken: {{type: strangers/Broken}}
+    slow: {{type: third_party/Slow}}
+    broken: {{type: third_party/Broken}}
     nowhere: {{type: no_such_package/Nothing}}
 /**:
   ros__parameters:

@@ -23,15 +23,15 @@ def open_socket(url, subprotocols=(SUBPROTOCOL,), **options):
 def deaf(url):
     """A page's socket that nobody reads."""
     parts = urlsplit(url)
-    stranger = socket.create_connection((parts.hostname, parts.port), PATIENCE)
-    stranger.sendall(
+    client = socket.create_connection((parts.hostname, parts.port), PATIENCE)
+    client.sendall(
         (
             f'GET /ws HTTP/1.1\r\nHost: {parts.netloc}\r\nUpgrade: websocket\r\n'
             'Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n'
             f'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SUBPROTOCOL}\r\n\r\n'
         ).encode()
     )
-    return stranger
+    return client
 
 
 class Page:

@@ -35,7 +35,7 @@ def ros():
 @pytest.fixture
 def host(ros, tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(FIXTURES))
-    monkeypatch.delitem(sys.modules, 'strangers', raising=False)
+    monkeypatch.delitem(sys.modules, 'third_party', raising=False)
     with running_host(tmp_path) as host:
         yield host
 
@@ -95,12 +95,12 @@ def test_nodes_say_sim_time_but_do_not_subscribe_to_the_clock(host):
 
 def test_a_slow_configure_keeps_nobody_waiting(host):
     assert host.client.load('slow')
-    import strangers
+    import third_party
 
     future = host.client_node.create_client(
         srv.ConfigureController, '/controller_manager/configure_controller'
     ).call_async(srv.ConfigureController.Request(name='slow'))
-    assert strangers.Slow.configuring.wait(5.0)
+    assert third_party.Slow.configuring.wait(5.0)
     assert host.client.states() == {'slow': 'unconfigured'}
     reads = host.hardware.count('read')
     host.activate('joint_state_broadcaster')
@@ -110,7 +110,7 @@ def test_a_slow_configure_keeps_nobody_waiting(host):
     assert not host.client.unload('slow')
     assert 'it is being configured' in host.client.reasons('slow')
     assert not future.done()
-    strangers.Slow.let.set()
+    third_party.Slow.let.set()
     rclpy.spin_until_future_complete(host.client_node, future, timeout_sec=5.0)
     assert future.result().ok
     assert host.client.states()['slow'] == 'inactive'
@@ -121,7 +121,7 @@ def test_a_slow_configure_keeps_nobody_waiting(host):
     [
         ('unheard_of', 'no type is set for it; the parameters of /controller_manager hold one'),
         ('nowhere', "controller type 'no_such_package/Nothing' is not known"),
-        ('broken', "load controller 'broken': ValueError: a stranger made a mistake"),
+        ('broken', "load controller 'broken': ValueError: a mistake of a third party"),
         ('wrong_number', "'wheel_radius' to '1' of type 'INTEGER', expecting type 'DOUBLE'"),
     ],
 )
@@ -254,7 +254,7 @@ def test_a_failing_cycle_of_the_loop_ends_the_process_with_the_motors_stopped(ho
 
 
 def test_converters_that_fail_end_nothing(host, capfd):
-    host.client.set_parameters('babbler', {'type': 'strangers/Babbler'})
+    host.client.set_parameters('babbler', {'type': 'third_party/Babbler'})
     host.activate('babbler')
     publisher = host.client_node.create_publisher(String, '/babbler/heard', 1)
 
@@ -272,7 +272,7 @@ def test_converters_that_fail_end_nothing(host, capfd):
 
 
 def test_a_controller_whose_topics_cannot_be_made_is_not_configured(host):
-    host.client.set_parameters('lost', {'type': 'strangers/Lost'})
+    host.client.set_parameters('lost', {'type': 'third_party/Lost'})
     assert host.client.load('lost')
     assert not host.client.configure('lost')
     reason = host.client.reasons('lost')
@@ -283,10 +283,10 @@ def test_a_controller_whose_topics_cannot_be_made_is_not_configured(host):
 
 def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
     def break_down(*_):
-        raise ZeroDivisionError('a stranger')
+        raise ZeroDivisionError('a third party')
 
     monkeypatch.setattr(host.running.manager, 'switch', break_down)
-    assert host.client.switch(activate=['any']) == 'ZeroDivisionError: a stranger'
+    assert host.client.switch(activate=['any']) == 'ZeroDivisionError: a third party'
 
 
 def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
@@ -329,7 +329,7 @@ def test_an_update_rate_that_cannot_be_is_refused(ros, tmp_path, rate, reason):
 def test_libraries_are_reloaded_once_nothing_runs_or_by_force(host, tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     source = tmp_path / 'edited.py'
-    template = 'from strangers import Slow\n\nclass Edited(Slow):\n    {body}\n'
+    template = 'from third_party import Slow\n\nclass Edited(Slow):\n    {body}\n'
     source.write_text(template.format(body='configure = print'))
     host.client.set_parameters('edited', {'type': 'edited/Edited'})
     host.activate('joint_state_broadcaster', 'edited')

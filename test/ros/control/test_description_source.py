@@ -79,12 +79,12 @@ def test_it_says_what_it_waits_for_until_a_description_comes(wire):
 
 def test_what_cannot_be_used_is_refused_and_the_next_one_is_taken(wire):
     source = DescriptionSource(wire.node, wire.log, wire.take)
-    wire.refusals = [HardwareError('no such device'), ValueError('a stranger')]
+    wire.refusals = [HardwareError('no such device'), ValueError('a third party')]
     for text, reason in (
         ('<robot', 'robot_description:1'),
         ('<robot name="cart"><link name="base"/></robot>', 'has no <ros2_control> block'),
         (GOOD, 'no such device'),
-        (GOOD, 'ValueError: a stranger'),
+        (GOOD, 'ValueError: a third party'),
     ):
         wire.publisher.publish(String(data=text))
         wire.said(reason, FAILED)

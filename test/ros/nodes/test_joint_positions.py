@@ -152,7 +152,7 @@ def test_a_mimic_of_what_does_not_move_is_refused(parent):
 
 def test_sources_move_what_is_free_and_known_and_is_a_number():
     joints = joints_of(*CHAIN, ('last', 'continuous', ''))
-    joints.set(['stranger', 'second', 'last', 'first'], [1.0, 2.0, math.nan, 0.5])
+    joints.set(['unknown', 'second', 'last', 'first'], [1.0, 2.0, math.nan, 0.5])
     assert positions(joints) == pytest.approx(
         {'first': 0.5, 'second': 1.1, 'third': -1.1, 'last': 0.0}
     )

@@ -101,8 +101,8 @@ def test_transforms_are_sorted_by_joint_and_each_link_is_told_once():
 
 def test_only_the_joints_of_the_message_are_told():
     state = robot_of(joint('one', 'a', 'b'), joint('two', 'a', 'c'), *REST, joint('d', 'a', 'd'))
-    assert set(angles(state.moving({'two': 1.0, 'stranger': 1.0}))) == {'c'}
-    assert state.moving({'stranger': 1.0}) == []
+    assert set(angles(state.moving({'two': 1.0, 'unknown': 1.0}))) == {'c'}
+    assert state.moving({'unknown': 1.0}) == []
     assert state.moving({}) == []
 
 
@@ -280,13 +280,13 @@ def test_a_message_is_due_when_one_of_its_joints_is():
     throttle = Throttle()
     throttle.note(['wheel'], 100, 50)
     assert not throttle.admit(['wheel'], 149)
-    assert throttle.admit(['wheel', 'stranger'], 149)
+    assert throttle.admit(['wheel', 'unknown'], 149)
 
 
 def test_a_joint_that_is_published_early_with_another_waits_for_a_whole_period():
     throttle = Throttle()
     throttle.note(['wheel'], 100, 50)
-    throttle.note(['wheel', 'stranger'], 120, 50)
+    throttle.note(['wheel', 'unknown'], 120, 50)
     assert not throttle.admit(['wheel'], 169)
     assert throttle.admit(['wheel'], 170)
 

@@ -170,7 +170,7 @@ def test_every_vendor_is_understood(read):
 
 @given(st.sampled_from(READERS), st.data())
 def test_bytes_of_nothing_are_refused(read, data):
-    """Whatever a stranger sends: a sample, or a ValueError, and soon."""
+    """Whatever a peer sends: a sample, or a ValueError, and soon."""
     rubbish = st.binary(max_size=80).map(lambda tail: bytes([0, len(tail) % 2, 0, 0]) + tail)
     whole = serialize_message(WHOLE[read])
     at = data.draw(st.integers(0, len(whole)))

@@ -166,9 +166,9 @@ def test_a_capsule_is_a_cylinder_and_two_balls(shapes):
 
 def test_foreign_markers_without_a_shape_are_ignored():
     message = MarkerArray(markers=[Marker(type=Marker.TEXT_VIEW_FACING), Marker(type=Marker.CUBE)])
-    message.markers[1].ns = 'stranger'
+    message.markers[1].ns = 'unknown'
     (seen,) = shapes_of(message)
-    assert (seen.name, seen.kind, seen.orientation) == ('stranger/0', 'box', (0, 0, 0, 1))
+    assert (seen.name, seen.kind, seen.orientation) == ('unknown/0', 'box', (0, 0, 0, 1))
 
 
 @pytest.mark.parametrize('number', [math.nan, math.inf])

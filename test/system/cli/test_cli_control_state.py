@@ -85,7 +85,7 @@ def test_a_load_that_fails_says_why(host, tmp_path):
     assert (code, said) == (1, '')
     assert error.startswith(f'Controller : {JOINTS} parameters not found in parameter files : [')
     code, said, error = control('load_controller', 'broken')
-    assert 'ValueError: a stranger made a mistake' not in said
+    assert 'ValueError: a mistake of a third party' not in said
     assert error.startswith(f'Failed loading controller broken {LOGS}: ')
     assert error.count('\n') == 1
 

@@ -134,7 +134,7 @@ def test_a_xacro_file_with_arguments_and_movers(start, onlooker):
     )
     onlooker.until(lambda: all(p.get_subscription_count() for p in onlooker.movers.values()))
     onlooker.move(SETTER, wrist=0.5)
-    onlooker.move('/arm', left_knuckle=0.2, right_tip=9.0, stranger=1.0)
+    onlooker.move('/arm', left_knuckle=0.2, right_tip=9.0, unknown=1.0)
     onlooker.sees(
         wrist=0.5, left_knuckle=0.2, left_tip=0.003, right_knuckle=-0.15, right_tip=-0.0005
     )

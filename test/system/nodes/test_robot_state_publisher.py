@@ -193,7 +193,7 @@ def test_unusable_joint_states_are_told_and_the_next_one_counts(start, listener,
     start(TWO_LINKS.format(kind='continuous', x=5))
     listener.say(name=['joint1'], position=[])
     listener.say(name=['joint1', 'joint2'], position=[1.0])
-    listener.say(name=['stranger'], position=[1.0])
+    listener.say(name=['unknown'], position=[1.0])
     (transform,) = listener.hear(stamp=(-3, 0))
     assert transform.header.stamp.sec == -3
     error = capfd.readouterr().err

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The node viewer against strangers, rubbish and silence; real sockets, a graph without robots."""
+"""The node viewer against foreign clients and malformed input; real sockets, no robots."""
 
 from contextlib import ExitStack, suppress
 import http.client
@@ -140,9 +140,9 @@ def test_of_two_headers_none_is_believed(url, name):
     host = urlsplit(url).netloc
     own = {'Host': host, 'Origin': f'http://{host}', 'Cookie': 'a=b'}[name]
     lines = ['GET / HTTP/1.1', *[f'Host: {host}'] * (name != 'Host'), *[f'{name}: {own}'] * 2]
-    with socket.create_connection(address(url), PATIENCE) as stranger:
-        stranger.sendall('\r\n'.join([*lines, '', '']).encode())
-        answer = b''.join(iter(lambda: stranger.recv(65536), b'')).decode()
+    with socket.create_connection(address(url), PATIENCE) as client:
+        client.sendall('\r\n'.join([*lines, '', '']).encode())
+        answer = b''.join(iter(lambda: client.recv(65536), b'')).decode()
     assert answer.startswith('HTTP/1.1 400 ')
     assert answer.endswith(f'the request has more than one {name}\n')
 
@@ -177,16 +177,16 @@ def test_a_page_of_another_version_is_refused(url, page, subprotocols):
     ],
 )
 def test_who_sends_rubbish_is_shown_the_door(url, page, frame, code, text):
-    with Page(url) as stranger:
+    with Page(url) as client:
         with ExitStack() as stack:
             if code == 1009:  # it may be shut while we still send
                 stack.enter_context(pytest.raises(Exception, match='1009|reset|pipe'))
-                stranger.socket.send(frame)
-                stranger.wait_closed()
-                stranger.socket.send(frame)
+                client.socket.send(frame)
+                client.wait_closed()
+                client.socket.send(frame)
             else:
-                stranger.socket.send(frame)
-        found, reason = stranger.wait_closed()
+                client.socket.send(frame)
+        found, reason = client.wait_closed()
         assert (found, text in reason) == (code, True)
 
 
@@ -203,19 +203,19 @@ def test_who_sends_rubbish_is_shown_the_door(url, page, frame, code, text):
     ],
 )
 def test_bytes_that_are_no_request_end_the_connection(url, page, bytes_sent):
-    with socket.create_connection(address(url), PATIENCE) as stranger:
+    with socket.create_connection(address(url), PATIENCE) as client:
         try:
-            stranger.sendall(bytes_sent)
-            while stranger.recv(65536):
+            client.sendall(bytes_sent)
+            while client.recv(65536):
                 pass
         except ConnectionError:
             pass
 
 
 def test_frames_that_are_none_end_the_connection(url, page):
-    with Page(url) as stranger:
-        stranger.socket.socket.sendall(bytes(range(200, 256)) * 50)
-        assert stranger.wait_closed()[0] in (1002, 1006)
+    with Page(url) as client:
+        client.socket.socket.sendall(bytes(range(200, 256)) * 50)
+        assert client.wait_closed()[0] in (1002, 1006)
 
 
 def test_two_hundred_idle_sockets_keep_nobody_out(url, page):

@@ -14,7 +14,7 @@ HOSTS = [
     '127.8.9.1',
     'localhost',
 ]
-STRANGERS = [
+FOREIGN_HOSTS = [
     '', 'evil.example:8080', 'localhost.evil.example', '192.168.1.5:8080', '0.0.0.0:8080',
     '[::1', 'localhost@evil.example', '127.0.0.1.evil.example:8080',
 ]  # fmt: skip
@@ -32,7 +32,7 @@ def test_this_host_may_by_any_of_its_names(host):
     assert refused(Access(), Host=host, Origin=f'http://{host}') is None
 
 
-@pytest.mark.parametrize('host', STRANGERS)
+@pytest.mark.parametrize('host', FOREIGN_HOSTS)
 def test_another_name_may_not_as_it_can_be_made_to_lead_here(host):
     status, reason = refused(Access(), Host=host, Origin=f'http://{host}')
     assert status == 421
