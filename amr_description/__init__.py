@@ -1,3 +1,31 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Drive a physically true ROS 2 robot: model, control, simulation, bring-up and command line."""
+"""
+Drive a physically true ROS 2 robot: model, control, simulation, bring-up and command line.
+
+======================  ==========================================================================
+``model/``              the robot description: URDF, xacro, ``<ros2_control>``, meshes, kinematics
+``control/``            ros2_control without ROS; in ``control/ros/`` its nodes and services
+``controllers/``        diff_drive_controller, joint_state_broadcaster and the other plugins
+``hardware/``           hardware components: MuJoCo, mock, serial
+``sim/``                MuJoCo without ROS; in ``sim/ros/`` the services of simulation_interfaces
+``tf2_ros/``            Buffer, TransformListener, broadcasters
+``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph
+``ros/``                rclpy as every node uses it
+``nodes/``              executables, one a ``ros2 run amr_description NAME``
+``bringup/``            the launcher: stacks, conditions, processes
+``cli/``                the ``ros2`` command and ``check_urdf``, one file a verb
+``testing/``            a simulation in lock-step, for tests of users
+
+``errors.py``           every error that is raised on purpose
+``parameters.py``       tables of parameters: type, default, unit, bounds
+``parameter_files.py``  ROS parameter files: read, searched for a node's sections, written
+``registry.py``         names of plugins → ``module:attribute``, imported when used
+``ament_index.py``      packages, executables, ``package://`` and ``file://``
+``clock.py``            nanoseconds; messages of before a jump back in time
+``text.py``             one line, quoted, shortened; the closest known word
+``colors.py``           colors of a terminal
+``streams.py``          standard streams that are closed, full, or without a reader
+``entry.py``            where console scripts begin: Ctrl-C is quiet while libraries are imported
+======================  ==========================================================================
+"""

@@ -11,7 +11,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``diff_drive_parameters.py``      … its parameters
 ``command_reception.py``          … which velocity command is in force
 ``rate_limiter.py``               … limits of velocity, acceleration and jerk
-``odometry.py``                   … the pose, from wheels or commands
+``odometry.py``                   … wheel speeds ↔ velocity of the base; the pose
 ``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
 ``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``

@@ -330,7 +330,7 @@ WITH_A_TABLE_OF_THEIR_OWN = {'cli', 'nodes', 'stacks'}
 def has_module_table(folder: Path) -> bool:
     relative = folder.relative_to(PACKAGE).parts
     modules = [path for path in folder.glob('*.py') if not path.stem.startswith('__')]
-    return len(modules) > 2 and not set(relative) & WITH_A_TABLE_OF_THEIR_OWN and bool(relative)
+    return len(modules) > 2 and not set(relative) & WITH_A_TABLE_OF_THEIR_OWN
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The ROS face of ``control``: the ``controller_manager`` node, and the programs that ask it.
+``control`` over ROS: the ``controller_manager`` node, and the programs that ask it.
 
 Two threads: the *control thread* runs the loop, and with it every manager; the *ROS thread* of a
 node serves its callbacks, and submits to the control thread what concerns a manager.
@@ -9,8 +9,8 @@ node serves its callbacks, and submits to the control thread what concerns a man
 ============================== ====================================================================
 ``loop_thread.py``             the control thread, its queue of calls, and the LoopContext
 ``loop_watchdog.py``           logs when the loop stands, and in which call
-``pacing.py``                  what paces it: the wall clock, the system clock, or ``/clock``
-``loop_publisher.py``          what a cycle publishes; acknowledgements of commands
+``pacing.py``                  when the next cycle is due: by wall, system or received clock
+``loop_publisher.py``          publishes ``/clock`` and what controllers send, after each cycle
 ``realtime.py``                priority, cores and memory of the control thread
 
 ``controller_manager_node.py`` the node, and how a manager is brought up

@@ -4,7 +4,7 @@
 The simulator over ROS: the services of ``simulation_interfaces``, robots, and topics.
 
 ===========================  =====================================================================
-``simulation.py``            the simulation in a process: world, control thread, robots, state
+``simulation.py``            the simulation in a process: world, robots, control thread, ``/clock``
 ``entities.py``              robots are spawned and removed, each with its controller manager
 ``loop_timing.py``           warns when real time is not kept, with the slow stage of the loop
 
