@@ -49,15 +49,15 @@ def test_any_node_killed_before_the_simulator_is_there(tmp_path, victim):
         assert bringup.left() == []
 
 
-def test_a_stack_that_ends_leaves_no_shared_memory_and_no_port(tmp_path):
+def test_a_stack_shares_no_memory_and_leaves_no_port(tmp_path):
     with stack(tmp_path, 'simulation', 'viewer:=false') as bringup:
         up(bringup, 'create-3', 'spawner-4')
-        files, ports = shared_memory(bringup.left()), udp_ports(bringup.left())
-        assert files
+        # Programs of this package share no memory: a reader that is killed could hold them up.
+        assert shared_memory(bringup.left()) == set()
+        ports = udp_ports(bringup.left())
         assert ports
         assert bringup.end(signal.SIGINT) == 0
         assert 'escalating' not in bringup.output
-        assert [path for path in files if Path(path).exists()] == []
         assert ports.isdisjoint(bound_udp_ports())
 
 
