@@ -111,13 +111,13 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
         executor = SingleThreadedExecutor()
         robot = StandAloneManager(executor, [])
         thread = threading.Thread(target=executor.spin)
-        onlooker = Node('onlooker')
+        observer = Node('observer')
         qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        publisher = onlooker.create_publisher(String, '/robot_description', qos)
+        publisher = observer.create_publisher(String, '/robot_description', qos)
         lines = []
 
         def service_names():
-            return {name for name, _ in onlooker.get_service_names_and_types()}
+            return {name for name, _ in observer.get_service_names_and_types()}
 
         def refused():
             lines.extend(capfd.readouterr().err.splitlines())
@@ -127,22 +127,22 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
             robot.start()
             thread.start()
             publisher.publish(String(data=GOOD.replace('mock_components', 'no_such_package')))
-            assert wait_until(onlooker, refused, timeout=10.0)
+            assert wait_until(observer, refused, timeout=10.0)
             assert any("'no_such_package/GenericSystem' is not known" in line for line in lines)
             assert '/controller_manager/list_controllers' not in service_names()
-            assert 'cart' not in onlooker.get_node_names()
+            assert 'cart' not in observer.get_node_names()
             publisher.publish(String(data=GOOD))
             assert wait_until(
-                onlooker,
+                observer,
                 lambda: '/controller_manager/list_controllers' in service_names() or None,
                 timeout=10.0,
             )
-            assert 'cart' in onlooker.get_node_names()
+            assert 'cart' in observer.get_node_names()
         finally:
             executor.shutdown()
             thread.join()
             robot.close()
-            onlooker.destroy_node()
+            observer.destroy_node()
 
 
 def test_hardware_that_does_not_reach_its_first_state_ends_the_process():

@@ -52,7 +52,7 @@ class Seen:
 @pytest.fixture(scope='module')
 def seen(tmp_path_factory):
     rclpy.init(args=[])
-    node = Node('onlooker')
+    node = Node('observer')
     graph = Graph(node)
     try:
         with running_stack(tmp_path_factory.mktemp('stack'), LIVE['urdf']) as log:

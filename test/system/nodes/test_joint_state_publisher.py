@@ -32,11 +32,11 @@ CART = """
 SETTER = '/joint_state_publisher/set_joint_positions'
 
 
-class Onlooker(Node):
+class Observer(Node):
     """Who moves the joints, and who sees them."""
 
     def __init__(self):
-        super().__init__('onlooker')
+        super().__init__('observer')
         self.heard = []
         self.create_subscription(JointState, 'joint_states', self.heard.append, 10)
         self.description = self.create_publisher(String, 'robot_description', LATCHED)
@@ -71,16 +71,16 @@ class Onlooker(Node):
 
 
 @pytest.fixture
-def onlooker():
+def observer():
     rclpy.init(args=[])
-    node = Onlooker()
+    node = Observer()
     yield node
     node.destroy_node()
     rclpy.try_shutdown()
 
 
 @pytest.fixture
-def start(onlooker):
+def start(observer):
     """Start the node in a thread."""
     running = []
 
@@ -98,105 +98,105 @@ def start(onlooker):
         spinner.__exit__(None, None, None)
 
 
-def test_a_description_from_the_topic_makes_joint_states(start, onlooker):
+def test_a_description_from_the_topic_makes_joint_states(start, observer):
     start(**{'zeros.axle': 0.25})
-    onlooker.describe(CART.format(LIMIT))
-    onlooker.sees(axle=0.25, hinge=1.0)
-    message = onlooker.heard[-1]
+    observer.describe(CART.format(LIMIT))
+    observer.sees(axle=0.25, hinge=1.0)
+    message = observer.heard[-1]
     assert list(message.name) == ['axle', 'hinge']
     assert (list(message.velocity), list(message.effort)) == ([], [])
     assert message.header.frame_id == ''
     assert message.header.stamp.sec > 0
 
 
-def test_the_topics_have_the_known_qos(start, onlooker):
+def test_the_topics_have_the_known_qos(start, observer):
     start(source_list=['/arm'])
 
     def qos(topic, find):
         (info,) = [i for i in find(topic) if i.node_name == 'joint_state_publisher']
         return info.qos_profile.reliability, info.qos_profile.durability
 
-    heard = onlooker.get_subscriptions_info_by_topic
-    onlooker.until(lambda: onlooker.count_publishers('/joint_states'))
-    onlooker.until(lambda: all(onlooker.count_subscribers(t) for t in (SETTER, '/arm')))
-    onlooker.until(lambda: onlooker.count_subscribers('/robot_description'))
+    heard = observer.get_subscriptions_info_by_topic
+    observer.until(lambda: observer.count_publishers('/joint_states'))
+    observer.until(lambda: all(observer.count_subscribers(t) for t in (SETTER, '/arm')))
+    observer.until(lambda: observer.count_subscribers('/robot_description'))
     reliable = ReliabilityPolicy.RELIABLE
     plain = (reliable, DurabilityPolicy.VOLATILE)
-    assert qos('/joint_states', onlooker.get_publishers_info_by_topic) == plain
+    assert qos('/joint_states', observer.get_publishers_info_by_topic) == plain
     assert qos(SETTER, heard) == qos('/arm', heard) == plain
     assert qos('/robot_description', heard) == (reliable, DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-def test_a_xacro_file_with_arguments_and_movers(start, onlooker):
+def test_a_xacro_file_with_arguments_and_movers(start, observer):
     start(str(GRIPPER), 'palm:=false', source_list=['/arm'])
-    onlooker.sees(
+    observer.sees(
         wrist=0.0, left_knuckle=0.0, left_tip=0.001, right_knuckle=0.05, right_tip=0.0015
     )
-    onlooker.until(lambda: all(p.get_subscription_count() for p in onlooker.movers.values()))
-    onlooker.move(SETTER, wrist=0.5)
-    onlooker.move('/arm', left_knuckle=0.2, right_tip=9.0, unknown=1.0)
-    onlooker.sees(
+    observer.until(lambda: all(p.get_subscription_count() for p in observer.movers.values()))
+    observer.move(SETTER, wrist=0.5)
+    observer.move('/arm', left_knuckle=0.2, right_tip=9.0, unknown=1.0)
+    observer.sees(
         wrist=0.5, left_knuckle=0.2, left_tip=0.003, right_knuckle=-0.15, right_tip=-0.0005
     )
 
 
-def test_an_unusable_description_is_told_and_the_old_one_kept(start, onlooker, capfd):
+def test_an_unusable_description_is_told_and_the_old_one_kept(start, observer, capfd):
     start()
-    onlooker.describe(CART.format(LIMIT))
-    onlooker.sees(axle=0.0, hinge=1.0)
-    onlooker.describe(CART.format(''))
+    observer.describe(CART.format(LIMIT))
+    observer.sees(axle=0.0, hinge=1.0)
+    observer.describe(CART.format(''))
     said = []
 
     def complained():
         said.append(capfd.readouterr().err)
         return 'a revolute joint needs limits' in ''.join(said)
 
-    onlooker.until(complained)
+    observer.until(complained)
     assert 'robot_description cannot be used, the old one is kept: ' in ''.join(said)
-    onlooker.heard.clear()
-    onlooker.sees(axle=0.0, hinge=1.0)
-    onlooker.describe(CART.format(LIMIT.replace('1.5', '3.5')))
-    onlooker.sees(axle=0.0, hinge=2.0)
+    observer.heard.clear()
+    observer.sees(axle=0.0, hinge=1.0)
+    observer.describe(CART.format(LIMIT.replace('1.5', '3.5')))
+    observer.sees(axle=0.0, hinge=2.0)
 
 
-def test_the_same_description_again_leaves_the_joints_where_they_are(start, onlooker):
+def test_the_same_description_again_leaves_the_joints_where_they_are(start, observer):
     start()
-    onlooker.describe(CART.format(LIMIT))
-    onlooker.until(lambda: onlooker.movers[SETTER].get_subscription_count())
-    onlooker.sees(axle=0.0, hinge=1.0)
-    onlooker.move(SETTER, axle=0.5)
-    onlooker.sees(axle=0.5, hinge=1.0)
-    onlooker.describe(CART.format(LIMIT))
-    assert onlooker.description.wait_for_all_acked(Duration(seconds=20.0))
-    onlooker.move(SETTER, hinge=0.75)  # heard after the description
-    onlooker.sees(axle=0.5, hinge=0.75)
+    observer.describe(CART.format(LIMIT))
+    observer.until(lambda: observer.movers[SETTER].get_subscription_count())
+    observer.sees(axle=0.0, hinge=1.0)
+    observer.move(SETTER, axle=0.5)
+    observer.sees(axle=0.5, hinge=1.0)
+    observer.describe(CART.format(LIMIT))
+    assert observer.description.wait_for_all_acked(Duration(seconds=20.0))
+    observer.move(SETTER, hinge=0.75)  # heard after the description
+    observer.sees(axle=0.5, hinge=0.75)
 
 
-def test_a_message_with_too_few_positions_is_told_and_ignored(start, onlooker, capfd):
+def test_a_message_with_too_few_positions_is_told_and_ignored(start, observer, capfd):
     start(rate=50.0)
-    onlooker.describe(CART.format(LIMIT))
-    onlooker.until(lambda: onlooker.movers[SETTER].get_subscription_count())
+    observer.describe(CART.format(LIMIT))
+    observer.until(lambda: observer.movers[SETTER].get_subscription_count())
     wrong = JointState(name=['axle', 'hinge'], position=[1.0])
     said = []
 
     def is_told():
         # Again and again: the first message of a publisher may find no reader yet.
-        onlooker.movers[SETTER].publish(wrong)
+        observer.movers[SETTER].publish(wrong)
         said.append(capfd.readouterr().err)
         return 'a JointState with 2 names and 1, 0, 0 positions' in ''.join(said)
 
-    onlooker.until(is_told)
-    onlooker.move(SETTER, axle=0.5)
-    onlooker.sees(axle=0.5, hinge=1.0)
+    observer.until(is_told)
+    observer.move(SETTER, axle=0.5)
+    observer.sees(axle=0.5, hinge=1.0)
 
 
-def test_rate_and_delta_may_be_set_while_it_runs(start, onlooker):
+def test_rate_and_delta_may_be_set_while_it_runs(start, observer):
     node = start(publish_default_velocities=True, rate=1)
-    onlooker.describe(CART.format(LIMIT))
+    observer.describe(CART.format(LIMIT))
     changes = [Parameter('rate', value=200.0), Parameter('delta', value=0.001)]
     assert all(result.successful for result in node.set_parameters(changes))
-    onlooker.until(lambda: onlooker.positions().get('axle', 0.0) > 0.05)
-    assert list(onlooker.heard[-1].velocity) == [0.0, 0.0]
+    observer.until(lambda: observer.positions().get('axle', 0.0) > 0.05)
+    assert list(observer.heard[-1].velocity) == [0.0, 0.0]
     assert node.get_parameter('rate').value == 200.0
 
 
