@@ -24,7 +24,8 @@ class Keys(Bringup):
     """The stack on a terminal, whose settings are known from before."""
 
     def __init__(self, folder, *arguments, **env):
-        super().__init__(folder, STACK, *arguments, terminal=True, **{'NO_COLOR': '1'} | env)
+        env = {'NO_COLOR': '1', 'TERM': 'xterm'} | env  # without TERM no line is ever erased
+        super().__init__(folder, STACK, *arguments, terminal=True, **env)
         self.before = termios.tcgetattr(self.terminal)
 
     def up(self):
