@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 
+from support import preloaded
 from support.paths import ROOT
 from support.running_programs import REMARK
 
@@ -23,14 +24,7 @@ def command(executable: str, *arguments: str) -> list[str]:
 
 def run(executable: str, *arguments: str) -> subprocess.CompletedProcess:
     """Run a node that ends by itself; what it says, but Fast DDS, is in ``stderr``."""
-    result = subprocess.run(
-        command(executable, *arguments),
-        capture_output=True,
-        text=True,
-        timeout=PATIENCE,
-        check=False,
-        env=environment(),
-    )
+    result = preloaded.run(command(executable, *arguments), timeout=PATIENCE, env=environment())
     result.stderr = REMARK.sub('', result.stderr)
     return result
 
@@ -38,7 +32,7 @@ def run(executable: str, *arguments: str) -> subprocess.CompletedProcess:
 @contextmanager
 def running(executable: str, *arguments: str, until: str):
     """A node that has said ``until``; it is interrupted at the end, and must leave with 0."""
-    process = subprocess.Popen(
+    process = preloaded.Popen(
         command(executable, *arguments),
         stderr=subprocess.PIPE,
         text=True,

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import time
 
+from support.preloaded import Popen
+
 PATIENCE = 30.0  # s; a bound that only a broken test reaches
 ENVIRONMENT = {
     'PYTHONPATH': os.pathsep.join(filter(None, sys.path)),
@@ -19,16 +21,6 @@ ENVIRONMENT = {
 # Fast DDS complains about locks in /dev/shm that others hold, or left when they were killed: its
 # ports there are one range for all domains. Nothing is wrong then, and it takes the next one.
 REMARK = re.compile(r'^.*RTPS_TRANSPORT_SHM.*\n', re.MULTILINE)
-# Makes the terminal at stdin the controlling one, as a terminal emulator does, and has the signals
-# at their defaults, which a test run in the background would not pass on.
-_TAKE_TERMINAL = """
-import fcntl, os, signal, sys, termios
-for signum in (signal.SIGINT, signal.SIGHUP):
-    signal.signal(signum, signal.SIG_DFL)
-if os.isatty(0):
-    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
-os.execvp(sys.argv[1], sys.argv[1:])
-"""
 
 
 class Program:
@@ -47,8 +39,8 @@ class Program:
         if terminal:
             self._master, self._slave = os.openpty()
             streams = {'stdin': self._slave, 'stdout': self._slave}
-        self.process = subprocess.Popen(
-            [sys.executable, '-I', '-S', '-c', _TAKE_TERMINAL, *command],
+        self.process = Popen(
+            command,
             env=os.environ | ENVIRONMENT | (env or {}),
             stderr=subprocess.STDOUT,
             start_new_session=True,

@@ -4,11 +4,11 @@
 
 from contextlib import contextmanager
 import signal
-import subprocess
 
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
+from support.preloaded import Popen
 from support.ros_processes import command, environment, PATIENCE, run
 
 from amr_description.ros.service_calls import call
@@ -127,9 +127,7 @@ def running_stack(folder, urdf):
         with log.open('w') as stream:
             for line in lines:
                 processes.append(
-                    subprocess.Popen(
-                        line, stderr=stream, env=environment(), start_new_session=True
-                    )
+                    Popen(line, stderr=stream, env=environment(), start_new_session=True)
                 )
         ended = run('spawner', *NAMES, '-p', str(folder / 'controllers.yaml'))
         assert ended.returncode == 0, ended.stderr

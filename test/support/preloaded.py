@@ -1,0 +1,264 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Start Python programs from an interpreter that has loaded their modules already.
+
+A program of ours spends most of its start on imports: 0.2 s of processor time for ``ros2``, 0.8 s
+for the simulator; a whole run of the tests starts a thousand. ``Popen`` is that of ``subprocess``,
+but a Python program is forked from a server that has done nothing but import. The program is a
+process and a child of the test all the same: with a pid, session, environment, folder, streams,
+signals and an end of its own, and nothing of DDS is initialised before.
+
+What differs: its modules are loaded before it asks for them, so a test of what a program imports
+must use ``subprocess``; and ``/proc/PID/cmdline`` is the server's. A command that is no Python
+program, one with options of the interpreter, and one whose environment changes the interpreter is
+started as ever.
+"""
+
+import ctypes
+import fcntl
+import functools
+import gc
+import io
+import json
+import os
+from pathlib import Path
+import runpy
+import socket
+import struct
+import subprocess
+import sys
+import termios
+import threading
+import warnings
+
+from support.paths import ROOT
+
+_LENGTH = struct.Struct('<I')
+_PID = struct.Struct('<i')
+_PR_SET_CHILD_SUBREAPER = 36
+# What an interpreter, a loader or a library reads as it starts, or as it is imported.
+_READ_AT_START = ('PYTHON', 'LANG', 'LC_', 'LD_', 'RMW_', 'MUJOCO', 'OMP_', 'OPENBLAS', 'MALLOC')
+_READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
+# One server has what ``ros2`` and most nodes load, the other the simulator: whatever is loaded
+# has to be taken down at the end of each program.
+_LIGHT = 'amr_description.cli.main amr_description.nodes.spawner'
+_SIMULATOR = 'amr_description.nodes.mujoco_sim'
+# Have an interpreter take the terminal at its stdin as a terminal emulator does, then become
+# another program.
+_TAKE_TERMINAL = """
+import fcntl, os, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+os.execvp(sys.argv[1], sys.argv[1:])
+"""
+
+
+class Popen(subprocess.Popen):
+    """
+    ``subprocess.Popen``, quicker for Python programs.
+
+    A program with a session of its own has the terminal at its stdin as its controlling one.
+    """
+
+    def _execute_child(self, args, executable, preexec_fn, close_fds, pass_fds, cwd, env, *rest):
+        _startup, _flags, shell, *streams, _restore, _gid, _gids, _uid, _umask, session, _ = rest
+        given = [streams[0], streams[3], streams[5]]
+        files = [own if fd == -1 else fd for fd, own in zip(given, range(3), strict=True)]
+        variables = dict(os.environ if env is None else env)
+        program = None if executable or preexec_fn or pass_fds or shell else _program(args)
+        takes_terminal = session and os.isatty(files[0])
+        if program is None or not _is_plain(variables):
+            if takes_terminal:
+                args = [sys.executable, '-I', '-S', '-c', _TAKE_TERMINAL, *args]
+            super()._execute_child(
+                args, executable, preexec_fn, close_fds, pass_fds, cwd, env, *rest
+            )
+            return
+        request = {
+            'program': [os.fsdecode(word) for word in program],
+            'variables': {os.fsdecode(key): os.fsdecode(variables[key]) for key in variables},
+            'folder': os.fsdecode(cwd or os.getcwd()),
+            'session': session,
+            'terminal': takes_terminal,
+        }
+        server = _server(_SIMULATOR if _SIMULATOR in program else _LIGHT)
+        try:
+            self.pid = server.start(request, files)
+            self._child_created = True
+        finally:
+            self._close_pipe_fds(*streams)
+
+
+def run(command, *, timeout, **options):
+    """``subprocess.run(command, capture_output=True, text=True)``, by this ``Popen``."""
+    pipes = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True}
+    with Popen(command, **pipes, **options) as process:
+        try:
+            out, err = process.communicate(timeout=timeout)
+        except BaseException:
+            process.kill()
+            raise
+    return subprocess.CompletedProcess(command, process.returncode, out, err)
+
+
+def _program(args):
+    """The words after the interpreter: ``-m MODULE``, ``-c CODE`` or a file, or None."""
+    if isinstance(args, str | bytes) or len(args) < 2 or args[0] != sys.executable:
+        return None
+    first, second = (os.fsdecode(word) for word in [*args[1:3], ''][:2])
+    if second.startswith('amr_description.bringup'):
+        return None  # it loads next to nothing, and looks at processes and their command lines
+    is_known = first in ('-m', '-c') and len(args) > 2 or not first.startswith('-')
+    return args[1:] if is_known else None
+
+
+def _is_plain(variables):
+    """Whether an interpreter with these variables starts as the server did."""
+
+    def of_interpreter(table):
+        return {
+            key: value
+            for key, value in table.items()
+            if key.startswith(_READ_AT_START) and key not in _READ_LATER
+        }
+
+    return of_interpreter(variables) == of_interpreter(os.environ)
+
+
+@functools.cache
+def _server(modules):
+    return _Server(modules)
+
+
+class _Server:
+    """The test's side of the interpreter that is forked; it ends with the test run."""
+
+    def __init__(self, modules):
+        self._lock = threading.Lock()
+        self._libc = ctypes.CDLL(None, use_errno=True)
+        self._socket, theirs = socket.socketpair()
+        path = os.pathsep.join([str(ROOT / 'test'), str(ROOT)])
+        subprocess.Popen(
+            [sys.executable, __file__, str(theirs.fileno()), *modules.split()],
+            env=os.environ | {'PYTHONPATH': path},
+            cwd=ROOT,
+            pass_fds=[theirs.fileno()],
+            stdin=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        theirs.close()
+
+    def start(self, request, files):
+        """Have a program forked that becomes a child of this process; return its pid."""
+        data = json.dumps(request).encode()
+        with self._lock:
+            # The program's parent ends at once, and who takes orphans is this process, for now.
+            self._libc.prctl(_PR_SET_CHILD_SUBREAPER, 1)
+            try:
+                socket.send_fds(self._socket, [_LENGTH.pack(len(data))], files)
+                self._socket.sendall(data)
+                reply = self._socket.recv(_PID.size, socket.MSG_WAITALL)
+            finally:
+                self._libc.prctl(_PR_SET_CHILD_SUBREAPER, 0)
+        return _PID.unpack(reply)[0]
+
+
+def _serve(connection):
+    """Fork a program for each request, until the test run ends; return in each program."""
+    while True:
+        head, files, _, _ = socket.recv_fds(connection, _LENGTH.size, 3)
+        if not head:
+            sys.exit()
+        request = json.loads(connection.recv(_LENGTH.unpack(head)[0], socket.MSG_WAITALL))
+        reader, writer = os.pipe()
+        released, held = os.pipe()  # held by who must have ended before the program begins
+        between = os.fork()
+        if between == 0:
+            pid = os.fork()
+            if pid == 0:
+                os.close(held)
+                os.read(released, 1)
+                for fd in (reader, writer, released):
+                    os.close(fd)
+                connection.close()
+                return request, files
+            os.write(writer, _PID.pack(pid))
+            os._exit(0)
+        for fd in (held, released, *files):
+            os.close(fd)
+        os.waitpid(between, 0)
+        connection.sendall(os.read(reader, _PID.size))
+        os.close(reader)
+        os.close(writer)
+
+
+def _become(request, files):
+    """Make this process what an interpreter is that has just been started."""
+    for fd, standard in zip(files, range(3), strict=True):
+        os.dup2(fd, standard)
+        os.close(fd)
+    if request['session']:
+        os.setsid()
+    if request['terminal']:
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+    os.environ.clear()
+    os.environ.update(request['variables'])
+    os.chdir(request['folder'])
+    unbuffered = bool(os.environ.get('PYTHONUNBUFFERED'))
+    sys.dont_write_bytecode = bool(os.environ.get('PYTHONDONTWRITEBYTECODE'))
+    for fd, name in enumerate(('stdin', 'stdout', 'stderr')):
+        stream = _stream(fd, getattr(sys, name), unbuffered)
+        setattr(sys, name, stream)
+        setattr(sys, f'__{name}__', stream)
+
+
+def _stream(fd, like, unbuffered):
+    """A standard stream as the interpreter makes it."""
+    raw = io.FileIO(fd, 'w' if fd else 'r', closefd=False)
+    raw.name = like.name
+    buffered = io.BufferedWriter if fd else io.BufferedReader
+    return io.TextIOWrapper(
+        raw if unbuffered and fd else buffered(raw),
+        encoding=like.encoding,
+        errors=like.errors,
+        line_buffering=not unbuffered and (fd == 2 or os.isatty(fd)),
+        write_through=unbuffered,
+    )
+
+
+def _execute(program, base):
+    """Run ``-m MODULE``, ``-c CODE`` or a file as the main program."""
+    kind, *rest = program
+    path = [folder for folder in os.environ.get('PYTHONPATH', '').split(os.pathsep) if folder]
+    if kind == '-m':
+        sys.argv = rest
+        sys.path[:] = [os.getcwd(), *path, *base]
+        runpy.run_module(rest[0], run_name='__main__', alter_sys=True)
+    elif kind == '-c':
+        sys.argv = ['-c', *rest[1:]]
+        sys.path[:] = ['', *path, *base]
+        exec(compile(rest[0], '<string>', 'exec'), sys.modules['__main__'].__dict__)
+    else:
+        sys.argv = program
+        sys.path[:] = [str(Path(kind).resolve().parent), *path, *base]
+        runpy.run_path(kind, run_name='__main__')
+
+
+def _main():
+    ours = set(os.environ['PYTHONPATH'].split(os.pathsep)) | {str(Path(__file__).parent)}
+    base = [folder for folder in sys.path if folder not in ours]
+    for name in sys.argv[2:]:
+        __import__(name)
+    for name in [name for name in sys.modules if name.startswith('amr_description.nodes.')]:
+        del sys.modules[name]  # what is run as the main program must not be loaded under its name
+    # The threads that this warning is about are those that LTTng starts and no program needs.
+    warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
+    gc.freeze()
+    with socket.socket(fileno=int(sys.argv[1])) as connection:
+        request, files = _serve(connection)
+    _become(request, files)
+    _execute(request['program'], base)
+
+
+if __name__ == '__main__':
+    _main()

@@ -1,0 +1,129 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A program of the preloaded interpreter is what a started one is: its parts, its end."""
+
+import json
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+
+import pytest
+from support import preloaded
+from support.running_programs import PATIENCE, Program
+
+REPORT = """
+import json, os, signal, sys
+print(json.dumps({
+    'argv': sys.argv, 'path': sys.path, 'folder': os.getcwd(), 'environment': dict(os.environ),
+    'is_leader': os.getsid(0) == os.getpid(), 'parent': os.getppid(), 'name': __name__,
+    'handles': sorted(int(fd) for fd in os.listdir('/proc/self/fd')),
+    'signals': [str(signal.getsignal(each)) for each in signal.valid_signals()],
+    'streams': [[each.encoding, each.errors, each.line_buffering, each.write_through, each.name]
+                for each in (sys.stdin, sys.stdout, sys.stderr)],
+    'terminals': [os.isatty(fd) for fd in range(3)],
+}))
+"""
+WAYS_TO_START = (subprocess.Popen, preloaded.Popen)
+
+
+def started_twice(command, **options):
+    """What a program prints when it is started, and when it is forked."""
+    printed = []
+    for way in WAYS_TO_START:
+        with way(command, stdout=subprocess.PIPE, text=True, **options) as process:
+            printed.append(json.loads(process.communicate(timeout=PATIENCE)[0]))
+    for each in printed:
+        each['environment'].pop('_', None)
+    return printed
+
+
+@pytest.mark.parametrize('kind', ['file', '-c', '-m'])
+@pytest.mark.parametrize('new_session', [False, True])
+def test_a_forked_program_finds_what_a_started_one_does(tmp_path, kind, new_session):
+    (tmp_path / 'report.py').write_text(REPORT)
+    words = {
+        'file': [str(tmp_path / 'report.py')],
+        '-c': ['-c', REPORT],
+        '-m': ['-m', 'report'],
+    }[kind]
+    started, forked = started_twice(
+        [sys.executable, *words, 'a', 'b c', 'ä'],
+        cwd=tmp_path,
+        env=os.environ | {'OF_THE_TEST': '1', 'PYTHONPATH': '/somewhere'},
+        stdin=subprocess.DEVNULL,
+        start_new_session=new_session,
+    )
+    assert forked == started
+    assert started['parent'] == os.getpid()
+    assert started['is_leader'] == new_session
+
+
+def test_streams_are_unbuffered_where_they_are_asked_to_be():
+    env = os.environ | {'PYTHONUNBUFFERED': '1'}
+    started, forked = started_twice(
+        [sys.executable, '-c', REPORT], env=env, stdin=subprocess.DEVNULL
+    )
+    assert forked == started
+
+
+@pytest.mark.parametrize(
+    ('code', 'expected'),
+    [
+        ('pass', 0),
+        ('raise SystemExit(3)', 3),
+        ('import sys; sys.exit("a reason")', 1),
+        ('1 / 0', 1),
+        ('raise KeyboardInterrupt', -signal.SIGINT),
+        ('import os; os._exit(7)', 7),
+        ('import os, signal; os.kill(os.getpid(), signal.SIGKILL)', -signal.SIGKILL),
+        ('import atexit; atexit.register(print, "at the end")', 0),
+    ],
+)
+def test_it_ends_as_a_started_one(code, expected):
+    said = []
+    for way in WAYS_TO_START:
+        pipes = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True}
+        with way([sys.executable, '-c', code], **pipes) as process:
+            out, err = process.communicate(timeout=PATIENCE)
+        said.append((process.returncode, out, err.splitlines()[-1:]))
+    assert said[1] == said[0]
+    assert said[0][0] == expected
+
+
+def test_it_has_a_terminal_and_ctrl_c_reaches_it():
+    code = 'import os; print("tty", os.ttyname(0), open("/dev/tty").isatty()); input()'
+    with Program.of(code, terminal=True) as program:
+        program.expect(r'tty /dev/pts/\d+ True')
+        program.type('\x03')
+        assert program.end() == -signal.SIGINT
+
+
+def test_it_dies_with_nobody_but_is_reaped_by_the_test():
+    process = preloaded.Popen([sys.executable, '-c', 'input()'], stdin=subprocess.PIPE)
+    assert process.poll() is None
+    assert Path(f'/proc/{process.pid}/stat').read_text().split()[3] == str(os.getpid())
+    process.terminate()
+    assert process.wait(PATIENCE) == -signal.SIGTERM
+    process.stdin.close()
+    assert not Path(f'/proc/{process.pid}').exists()
+
+
+@pytest.mark.parametrize(
+    ('command', 'env', 'expected'),
+    [
+        ([sys.executable, '-c', 'import sys; print("rclpy" in sys.modules)'], {}, 'True'),
+        ([sys.executable, '-I', '-c', 'import sys; print("rclpy" in sys.modules)'], {}, 'False'),
+        (
+            [sys.executable, '-c', 'import sys; print(sys.flags.utf8_mode)'],
+            {'PYTHONUTF8': '1'},
+            '1',
+        ),
+        (['echo', 'another program'], {}, 'another program'),
+    ],
+)
+def test_what_cannot_be_forked_is_started(command, env, expected):
+    assert (
+        preloaded.run(command, env=os.environ | env, timeout=PATIENCE).stdout.strip() == expected
+    )
