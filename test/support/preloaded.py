@@ -23,6 +23,7 @@ import io
 import json
 import os
 from pathlib import Path
+import re
 import runpy
 import socket
 import struct
@@ -140,7 +141,8 @@ class _Server:
         path = os.pathsep.join([str(ROOT / 'test'), str(ROOT)])
         subprocess.Popen(
             [sys.executable, __file__, str(theirs.fileno()), *modules.split()],
-            env=os.environ | {'PYTHONPATH': path},
+            # OpenBLAS's threads do not outlive a fork, and its end waits for them.
+            env=os.environ | {'PYTHONPATH': path, 'OPENBLAS_NUM_THREADS': '1'},
             cwd=ROOT,
             pass_fds=[theirs.fileno()],
             stdin=subprocess.DEVNULL,
@@ -165,31 +167,61 @@ class _Server:
 
 def _serve(connection):
     """Fork a program for each request, until the test run ends; return in each program."""
+    tracing = _Tracing()
     while True:
         head, files, _, _ = socket.recv_fds(connection, _LENGTH.size, 3)
         if not head:
             sys.exit()
         request = json.loads(connection.recv(_LENGTH.unpack(head)[0], socket.MSG_WAITALL))
         reader, writer = os.pipe()
-        released, held = os.pipe()  # held by who must have ended before the program begins
+        begun, held = os.pipe()
+        masked = tracing.before_fork()
         between = os.fork()
         if between == 0:
+            os.close(held)
             pid = os.fork()
             if pid == 0:
-                os.close(held)
-                os.read(released, 1)
-                for fd in (reader, writer, released):
+                tracing.after_fork_child(masked)
+                os.read(begun, 1)
+                for fd in (reader, writer, begun):
                     os.close(fd)
                 connection.close()
                 return request, files
             os.write(writer, _PID.pack(pid))
             os._exit(0)
-        for fd in (held, released, *files):
-            os.close(fd)
+        tracing.after_fork_parent(masked)
         os.waitpid(between, 0)
+        os.close(held)  # the program has its new parent now, and begins
+        for fd in (begun, *files):
+            os.close(fd)
         connection.sendall(os.read(reader, _PID.size))
         os.close(reader)
         os.close(writer)
+
+
+class _Tracing:
+    """
+    What LTTng has to be told of a fork: it has threads, which rclpy's libraries start and end.
+
+    Its ``liblttng-ust-fork`` does the same where it is loaded before the C library.
+    """
+
+    def __init__(self):
+        maps = Path('/proc/self/maps').read_text()
+        (path,) = set(re.findall(r'/\S*/liblttng-ust-[0-9a-f]+\.so\S*', maps))
+        self._ust = ctypes.CDLL(path)
+
+    def before_fork(self):
+        """Return the mask of signals to give back afterwards."""
+        mask = ctypes.create_string_buffer(128)  # a sigset_t
+        self._ust.ust_before_fork(mask)
+        return mask
+
+    def after_fork_child(self, mask):
+        self._ust.ust_after_fork_child(mask)
+
+    def after_fork_parent(self, mask):
+        self._ust.ust_after_fork_parent(mask)
 
 
 def _become(request, files):

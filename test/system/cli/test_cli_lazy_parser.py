@@ -43,7 +43,8 @@ print(*sorted(sys.modules), sep='\\n')
 
 
 def imported_by(*args):
-    return set(python('-c', IMPORTED, *args).stdout.splitlines())
+    # By an interpreter of its own (-B), which has loaded nothing before.
+    return set(python('-B', '-c', IMPORTED, *args).stdout.splitlines())
 
 
 @pytest.mark.parametrize('args', [(), ('-h',), ('--help',)])
