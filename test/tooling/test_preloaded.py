@@ -93,7 +93,13 @@ def test_it_ends_as_a_started_one(code, expected):
 
 
 def test_it_has_a_terminal_and_ctrl_c_reaches_it():
-    code = 'import os; print("tty", os.ttyname(0), open("/dev/tty").isatty()); input()'
+    # Short sleeps: a signal just before a call that blocks is seen only when the call returns.
+    code = """if True:
+        import os, time
+        print('tty', os.ttyname(0), open('/dev/tty').isatty())
+        while True:
+            time.sleep(0.01)
+    """
     with Program.of(code, terminal=True) as program:
         program.expect(r'tty /dev/pts/\d+ True')
         program.type('\x03')
