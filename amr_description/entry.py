@@ -14,6 +14,7 @@ process can cover it by starting the program with SIGINT blocked, as the bring-u
 """
 
 from collections.abc import Callable
+import gc
 import importlib
 import os
 import signal
@@ -63,13 +64,32 @@ def run(
     # The bring-up starts executables of this package with SIGINT blocked, so that a Ctrl-C stays
     # pending until here; earlier, Python itself would print a traceback.
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
-    main = find()
+    main = _imported(find)
     try:
         if handles_sigint:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         return main()
     except KeyboardInterrupt:
         return interrupted
+
+
+def _imported(
+    find: Callable[[], Callable[[], int | None]],
+) -> Callable[[], int | None]:
+    """
+    Import the function with the garbage collector off: what is imported stays for good.
+
+    The collector would look through all of it several times in vain, at the end once more; without
+    it 10 to 20 % of the CPU time of an import is saved (CPython 3.12).
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        return find()
+    finally:
+        gc.freeze()
+        if was_enabled:
+            gc.enable()
 
 
 _package = LazyEntryPoint(__package__)

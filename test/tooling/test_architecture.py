@@ -235,21 +235,36 @@ def is_pure_tf2(name: str) -> bool:
 
 def test_the_supervisor_of_a_stack_loads_nothing_heavy():
     """Neither with its ready-made stacks, nor by deferred imports, nor by packages above these."""
+    supervisor = [module for module in SOURCES if room_of(module) == 'bringup']
+    assert loads(supervisor, NOT_FOR_THE_SUPERVISOR) == []
+
+
+def test_only_the_simulator_loads_the_physics():
+    """A program that only talks to the simulator would start 0.3 s later."""
+    physics = re.compile('mujoco')
+    executables = [module for module in SOURCES if module.startswith('amr_description.nodes.')]
+    executables.remove('amr_description.nodes.mujoco_sim')
+    assert loads(executables, physics) == []
+    assert loads(['amr_description.nodes.mujoco_sim'], physics)
+
+
+def loads(modules: list[str], heavy: re.Pattern[str]) -> list[str]:
+    """Return the imports of ``heavy`` by these modules, and by what importing them imports."""
     arrows: dict[str, set[str]] = {}
     for module, path, line, name in IMPORTS:
         if is_statement(path, line):
             arrows.setdefault(module, set()).add(name)
-    waiting = [module for module in SOURCES if room_of(module) == 'bringup']
-    seen, heavy = set(waiting), []
+    waiting = list(modules)
+    seen, found = set(waiting), []
     while waiting:
         module = waiting.pop()
         for name in arrows.get(module, ()):
-            if NOT_FOR_THE_SUPERVISOR.match(name):
-                heavy.append(f'{module} -> {name}')
+            if heavy.match(name):
+                found.append(f'{module} -> {name}')
             loaded = with_parents(target_of(name)) if name.startswith('amr_description') else ()
             waiting += [each for each in loaded if each not in seen]
             seen.update(loaded)
-    assert heavy == []
+    return found
 
 
 def with_parents(module: str) -> list[str]:

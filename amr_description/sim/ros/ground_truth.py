@@ -42,13 +42,9 @@ from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_view import RobotView
+from amr_description.sim.ros.names import ODOM_TOPIC, WHEELS_TOPIC, WORLD_FRAME
 from amr_description.sim.wheel_slip import WheelSlipReader
 from amr_description.sim.world import MujocoWorld
-
-ODOM_TOPIC = 'ground_truth/odom'
-WHEELS_TOPIC = 'ground_truth/wheels'
-WORLD_FRAME = 'world'
-"""The frame of every pose that the simulator accepts or reports."""
 
 WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 

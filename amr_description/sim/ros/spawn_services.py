@@ -27,7 +27,7 @@ from amr_description.model.description_file import description_at
 from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.ros.log_thread import log_error
 from amr_description.ros.messages import transform_of
-from amr_description.sim.ros.ground_truth import WORLD_FRAME
+from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import read_description, SpawnCode

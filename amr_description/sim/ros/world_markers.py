@@ -25,7 +25,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
 from amr_description.ros.qos import LATCHED
-from amr_description.sim.ros.ground_truth import WORLD_FRAME
+from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.static_geometry import ShapeKind, visible_shapes, VisibleShape
 from amr_description.sim.world import MujocoWorld
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The entry point of the executables: quiet on Ctrl-C, even during an import."""
 
+import gc
 import signal
 import sys
 
@@ -54,6 +55,26 @@ def test_a_name_stands_for_what_is_imported_when_called():
     assert nodes.talker.main.path == 'amr_description.nodes.talker.main'
     assert Executable('fixtures.entry.slow').main.find() is slow.main
     assert Executable('fixtures.entry.slow').seven() == 7
+
+
+def test_the_collector_keeps_off_imports_and_is_on_in_the_program():
+    seen = []
+
+    def find():
+        seen.append(gc.isenabled())
+        return lambda: seen.append(gc.isenabled())
+
+    frozen = gc.get_freeze_count()
+    try:
+        run(find)
+        assert seen == [False, True]
+        assert gc.get_freeze_count() > frozen
+        gc.disable()
+        run(find)
+        assert seen[2:] == [False, False]
+    finally:
+        gc.enable()
+        gc.unfreeze()
 
 
 def test_a_missing_function_is_an_error():
