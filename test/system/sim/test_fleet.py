@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ten robots in one simulation, each in its namespace, over real DDS; one goes and comes again."""
 
+from dataclasses import dataclass
 from itertools import pairwise
 import math
 
@@ -29,8 +30,8 @@ CIRCLES = {
 }
 """m/s and rad/s: all different, of radii from 0.9 to 2.25 m, by turns to the left and right."""
 GONE = 'robot4'
-SECONDS, LEAVES, COMES = 60, 20, 40
-"""s; GONE is away from the second to the third."""
+LENGTHS = [pytest.param(20, id='short'), pytest.param(60, id='minute', marks=pytest.mark.long)]
+"""s; GONE is away in the second third."""
 LOOK = 2.0
 """s between two looks at all robots, who turn by less than half a turn meanwhile."""
 
@@ -96,25 +97,38 @@ def names_below(node, namespace):
     return [name for name in everything if name.startswith(namespace)]
 
 
-@pytest.fixture(scope='module')
-def tracks(sim):
+@dataclass(frozen=True)
+class Drive:
+    """What was seen of all robots in a drive."""
+
+    seconds: int
+    comes: float
+    """s; when GONE is back."""
+    tracks: dict[str, list]
     """Name → truth and odometry after every LOOK, of GONE since it came again."""
+
+
+@pytest.fixture(scope='module', params=LENGTHS)
+def drive(sim, request):
+    """All on their circles, from time 0 on."""
+    seconds = request.param
+    leaves, comes = (LOOK * round(part * seconds / LOOK) for part in (1 / 3, 2 / 3))
     sim.reset()
     command(sim, *NAMES)
     found = {name: [] for name in NAMES}
-    for number in range(round(SECONDS / LOOK)):
-        if number == round(LEAVES / LOOK):
+    for number in range(round(seconds / LOOK)):
+        if number == round(leaves / LOOK):
             sim.remove(GONE)
             found[GONE].clear()
             sim.wait(lambda: not names_below(sim.node, f'/{GONE}/'), 'its names to be free')
-        if number == round(COMES / LOOK):
+        if number == round(comes / LOOK):
             sim.spawn(GONE, STARTS[GONE])
             command(sim, GONE)
         sim.run(LOOK)
         states = sim.ask(GetEntitiesStates)
         for name, state in zip(states.entities, states.states, strict=True):
             found[name].append((motion_of_entity(state), sim.robots[name].odometry))
-    return found
+    return Drive(seconds, comes, found)
 
 
 def place(motion):
@@ -128,11 +142,11 @@ def turned(motions):
 
 
 @pytest.mark.parametrize('name', NAMES)
-def test_each_drives_its_own_circle_and_knows_it(tracks, name):
-    truth, odometry = zip(*tracks[name], strict=True)
+def test_each_drives_its_own_circle_and_knows_it(drive, name):
+    truth, odometry = zip(*drive.tracks[name], strict=True)
     speed, rate = CIRCLES[name]
     seconds = LOOK * (len(truth) - 1)
-    assert seconds >= SECONDS - COMES - LOOK
+    assert seconds >= drive.seconds - drive.comes - LOOK
     x, y, _ = STARTS[name].translation
     centre = (x, y + speed / rate)
     radii = [math.dist(place(motion), centre) for motion in truth]
@@ -142,13 +156,13 @@ def test_each_drives_its_own_circle_and_knows_it(tracks, name):
     assert min(radii) > 0.95 * speed / abs(rate)
     assert turned(truth) == pytest.approx(rate * seconds, rel=0.03)
     assert turned(odometry) == pytest.approx(rate * seconds, rel=0.01)
-    for true, told in tracks[name]:
-        way = speed * (told.time - (COMES if name == GONE else 0))
+    for true, told in drive.tracks[name]:
+        way = speed * (told.time - (drive.comes if name == GONE else 0))
         assert math.dist(place(told), (true.x - x, true.y - y)) < 0.05 * way + 0.02
 
 
-def test_who_comes_again_begins_at_its_start(tracks):
-    truth, odometry = tracks[GONE][0]
+def test_who_comes_again_begins_at_its_start(drive):
+    truth, odometry = drive.tracks[GONE][0]
     x, y, _ = STARTS[GONE].translation
     assert math.dist(place(truth), (x, y)) < LOOK * CIRCLES[GONE][0] + 0.01
     assert math.hypot(*place(odometry)) < LOOK * CIRCLES[GONE][0] + 0.01
