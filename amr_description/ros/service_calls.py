@@ -64,16 +64,24 @@ def wait_until[Result](
     Returns:
         What ``condition()`` returned; ``None``: the time is over.
     """
-    start = last = time.monotonic()
-    while (result := condition()) is None:
-        now = time.monotonic()
-        if timeout and now - start >= timeout:
-            return None
-        if now - last >= every:
-            last = now
-            on_wait()
-        rclpy.spin_once(node, executor=node.executor, timeout_sec=_POLL)
-    return result
+    executor = node.executor or rclpy.get_global_executor()
+    # For the whole wait: rclpy.spin_once() does so for each callback, which wakes the executor and
+    # has it collect what it waits for twice more.
+    was_added = executor.add_node(node)
+    try:
+        start = last = time.monotonic()
+        while (result := condition()) is None:
+            now = time.monotonic()
+            if timeout and now - start >= timeout:
+                return None
+            if now - last >= every:
+                last = now
+                on_wait()
+            executor.spin_once(timeout_sec=_POLL)
+        return result
+    finally:
+        if was_added:
+            executor.remove_node(node)
 
 
 def ask_until_answered(
