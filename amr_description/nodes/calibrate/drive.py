@@ -225,8 +225,10 @@ class CalibrationDrive:
         Raises CalibrationError when simulation time has stopped or jumped back, or messages are
         lost.
         """
+        stamp, since = self._truth.stamp, time.monotonic()
 
         def is_over() -> bool | None:
+            nonlocal stamp, since
             self._check()
             if self._truth.has_jumped:
                 raise CalibrationError('simulated time went back: the simulation was reset')
@@ -235,16 +237,16 @@ class CalibrationDrive:
                     'messages get lost: the simulation is faster than they can be read; try again '
                     'after: ros2 param set /mujoco_sim real_time_factor 5.0'
                 )
-            return condition() or None
-
-        stamp = self._truth.stamp
-        while not wait_until(self._node, is_over, timeout=self._timeout):
-            if self._truth.stamp == stamp:
+            if self._truth.stamp != stamp:
+                stamp, since = self._truth.stamp, time.monotonic()
+            elif time.monotonic() - since > self._timeout:
                 raise CalibrationError(
                     f'the truth has stood still for {self._timeout:g} s: is the simulation '
                     'paused, or gone?'
                 )
-            stamp = self._truth.stamp
+            return condition() or None
+
+        wait_until(self._node, is_over)
 
     # --- discovery ----------------------------------------------------------------------------
 

@@ -47,7 +47,7 @@ drive:
     base_frame_id: base_footprint
     cmd_vel_timeout: 0.0  # on a busy machine commands come late
 """
-BRISK = ('--linear', '0.4', '--angular', '1.2', '--distance', '0.8')
+BRISK = ('--linear', '0.4', '--angular', '2.0', '--distance', '0.4')
 # name, true and its unit, before, its error in %, after, its error in %
 ROW = re.compile(r'^(.+?) +([+-]\S+) (deg|m) +(\S+) \S+ +(\S+)% +(\S+) \S+ +(\S+)%$', re.MULTILINE)
 
