@@ -42,15 +42,18 @@ def person(machine, chapter, *first):
 
 @contextmanager
 def robot(machine, chapter, line):
-    """The line that brings the robot up, until it is; everything has ended afterwards."""
+    """The line that brings the robot up, which goes on; everything has ended afterwards."""
     with person(machine, chapter) as shell:
         shell.start(line)
-        shell.see(r'\[create-3\]: process has finished cleanly')
-        shell.see(r'ready in \d+\.\d s: open the page')
-        shell.see(re.escape('Ctrl-C stops all.'))
         yield shell
         shell.press(CTRL_C)
         assert 'ended what was left' not in shell.see(re.escape(PROMPT)).string
+
+
+def wait_until_up(shell):
+    shell.see(r'\[create-3\]: process has finished cleanly')
+    shell.see(r'ready in \d+\.\d s: open the page')
+    shell.see(re.escape('Ctrl-C stops all.'))
 
 
 def x(shell, line=ECHO):
@@ -58,17 +61,39 @@ def x(shell, line=ECHO):
     return float(re.search(r'^x: (\S+)$', shell.run(line), re.MULTILINE)[1])
 
 
-def test_one_network():
-    chapter = 'In one network'
-    with machines.one_network() as (first, second), ExitStack() as stack:
-        stack.enter_context(robot(first, chapter, 'scripts/run '))
-        operator = stack.enter_context(person(second, chapter, 'export '))
-        assert x(operator) == pytest.approx(0.0, abs=0.05)
+class TestOneRobot:
+    """Whom an operator at its switch drives, and another from behind a router."""
+
+    @pytest.fixture(scope='class')
+    @classmethod
+    def operators(cls):
+        """One at the switch, at a terminal, and the machine of the other; the robot is at 0."""
+        chapter = 'In one network'
+        with machines.two_networks() as (first, second), ExitStack() as stack:
+            beside = stack.enter_context(machines.Machine(first))
+            first.cable_to(beside, '192.168.6.1/24', '192.168.6.2/24')
+            shell = stack.enter_context(robot(first, chapter, 'scripts/run '))
+            operator = stack.enter_context(person(beside, chapter, 'export '))
+            wait_until_up(shell)
+            assert x(operator) == pytest.approx(0.0, abs=0.05)
+            yield operator, second
+
+    def test_one_network(self, operators):
+        operator, _ = operators
+        before = x(operator)
         operator.run(DRIVE)
-        assert x(operator) > 0.3
+        assert x(operator) > before + 0.3
         operator.start('ros2 run amr_description teleop_twist_keyboard ')
         operator.see(r'currently:\s+speed 0\.5\s+turn 1\.0')
         operator.interrupt()
+
+    def test_a_router_and_an_address(self, operators):
+        _, second = operators
+        exports = ('export ROS_AUTOMATIC_DISCOVERY_RANGE=', 'export ROS_STATIC_PEERS=')
+        with person(second, 'Through a router', *exports) as operator:
+            before = x(operator)
+            operator.run(DRIVE)
+            assert x(operator) > before + 0.3
 
 
 def test_this_host_only_is_the_default():
@@ -88,24 +113,15 @@ def topics(shell):
     return shell.run('ros2')
 
 
-def test_a_router_and_an_address():
-    chapter = 'Through a router'
-    with machines.two_networks() as (first, second), ExitStack() as stack:
-        stack.enter_context(robot(first, 'In one network', 'scripts/run '))
-        exports = ('export ROS_AUTOMATIC_DISCOVERY_RANGE=', 'export ROS_STATIC_PEERS=')
-        operator = stack.enter_context(person(second, chapter, *exports))
-        operator.run(DRIVE)
-        assert x(operator) > 0.3
-
-
 def test_a_router_and_a_discovery_server():
     chapter = 'Through a router'
     with machines.two_networks() as (first, second), ExitStack() as stack:
         server = stack.enter_context(person(first, chapter, 'source '))
         server.start('fastdds discovery ')
         server.see('Server is running')
-        stack.enter_context(robot(first, chapter, 'scripts/run '))
+        shell = stack.enter_context(robot(first, chapter, 'scripts/run '))
         operator = stack.enter_context(person(second, chapter, 'export ROS_DISCOVERY_SERVER='))
+        wait_until_up(shell)
         assert {'/odom', '/tf', '/clock'} <= set(operator.run('ros2 topic list').split())
         operator.run(DRIVE)
         assert x(operator) > 0.3
@@ -116,10 +132,14 @@ def test_a_router_and_a_discovery_server():
 def test_a_robot_on_each_of_two_hosts():
     chapter = 'Several robots'
     with machines.one_network() as (first, second), ExitStack() as stack:
-        for machine, domain in ((first, 11), (second, 12)):
-            line = f'scripts/run simulation --discovery subnet --domain {domain}'
-            stack.enter_context(robot(machine, chapter, line))
+        line = 'scripts/run simulation --discovery subnet --domain {}'
+        robots = [
+            stack.enter_context(robot(machine, chapter, line.format(domain)))
+            for machine, domain in ((first, 11), (second, 12))
+        ]
         operator = stack.enter_context(person(second, chapter, 'export '))
+        for shell in robots:
+            wait_until_up(shell)
         operator.run(f'ROS_DOMAIN_ID=11 {DRIVE}')
         assert x(operator, f'ROS_DOMAIN_ID=11 {ECHO}') > 0.3
         assert x(operator, f'ROS_DOMAIN_ID=12 {ECHO}') == pytest.approx(0.0, abs=0.05)
