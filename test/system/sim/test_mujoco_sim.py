@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator as a process: what it takes in, what it refuses, how create and spawner end."""
 
+from dataclasses import dataclass
 from pathlib import Path
 import signal
 import subprocess
@@ -11,18 +12,28 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from simulation_interfaces.msg import Result
-from simulation_interfaces.srv import GetEntityState, SpawnEntity
+from simulation_interfaces.srv import GetEntityState, ResetSimulation, SpawnEntity
 from support.ros_processes import command, environment, PATIENCE, ROOT, run, running
+from support.running_programs import Program
 
 from amr_description.ros.service_calls import call, wait_until
 from amr_description.sim.spawning import SpawnCode
+from amr_description.testing.program import own_domain
 
 URDF = (ROOT / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
 YAML = (ROOT / 'config' / 'controllers.yaml').read_text(encoding='utf-8')
 SERVICES = '/mujoco_sim'
 
 
-@pytest.fixture
+@dataclass(frozen=True)
+class SharedSimulator:
+    """The simulator of all tests of this file, and the parameter file that it reads at a spawn."""
+
+    program: Program
+    controllers: Path
+
+
+@pytest.fixture(scope='module')
 def node():
     rclpy.init(args=[])
     node = Node('test_mujoco_sim')
@@ -31,10 +42,37 @@ def node():
     rclpy.try_shutdown()
 
 
+@pytest.fixture(scope='module')
+def shared(tmp_path_factory):
+    path = tmp_path_factory.mktemp('mujoco_sim') / 'controllers.yaml'
+    path.write_text(YAML)
+    options = ('--ros-args', '-p', f'controllers:={path}')
+    with Program.module('mujoco_sim', *options) as program:
+        program.expect('waiting for robots')
+        yield SharedSimulator(program, path)
+        assert program.end(signal.SIGINT) == 0, program.output
+
+
 @pytest.fixture
-def sim():
-    with running('mujoco_sim', until='waiting for robots') as process:
-        yield process
+def sim(shared, node):
+    """The simulator without a robot; it has none afterwards."""
+    shared.controllers.write_text(YAML)
+    yield shared
+    reset = ResetSimulation.Request(scope=ResetSimulation.Request.SCOPE_ALL)
+    response = call(node, ResetSimulation, f'{SERVICES}/reset_simulation', reset, timeout=PATIENCE)
+    assert response.result.result == Result.RESULT_OK, response.result.error_message
+    assert gone(node, 'controller_manager')
+
+
+def gone(node, name):
+    """Wait until no node has this name any more."""
+    return wait_until(
+        node,
+        lambda: name not in node.get_node_names() or None,
+        lambda: None,
+        every=1.0,
+        timeout=PATIENCE,
+    )
 
 
 def spawn(node, **fields):
@@ -53,6 +91,28 @@ def aside(y):
 def state(node, entity):
     request = GetEntityState.Request(entity=entity)
     return call(node, GetEntityState, f'{SERVICES}/get_entity_state', request, timeout=20.0)
+
+
+def test_each_fault_of_the_tutorial_is_named_once_and_nothing_else():
+    """Of a simulator of its own, as all that it prints counts; so in a domain of its own."""
+    tutorial = ROOT / 'test' / 'fixtures' / 'tutorial'
+    controllers = tutorial / 'controllers.yaml'
+    arguments = ['--ros-args', '-p', f'controllers:={controllers}']
+    with (
+        own_domain(),
+        running('mujoco_sim', *arguments, until='waiting for robots') as process,
+    ):
+        assert run('create', '-file', str(tutorial / 'amr.urdf'), '-name', 'amr').returncode == 0
+        said = []
+        for line in process.stderr:
+            said.append(line)
+            if "Successful 'activate' of hardware" in line:
+                break
+    axles, frames, scrubbing = [line for line in said if '[WARN]' in line or '[ERROR]' in line]
+    assert 'a positive speed drives the robot backwards' in axles
+    place = f'{controllers}:{{}}: diff_drive_controller: {{}}'
+    assert place.format(20, '"base_link" gets two parents in TF') in frames
+    assert place.format(16, 'wheels one behind the other scrub in a turn') in scrubbing
 
 
 def test_a_robot_is_spawned_falls_and_rests(sim, node):
@@ -138,21 +198,11 @@ def test_what_only_others_refuse_leaves_the_simulator_running(sim, node, fields,
     assert spawn(node, name='amr', resource_string=URDF).result.result == Result.RESULT_OK
 
 
-def test_a_refused_update_rate_leaves_no_node_behind(tmp_path, node):
-    path = tmp_path / 'controllers.yaml'
-    path.write_text(YAML.replace('update_rate: 100', 'update_rate: 0'))
-    with running(
-        'mujoco_sim', '--ros-args', '-p', f'controllers:={path}', until='waiting for robots'
-    ):
-        result = spawn(node, name='amr', resource_string=URDF).result
-        assert "parameter 'update_rate'" in result.error_message
-        assert wait_until(
-            node,
-            lambda: 'controller_manager' not in node.get_node_names() or None,
-            lambda: None,
-            every=1.0,
-            timeout=PATIENCE,
-        )
+def test_a_refused_update_rate_leaves_no_node_behind(sim, node):
+    sim.controllers.write_text(YAML.replace('update_rate: 100', 'update_rate: 0'))
+    result = spawn(node, name='amr', resource_string=URDF).result
+    assert "parameter 'update_rate'" in result.error_message
+    assert gone(node, 'controller_manager')
 
 
 @pytest.mark.parametrize(
@@ -206,65 +256,32 @@ def test_create_without_a_source_or_with_a_missing_file():
     assert '-file /no/such.urdf' in ended.stderr
 
 
-def test_spawners_tell_why_they_fail(tmp_path):
-    wrong = tmp_path / 'wrong.yaml'
-    wrong.write_text(YAML.replace('"joint_wheel_front_left"', '"joint_wheel_typo"'))
-    with running(
-        'mujoco_sim',
-        '--ros-args',
-        '-p',
-        f'controllers:={wrong}',
-        until='waiting for robots',
-    ):
-        assert run('create', '-string', URDF, '-z', '0.2').returncode == 0
-        failures = {
-            'nobody': 'no type is set for it; the parameters of /controller_manager hold one for: '
-            'diff_drive_controller, joint_state_broadcaster',
-            'diff_drive_controller': "the command interface 'joint_wheel_typo/velocity' is not "
-            'available',
-        }
-        for name, reason in failures.items():
-            ended = run('spawner', name)
-            assert ended.returncode == 1
-            assert reason in ended.stderr
-            assert 'Traceback' not in ended.stderr
-        assert run('spawner', 'joint_state_broadcaster').returncode == 0
-        again = run('spawner', 'joint_state_broadcaster')
-        assert again.returncode == 0
-        assert 'is active already' in again.stderr
-
-
-def test_each_fault_of_the_tutorial_is_named_once_and_nothing_else():
-    tutorial = ROOT / 'test' / 'fixtures' / 'tutorial'
-    controllers = tutorial / 'controllers.yaml'
-    arguments = ['--ros-args', '-p', f'controllers:={controllers}']
-    with running('mujoco_sim', *arguments, until='waiting for robots') as process:
-        assert run('create', '-file', str(tutorial / 'amr.urdf'), '-name', 'amr').returncode == 0
-        said = []
-        for line in process.stderr:
-            said.append(line)
-            if "Successful 'activate' of hardware" in line:
-                break
-    axles, frames, scrubbing = [line for line in said if '[WARN]' in line or '[ERROR]' in line]
-    assert 'a positive speed drives the robot backwards' in axles
-    place = f'{controllers}:{{}}: diff_drive_controller: {{}}'
-    assert place.format(20, '"base_link" gets two parents in TF') in frames
-    assert place.format(16, 'wheels one behind the other scrub in a turn') in scrubbing
-
-
-def test_a_parameter_file_that_is_not_yaml_is_named_with_its_line(tmp_path):
-    broken = tmp_path / 'broken.yaml'
-    broken.write_text('controller_manager:\n  ros__parameters: {update_rate: 100\n')
-    with running(
-        'mujoco_sim',
-        '--ros-args',
-        '-p',
-        f'controllers:={broken}',
-        until='waiting for robots',
-    ):
-        ended = run('create', '-string', URDF)
+def test_spawners_tell_why_they_fail(sim):
+    wrong = YAML.replace('"joint_wheel_front_left"', '"joint_wheel_typo"')
+    sim.controllers.write_text(wrong)
+    assert run('create', '-string', URDF, '-z', '0.2').returncode == 0
+    failures = {
+        'nobody': 'no type is set for it; the parameters of /controller_manager hold one for: '
+        'diff_drive_controller, joint_state_broadcaster',
+        'diff_drive_controller': "the command interface 'joint_wheel_typo/velocity' is not "
+        'available',
+    }
+    for name, reason in failures.items():
+        ended = run('spawner', name)
         assert ended.returncode == 1
-        assert f'{broken}:3:1' in ended.stderr
+        assert reason in ended.stderr
+        assert 'Traceback' not in ended.stderr
+    assert run('spawner', 'joint_state_broadcaster').returncode == 0
+    again = run('spawner', 'joint_state_broadcaster')
+    assert again.returncode == 0
+    assert 'is active already' in again.stderr
+
+
+def test_a_parameter_file_that_is_not_yaml_is_named_with_its_line(sim):
+    sim.controllers.write_text('controller_manager:\n  ros__parameters: {update_rate: 100\n')
+    ended = run('create', '-string', URDF)
+    assert ended.returncode == 1
+    assert f'{sim.controllers}:3:1' in ended.stderr
 
 
 def test_the_spawner_waits_only_as_long_as_it_is_told():
