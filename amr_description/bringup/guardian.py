@@ -26,7 +26,8 @@ from typing import NamedTuple
 RUN_VARIABLE = 'AMR_BRINGUP_RUN'
 _KILL_DELAY = 2.0  # s from SIGINT to SIGKILL
 _GIVE_UP = 4.0  # s after which a process that even SIGKILL does not end is reported
-_POLL_PERIOD = 0.02  # s
+_POLL_PERIOD = 0.02  # s, at first: most end at once
+_SLOWEST_POLL_PERIOD = 0.1  # s; a look at all processes costs about 10 ms of processor time
 _SHARED_MEMORY = '/dev/shm'
 _SETTLED = 5.0  # s of age; a younger lock file may be just about to be locked
 
@@ -124,8 +125,14 @@ def end(find: Callable[[], list[int]]) -> tuple[set[int], list[int]]:
             elif pid not in known:
                 _send(pid, signal.SIGINT)
         known.update(pids)
-        time.sleep(_POLL_PERIOD)
+        time.sleep(_poll_period(elapsed) if pids else _POLL_PERIOD)
     return known, []
+
+
+def _poll_period(elapsed: float) -> float:
+    """Return a tenth of the wait since the last signal, within bounds, s."""
+    waited = elapsed if elapsed <= _KILL_DELAY else elapsed - _KILL_DELAY
+    return min(max(_POLL_PERIOD, waited / 10.0), _SLOWEST_POLL_PERIOD)
 
 
 def _send(pid: int, number: signal.Signals) -> None:
