@@ -122,6 +122,8 @@ class Simulation:
     def __enter__(self) -> Self:
         with ExitStack() as stack:
             self._description = self._read_description()
+            # Before anything is started: what is wrong with it is told at once.
+            self._is_controlled = bool(hardware_of(parse_urdf(self._description)))
             stack.enter_context(own_domain())
             self._simulator = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack)
@@ -179,7 +181,7 @@ class Simulation:
         lock_step, namespace = self._running, name
         name = spawn(lock_step, self._description, pose, name, namespace)
         topics = Topics()
-        if hardware_of(parse_urdf(self._description)):
+        if self._is_controlled:
             topics = spawn_controllers(lock_step, self._activate, namespace)
         self._robots[name] = Robot(lock_step, self._readings, name, namespace, topics)
         return self._robots[name]
