@@ -124,16 +124,24 @@ def target_of(name: str, sources: object = SOURCES) -> str:
     return name
 
 
-IMPORTS = [
-    (module, path, line, name)
-    for module, path in SOURCES.items()
-    for line, name in imported(path.read_text(), module, is_package=path.stem == '__init__')
-]
-OWN_IMPORTS = [
-    (module, path, line, target_of(name))
-    for module, path, line, name in IMPORTS
-    if name.split('.')[0] == 'amr_description'
-]
+@cache
+def imports() -> list[tuple[str, Path, int, str]]:
+    """Return module, file, line and imported name of every import of the package."""
+    return [
+        (module, path, line, name)
+        for module, path in SOURCES.items()
+        for line, name in imported(path.read_text(), module, is_package=path.stem == '__init__')
+    ]
+
+
+@cache
+def own_imports() -> list[tuple[str, Path, int, str]]:
+    """Those of our own modules, and which module is meant."""
+    return [
+        (module, path, line, target_of(name))
+        for module, path, line, name in imports()
+        if name.split('.')[0] == 'amr_description'
+    ]
 
 
 def where(path, line=1):
@@ -156,7 +164,7 @@ def test_every_room_has_its_arrows():
 def test_arrows_point_one_way():
     wrong = [
         f'{where(path, line)}: {room} -> {target} ({name})'
-        for module, path, line, name in OWN_IMPORTS
+        for module, path, line, name in own_imports()
         if (target := room_of(name)) not in {(room := room_of(module)), 'base', 'amr_description'}
         and target not in ARROWS[room]
     ]
@@ -166,7 +174,7 @@ def test_arrows_point_one_way():
 
 def test_no_modules_import_each_other_in_a_circle():
     arrows = {module: set() for module in SOURCES}
-    for module, path, line, name in OWN_IMPORTS:
+    for module, path, line, name in own_imports():
         # A package's table of its own modules is read on demand: it is no import.
         is_table = path.stem == '__init__' and name.startswith(f'{module}.')
         if name != module and not (is_table and not is_statement(path, line)):
@@ -189,7 +197,7 @@ def is_statement(path: Path, line: int) -> bool:
 def test_heavy_library_has_one_home(library):
     wrong = [
         where(path, line)
-        for module, path, line, name in IMPORTS
+        for module, path, line, name in imports()
         if name.split('.')[0] == library and room_of(module) not in HOMES[library]
     ]
     assert wrong == []
@@ -198,7 +206,7 @@ def test_heavy_library_has_one_home(library):
 def test_messages_stay_at_home():
     wrong = [
         f'{where(path, line)}: {name}'
-        for module, path, line, name in IMPORTS
+        for module, path, line, name in imports()
         if name.split('.')[0].endswith(('_msgs', '_interfaces')) and room_of(module) not in ROS
     ]
     assert wrong == []
@@ -207,7 +215,7 @@ def test_messages_stay_at_home():
 def test_pure_rooms_take_time_and_chance_as_arguments():
     wrong = [
         f'{where(path, line)}: {name}'
-        for module, path, line, name in IMPORTS
+        for module, path, line, name in imports()
         if room_of(module) in PURE
         and path.stem not in OF_THE_PROCESS
         and name.split('.')[0] in IMPURE
@@ -218,7 +226,7 @@ def test_pure_rooms_take_time_and_chance_as_arguments():
 def test_the_core_of_tf2_knows_no_ros():
     wrong = [
         f'{where(path, line)}: {name}'
-        for module, path, line, name in IMPORTS
+        for module, path, line, name in imports()
         if module.removeprefix('amr_description.').replace('.', '/') in PURE_TF2
         and (
             name.split('.')[0] in {'rclpy', *IMPURE}
@@ -251,7 +259,7 @@ def test_only_the_simulator_loads_the_physics():
 def loads(modules: list[str], heavy: re.Pattern[str]) -> list[str]:
     """Return the imports of ``heavy`` by these modules, and by what importing them imports."""
     arrows: dict[str, set[str]] = {}
-    for module, path, line, name in IMPORTS:
+    for module, path, line, name in imports():
         if is_statement(path, line):
             arrows.setdefault(module, set()).add(name)
     waiting = list(modules)
@@ -363,7 +371,7 @@ def test_standard_library_only_at_the_entry():
     """The way into every executable must cost nothing before Ctrl-C is quiet."""
     wrong = [
         f'{where(path, line)}: {name}'
-        for module, path, line, name in IMPORTS
+        for module, path, line, name in imports()
         if module == 'amr_description.entry'
         and name.split('.')[0] not in {*sys.stdlib_module_names, 'amr_description'}
     ]

@@ -3,6 +3,7 @@
 """Every recorded vector is used by a test."""
 
 import ast
+import functools
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,6 @@ from support.control_fakes import VECTORS
 from support.paths import TESTS
 
 REMARKS = {'_note'}
-TESTS = TESTS
 
 
 def names_in(nodes):
@@ -47,23 +47,28 @@ def readers(module):
     return found
 
 
-RUN = {}
-for path in sorted(TESTS.rglob('test_*.py')):
-    if path.name != Path(__file__).name:
-        for each, functions in readers(ast.parse(path.read_text())).items():
-            RUN.setdefault(each, []).extend((path, function) for function in functions)
+@functools.cache
+def users():
+    """Key → (file, test function) of every use in a test."""
+    found = {}
+    for path in sorted(TESTS.rglob('test_*.py')):
+        text = path.read_text()
+        if path.name != Path(__file__).name and 'VECTORS' in text:
+            for key, functions in readers(ast.parse(text)).items():
+                found.setdefault(key, []).extend((path, function) for function in functions)
+    return found
 
 
 @pytest.mark.parametrize('key', sorted(VECTORS.keys() - REMARKS))
 def test_a_vector_is_run_by_a_test(key):
-    assert RUN.get(key), f'no test uses VECTORS[{key!r}]'
+    assert users().get(key), f'no test uses VECTORS[{key!r}]'
 
 
 @pytest.mark.parametrize('key', sorted(VECTORS.keys() - REMARKS))
 def test_every_list_of_rows_in_it_is_read(key):
     """By its name, or all of them by a loop over the whole vector."""
     lists = {name for name, value in VECTORS[key].items() if isinstance(value, list)}
-    modules = [ast.parse(path.read_text()) for path in {path for path, _ in RUN[key]}]
+    modules = [ast.parse(path.read_text()) for path in {path for path, _ in users()[key]}]
     if 'items' in {n.attr for m in modules for n in ast.walk(m) if isinstance(n, ast.Attribute)}:
         return
     assert lists - {'arg_order'} <= strings_in(modules)
