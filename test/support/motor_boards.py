@@ -16,12 +16,14 @@ SIDES = {
     'left_joints': 'joint_wheel_front_left joint_wheel_back_left',
     'right_joints': 'joint_wheel_front_right joint_wheel_back_right',
 }
+SLOW_MACHINE = {'answer_timeout': 5.0, 'connect_timeout': 10.0}
+"""s; the board is a thread or a process here, which others may delay."""
 QUICK = MotorConstants(time_constant=0.001, acceleration=1e5)
 
 
 def on_motor_board(port, **parameters):
     """Return the shipped description, driven by a motor board on a serial port."""
-    given = {'port': port, **SIDES, **parameters}
+    given = {'port': port, **SIDES, **SLOW_MACHINE, **parameters}
     texts = {name: str(value) for name, value in given.items()}
     return swap_hardware(AMR, 'amr_description/SerialBaseSystem', texts)
 

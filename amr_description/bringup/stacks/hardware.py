@@ -31,6 +31,8 @@ from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
 
 _HARDWARE = re.compile(r'<hardware>.*?</hardware>', re.DOTALL)
+_SIMULATED_BOARD = {'answer_timeout': '1.0'}
+"""s; a board that is a process of a busy computer may answer late, and turns no motors."""
 _PORT_TIMEOUT = 10.0
 """s; the port of a board that was just plugged in appears after two or three."""
 
@@ -64,15 +66,15 @@ def serial(
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot behind a serial port: a real motor board, or a simulated one."""
-    boards, timeout = [], _PORT_TIMEOUT
+    boards, timeout, patience = [], _PORT_TIMEOUT, {}
     if not port:
-        timeout = None
+        timeout, patience = None, _SIMULATED_BOARD
         port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))
         boards = [Node('motor_board', arguments=['--link', port], required=False)]
     description = swap_hardware(
         robot_description(urdf, xacro_args),
         'amr_description/SerialBaseSystem',
-        {'port': port, 'left_joints': left, 'right_joints': right},
+        {'port': port, 'left_joints': left, 'right_joints': right} | patience,
     )
     files = [path_of(urdf), path_of(controllers)]
     return _controlled(description, files, viewer, boards, path_exists(port), timeout)

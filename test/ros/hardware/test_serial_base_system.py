@@ -56,6 +56,10 @@ class Rig:
         self.system.configure()
         self.system.activate()
 
+    def answer_within(self, timeout):
+        """Set the answer timeout, s, of the connected board."""
+        self.system._board._link._answer_timeout = timeout
+
     def command(self, left, right):
         for name, command in self.commands.items():
             command.value = left if 'left' in name else right
@@ -395,6 +399,7 @@ def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
     drive(rig, board)
     board.tamper = lambda answer: b''
     board.received.clear()
+    rig.answer_within(0.25)
     with pytest.raises(HardwareError, match='has not told its state'):
         rig.turn_until(lambda: False)
     # At first two, then one each 50 ms of the 250 ms.
@@ -402,16 +407,22 @@ def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
 
 
 def test_a_program_that_was_stopped_for_a_while_goes_on(plugged, board):
-    rig = Rig(plugged.port, answer_timeout=0.05)
+    rig = Rig(plugged.port)
     rig.start()
     port, stopped = rig.system._board._link._serial, threading.Event()
     read = port.read
 
     def stop(_size):
-        port.read = read
+        port.read = go_on
+        rig.answer_within(0.05)
         threading.Event().wait(0.2)
-        stopped.set()
         return b''
+
+    def go_on(size):
+        port.read = read
+        rig.answer_within(5.0)
+        stopped.set()
+        return read(size)
 
     port.read = stop
     rig.system.write(0, 10 * MS)
@@ -492,6 +503,7 @@ def test_without_a_board_read_and_write_fail(step):
 
 def is_lost(rig, board, match):
     """The fault is reported once, and the manager can bring the component down."""
+    rig.answer_within(0.25)
     with pytest.raises(HardwareError, match=match) as caught:
         rig.turn_until(lambda: False, board)
     assert REMEDY in str(caught.value)
@@ -592,7 +604,7 @@ def test_disarms_its_motors(rig, board):
 
 
 def test_a_board_with_a_fault_is_not_activated(plugged, board):
-    rig = Rig(plugged.port, answer_timeout=0.05)
+    rig = Rig(plugged.port)
     rig.system.configure()
     board.fail()
     with pytest.raises(

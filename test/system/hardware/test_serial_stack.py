@@ -88,6 +88,7 @@ def test_a_board_is_driven_unplugged_and_plugged_in_again(tmp_path):
             'port': str(link),
             'left_joints': 'joint_wheel_front_left joint_wheel_back_left',
             'right_joints': 'joint_wheel_front_right joint_wheel_back_right',
+            'answer_timeout': '5.0',  # s; the board is a process that others may delay
         },
     )
     with motor_board(link) as board, running_stack(tmp_path, urdf) as log, ros_in_this_process():

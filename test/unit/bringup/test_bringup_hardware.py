@@ -63,6 +63,7 @@ def test_a_simulated_board_where_there_is_no_real_one():
     info = hardware(made)
     assert info.plugin == 'amr_description/SerialBaseSystem'
     assert made.nodes[0].arguments == ['--link', info.parameters['port']]
+    assert info.parameters['answer_timeout'] == '1.0'  # the board shares a busy computer
     sides = info.parameters['left_joints'], info.parameters['right_joints']
     driven = {joint for side in sides for joint in side.split()}
     assert driven == {joint.name for joint in info.joints}
@@ -72,6 +73,7 @@ def test_a_real_board():
     made = stack(serial, port='/dev/ttyUSB0')
     assert list(waves(made)) == [['robot_state_publisher'], *CONTROLLED]
     assert hardware(made).parameters['port'] == '/dev/ttyUSB0'
+    assert 'answer_timeout' not in hardware(made).parameters
 
 
 def test_a_missing_port_is_reported_soon():

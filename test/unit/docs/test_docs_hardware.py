@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/write_your_own_hardware.md: its class drives, its test passes, its words are true."""
 
+from contextlib import suppress
 import inspect
 import os
 import re
@@ -73,14 +74,29 @@ def test_the_test_of_the_page_passes(package):
     assert threading.active_count() == before
 
 
+class HeldBoard:
+    """Its wheels are at 0.5 rad; it gives as many answers as ``answers`` has permits."""
+
+    def __init__(self):
+        self.questions, self.answers = [], threading.Semaphore(1)  # the one of configure
+
+    def __call__(self, end):
+        with suppress(OSError), os.fdopen(end, 'rb+', 0) as line:
+            while question := line.readline():
+                self.questions.append(question)
+                assert self.answers.acquire(timeout=PATIENCE)
+                line.write(b'0.5 0.5\n')
+
+
 class Driven:
     """The reader's robot under the diff_drive_controller, on the board of the page's test."""
 
-    def __init__(self):
+    def __init__(self, board=None):
         end, self.port = os.openpty()
-        self.motors = threading.Thread(target=run(TEST)['board'], args=[end])
+        self.motors = threading.Thread(target=board or run(TEST)['board'], args=[end])
         self.motors.start()
         (info,) = hardware_of(parse(DESCRIPTION.replace('/dev/ttyUSB0', os.ttyname(self.port))))
+        info.parameters['answer_timeout'] = '60'
         self.log = FakeLog()
         self.resources = ResourceManager(self.log)
         self.resources.add(HARDWARE.find(info.plugin)(info, self.log, None))
@@ -141,6 +157,61 @@ def test_what_the_page_says_of_errors_is_true(robot):
     assert robot.manager._controllers['drive'].state is LifecycleState.INACTIVE
     robot.manager.set_component_state('MyRobot', LifecycleState.ACTIVE, robot.time)
     assert robot.state is LifecycleState.ACTIVE
+
+
+@pytest.fixture
+def held(package):
+    """A robot whose board was asked for the second time and does not answer: (robot, board)."""
+    board = HeldBoard()
+    robot = Driven(board)
+    robot.turn_until(lambda: len(board.questions) == 2)
+    yield robot, board
+    board.answers.release(1000)
+    robot.manager.shut_down(robot.time)
+    if robot.motors.is_alive():
+        robot.unplug()
+
+
+def test_a_late_answer_is_not_a_lost_board(held):
+    robot, board = held
+    before = robot.time
+    robot.turn_until(lambda: robot.time == before + 500 * MS)  # 50 cycles that do not wait
+    assert robot.state is LifecycleState.ACTIVE
+    board.answers.release()
+    robot.turn_until(lambda: len(board.questions) == 3)  # it goes on where it was
+    assert robot.state is LifecycleState.ACTIVE
+    assert robot.log.texts(Severity.WARN) == []
+
+
+def test_a_silent_board_is_lost_and_the_error_says_how_long_it_was_silent(held):
+    robot, board = held
+    robot.resources.components['MyRobot'].component._serial.timeout = 0.01  # of the next answer
+    board.answers.release()
+    robot.turn_until(lambda: robot.state is LifecycleState.UNCONFIGURED)
+    (line,) = [line for line in robot.log.texts(Severity.ERROR) if 'the board is lost' in line]
+    assert 'the board is lost (silent for 0.01 s); reconnect it' in line
+
+
+def test_bringing_it_down_stops_the_motors_and_does_not_wait_for_a_silent_board(held):
+    robot, board = held
+    robot.resources.set_state('MyRobot', LifecycleState.UNCONFIGURED)
+    assert len(board.questions) == 2  # it has not answered
+    board.answers.release(2)
+    robot.unplug()
+    assert board.questions[-1] == b'0 0\n'
+
+
+def test_a_board_has_a_second_to_answer(package, monkeypatch):
+    end, port = os.openpty()
+    (info,) = hardware_of(parse(DESCRIPTION.replace('/dev/ttyUSB0', os.ttyname(port))))
+    my_base = HARDWARE.find(info.plugin)
+    monkeypatch.setattr(my_base, '_exchange', lambda self: None)  # the machine may be slower
+    hardware = my_base(info, FakeLog(), None)
+    hardware.configure()
+    assert hardware._serial.timeout == 1.0
+    hardware.cleanup()
+    os.close(port)
+    os.close(end)
 
 
 def test_a_port_without_a_board_is_told(package):
