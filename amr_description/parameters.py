@@ -45,11 +45,16 @@ class Bounds:
     The constraints on a value.
 
     Numbers must be finite unless ``nan`` is true; NaN then satisfies every bound on size.
+
+    ``magnitude`` holds the smallest and the greatest absolute value of a number other than 0 that
+    a robot can have. Beyond it computations overflow. It is not in the descriptor of the
+    parameter, as ROS 2 has no such bounds.
     """
 
     minimum: float | None = None
     maximum: float | None = None
     above: float | None = None
+    magnitude: tuple[float, float] | None = None
     not_zero: bool = False
     choices: tuple[str, ...] = ()
     length: int | None = None
@@ -81,6 +86,19 @@ class Bounds:
             return f'must be at least {self.minimum:g}'
         if self.maximum is not None and not value <= self.maximum:
             return f'must be at most {self.maximum:g}'
+        return self._complaint_on_magnitude(value)
+
+    def _complaint_on_magnitude(self, value: float) -> str:
+        if self.magnitude is None or value == 0:
+            return ''
+        smallest, greatest = self.magnitude
+        away, back = ('at least', 'at most') if value > 0 else ('at most', 'at least')
+        sign = 1 if value > 0 else -1
+        if abs(value) > greatest:
+            return f'must be {back} {sign * greatest:g}'
+        if abs(value) < smallest:
+            takes_zero = not self.not_zero and self.above is None
+            return f'must be {"0 or " if takes_zero else ""}{away} {sign * smallest:g}'
         return ''
 
 

@@ -9,6 +9,9 @@ from amr_description.controllers.rate_limiter import RateLimiter
 from amr_description.parameters import group, parameter
 
 _NO_LIMIT = {'nan': True}
+_LENGTH = (1e-3, 100.0)
+"""m: from a toy to a mining truck, with room."""
+_FACTOR = (0.01, 100.0)
 _DEPRECATED = 'Deprecated: set the limits themselves to .nan instead'
 
 
@@ -81,19 +84,26 @@ class DiffDriveParameters:
         (), 'Joints of the wheels on the right', not_empty=True
     )
     wheel_separation: float = parameter(
-        0.0, 'Shortest distance between the left and the right wheels', unit='m', above=0.0
+        0.0,
+        'Shortest distance between the left and the right wheels',
+        unit='m',
+        above=0.0,
+        magnitude=_LENGTH,
     )
-    wheel_radius: float = parameter(0.0, 'Radius of a wheel', unit='m', above=0.0)
+    wheel_radius: float = parameter(
+        0.0, 'Radius of a wheel', unit='m', above=0.0, magnitude=_LENGTH
+    )
     wheel_separation_multiplier: float = parameter(
         1.0,
         'Factor on the separation: a skid-steered robot scrubs, and turns less',
         not_zero=True,
+        magnitude=_FACTOR,
     )
     left_wheel_radius_multiplier: float = parameter(
-        1.0, 'Factor on the radius, left', not_zero=True
+        1.0, 'Factor on the radius, left', not_zero=True, magnitude=_FACTOR
     )
     right_wheel_radius_multiplier: float = parameter(
-        1.0, 'Factor on the radius, right', not_zero=True
+        1.0, 'Factor on the radius, right', not_zero=True, magnitude=_FACTOR
     )
     tf_frame_prefix_enable: bool = parameter(True, 'Put a prefix before the frame ids')
     tf_frame_prefix: str = parameter('', 'That prefix; empty: the namespace of the node')
@@ -111,13 +121,19 @@ class DiffDriveParameters:
     )
     enable_odom_tf: bool = parameter(True, 'Publish the transform from odom to base on /tf')
     cmd_vel_timeout: float = parameter(
-        0.5, 'Age at which a command ends and the robot brakes; 0: never', unit='s', minimum=0.0
+        0.5,
+        'Age at which a command ends and the robot brakes; 0: never',
+        unit='s',
+        minimum=0.0,
+        magnitude=(1e-6, 1e9),
     )
     publish_limited_velocity: bool = parameter(False, 'Publish the limited command, ~/cmd_vel_out')
     velocity_rolling_window_size: int = parameter(
-        10, 'Samples in the mean of the estimated twist', minimum=1
+        10, 'Samples in the mean of the estimated twist', minimum=1, magnitude=(1, 100_000)
     )
-    publish_rate: float = parameter(50.0, 'Rate of odometry and transform', unit='Hz', above=0.0)
+    publish_rate: float = parameter(
+        50.0, 'Rate of odometry and transform', unit='Hz', above=0.0, magnitude=(1e-3, 1e5)
+    )
     enable_cmd_vel_unstamped: bool = parameter(
         False,
         'Subscribe to plain Twist on ~/cmd_vel_unstamped too, which counts as stamped on arrival. '

@@ -61,6 +61,9 @@ _MOST_UNANSWERED = 2
 _ANSWER_LOST = 0.05
 """s, after which an answer counts as lost."""
 
+_GEAR = (1e-4, 1e4)
+"""Turns of the shaft for a turn of the wheel."""
+
 _SAMPLE, _MOST_REFUSED = 100, 20
 """At most 20 of the latest 100 lines may be refused; the CRC misses 1 wrong line of 65536."""
 
@@ -83,10 +86,14 @@ class SerialParameters:
     right_joints: tuple[str, ...] = parameter(
         (), 'Joints that the right motor turns', not_empty=True
     )
-    left_reduction: float = parameter(1.0, 'Of the left gear', not_zero=True)
-    right_reduction: float = parameter(1.0, 'Of the right gear', not_zero=True)
-    max_velocity: float = parameter(20.0, 'Greatest velocity of a wheel', unit='rad/s', above=0.0)
-    baud_rate: int = parameter(115200, 'Of the port', unit='bit/s', minimum=1)
+    left_reduction: float = parameter(1.0, 'Of the left gear', not_zero=True, magnitude=_GEAR)
+    right_reduction: float = parameter(1.0, 'Of the right gear', not_zero=True, magnitude=_GEAR)
+    max_velocity: float = parameter(
+        20.0, 'Greatest velocity of a wheel', unit='rad/s', above=0.0, magnitude=(1e-3, 1e5)
+    )
+    baud_rate: int = parameter(
+        115200, 'Of the port', unit='bit/s', minimum=1, magnitude=(1, 100_000_000)
+    )
     connect_timeout: float = parameter(
         1.0,
         'Longest wait for the board to identify itself; increase it for a board that restarts '

@@ -81,6 +81,7 @@ class WorldSettings:
         'Acceleration of free fall, down; NaN: as in the world',
         unit='m/s²',
         nan=True,
+        magnitude=(1e-9, 1e4),
         read_only=True,
     )
     friction: float = parameter(
@@ -88,6 +89,7 @@ class WorldSettings:
         'Sliding friction of every static surface; NaN: as in the world',
         nan=True,
         minimum=0.0,
+        magnitude=(1e-9, 1e4),
         read_only=True,
     )
     physics_step: float = parameter(
@@ -97,6 +99,7 @@ class WorldSettings:
         unit='s',
         nan=True,
         above=0.0,
+        magnitude=(1e-6, 1.0),
         read_only=True,
     )
     integrator: str = parameter(
@@ -110,6 +113,7 @@ class WorldSettings:
         'How much harder friction is than the normal direction of a contact; NaN: as in the world',
         nan=True,
         above=0.0,
+        magnitude=(1e-3, 1e4),
         read_only=True,
     )
     solver: str = parameter(
@@ -119,6 +123,7 @@ class WorldSettings:
         0,
         'The most iterations of the solver in a step; 0: as in the world',
         minimum=0,
+        magnitude=(1, 1_000_000),
         read_only=True,
     )
 

@@ -37,7 +37,9 @@ class RecordedDriveParameters:
     """See the module."""
 
     log: str = parameter('', 'The file to write, below another name until it is complete')
-    seconds: float = parameter(30.0, 'Length of the drive', unit='s', above=0.0)
+    seconds: float = parameter(
+        30.0, 'Length of the drive', unit='s', above=0.0, magnitude=(1e-3, 1e6)
+    )
     follower: str = parameter('diff_drive_controller', 'The controller to command')
 
 

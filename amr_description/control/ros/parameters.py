@@ -30,6 +30,9 @@ from amr_description.ros.parameters import (
 )
 from amr_description.ros.runtime import argument_errors
 
+MOST_CYCLES = 100_000
+"""Hz: no control loop is faster."""
+
 
 @dataclass(frozen=True)
 class InitialStates:
@@ -75,7 +78,9 @@ class Overruns:
 class DiagnosticUpdater:
     """How ``/diagnostics`` is published."""
 
-    period: float = parameter(1.0, 'Time between two messages', unit='s', above=0.0)
+    period: float = parameter(
+        1.0, 'Time between two messages', unit='s', above=0.0, magnitude=(1e-3, 1e5)
+    )
     use_fqn: bool = parameter(False, 'Name the node with its namespace')
 
 
@@ -87,7 +92,9 @@ class ManagerTable:
     ``update_rate`` may be set while it runs, as in ros2_control, but only the start counts.
     """
 
-    update_rate: int = parameter(100, 'Rate of the control loop', unit='Hz', above=0)
+    update_rate: int = parameter(
+        100, 'Rate of the control loop', unit='Hz', above=0, magnitude=(1, MOST_CYCLES)
+    )
     enforce_command_limits: bool = parameter(
         False, 'Clamp commands to the limits of the URDF', read_only=True
     )
@@ -124,7 +131,11 @@ class CommonParameters:
     )
     thread_priority: int = parameter(-100, 'Priority of that thread; not used')
     update_rate: int = parameter(
-        100, "Updates per second; default, and 0: the manager's", unit='Hz', minimum=0
+        100,
+        "Updates per second; default, and 0: the manager's",
+        unit='Hz',
+        minimum=0,
+        magnitude=(1, MOST_CYCLES),
     )
 
 

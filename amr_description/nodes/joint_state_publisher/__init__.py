@@ -64,6 +64,7 @@ from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
 
 _WARNING_PERIOD = 5.0  # s between two equal warnings
+_LEAST_RATE = 1e-3  # Hz
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,11 @@ class JointStatePublisherSettings:
         (), 'Topics with joint states that are taken over', read_only=True
     )
     delta: float = parameter(
-        0.0, 'How far each joint moves by itself between two messages', unit='rad; m', minimum=0.0
+        0.0,
+        'How far each joint moves by itself between two messages',
+        unit='rad; m',
+        minimum=0.0,
+        magnitude=(1e-9, 1e6),
     )
 
 
@@ -224,6 +229,10 @@ def _rate(value: object) -> float:
     """Return a rate in Hz. Raises ParameterError."""
     if type(value) not in (int, float) or not 0.0 < value <= 1000.0:
         raise ParameterError(f"parameter 'rate' must be above 0 and at most 1000, found {value}")
+    if value < _LEAST_RATE:
+        raise ParameterError(
+            f"parameter 'rate' must be at least {_LEAST_RATE:g}, found {value} Hz"
+        )
     return float(value)
 
 

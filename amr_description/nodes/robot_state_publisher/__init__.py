@@ -38,6 +38,7 @@ second 12 to 14 %; ``use_sim_time`` with a 100 Hz /clock adds 1 to 2 %.
 from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass
+import math
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
@@ -74,6 +75,7 @@ from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
 
 _WARNING_PERIOD = 5.0  # s between two equal warnings
+_LEAST_FREQUENCY = 1e-3  # Hz
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,10 @@ class RobotStatePublisherSettings:
 
     robot_description: str = parameter('', 'The URDF of the robot: its text, not a file name')
     publish_frequency: float = parameter(
-        20.0, 'Maximum rate of the transforms of a joint, 0 to 1000; 0: no maximum', unit='Hz'
+        20.0,
+        'Maximum rate of the transforms of a joint, 0 to 1000; 0: no maximum',
+        unit='Hz',
+        magnitude=(_LEAST_FREQUENCY, math.inf),  # the greatest is checked with the original's text
     )
     frame_prefix: str = parameter('', "Put before every frame name; include your own '/'")
     ignore_timestamp: bool = parameter(False, 'Publish every joint state, whatever its stamp')

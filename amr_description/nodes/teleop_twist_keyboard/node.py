@@ -28,6 +28,7 @@ from amr_description.ros.type_mismatch import (
 
 _ACK_TIMEOUT = Duration(seconds=0.2)
 _TOPIC = 'cmd_vel'
+_SPEED = (1e-6, 1e3)  # m/s, rad/s
 _DISCOVERY_TIMEOUT = 1.0  # s to wait for the first subscription
 
 
@@ -41,8 +42,12 @@ class TeleopSettings:
         read_only=True,
     )
     frame_id: str = parameter('', 'Frame of the commands, with stamped only', read_only=True)
-    speed: float = parameter(0.5, 'Linear speed at the start', unit='m/s', read_only=True)
-    turn: float = parameter(1.0, 'Angular speed at the start', unit='rad/s', read_only=True)
+    speed: float = parameter(
+        0.5, 'Linear speed at the start', unit='m/s', read_only=True, magnitude=_SPEED
+    )
+    turn: float = parameter(
+        1.0, 'Angular speed at the start', unit='rad/s', read_only=True, magnitude=_SPEED
+    )
     repeat_rate: float = parameter(
         10.0,
         'How often a held command is repeated; 0: one message per key press',
@@ -50,6 +55,7 @@ class TeleopSettings:
         read_only=True,
         minimum=0.0,
         maximum=1000.0,
+        magnitude=(1e-3, 1000.0),
     )
     key_timeout: float = parameter(
         0.7,
@@ -57,6 +63,7 @@ class TeleopSettings:
         unit='s',
         read_only=True,
         minimum=0.0,
+        magnitude=(1e-3, 1e6),
     )
 
 

@@ -54,6 +54,7 @@ class SimulationParameters:
         1.0,
         'Simulated seconds per second of the wall clock; 0: as fast as possible',
         minimum=0.0,
+        magnitude=(1e-9, 1e6),
     )
     paused: bool = parameter(
         False, 'Begin with time standing still, until ~/set_simulation_state', read_only=True
@@ -77,6 +78,7 @@ class SimulationParameters:
         'Rate of ground_truth/odom and ground_truth/wheels of every robot; 0: none',
         unit='Hz',
         minimum=0.0,
+        magnitude=(1e-3, 1e5),
         read_only=True,
     )
 
