@@ -4,7 +4,10 @@
 
 import contextlib
 import os
+import select
+import stat
 import sys
+import traceback
 
 _STDOUT = 1
 _STDERR = 2
@@ -59,6 +62,36 @@ def keep_libraries_off_stdout() -> None:
     previous = sys.stdout
     sys.stdout = os.fdopen(ours, 'w', encoding=previous.encoding, errors=previous.errors)
     sys.stdout.reconfigure(line_buffering=previous.line_buffering)
+
+
+def never_wait_for_stderr() -> None:
+    """
+    Have a write to stderr fail, rather than wait, while its reader takes nothing.
+
+    For a process that controls a robot: rclpy holds the interpreter's lock while it logs, so a
+    terminal that was stopped with Ctrl-S, or a full pipe, would hold up every thread. The stream
+    is opened anew, as other processes share the present one. A file never makes us wait; a socket,
+    or the terminal of another user, cannot be opened and stays as it is.
+    """
+    with contextlib.suppress(OSError):
+        if stat.S_ISFIFO(os.fstat(_STDERR).st_mode) or os.isatty(_STDERR):
+            flags = os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY
+            ours = os.open(f'/proc/self/fd/{_STDERR}', flags)
+            os.dup2(ours, _STDERR)
+            os.close(ours)
+
+
+def print_traceback() -> None:
+    """Print the exception that is handled, unless nobody takes it."""
+    with contextlib.suppress(OSError):
+        traceback.print_exc()
+
+
+def wait_for_stderr() -> None:
+    """Block until stderr takes a line, without the interpreter's lock."""
+    poll = select.poll()
+    poll.register(_STDERR, select.POLLOUT)
+    poll.poll()
 
 
 def abandon_stdout() -> None:

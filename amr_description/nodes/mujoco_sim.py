@@ -40,6 +40,7 @@ from amr_description.sim.ros.simulation import (
 from amr_description.sim.ros.simulation_services import SimulationServices, WorldServices
 from amr_description.sim.ros.spawn_services import SpawnServices
 from amr_description.sim.ros.world_markers import publish_world
+from amr_description.streams import never_wait_for_stderr
 
 FEATURES = (
     *simulation_services.FEATURES,
@@ -103,6 +104,7 @@ def simulate(args: list[str] | None) -> int:
 
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
+    never_wait_for_stderr()
     return program(lambda: simulate(args), stopped=0)
 
 

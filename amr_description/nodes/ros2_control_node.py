@@ -48,6 +48,7 @@ from amr_description.ros.log_thread import LogThread
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.qos import CLOCK
 from amr_description.ros.runtime import argument_errors, program, ros, serve
+from amr_description.streams import never_wait_for_stderr
 
 
 class StandAloneManager:
@@ -208,6 +209,7 @@ def control(args: list[str] | None) -> int:
 
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
+    never_wait_for_stderr()
     return program(lambda: control(args), stopped=0)
 
 

@@ -3,7 +3,8 @@
 """
 The ``Log`` port over a node's logger: the caller only stores the line, a thread emits it.
 
-rcutils writes to stderr and to ``/rosout``, which may block; the control thread must not.
+rcutils writes to stderr and to ``/rosout``, which may block; the control thread must not. rclpy
+holds the interpreter's lock meanwhile, so the thread first waits until stderr takes a line.
 """
 
 import queue
@@ -14,6 +15,7 @@ import time
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.plugin_errors import describe, log_traceback
 from amr_description.ros.rclpy_internals import RcutilsLogger
+from amr_description.streams import wait_for_stderr
 from amr_description.text import encodable, unwrap
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
@@ -49,6 +51,7 @@ class LogThread:
     def _run(self) -> None:
         while (line := self._lines.get()) is not None:
             logger, severity, text, dropped = line
+            wait_for_stderr()
             if dropped:
                 logger.warning(
                     f'{dropped} lines of the log were dropped: more is said than can be written'

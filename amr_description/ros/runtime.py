@@ -46,7 +46,6 @@ from pathlib import Path
 import re
 import sys
 import threading
-import traceback
 
 import rclpy
 from rclpy.exceptions import NameValidationException, ParameterException
@@ -68,6 +67,7 @@ from amr_description.ros.rclpy_internals import (
 )
 from amr_description.ros.signals import StopRequested, StopRequests
 from amr_description.ros.transport import udp_only
+from amr_description.streams import print_traceback
 from amr_description.text import unwrap
 
 # Only a bound, s: messages, timers and Executor.wake() end the wait at once.
@@ -252,7 +252,7 @@ class ExecutorThread:
         try:
             spin(self.executor, self._ending.is_set)
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
-            traceback.print_exc()
+            print_traceback()
             self._on_failure()
 
 

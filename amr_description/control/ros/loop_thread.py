@@ -9,13 +9,13 @@ an rclpy future for the result; nothing else is shared. Times are in ns, timeout
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 import gc
 import os
 from pathlib import Path
 import sys
 import threading
-import traceback
 from types import FrameType
 
 from rclpy.executors import Executor
@@ -27,6 +27,7 @@ from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_watchdog import describe_call, is_in, LoopWatchdog
 from amr_description.ros.log_thread import LogThread
+from amr_description.streams import print_traceback
 
 _STOP_PERIOD = 0.05
 """s between two looks at a control thread that is to end."""
@@ -194,7 +195,7 @@ class LoopThread:
             self._watchdog.start()
             self.loop.run()
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
-            traceback.print_exc()
+            print_traceback()
             self.fail()
         finally:
             self._watchdog.stop()
@@ -212,7 +213,8 @@ class LoopThread:
             f'[FATAL] [{Path(sys.argv[0]).stem}]: the control loop stands in {call}; this process '
             f'ends without it; motors: {"stopped" if is_free else "left to their own watchdog"}\n'
         )
-        os.write(_STDERR, line.encode())
+        with suppress(OSError):  # nobody reads it
+            os.write(_STDERR, line.encode())
         os._exit(1)
 
     def _stop_motors(self) -> None:
@@ -224,7 +226,7 @@ class LoopThread:
         try:
             manager.shut_down(self.loop.time)
         except BaseException:
-            traceback.print_exc()
+            print_traceback()
             self.failed = True
 
 
