@@ -147,6 +147,7 @@ class Server:
         try:
             self._loop.run_until_complete(self._serve())
         finally:
+            self._loop.run_until_complete(_cancel_tasks())
             self._loop.run_until_complete(self._loop.shutdown_default_executor())
             self._loop.close()
 
@@ -268,6 +269,14 @@ class _Connection(ServerConnection):
     def connection_lost(self, exc: Exception | None) -> None:
         self._idle.pop(self, None)
         super().connection_lost(exc)
+
+
+async def _cancel_tasks() -> None:
+    """Cancel what still waits, such as for a service, and what that starts in turn."""
+    while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
 
 
 def _bind(host: str, port: int) -> socket.socket:

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page's server with a backend without ROS: slow pages, failures, latched messages."""
 
+import asyncio
 from contextlib import contextmanager
+import gc
 from queue import SimpleQueue
 import re
 import socket
+import threading
 from urllib.error import HTTPError
 from urllib.parse import urlsplit
 from urllib.request import urlopen
@@ -220,6 +223,26 @@ def test_a_server_that_ends_stops_the_robot_of_a_page(backend):
         page.wait(lambda: (1.0, 0.5) in backend.calls)
         server.stop()
         assert backend.calls[-2:] == [(0.0, 0.0), 'close']
+
+
+def test_a_server_that_ends_waits_for_no_answer_and_leaves_no_task(backend, monkeypatch):
+    asked, tasks = threading.Event(), []
+
+    async def never_answer(_request):
+        asked.set()
+        try:
+            await asyncio.get_running_loop().create_future()
+        finally:  # as the real backend does
+            tasks.append(asyncio.get_running_loop().create_task(asyncio.sleep(PATIENCE)))
+
+    monkeypatch.setattr(backend, 'handle', never_answer)
+    with serving(backend) as server, Page(server.url) as page:
+        page.say('play', id=1, simulator='/s')
+        assert asked.wait(PATIENCE)
+        server.stop()
+        gc.collect()  # which asyncio notices a pending task at
+        assert server.logged.empty()
+        assert [task.cancelled() for task in tasks] == [True]
 
 
 def test_a_page_that_is_not_built_says_how_to_build_it(tmp_path):
