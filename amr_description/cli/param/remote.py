@@ -94,11 +94,14 @@ class RemoteParameters:
     def _set(self, values: Mapping[str, ParameterValue]) -> dict[str, SetParametersResult]:
         parameters = [Parameter(name=name, value=value) for name, value in values.items()]
         request = SetParameters.Request(parameters=parameters)
-        response = self._ask('set_parameters', SetParameters, request)
+        response = self._ask('set_parameters', SetParameters, request, changes=True)
         return dict(zip(values, response.results, strict=True))
 
-    def _ask(self, service: str, service_type: Any, request: Any) -> Any:
-        return self._answer(ask_all(self._session, service, service_type, {self.node: request}))
+    def _ask(self, service: str, service_type: Any, request: Any, *, changes: bool = False) -> Any:
+        requests = {self.node: request}
+        return self._answer(
+            ask_all(self._session, service, service_type, requests, changes=changes)
+        )
 
     def _answer[Response](self, responses: Mapping[str, Response]) -> Response:
         if self.node not in responses:
