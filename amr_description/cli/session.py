@@ -43,14 +43,23 @@ class Session:
 
         Returns:
             False: it has not become true in time.
+
+        Raises:
+            StopRequested: after a callback, never inside of one.
         """
         deadline = float('inf') if timeout is None else time.monotonic() + timeout
-        while not until():
-            left = deadline - time.monotonic()
-            if left <= 0.0:
-                return False
-            self.executor.spin_once(timeout_sec=min(left, poll))
+        with self.stop.deferred(self.interrupt) as is_stopping:
+            while not (is_stopping() or until()):
+                left = deadline - time.monotonic()
+                if left <= 0.0:
+                    return False
+                self.executor.spin_once(timeout_sec=min(left, poll))
         return True
+
+    def interrupt(self) -> None:
+        """End the executor's wait for callbacks; on any thread."""
+        # Executor.wake() would have it wait again (rclpy 7.1.6).
+        self.executor.create_task(lambda: None)
 
     def serve(
         self, done: Callable[[], bool] = lambda: False, timeout: float | None = None
@@ -73,7 +82,7 @@ class Session:
 
         def request_stop() -> None:
             is_stopping.set()
-            self.executor.wake()
+            self.interrupt()
 
         with self.stop.on_stop(request_stop):
             yield is_stopping.is_set

@@ -16,6 +16,7 @@ was closed); and a second Ctrl-C raises in the middle of the clean-up. Here:
 where the program is                    what the first request does
 ======================================  ===================================================
 inside ``with stop.on_stop(callback)``  ``callback()``; a second raises StopRequested
+inside ``with stop.deferred(wake)``     ``wake()``; StopRequested at the end of the block
 cleaning up, after ``stop.leave()``     nothing: the program is on its way out
 anywhere else                           StopRequested in the main thread, once, and
                                         ``wake()`` in a thread of its own
@@ -37,6 +38,8 @@ from typing import Self
 from amr_description.entry import LIFELINE_VARIABLE
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_PATIENCE = 0.3
+"""s that a callback is given to return before it is interrupted."""
 _END_OF_WATCH = 0  # a byte for the wake-up pipe; no signal has this number
 
 
@@ -65,6 +68,7 @@ class StopRequests:
         """The first request, or None; the lifeline counts as SIGTERM."""
         self._wake = wake
         self._callback: Callable[[], object] | None = None
+        self._deferring: Callable[[], object] | None = None
         self._raised = False
         self._leaving = False
         self._previous_handlers: dict[signal.Signals, signal._HANDLER] = {}
@@ -117,6 +121,34 @@ class StopRequests:
             self.leave()
             self._callback = None
 
+    @contextmanager
+    def deferred(self, wake: Callable[[], object]) -> Iterator[Callable[[], bool]]:
+        """
+        Hold a request back while callbacks run, and raise StopRequested at the end of the block.
+
+        An exception inside a callback would go through rclpy, whose EventsExecutor logs it as
+        FATAL. A body that does not end within 0.3 s, such as a callback that prints into a full
+        pipe, is interrupted all the same. Inside of :meth:`on_stop` this changes nothing.
+
+        Args:
+            wake: Called from another thread, perhaps more than once; it must end whatever wait in
+                C the body may be in.
+
+        Yields:
+            A function that returns whether the body is to leave the block.
+        """
+        if self._callback is not None:
+            yield lambda: False
+            return
+        self._deferring = wake
+        try:
+            yield lambda: self.signum is not None
+        finally:
+            self._deferring = None
+        if self.signum is not None and not (self._raised or self._leaving):
+            self._raised = True
+            raise StopRequested(self.signum)
+
     def leave(self) -> None:
         """Ignore every request from now on: the program cleans up and ends by itself."""
         self._leaving = True
@@ -126,7 +158,9 @@ class StopRequests:
         first = self.signum is None
         if self.signum is None:
             self.signum = signal.Signals(signum)
-        if self._leaving or self._raised or (first and self._callback is not None):
+        if self._leaving or self._raised:
+            return
+        if first and (self._callback is not None or self._deferring is not None):
             return
         self._raised = True
         raise StopRequested(self.signum)
@@ -137,8 +171,13 @@ class StopRequests:
         poll.register(self._pipe_out, select.POLLIN)
         if self._lifeline is not None:
             poll.register(self._lifeline, 0)  # POLLHUP only, which needs no asking for
+        is_held = False  # a request waits for the end of a deferred block
         while True:
-            for descriptor, _event in poll.poll():
+            events = poll.poll(_PATIENCE * 1e3 if is_held else None)
+            is_held = is_held and self._deferring is not None
+            if is_held and not events:
+                os.kill(os.getpid(), self.signum or signal.SIGINT)
+            for descriptor, _event in events:
                 if descriptor == self._lifeline:
                     poll.unregister(descriptor)
                     os.kill(os.getpid(), signal.SIGTERM)
@@ -147,7 +186,8 @@ class StopRequests:
                 if _END_OF_WATCH in numbers:
                     return
                 if not self._leaving and any(number in STOP_SIGNALS for number in numbers):
-                    (self._callback or self._wake)()
+                    is_held = self._deferring is not None
+                    (self._callback or self._deferring or self._wake)()
 
 
 def _inherited_lifeline() -> int | None:
