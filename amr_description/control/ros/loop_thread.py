@@ -25,7 +25,13 @@ from amr_description.control.contracts import Log, null_log
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.loop_watchdog import describe_call, is_in, LoopWatchdog
+from amr_description.control.ros.loop_watchdog import (
+    describe_call,
+    is_in,
+    LoopWatchdog,
+    WALL_CLOCK,
+    WatchdogClock,
+)
 from amr_description.ros.log_thread import LogThread
 from amr_description.streams import print_traceback
 
@@ -94,13 +100,20 @@ class LoopThread:
     loop: Loop
     """Set before :meth:`start`: its pacer may depend on parameters of a node that needs us."""
 
-    def __init__(self, calls: CallQueue, executor: Executor) -> None:
+    def __init__(
+        self,
+        calls: CallQueue,
+        executor: Executor,
+        *,
+        watchdog_clock: WatchdogClock = WALL_CLOCK,
+    ) -> None:
         """
         Make the thread, which :meth:`start` starts.
 
         Args:
             calls: The queue that the loop takes its commands from.
             executor: Serves the callbacks that await what they :meth:`submit`.
+            watchdog_clock: By which the loop is found to stand.
         """
         self.failed = False
         """The loop has ended by a bug; so shall the process."""
@@ -112,7 +125,9 @@ class LoopThread:
         self._calls = calls
         self._executor = executor
         self._thread = threading.Thread(target=self._run, name='control_loop')
-        self._watchdog = LoopWatchdog(calls, lambda severity, text: self.log(severity, text))
+        self._watchdog = LoopWatchdog(
+            calls, lambda severity, text: self.log(severity, text), watchdog_clock
+        )
 
     def start(self) -> None:
         """Start the thread."""

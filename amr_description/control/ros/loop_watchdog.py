@@ -54,12 +54,36 @@ class Progress(Protocol):
     """Nothing is to be done now."""
 
 
+class WatchdogClock:
+    """The time by which a watchdog judges; s."""
+
+    def now(self) -> float:
+        """Return the time since some instant."""
+        return time.monotonic()
+
+    def wait(self, ended: threading.Event) -> bool:
+        """Wait until the next look is due; return whether the watchdog has ended."""
+        return ended.wait(_PERIOD)
+
+    def time_without_processor(self, native_id: int) -> float:
+        """Return for how long a thread was ready to run and did not; 0: Linux does not tell."""
+        try:
+            text = Path(f'/proc/self/task/{native_id}/schedstat').read_text(encoding='ascii')
+            return int(text.split()[1]) * 1e-9
+        except (OSError, IndexError, ValueError):
+            return 0.0
+
+
+WALL_CLOCK = WatchdogClock()
+
+
 class LoopWatchdog:
     """Watches a control thread; see the module."""
 
-    def __init__(self, progress: Progress, log: Log) -> None:
+    def __init__(self, progress: Progress, log: Log, clock: WatchdogClock = WALL_CLOCK) -> None:
         self._progress = progress
         self._log = log
+        self._clock = clock
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name='loop_watchdog', daemon=True)
         self._watched = self._watched_native = 0
@@ -87,14 +111,14 @@ class LoopWatchdog:
         return frame if in_cycle else None
 
     def _run(self) -> None:
-        while not self._ended.wait(_PERIOD):
+        while not self._clock.wait(self._ended):
             faulthandler.dump_traceback_later(_LOCKED_LIMIT, file=_STDERR)
             self._look()
         faulthandler.cancel_dump_traceback_later()
 
     def _look(self) -> None:
-        unseen = time.monotonic() - self._looked - _PERIOD
-        self._looked = time.monotonic()
+        unseen = self._clock.now() - self._looked - _PERIOD
+        self._looked = self._clock.now()
         if self._has_moved():
             lasted = self._time_standing()
             if self._is_standing:
@@ -119,13 +143,13 @@ class LoopWatchdog:
 
     def _restart(self) -> None:
         self._seen, self._is_standing = self._progress.cycles, False
-        self._since = self._looked = time.monotonic()
-        self._waited = _time_without_processor(self._watched_native)
+        self._since = self._looked = self._clock.now()
+        self._waited = self._clock.time_without_processor(self._watched_native)
 
     def _time_standing(self) -> float:
         """s since the last progress that was seen, but for those without a processor."""
-        waited = _time_without_processor(self._watched_native) - self._waited
-        return time.monotonic() - self._since - waited
+        waited = self._clock.time_without_processor(self._watched_native) - self._waited
+        return self._clock.now() - self._since - waited
 
 
 def is_in(frame: FrameType | None, function: Callable[..., object]) -> bool:
@@ -143,12 +167,3 @@ def describe_call(frame: FrameType | None) -> str:
         calls.append(f'{frame.f_code.co_qualname} ({path}, line {frame.f_lineno})')
         frame = frame.f_back
     return ', called by '.join(calls)
-
-
-def _time_without_processor(native_id: int) -> float:
-    """s for which a thread was ready to run and did not; 0 where Linux does not count that."""
-    try:
-        text = Path(f'/proc/self/task/{native_id}/schedstat').read_text(encoding='ascii')
-        return int(text.split()[1]) * 1e-9
-    except (OSError, IndexError, ValueError):
-        return 0.0

@@ -11,12 +11,46 @@ import pytest
 
 from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
-from amr_description.control.ros import loop_thread, loop_watchdog
+from amr_description.control.ros import loop_thread
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
+from amr_description.control.ros.loop_watchdog import WatchdogClock
 
 PATIENCE = 10.0
 STANDS = 'The control loop has stood for '
 GOES_ON = 'The control loop goes on after '
+
+
+class ManualClock(WatchdogClock):
+    """Time passes by :meth:`look` alone."""
+
+    def __init__(self):
+        self.time = self.missed = 0.0
+        self._looks, self._is_done = threading.Semaphore(0), threading.Semaphore(0)
+
+    def now(self):
+        return self.time
+
+    def time_without_processor(self, _native_id):
+        return self.missed
+
+    def wait(self, ended):
+        self._is_done.release()
+        self._looks.acquire()
+        return ended.is_set()
+
+    def look(self, times=1, *, period=0.1, missed=0.0):
+        """Have the watchdog look so often, each time ``period`` s later; return after the last."""
+        for _ in range(times):
+            assert self._is_done.acquire(timeout=PATIENCE)
+            self.time += period
+            self.missed += missed
+            self._looks.release()
+        assert self._is_done.acquire(timeout=PATIENCE)
+        self._is_done.release()
+
+    def end(self):
+        """Let a watchdog that has ended notice it."""
+        self._looks.release()
 
 
 class World:
@@ -26,7 +60,7 @@ class World:
         self.time = 0
         self.gate = threading.Event()
         self.gate.set()
-        self.is_held = False
+        self.held = threading.Event()
         self._calls = calls
 
     def advance(self, period):
@@ -42,15 +76,26 @@ class World:
         pass
 
     def publish(self, _):
-        self.is_held = not self.gate.is_set()
+        if not self.gate.is_set():
+            self.held.set()
         self.gate.wait()
+
+    def hold(self):
+        """Hold up who publishes; return when it is held up."""
+        self.gate.clear()
+        assert self.held.wait(PATIENCE)
 
 
 @pytest.fixture
-def running():
+def clock():
+    return ManualClock()
+
+
+@pytest.fixture
+def running(clock):
     calls = CallQueue()
     world = World(calls)
-    thread = LoopThread(calls, SimpleNamespace(wake=lambda: None))
+    thread = LoopThread(calls, SimpleNamespace(wake=lambda: None), watchdog_clock=clock)
     thread.loop = Loop(world, world, calls, world, 10_000_000)
     lines = []
     thread.log = lambda severity, text: lines.append((severity, text))
@@ -58,49 +103,85 @@ def running():
     yield thread, world, lines
     world.gate.set()
     thread.stop()
+    clock.end()
 
 
-def wait(condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+def run_a_cycle(thread):
+    """Return when the loop has begun another cycle."""
+    begun = threading.Event()
+    thread._calls.put(begun.set)
+    assert begun.wait(PATIENCE)
 
 
-def test_a_loop_that_stands_is_logged_once_with_its_call_and_so_is_its_going_on(running):
-    _, world, lines = running
-    world.gate.clear()
-    wait(lambda: lines)
+def test_a_loop_that_stands_is_logged_once_with_its_call_and_so_is_its_going_on(running, clock):
+    thread, world, lines = running
+    world.hold()
+    clock.look(5)
+    assert lines == []
+    clock.look(2)
     severity, text = lines[0]
     assert severity is Severity.ERROR
     assert text.startswith(STANDS)
     assert 'World.publish (control/test_loop_watchdog.py, line ' in text
     assert len(text.splitlines()) == 1
-    time.sleep(0.5)
+    clock.look(50)
     assert len(lines) == 1
     world.gate.set()
-    wait(lambda: len(lines) == 2)
+    run_a_cycle(thread)
+    clock.look()
+    assert len(lines) == 2
     assert lines[1][1].startswith(GOES_ON)
 
 
-def test_a_loop_that_waits_does_not_stand(running):
+def test_a_loop_that_waits_does_not_stand(running, clock):
     thread, _, lines = running
-    thread._calls.put(thread.loop.pause)
-    time.sleep(loop_watchdog.LIMIT + 0.5)
+    paused, tick = threading.Event(), threading.Event()
+    thread._calls.put(lambda: (thread.loop.pause(), paused.set()))
+    assert paused.wait(PATIENCE)
+    while not thread._calls.is_waiting:
+        tick.wait(0.001)
+    clock.look(20)
     assert lines == []
 
 
-def test_a_call_between_two_cycles_may_take_as_long_as_it_takes(running):
+def test_a_call_between_two_cycles_may_take_as_long_as_it_takes(running, clock):
     thread, _, lines = running
-    done = threading.Event()
-    thread._calls.put(lambda: (time.sleep(loop_watchdog.LIMIT + 0.5), done.set()))
-    assert done.wait(PATIENCE)
-    time.sleep(0.3)
+    begun, done = threading.Event(), threading.Event()
+    thread._calls.put(lambda: (begun.set(), done.wait(PATIENCE)))
+    assert begun.wait(PATIENCE)
+    clock.look(20)
+    done.set()
+    run_a_cycle(thread)
+    clock.look(3)
     assert lines == []
+
+
+def test_a_loop_without_a_processor_does_not_stand(running, clock):
+    _, world, lines = running
+    world.hold()
+    clock.look(20, missed=0.1)
+    assert lines == []
+
+
+def test_a_process_that_stood_as_a_whole_is_logged_when_it_goes_on(running, clock):
+    """The watchdog did not look either."""
+    thread, _, lines = running
+    run_a_cycle(thread)
+    clock.look()
+    run_a_cycle(thread)
+    tick = threading.Event()
+    while thread._calls.has_calls:
+        tick.wait(0.001)
+    clock.look(period=2.0)
+    (line,) = lines
+    assert line[0] is Severity.ERROR
+    assert line[1].startswith('The control loop stood for 2.0 s, and all of this process with it')
 
 
 @pytest.mark.parametrize('is_ticking', [False, True])
-def test_the_process_ends_without_a_loop_that_stands(running, monkeypatch, capfd, is_ticking):
+def test_the_process_ends_without_a_loop_that_stands(
+    running, clock, monkeypatch, capfd, is_ticking
+):
     thread, world, _ = running
     codes, stopped = [], []
 
@@ -118,11 +199,11 @@ def test_the_process_ends_without_a_loop_that_stands(running, monkeypatch, capfd
     thread._calls.put(lambda: thread.loop.managers.append(manager))
     if is_ticking:
         monkeypatch.setattr(loop_thread, 'is_in', lambda *_: True)
-    world.gate.clear()
-    wait(lambda: world.is_held)
+    world.hold()
+    clock.look(7)
     begin = time.monotonic()
     thread.stop()
-    assert time.monotonic() - begin < 5.0  # 0.6 s, on a machine that has the time
+    assert time.monotonic() - begin < 5.0  # 0.05 s, on a machine that has the time
     assert codes == [1]
     line, *rest = capfd.readouterr().err.splitlines()
     assert not rest
