@@ -14,10 +14,19 @@ from support.running_programs import PATIENCE
 
 from amr_description.cli.session import open_session
 from amr_description.ros import signals
-from amr_description.ros.signals import StopRequested
+from amr_description.ros.signals import STOP_SIGNALS, StopRequested
 
 EXECUTORS = pytest.mark.parametrize('executor', [SingleThreadedExecutor, EventsExecutor])
 SIGNALS = pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGTERM])
+
+
+@pytest.fixture(autouse=True)
+def handlers():
+    """Undo what is for a process that ends soon: it ignores further signals."""
+    before = {signum: signal.getsignal(signum) for signum in STOP_SIGNALS}
+    yield
+    for signum, handler in before.items():
+        signal.signal(signum, handler)
 
 
 @EXECUTORS
