@@ -8,12 +8,14 @@ So several can run side by side: of several checkouts, or of one (``scripts/test
 
 import os
 from pathlib import Path
+import secrets
 import signal
 import sys
 import tempfile
 
 from hypothesis import settings
 import pytest
+from support import ordering
 
 from amr_description.testing.program import take_domain
 
@@ -23,23 +25,29 @@ sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 
 KEPT = {}  # what has to last as long as the run
 
-# Where files run side by side, these start first, longest first: none is left alone at the end.
-# It is about time only; a file that is not named here starts later.
-LONGEST = (
-    'test_page_in_browser', 'test_fleet',
-    'test_cli_golden', 'test_docs_machines', 'test_cli_param', 'test_mujoco_sim',
-    'test_cli_control_state', 'test_cli_lifecycle', 'test_cli_completion', 'test_tutorial',
-    'test_cli_action', 'test_stack', 'test_viewer', 'test_viewer_server',
-    'test_viewer_simulation',
-    'test_spawner', 'test_cli_service', 'test_cli_topic_rate', 'test_cli_topic', 'test_teleop',
-    'test_bringup_stop', 'test_bringup_faults', 'test_hardware_spawner', 'test_bringup_start',
-    'test_cli_run',
-)  # fmt: skip
-
 settings.load_profile('ci')  # everywhere the same numbers, and no deadline on a busy machine
 
 
+def pytest_addoption(parser):
+    parser.addoption(
+        '--random-order',
+        metavar='SEED',
+        nargs='?',
+        const='',
+        help='files, and the tests in each, in random order; without a seed a new one, printed',
+    )
+
+
 def pytest_configure(config):
+    config.addinivalue_line(
+        'markers',
+        'in_order(reason): the tests of this file build on each other, and stay in order',
+    )
+    if config.option.random_order == '':
+        config.option.random_order = secrets.token_hex(4)  # xdist hands it on to the workers
+    if has_workers(config) or not is_worker(config):
+        KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)
+        config.pluginmanager.register(Recording(config))
     # A background job starts with Ctrl-C ignored, which every child would inherit.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -73,15 +81,59 @@ def pytest_xdist_auto_num_workers():
     return len(os.sched_getaffinity(0)) + 1
 
 
+def is_worker(config):
+    """Whether this process is one of several that run tests."""
+    return hasattr(config, 'workerinput')
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node):
+    """Tell a worker how long files take: all must have the same table, whoever writes it."""
+    node.workerinput['durations'] = KEPT['durations']
+
+
+@pytest.hookimpl(tryfirst=True)  # pytest then brings together what shares a costly parameter
 def pytest_collection_modifyitems(config, items):
-    if hasattr(config, 'workerinput'):  # one of several processes
-        rank = {name: place for place, name in enumerate(LONGEST)}
-        items.sort(key=lambda item: rank.get(item.path.stem, len(rank)))
+    if seed := config.option.random_order:
+        items.sort(key=lambda item: ordering.random_place(item, seed))
+    elif is_worker(config):
+        table = config.workerinput['durations']
+        durations = {path: ordering.duration_of(path, table) for path in {i.path for i in items}}
+        items.sort(key=lambda item: -durations[item.path])
+
+
+class Recording:
+    """Writes down how long each file takes, where whole files run."""
+
+    def __init__(self, config):
+        self.durations = ordering.DurationRecorder(config.rootpath)
+        selecting = ('keyword', 'markexpr', 'deselect', 'lf', 'stepwise', 'maxfail', 'collectonly')
+        self.is_whole = not any(config.getoption(name, None) for name in selecting) and not any(
+            '::' in argument for argument in config.args
+        )
+
+    def pytest_runtest_logreport(self, report):
+        self.durations.add(report.nodeid, report.duration)
+
+    def pytest_sessionfinish(self, exitstatus):
+        if self.is_whole and exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+            self.durations.write(ordering.OWN_TABLE, ordering.test_files())
 
 
 def pytest_report_header(config):
     domain = 'of each worker' if has_workers(config) else os.environ['ROS_DOMAIN_ID']
-    return f'ROS_DOMAIN_ID={domain}, LOCALHOST'
+    return [f'ROS_DOMAIN_ID={domain}, LOCALHOST', *order_notes(config)]
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    for note in order_notes(config):
+        terminalreporter.write_line(note)
+
+
+def order_notes(config):
+    if seed := config.option.random_order:
+        return [f'random order; the same again: --random-order={seed}']
+    return []
 
 
 def pytest_unconfigure(config):

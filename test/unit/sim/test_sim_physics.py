@@ -26,7 +26,7 @@ def at_rest(robot):
     return math.hypot(*linear) < 1e-3 and math.hypot(*angular) < 1e-2
 
 
-@pytest.fixture(scope='module')
+@pytest.fixture
 def dropped():
     """A robot that fell from 0.2 m, one second later."""
     world = MujocoWorld('empty')
