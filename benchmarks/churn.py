@@ -18,6 +18,7 @@ At the end the simulator is asked to stop, by SIGINT.
 """
 
 import argparse
+from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -112,36 +113,52 @@ class ClockObserver:
         self.last_heard = time.monotonic()
         self._process = process
         self._start = time.monotonic()
-        self._last_stamp = self._last_waited = self._last_look = 0
+        self._last_stamp = 0
+        self._looks: deque[tuple[int, dict[str, int]]] = deque([(0, {})], maxlen=1000)
+        """When, ns of the system clock, as stamps are; and what each thread had waited."""
         self._last_number = sys.maxsize
         node.create_subscription(Clock, '/clock', self._hear, QoSProfile(depth=1000))
 
     def _hear(self, _: Clock, info: dict[str, Any]) -> None:
-        stamp, waited = info['source_timestamp'], self._last_waited
-        if stamp - self._last_look > _LOOK:
-            self._last_look, waited = stamp, _waited(self._process)
-        number = info['publication_sequence_number']
+        stamp, number = info['source_timestamp'], info['publication_sequence_number']
+        if time.time_ns() - self._looks[-1][0] > _LOOK:
+            self._look()
         self.lost += max(0, number - self._last_number - 1)
         if number == self._last_number + 1:
             length = (stamp - self._last_stamp) * 1e-9
             self.longest = max(self.longest, length)
             if length > LATE:
                 at = time.monotonic() - self._start
-                self.gaps.append(Gap(at, length, (waited - self._last_waited) * 1e-9))
-        self._last_stamp, self._last_waited, self._last_number = stamp, waited, number
+                self.gaps.append(Gap(at, length, self._waited_since(self._last_stamp)))
+        self._last_stamp, self._last_number = stamp, number
         self.last_heard = time.monotonic()
         self.count += 1
 
+    def _look(self) -> dict[str, int]:
+        self._looks.append((time.time_ns(), waited := _waited(self._process)))
+        return waited
 
-def _waited(process: int) -> int:
-    """ns for which the threads of a process that waited most have waited for a processor."""
-    times = []
+    def _waited_since(self, stamp: int) -> float:
+        """
+        Return what has been waited since the last look before ``stamp``, s.
+
+        What is heard now may have been sent long ago, as the observer waits for a processor too:
+        the last look may be from after the gap.
+        """
+        before = next((w for at, w in reversed(self._looks) if at <= stamp), self._looks[0][1])
+        times = sorted(now - before.get(thread, 0) for thread, now in self._look().items())
+        return sum(times[-2:]) * 1e-9
+
+
+def _waited(process: int) -> dict[str, int]:
+    """Thread of a process → ns for which it has waited for a processor."""
+    times = {}
     for path in Path(f'/proc/{process}/task').glob('*/schedstat'):
         try:
-            times.append(int(path.read_text().split()[1]))
+            times[path.parent.name] = int(path.read_text().split()[1])
         except (OSError, IndexError):  # a thread that has ended meanwhile
             continue
-    return sum(sorted(times)[-2:])
+    return times
 
 
 @contextmanager

@@ -6,6 +6,7 @@ Give each test process a ROS of its own: a free domain, this host only, its own 
 So several can run side by side: of several checkouts, or of one (``scripts/test``).
 """
 
+import math
 import os
 from pathlib import Path
 import secrets
@@ -26,6 +27,10 @@ sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 KEPT = {}  # what has to last as long as the run
 
 settings.load_profile('ci')  # everywhere the same numbers, and no deadline on a busy machine
+# Numbers that nobody has tried yet, and many of them (support/examples.py).
+settings.register_profile(
+    'long', settings.get_profile('ci'), max_examples=2_000, derandomize=False
+)
 
 
 def pytest_addoption(parser):
@@ -36,6 +41,9 @@ def pytest_addoption(parser):
         const='',
         help='files, and the tests in each, in random order; without a seed a new one, printed',
     )
+    parser.addoption(
+        '--long', action='store_true', help='also what is worth an hour: tests marked long'
+    )
 
 
 def pytest_configure(config):
@@ -43,6 +51,9 @@ def pytest_configure(config):
         'markers',
         'in_order(reason): the tests of this file build on each other, and stay in order',
     )
+    config.addinivalue_line('markers', 'long: takes minutes, and runs with --long only')
+    if config.option.long:
+        settings.load_profile('long')
     if config.option.random_order == '':
         config.option.random_order = secrets.token_hex(4)  # xdist hands it on to the workers
     if has_workers(config) or not is_worker(config):
@@ -94,11 +105,19 @@ def pytest_configure_node(node):
 
 @pytest.hookimpl(tryfirst=True)  # pytest then brings together what shares a costly parameter
 def pytest_collection_modifyitems(config, items):
+    if not config.option.long:
+        long = [item for item in items if item.get_closest_marker('long')]
+        if long:
+            config.hook.pytest_deselected(items=long)
+            items[:] = [item for item in items if item not in long]
     if seed := config.option.random_order:
         items.sort(key=lambda item: ordering.random_place(item, seed))
     elif is_worker(config):
         table = config.workerinput['durations']
         durations = {path: ordering.duration_of(path, table) for path in {i.path for i in items}}
+        for item in items:  # here only with --long
+            if item.get_closest_marker('long'):
+                durations[item.path] = math.inf
         items.sort(key=lambda item: -durations[item.path])
 
 
@@ -107,7 +126,10 @@ class Recording:
 
     def __init__(self, config):
         self.durations = ordering.DurationRecorder(config.rootpath)
-        selecting = ('keyword', 'markexpr', 'deselect', 'lf', 'stepwise', 'maxfail', 'collectonly')
+        selecting = (
+            *('keyword', 'markexpr', 'deselect', 'lf', 'stepwise', 'maxfail', 'collectonly'),
+            'long',  # more than usual
+        )
         self.is_whole = not any(config.getoption(name, None) for name in selecting) and not any(
             '::' in argument for argument in config.args
         )

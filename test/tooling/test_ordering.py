@@ -32,11 +32,15 @@ class Item:
         return name if name in self.marks else None
 
 
-def in_order(items, seed=None, **config):
+def in_order(items, seed=None, long=False, **config):
     """The items as a run has them."""
-    items = list(items)
-    option = SimpleNamespace(random_order=seed)
-    conftest.pytest_collection_modifyitems(SimpleNamespace(option=option, **config), items)
+    items, deselected = list(items), []
+    config |= {
+        'option': SimpleNamespace(random_order=seed, long=long),
+        'hook': SimpleNamespace(pytest_deselected=lambda items: deselected.extend(items)),
+    }
+    conftest.pytest_collection_modifyitems(SimpleNamespace(**config), items)
+    assert all('long' in item.marks and not long for item in deselected)
     return items
 
 
@@ -75,6 +79,17 @@ def test_a_file_whose_tests_build_on_each_other_stays_in_order():
     order = in_order(items, 'a')
     assert order != items
     assert [item.name for item in order] == [item.name for item in items]
+
+
+def test_what_takes_long_runs_only_if_asked_for_and_then_first():
+    items = [*FILES, slow := Item('unit/test_f.py', 'test_slow', ('long',))]
+    assert in_order(items) == FILES
+    assert in_order(items, long=True) == items
+    worker = {'workerinput': {'durations': {'unit/test_e.py': 9.0}}}
+    assert [item.file[-4] for item in in_order(items, **worker)[::6]] == list('eabcdf')
+    order = in_order(items, long=True, **worker)
+    assert [item.file[-4] for item in order[::7][:2]] == list('fe')
+    assert slow in order
 
 
 @pytest.mark.parametrize(
@@ -123,6 +138,7 @@ def test_a_folder_that_cannot_be_written_to_fails_no_run(tmp_path):
         ({}, ['test/unit'], True),
         ({'keyword': 'odometry'}, [], False),
         ({'maxfail': 1}, [], False),
+        ({'long': True}, [], False),
         ({}, ['test/unit/a.py::test_b'], False),
     ],
 )

@@ -5,10 +5,11 @@
 import contextlib
 import struct
 
-from hypothesis import given, settings, strategies
+from hypothesis import given, strategies
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
+from support.examples import examples
 
 from amr_description.ros.cdr import HeadReader, JointStateHead
 
@@ -41,7 +42,7 @@ def turned(data):
     return b'\0\0\0\0' + body
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(names, words, seconds, nanoseconds)
 def test_stamp_and_names_are_those_of_the_message(joints, frame, sec, nanosec):
     reader = HeadReader()

@@ -7,8 +7,9 @@ import os
 from xml.sax.saxutils import escape
 
 from fixtures.sim.driving import AMR
-from hypothesis import example, given, settings, strategies as st
+from hypothesis import example, given, strategies as st
 import pytest
+from support.examples import examples
 from support.mesh_files import box, glb, gltf, write
 
 from amr_description.model.meshes import load_mesh
@@ -114,7 +115,7 @@ def test_any_name_of_a_mesh_is_a_file_or_a_finding(scheme, rest):
     assert described.message.findings
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(st.integers(0, len(AMR)), st.integers(0, 200), st.text(max_size=9))
 def test_any_text_is_a_description_or_has_findings(at, count, text):
     message = describe_robot('/', AMR[:at] + text + AMR[at + count :]).message

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ten robots in one simulation, each in its namespace, over real DDS; one goes and comes again."""
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
 import math
@@ -37,14 +38,25 @@ LOOK = 2.0
 
 
 @pytest.fixture(scope='module')
-def sim(tmp_path_factory):
-    """The shipped parameters, but for commands that hold until the next."""
+def parameters(tmp_path_factory):
+    """The shipped parameters, but for commands that hold until the next; a file."""
     shipped = yaml.safe_load((ROOT / 'config/controllers.yaml').read_text())
     shipped['/**/diff_drive_controller']['ros__parameters']['cmd_vel_timeout'] = 0.0
     path = tmp_path_factory.mktemp('fleet') / 'controllers.yaml'
     path.write_text(yaml.safe_dump(shipped))
+    return path
+
+
+@contextmanager
+def simulation(parameters, starts):
     urdf, drive = ROOT / 'urdf/amr.urdf', ['diff_drive_controller']
-    with Simulation(urdf, path, robots=STARTS, activate=drive) as sim:
+    with Simulation(urdf, parameters, robots=starts, activate=drive) as sim:
+        yield sim
+
+
+@pytest.fixture(scope='module')
+def sim(parameters):
+    with simulation(parameters, STARTS) as sim:
         yield sim
 
 
@@ -166,3 +178,21 @@ def test_who_comes_again_begins_at_its_start(drive):
     x, y, _ = STARTS[GONE].translation
     assert math.dist(place(truth), (x, y)) < LOOK * CIRCLES[GONE][0] + 0.01
     assert math.hypot(*place(odometry)) < LOOK * CIRCLES[GONE][0] + 0.01
+
+
+@pytest.mark.long
+def test_twenty_robots_drive_as_one_does(parameters):
+    """Side by side for ten minutes; the first of them as the last, to the micrometre."""
+    starts = {f'robot{n}': Transform((0.0, 6.0 * n, 0.0)) for n in range(1, 21)}
+    speed, rate = 0.4, 0.4
+    with simulation(parameters, starts) as sim:
+        for _ in range(10):
+            sim.drive_all(dict.fromkeys(starts, (speed, rate)), seconds=60, stop=False)
+            states = sim.ask(GetEntitiesStates)
+            assert sorted(states.entities) == sorted(starts)
+            for name, state in zip(states.entities, states.states, strict=True):
+                truth, told = motion_of_entity(state), sim.robots[name].odometry
+                x, y, _ = starts[name].translation
+                assert math.dist(place(truth), (x, y + speed / rate)) < 1.05 * speed / rate
+                assert place(told) == pytest.approx(place(sim.robots['robot1'].odometry), abs=1e-6)
+                assert sim.time == truth.time

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Readers that come, go and are killed: the simulator neither waits for them nor stays behind."""
 
+from dataclasses import dataclass
 import os
 from pathlib import Path
 import signal
@@ -14,9 +15,11 @@ from support.ros_processes import PATIENCE
 
 from amr_description.bringup.guardian import remove_unused_segments
 from amr_description.ros.runtime import ros, spinning
-from benchmarks.churn import Churn, ClockObserver, simulator
+from benchmarks.churn import Churn, ClockObserver, LATE, simulator
 
 ROUNDS = 3
+MOST_GROWTH = 20.0
+"""MB."""
 STANDS = 1.5
 """s without /clock: dead readers cost 2 s or more, a busy machine hopefully less."""
 
@@ -30,19 +33,66 @@ def churn():
     remove_unused_segments()
 
 
-def test_readers_that_are_killed_hold_nothing_up(churn):
-    with simulator(1.0) as process, ros([]):
+@dataclass(frozen=True)
+class Outcome:
+    """How the simulator was off."""
+
+    observer: ClockObserver
+    silent: float
+    """s since the last message when the readers had gone."""
+    ended: float
+    """s from SIGINT to its end, with 0."""
+    maps: str
+    """What is mapped into its memory."""
+    growth: float
+    """MB that it needs more than after the first tenth of the rounds."""
+
+
+def outcome_of(churn, factor, rounds):
+    """Have rounds of readers come and go, then ask the simulator to stop."""
+    with simulator(factor) as process, ros([]):
         node = Node('clock_observer')
         observer = ClockObserver(node, process.pid)
         with spinning(node, executor=SingleThreadedExecutor):
-            for _ in range(ROUNDS):
+            for number in range(rounds):
+                if number == rounds // 10:
+                    before = resident(process.pid)
                 churn.run_round()
+            silent = time.monotonic() - observer.last_heard
+            growth = resident(process.pid) - before
         maps = Path(f'/proc/{process.pid}/maps').read_text(encoding='utf-8')
         process.send_signal(signal.SIGINT)
         begin = time.monotonic()
         assert process.wait(PATIENCE) == 0
-        assert time.monotonic() - begin < STANDS
-    assert observer.count > 100
-    assert max((gap.length - gap.waited for gap in observer.gaps), default=0.0) < STANDS
-    assert time.monotonic() - observer.last_heard < PATIENCE
-    assert '/dev/shm/fastrtps' not in maps  # so none of it can stay behind either
+        return Outcome(observer, silent, time.monotonic() - begin, maps, growth)
+
+
+def resident(process):
+    """MB of memory that a process has."""
+    pages = int(Path(f'/proc/{process}/statm').read_text(encoding='utf-8').split()[1])
+    return pages * os.sysconf('SC_PAGESIZE') / 1e6
+
+
+def unexplained(observer):
+    """s: the longest time without /clock that was no wait for a processor."""
+    return max((gap.length - gap.waited for gap in observer.gaps), default=0.0)
+
+
+def test_readers_that_are_killed_hold_nothing_up(churn):
+    found = outcome_of(churn, 1.0, ROUNDS)
+    assert found.ended < STANDS
+    assert found.observer.count > 100
+    assert unexplained(found.observer) < STANDS
+    assert found.silent < PATIENCE
+    assert '/dev/shm/fastrtps' not in found.maps  # so none of it can stay behind either
+
+
+@pytest.mark.long
+@pytest.mark.parametrize('factor', [1.0, 5.0])
+def test_five_hundred_rounds_of_them_make_no_tick_late(churn, factor):
+    found = outcome_of(churn, factor, 500)
+    assert unexplained(found.observer) <= LATE
+    assert found.silent < 1.0
+    assert found.ended < 1.0
+    assert '/dev/shm/fastrtps' not in found.maps
+    assert found.growth < MOST_GROWTH

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Chains: orders of updates and activations for any links, and circular chains."""
 
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 import pytest
+from support.examples import examples
 
 from amr_description.control.chains import ChainInterfaces, Chains
 from amr_description.errors import ControllerError
@@ -34,7 +35,7 @@ links = st.dictionaries(
 
 
 @given(links)
-@settings(deadline=None, derandomize=True, max_examples=200)
+@examples(200)
 def test_orders_hold_for_every_link_or_the_chain_is_circular(drawn):
     texts = {name: ' '.join(f'{mark}{to}' for to, mark in drawn[name]) for name in sorted(drawn)}
     try:

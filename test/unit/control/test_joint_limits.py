@@ -5,9 +5,10 @@
 from itertools import pairwise
 import math
 
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 import pytest
 from support.control_fakes import FakeController, FakeHardware, FakeLog, make_manager, MS, start
+from support.examples import examples
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
@@ -118,7 +119,7 @@ def test_limits_that_exclude_each_other_are_refused():
 
 # --- what is let through: laws -------------------------------------------------------------------
 
-LAW = settings(deadline=None, derandomize=True, max_examples=200)
+LAW = examples(200)
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 SMALL = st.floats(-100.0, 100.0)
 ANY = st.floats(allow_nan=False)

@@ -5,9 +5,10 @@
 from contextlib import suppress
 import math
 
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 import pytest
 from support.control_fakes import bring_up, FakeHardware, FakeLog, MS
+from support.examples import examples
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
@@ -407,7 +408,7 @@ ACTIONS = st.sampled_from(['read', 'write', 'shut_down', *map(LifecycleState, ra
 FAULTS = st.lists(st.sampled_from([*FROM, 'read', 'write']), max_size=2)
 
 
-@settings(deadline=None, derandomize=True, max_examples=300)
+@examples(300)
 @given(st.lists(st.tuples(ACTIONS, FAULTS), max_size=12))
 def test_the_lifecycle_holds_whatever_is_requested_and_whatever_fails(requests):
     hardware = Recorded('hardware')

@@ -6,7 +6,7 @@ The laws of switching, whatever is requested in whatever order and whatever fail
 Chains, controllers that compete for a joint or a reference, readers, and fallbacks.
 """
 
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 from support.control_fakes import (
     FakeChainable,
     FakeController,
@@ -15,6 +15,7 @@ from support.control_fakes import (
     make_manager,
     MS,
 )
+from support.examples import examples
 
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.switching import Strictness
@@ -167,7 +168,7 @@ faults = st.one_of(
 )
 
 
-@settings(deadline=None, derandomize=True, max_examples=150)
+@examples(150)
 @given(st.lists(st.tuples(faults, actions), min_size=5, max_size=15))
 def test_the_laws_hold_whatever_is_asked_and_whatever_fails(sequence):
     bench = Bench()
@@ -175,7 +176,7 @@ def test_the_laws_hold_whatever_is_asked_and_whatever_fails(sequence):
         bench.during(failing, action, *arguments)
 
 
-@settings(deadline=None, derandomize=True, max_examples=50)
+@examples(50)
 @given(st.lists(st.tuples(chosen, some), max_size=30))
 def test_without_faults_a_strict_switch_does_all_or_nothing(requests):
     bench = Bench()

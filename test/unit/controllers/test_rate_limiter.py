@@ -5,9 +5,10 @@
 import math
 import random
 
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 import pytest
 from support.control_fakes import nan_for_none, VECTORS
+from support.examples import examples
 
 from amr_description.controllers.rate_limiter import RateLimiter
 from amr_description.errors import ParameterError
@@ -64,7 +65,7 @@ def bounds_of_change(limiter, last):
     return low, high
 
 
-@settings(deadline=None, derandomize=True, max_examples=200)
+@examples(200)
 @given(
     st.builds(RateLimiter, **limits),
     st.lists(st.tuples(any_speed, st.floats(1e-4, 1.0)), min_size=1, max_size=40),

@@ -14,6 +14,14 @@ def test_no_mutation_ends_otherwise_than_in_findings(block):
             assert judge(mutation(seed), drop=seed % 25 == 0) in (0, 1, 255), seed
 
 
+@pytest.mark.long
+@pytest.mark.parametrize('block', range(20))
+def test_nor_does_one_of_twenty_thousand(block):
+    for seed in range(block * 1_000 + 400, block * 1_000 + 1_400):
+        with bounded(LONGEST):
+            assert judge(mutation(seed), drop=seed % 25 == 0) in (0, 1, 255), seed
+
+
 def test_a_seed_gives_the_same_mutation():
     assert [mutation(seed) for seed in range(20)] == [mutation(seed) for seed in range(20)]
     assert len({mutation(seed) for seed in range(20)}) == 20

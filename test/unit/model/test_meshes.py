@@ -7,9 +7,10 @@ import os
 import subprocess
 import sys
 
-from hypothesis import given, HealthCheck, settings, strategies as st
+from hypothesis import given, HealthCheck, strategies as st
 import numpy as np
 import pytest
+from support.examples import examples
 from support.mesh_files import (
     ascii_stl,
     binary_stl,
@@ -94,7 +95,7 @@ def test_the_transforms_of_a_scene_are_applied_and_a_geometry_counts_each_time(t
 
 
 @given(st.tuples(*[st.sampled_from([-2.0, -1.0, 0.5, 3.0])] * 3))
-@settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_scale_stretches_and_mirrors_and_never_turns_inside_out(tmp_path, scale):
     mesh = load_mesh(write(tmp_path / 'a.obj', obj(BOX)), scale)
     assert mesh.size == pytest.approx([abs(s) * each for s, each in zip(scale, SIZE, strict=True)])
@@ -212,9 +213,7 @@ CONTENTS = {
 }  # fmt: skip
 
 
-@settings(
-    max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@examples(200, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.sampled_from(sorted(CONTENTS)),
     st.integers(0, 3000),

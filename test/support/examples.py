@@ -1,0 +1,18 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""How many examples Hypothesis tries of a law: more with ``scripts/test --long``."""
+
+from hypothesis import settings
+
+_FACTOR = settings().max_examples / settings.get_profile('ci').max_examples
+
+
+def examples(count, **others):
+    """
+    Return the settings of a law that usually is tried with ``count`` examples.
+
+    The rest is that of the run: usually everywhere the same numbers, with ``--long`` new ones.
+
+    :param others: More of Hypothesis's settings.
+    """
+    return settings(max_examples=round(_FACTOR * count), **others)
