@@ -16,7 +16,7 @@ import tempfile
 
 from hypothesis import settings
 import pytest
-from support import ordering
+from support import failures, ordering
 
 from amr_description.testing.program import take_domain
 
@@ -119,6 +119,16 @@ def pytest_collection_modifyitems(config, items):
             if item.get_closest_marker('long'):
                 durations[item.path] = math.inf
         items.sort(key=lambda item: -durations[item.path])
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item):
+    report = yield
+    if report.failed and not hasattr(report, 'wasxfail'):
+        said = '\n'.join(f'--- {title}\n{text}' for title, text in report.sections)
+        temporary = getattr(item, 'funcargs', {}).get('tmp_path')
+        failures.keep(item.nodeid, f'{report.longreprtext}\n{said}', temporary)
+    return report
 
 
 class Recording:

@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import tempfile
 import threading
+import weakref
 
 from support.running_programs import PATIENCE
 from websockets.exceptions import ConnectionClosed
@@ -38,6 +39,10 @@ _MODIFIERS = {'Alt': 1, 'Control': 2, 'Meta': 4, 'Shift': 8}
 def executable():
     """Return the path of a browser on this machine, or None."""
     return next(filter(None, map(shutil.which, NAMES)), None)
+
+
+OPEN_PAGES = weakref.WeakSet()
+"""Those that are open: when a test fails, its pictures are kept."""
 
 
 class BrowserError(AssertionError):
@@ -158,6 +163,7 @@ class Page:
         """What the console shows in red: errors and uncaught exceptions."""
         self.requests = []
         """Every URL that was asked for, WebSockets too."""
+        OPEN_PAGES.add(self)
 
     def call(self, method, params=None):
         """Call a method of the protocol in this tab."""
@@ -275,6 +281,7 @@ class Page:
 
     def close(self):
         """Close the tab, as a person does: the page is not asked."""
+        OPEN_PAGES.discard(self)
         self._browser.call('Target.closeTarget', {'targetId': self._target})
 
 
