@@ -40,6 +40,8 @@ class AmrError(Exception):
     """Base of all errors raised on purpose; ``str(error)`` is one line for the user."""
 
     exit_code = 1
+    is_located = False
+    """Whether the text ends with the place in the user's code."""
 
 
 class DescriptionError(AmrError):

@@ -143,7 +143,7 @@ def _checked_peer(value: str, source: str) -> str:
 def _checked_server(value: str, source: str) -> str:
     match = _ADDRESS.fullmatch(value)
     port = int(match['port'] or _SERVER_PORT) if match else 0
-    if not 0 < port < 65536:
+    if match is None or not 0 < port < 65536:
         raise UsageError(f'{source}: a discovery server is HOST or HOST:PORT, as 10.0.0.9:11811')
     _must_resolve(match['host'] or match['locator'], source)
     return value if match['port'] else f'{value}:{_SERVER_PORT}'

@@ -56,7 +56,7 @@ def read_stat(pid: int) -> ProcessStat | None:
 def start_time(pid: int) -> int | None:
     """Return when a process was started, in clock ticks since boot; None: it is gone."""
     process = read_stat(pid)
-    return process and process.start_time
+    return process.start_time if process else None
 
 
 def all_processes() -> dict[int, ProcessStat]:

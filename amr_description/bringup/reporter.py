@@ -16,7 +16,13 @@ import signal
 import time
 
 from amr_description.bringup.command_line import ProcessSpec
-from amr_description.bringup.conditions import Condition, may_never_hold, NameOf, StackState
+from amr_description.bringup.conditions import (
+    Condition,
+    may_never_hold,
+    NameOf,
+    NodeRef,
+    StackState,
+)
 from amr_description.bringup.console import Console, LAUNCH
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.graph_watcher import GRAPH_WATCH
@@ -49,7 +55,7 @@ class Reporter:
             events: where events for programs go.
         """
         self._stack = stack
-        self._specs = {spec.node: spec for spec in specs}
+        self._specs: dict[NodeRef, ProcessSpec] = {spec.node: spec for spec in specs}
         self._console = console
         self._events = events
         self._start_status = StartStatus(console, self._name_of)
@@ -222,7 +228,7 @@ class Reporter:
         suffix = f': {next_steps}' if next_steps else ''
         self._console.log('INFO', LAUNCH, f'ready in {seconds:.1f} s{suffix}')
 
-    def _never_starts(self, node: Node, why: str) -> None:
+    def _never_starts(self, node: NodeRef, why: str) -> None:
         if node not in self._never_starting:
             self._never_starting.add(node)
             self._note('never', node, condition=self._condition_of(node))
@@ -236,14 +242,14 @@ class Reporter:
             self._console.log('WARNING', LAUNCH, f'never gets ready: needs that {text}')
             self._start_status.end()
 
-    def _note(self, event: str, node: Node | None = None, **more: object) -> None:
+    def _note(self, event: str, node: NodeRef | None = None, **more: object) -> None:
         self._events.note(event, self._name_of(node) if node else None, **more)
 
-    def _condition_of(self, node: Node) -> str | None:
+    def _condition_of(self, node: NodeRef) -> str | None:
         condition = self._specs[node].resolved.start_when
-        return condition and condition.describe(self._name_of)
+        return condition.describe(self._name_of) if condition else None
 
-    def _name_of(self, node: Node) -> str:
+    def _name_of(self, node: NodeRef) -> str:
         return self._specs[node].name
 
 

@@ -15,6 +15,7 @@ for a request has no timeout.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 import math
+from typing import Any
 
 from amr_description.bringup.conditions import (
     After,
@@ -343,7 +344,7 @@ class Scheduler:
         )
         return not (is_alive or may_start or self.startable())
 
-    def _update(self, **changes: object) -> None:
+    def _update(self, **changes: Any) -> None:
         """Make the new state: with all that has become unreachable, and since when what holds."""
         for expired in self.abandoned:
             self._mark_unreachable(expired.node)

@@ -59,6 +59,8 @@ def find_stack(name: str) -> StackFunction:
 
 def _import(path: Path) -> ModuleType:
     spec = importlib.util.spec_from_file_location(path.stem, path)
+    if spec is None or spec.loader is None:
+        raise BringupError(f'{path} is no Python module')
     module = importlib.util.module_from_spec(spec)
     sys.modules.setdefault(path.stem, module)  # dataclasses look up the module of a class
     spec.loader.exec_module(module)
@@ -71,7 +73,7 @@ def _located_errors(name: str) -> Iterator[None]:
     try:
         yield
     except AmrError as error:
-        if name not in STACKS and not getattr(error, 'is_located', False):
+        if name not in STACKS and not error.is_located:
             error.args = (f'{error}{user_errors.location(error)}',)
             error.is_located = True
         raise

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from os import PathLike
 import re
 import reprlib
+from typing import TypeGuard
 
 from amr_description.errors import BringupError
 
@@ -83,8 +84,9 @@ def list_of(what: str, accepts: Callable[[object], bool] = lambda _: True) -> Va
     """
 
     def is_list(value: object) -> bool:
-        is_sequence = isinstance(value, Sequence) and not isinstance(value, str)
-        return is_sequence and all(map(accepts, value))
+        return (
+            isinstance(value, Sequence) and not isinstance(value, str) and all(map(accepts, value))
+        )
 
     return Validator(f'a list of {what}', is_list)
 
@@ -94,7 +96,7 @@ def is_pair(value: object) -> bool:
     return isinstance(value, tuple | list) and len(value) == 2 and all(map(_is_text, value))
 
 
-def _is_text(value: object) -> bool:
+def _is_text(value: object) -> TypeGuard[str]:
     return isinstance(value, str) and '\0' not in value
 
 

@@ -160,8 +160,8 @@ def limiters_of(component: LoadedComponent, robot: Robot | None, log: Log) -> li
     """
     limiters = []
     for info in component.info.joints:
-        has_joint = robot is not None and robot.has_joint(info.name)
-        limits = limits_of(info, robot.joint(info.name) if has_joint else None)
+        joint = robot.joint(info.name) if robot and robot.has_joint(info.name) else None
+        limits = limits_of(info, joint)
         log(
             Severity.INFO,
             f"Using JointLimiter for joint '{info.name}' in hardware '{component.info.name}' : "

@@ -58,7 +58,7 @@ class Commands(Protocol):
     def take(self) -> Iterable[Callable[[], None]]:
         """Return the queued calls, oldest first."""
 
-    def wait(self) -> None:
+    def wait(self) -> object:
         """Block until a call is queued, or until ``/clock`` should be published again."""
 
 

@@ -14,7 +14,7 @@ hardware component, which refuses it and is brought down: a single message with 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
 import math
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import HardwareComponent, Log, Severity, World
@@ -439,7 +439,7 @@ def _listed(names: Iterable[str]) -> str:
     return ', '.join(names) or 'none'
 
 
-def _is_number(value: object) -> bool:
+def _is_number(value: Any) -> bool:
     """Return whether a command, which a third-party controller may have written, is a number."""
     try:
         math.isinf(value)

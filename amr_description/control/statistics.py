@@ -44,6 +44,13 @@ class RunningStatistic:
 
     __slots__ = ('_count', '_mean', '_squares', '_minimum', '_maximum', '_latest')
 
+    _count: int
+    _mean: float
+    _squares: float
+    _minimum: float
+    _maximum: float
+    _latest: float
+
     def __init__(self) -> None:
         self.reset()
 

@@ -29,6 +29,7 @@ Additions, off by default:
 
 from collections.abc import Sequence
 import math
+from typing import Any
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -121,7 +122,7 @@ class DiffDriveController(Controller):
         optional = (self._unstamped,) if self._parameters.enable_cmd_vel_unstamped else ()
         return (self._command, *optional)
 
-    def outputs(self) -> tuple[Output, ...]:
+    def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odom``, ``/tf`` and, if enabled, ``~/cmd_vel_out``."""
         optional = (self._command_out,) if self._parameters.publish_limited_velocity else ()
         return (self._odom, self._transform, *optional)

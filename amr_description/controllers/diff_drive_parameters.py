@@ -4,11 +4,12 @@
 
 from dataclasses import dataclass
 import math
+from typing import Any
 
 from amr_description.controllers.rate_limiter import RateLimiter
 from amr_description.parameters import group, parameter
 
-_NO_LIMIT = {'nan': True}
+_NO_LIMIT: dict[str, Any] = {'nan': True}
 _LENGTH = (1e-3, 100.0)
 """m: from a toy to a mining truck, with room."""
 _FACTOR = (0.01, 100.0)

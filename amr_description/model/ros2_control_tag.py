@@ -384,7 +384,7 @@ def _read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
 
 def _read_parameters(element: etree._Element, reader: ElementReader) -> dict[str, str]:
     """Return the ``<param name="…">text</param>`` children of an element."""
-    parameters = {}
+    parameters: dict[str, str] = {}
     for child in element.iterchildren('param'):
         name = reader.required(child, 'name')
         if name in parameters:

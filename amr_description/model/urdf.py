@@ -15,7 +15,7 @@ from pathlib import Path
 from lxml import etree
 
 from amr_description.model.findings import Finding, raise_error, Report
-from amr_description.model.robot import Material, Robot
+from amr_description.model.robot import Joint, Material, Robot
 from amr_description.model.urdf_joints import read_joints
 from amr_description.model.urdf_links import read_links, read_material
 from amr_description.model.xml_reader import decode, ElementReader, parse_xml, read_file
@@ -165,7 +165,7 @@ def one_root(robot: Robot) -> Iterator[Finding]:
 
 def one_parent(robot: Robot) -> Iterator[Finding]:
     """No link is the child of two joints."""
-    first = {}
+    first: dict[str, Joint] = {}
     for joint in robot.joints:
         if joint.child in first:
             yield Finding.error(

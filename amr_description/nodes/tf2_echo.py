@@ -21,6 +21,7 @@ from decimal import Decimal, InvalidOperation
 import math
 import threading
 import time
+from typing import Any
 
 from rclpy.time import Time
 
@@ -67,7 +68,7 @@ class EchoRequest:
 def parse(words: Sequence[str]) -> EchoRequest | None:
     """Read a command line; None: the frames are missing. Raises UsageError."""
     frames: list[str] = []
-    options: dict[str, object] = {}
+    options: dict[str, Any] = {}
     rest = iter(words)
     for word in rest:
         if word == '--once':
@@ -84,7 +85,7 @@ def parse(words: Sequence[str]) -> EchoRequest | None:
             options['rate'] = _rate(word)
         else:
             raise _usage_error(5, f'Unknown argument: {word}: see tf2_echo --help')
-    return EchoRequest(*frames, **options) if len(frames) == 2 else None
+    return EchoRequest(frames[0], frames[1], **options) if len(frames) == 2 else None
 
 
 def text_of(stamped: StampedTransform, precision: int = 3) -> str:

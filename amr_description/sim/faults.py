@@ -187,7 +187,7 @@ class FaultMonitor:
         self._capped += 1
         if self._capped < CAPPED_CHECKS:
             return
-        dofs = range(self._engine.model.nv)
+        dofs: Sequence[int] = range(self._engine.model.nv)
         if data.nisland:
             islands = data.dof_island.tolist()
             dofs = [dof for dof in dofs if islands[dof] >= 0 and counts[islands[dof]] >= cap]

@@ -116,10 +116,10 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         _replace_floating_joints(spec, robot)
         if robot.root.name != WORLD_LINK:
             spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
-        for joint, interfaces in commands.items():
+        for name, interfaces in commands.items():
             # Commands without an actuator are rejected by the hardware component that claims them.
-            if robot.joint(joint).has_position:
-                add_actuators(spec, robot.joint(joint), interfaces)
+            if robot.joint(name).has_position:
+                add_actuators(spec, robot.joint(name), interfaces)
         _couple_mimics(spec, [joint.name for joint in controlled if joint.mimic is None])
         wheels = find_wheels(robot, [j for j, i in commands.items() if _DRIVING_INTERFACES & {*i}])
         if wheels:

@@ -106,9 +106,9 @@ class WheelSlipReader:
             return (0.0, 0.0, 0.0)
         motion = np.empty(6)
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, motion, 0)
-        *rate, vx, vy, vz = motion.tolist()
+        rx, ry, rz, vx, vy, vz = motion.tolist()
         x, y, z = data.xpos[body].tolist()
-        wx, wy, wz = cross(rate, (point[0] - x, point[1] - y, point[2] - z))
+        wx, wy, wz = cross((rx, ry, rz), (point[0] - x, point[1] - y, point[2] - z))
         return (vx + wx, vy + wy, vz + wz)
 
     def _bind(self) -> None:

@@ -236,8 +236,9 @@ def tree_order(records: Sequence[FrameRecord]) -> list[tuple[str, FrameRecord | 
 
 def label(name: str, record: FrameRecord | None, depth: int) -> str:
     """Return the name of a frame of :func:`tree_order`, with a note where a loop was cut."""
-    is_cut = record is not None and depth == 0
-    return f'{name} (in a loop, below {record.parent})' if is_cut else name
+    if record is None or depth > 0:
+        return name
+    return f'{name} (in a loop, below {record.parent})'
 
 
 def as_tree(records: Sequence[FrameRecord]) -> str:

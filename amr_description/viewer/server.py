@@ -15,6 +15,7 @@ import logging
 from pathlib import Path
 import socket
 import threading
+from typing import Any
 
 from websockets.asyncio.server import serve, ServerConnection
 from websockets.exceptions import ConnectionClosed
@@ -253,10 +254,8 @@ class Server:
 class _Connection(ServerConnection):
     """A connection; it is in ``idle`` until it has sent a request."""
 
-    def __init__(
-        self, idle: dict[ServerConnection, None], *args: object, **options: object
-    ) -> None:
-        super().__init__(*args, **options)  # type: ignore[arg-type]
+    def __init__(self, idle: dict[ServerConnection, None], *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
         self._idle = idle
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:

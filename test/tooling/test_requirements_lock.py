@@ -79,3 +79,9 @@ def test_a_line_that_pins_nothing_is_refused():
         pinned_versions('a==1\nb>=2  # no\n')
     with pytest.raises(SetupError, match=r'requirements.lock:2'):
         pinned_versions('a==1\na==2\n')
+
+
+def test_developers_lock_pins_what_the_other_one_does_not_have():
+    pinned = pinned_versions((ROOT / 'scripts' / 'developers.lock').read_text())
+    assert 'mypy' in pinned
+    assert not {canonical(name) for name in pinned} & PINNED.keys()

@@ -66,7 +66,9 @@ def serial(
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot behind a serial port: a real motor board, or a simulated one."""
-    boards, timeout, patience = [], _PORT_TIMEOUT, {}
+    boards: list[Node] = []
+    timeout: float | None = _PORT_TIMEOUT
+    patience: dict[str, str] = {}
     if not port:
         timeout, patience = None, _SIMULATED_BOARD
         port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))

@@ -17,14 +17,14 @@ _REPEAT_PERIOD = 1.0  # s between two requests to a node that has not answered
 _RESPONSE_TIMEOUT = 10.0  # s; a node may have work to do when a parameter is set
 
 
-def ask_all[Response](
+def ask_all(
     session: Session,
     service: str,
     service_type: Any,
     requests: Mapping[str, Any],
     *,
     changes: bool = False,
-) -> dict[str, Response]:
+) -> dict[str, Any]:
     """
     Send a request to each of several nodes.
 

@@ -161,7 +161,7 @@ def is_in(frame: FrameType | None, function: Callable[..., object]) -> bool:
 
 def describe_call(frame: FrameType | None) -> str:
     """Say in one line where a thread is, and whence it was called."""
-    calls = []
+    calls: list[str] = []
     while frame is not None and len(calls) < _CALLERS:
         path = '/'.join(Path(frame.f_code.co_filename).parts[-2:])
         calls.append(f'{frame.f_code.co_qualname} ({path}, line {frame.f_lineno})')

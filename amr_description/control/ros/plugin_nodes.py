@@ -127,10 +127,8 @@ class ControllerNode:
     def connect(self) -> None:
         """Make the topics that the configured controller declares, in place of earlier ones."""
         self.disconnect()
-        for port in self.controller.inputs():
-            self._endpoints.append(self._subscribe(port))
-        for port in self.controller.outputs():
-            self._endpoints.append(self._advertise(port))
+        self._endpoints += map(self._subscribe, self.controller.inputs())
+        self._endpoints += map(self._advertise, self.controller.outputs())
 
     def disconnect(self) -> None:
         """Remove the topics; the control thread must have cleaned the controller up before."""

@@ -7,7 +7,7 @@ What the rules of the checker get: the description, and what it is checked again
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from lxml import etree
 
@@ -54,11 +54,11 @@ class DriveSettings:
         """Return the line of a parameter, or of the controller if no file sets it."""
         return self.locations.get(parameter, self.location)
 
-    def error(self, parameter: str, what: str, **details: str) -> Finding:
+    def error(self, parameter: str, what: str, **details: Any) -> Finding:
         """Return an error at a parameter; ``details`` as in Finding.error."""
         return Finding.error(*self.location_of(parameter), f'{self.name}: {what}', **details)
 
-    def warning(self, parameter: str, what: str, **details: str) -> Finding:
+    def warning(self, parameter: str, what: str, **details: Any) -> Finding:
         """Return a warning at a parameter; ``details`` as in Finding.warning."""
         return Finding.warning(*self.location_of(parameter), f'{self.name}: {what}', **details)
 
@@ -139,11 +139,11 @@ class CheckContext:
         """The wheels: links that are round about the axis of a joint with a velocity command."""
         return find_wheels(self.robot, {joint.name for joint in self.speed_joints})
 
-    def error(self, line: int, what: str, **details: str) -> Finding:
+    def error(self, line: int, what: str, **details: Any) -> Finding:
         """Return an error on a line of this description; ``details`` as in Finding.error."""
         return Finding.error(self.robot.source, line, what, **details)
 
-    def warning(self, line: int, what: str, **details: str) -> Finding:
+    def warning(self, line: int, what: str, **details: Any) -> Finding:
         """Return a warning on a line of this description; ``details`` as in Finding.warning."""
         return Finding.warning(self.robot.source, line, what, **details)
 

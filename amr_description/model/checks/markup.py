@@ -240,7 +240,9 @@ def gazebo_refers_to_something(context: CheckContext) -> Iterator[Finding]:
 def files_are_there(context: CheckContext) -> Iterator[Finding]:
     """Meshes and textures exist; a missing collision mesh is an error, as simulators refuse it."""
     file_exists = context.inputs.file_exists
-    for file in _meshes_and_textures(context) if file_exists is not None else ():
+    if file_exists is None:
+        return
+    for file in _meshes_and_textures(context):
         if not file.path or _ABSOLUTE.match(file.path):
             continue
         try:
@@ -271,7 +273,9 @@ def paths_hold_everywhere(context: CheckContext) -> Iterator[Finding]:
     folder of its package.
     """
     file_exists = context.inputs.file_exists
-    for file in _named_files(context) if file_exists is not None else ():
+    if file_exists is None:
+        return
+    for file in _named_files(context):
         if _ABSOLUTE.match(file.path) and not _is_of_a_package(file.path, file_exists):
             yield context.warning(
                 file.line,

@@ -12,7 +12,7 @@ import math
 from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
 from amr_description.model.mesh_uses import MeshUse
-from amr_description.model.robot import Mesh
+from amr_description.model.robot import Collision, Mesh, Visual
 from amr_description.model.shapes import half_sizes
 from amr_description.text import quote
 
@@ -123,7 +123,8 @@ def _longest_of_others(use: MeshUse, context: CheckContext) -> float:
         for other in context.meshes
         if other.link is use.link and other.mesh != use.mesh and other.triangles is not None
     ]
-    for part in (*use.link.visuals, *use.link.collisions):
+    parts: tuple[Visual | Collision, ...] = (*use.link.visuals, *use.link.collisions)
+    for part in parts:
         if not isinstance(part.geometry, Mesh):
             longest.append(2.0 * max(half_sizes(part.geometry)))
     return max(longest, default=0.0)

@@ -225,7 +225,7 @@ class JointStatePublisher(Node):
             self._timer.reset()
 
 
-def _rate(value: object) -> float:
+def _rate(value: Any) -> float:
     """Return a rate in Hz. Raises ParameterError."""
     if type(value) not in (int, float) or not 0.0 < value <= 1000.0:
         raise ParameterError(f"parameter 'rate' must be above 0 and at most 1000, found {value}")

@@ -73,7 +73,7 @@ def dependent_joints_of(given: Mapping[str, object]) -> dict[str, Dependence]:
     return {joint: Dependence(**row) for joint, row in rows.items()}
 
 
-def _number(name: str, value: object) -> float:
+def _number(name: str, value: Any) -> float:
     if type(value) not in (int, float) or not math.isfinite(value):
         raise ParameterError(f"parameter '{name}' must be a finite number, found {value!r}")
     return float(value)

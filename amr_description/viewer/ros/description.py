@@ -15,7 +15,7 @@ from amr_description.errors import MeshError, ResourceError
 from amr_description.model import findings
 from amr_description.model.checks import examine
 from amr_description.model.meshes import load_mesh, stl_bytes
-from amr_description.model.robot import Joint, JointType, Mesh, Robot
+from amr_description.model.robot import Collision, Joint, JointType, Mesh, Robot, Visual
 from amr_description.text import one_line
 from amr_description.viewer.http import digest
 from amr_description.viewer.protocol import Finding, JointInfo, Model
@@ -85,7 +85,8 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
 
 def _files_of(robot: Robot) -> Iterator[str]:
     for link in robot.links:
-        for part in (*link.visuals, *link.collisions):
+        parts: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+        for part in parts:
             if isinstance(part.geometry, Mesh):
                 yield part.geometry.filename
     yield from _textures(robot)
