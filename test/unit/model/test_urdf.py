@@ -452,9 +452,10 @@ def test_a_hostile_prolog_takes_linear_time():
         urdf.parse('<!-- a -->' * 100_000 + '<', 'f')
 
 
-def test_long_chains_and_wide_trees_are_read():
+@pytest.mark.parametrize('count', [5_000, pytest.param(20_000, marks=pytest.mark.long)])
+def test_long_chains_and_wide_trees_are_read(count):
     """No recursion, and nothing quadratic, over the links of a file."""
-    names = range(20_000)
+    names = range(count)
     links = ''.join(f'<link name="l{i}"/>' for i in names)
     ends = '<joint name="j{0}" type="fixed"><parent link="l{1}"/><child link="l{0}"/></joint>'
     for parent_of in (lambda i: i - 1, lambda i: 0):
