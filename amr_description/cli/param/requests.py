@@ -51,7 +51,7 @@ def ask_all(
         futures.setdefault(node, []).append(clients[node].call_async(requests[node]))
         sent_at[node] = time.monotonic()
 
-    def answers() -> dict[str, Response]:
+    def answers() -> dict[str, Any]:
         done = ((node, each) for node, found in futures.items() for each in found if each.done())
         return {node: future.result() for node, future in done}
 
