@@ -18,6 +18,9 @@ const STEP = 0.85; // fewer pixels to a CSS pixel, at a time
 const PATIENCE = 20; // frames between two changes
 const MEMORY = 0.85; // of the average
 const LONGEST = 500; // ms, the most that one frame counts for
+// ms between two frames where the processor draws, whose time the robot may need: 30 a second. The
+// screen comes every 16.7 ms, give or take.
+const LEAST_GAP = 30;
 
 export class Painter {
   readonly renderer: WebGLRenderer;
@@ -26,6 +29,7 @@ export class Painter {
   triangles = 0;
   private ratio: number; // pixels to a CSS pixel, at most
   private readonly range: { finest: number; coarsest: number };
+  private readonly leastGap: number; // ms from the begin of a frame to that of the next
   private request = 0;
   private isDirty = false;
   private last = 0; // ms, when the last frame was begun
@@ -45,6 +49,7 @@ export class Painter {
   ) {
     const kind = isSoftware ? 'software' : 'hardware';
     this.range = { finest: FINEST[kind], coarsest: COARSEST[kind] };
+    this.leastGap = isSoftware ? LEAST_GAP : 0;
     this.ratio = this.range.finest;
     this.renderer = new WebGLRenderer({ canvas, antialias: !isSoftware, alpha: false });
     this.renderer.shadowMap.enabled = true;
@@ -102,7 +107,7 @@ export class Painter {
     if (this.gl.isContextLost()) {
       return; // the next frame comes when it is back
     }
-    if (this.isBusy()) {
+    if (this.isBusy() || (this.isDirty && now - this.last < this.leastGap)) {
       this.ask();
     } else if (this.isDirty) {
       this.draw(now);
