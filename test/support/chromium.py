@@ -32,7 +32,11 @@ _FLAGS = (
     '--disable-quic', '--no-first-run', '--disable-background-networking',
     '--disable-component-update', '--disable-sync', '--disable-default-apps',
     '--disable-dev-shm-usage', '--remote-debugging-port=0',
+    # No process for a page that nobody will open, and none for extensions.
+    '--disable-features=SpareRendererForSitePerProcess', '--disable-extensions',
 )  # fmt: skip
+FEW_PIXELS = 0.25
+"""Pixels to a CSS pixel, each of them drawn by the processor: for tests that look at none."""
 _MODIFIERS = {'Alt': 1, 'Control': 2, 'Meta': 4, 'Shift': 8}
 
 
@@ -107,19 +111,31 @@ class Chromium:
             self._process.wait()
         self._profile.cleanup()
 
-    def open(self, url, *, width=1440, height=900, phone=False, dark=False):
-        """Open a page in a tab of its own, and wait until it is loaded."""
-        target = self.call('Target.createTarget', {'url': 'about:blank', 'newWindow': True})
+    def open(self, url, *, pixels=FEW_PIXELS, is_beside=False, **look):
+        """
+        Open a page in a tab of its own, and wait until it is loaded.
+
+        :param pixels: To a CSS pixel.
+        :param is_beside: In a window of its own, which costs half a second of CPU; else the tabs
+            behind this one are hidden, and not drawn, until it is closed.
+        :param look: As of :meth:`Page.look_like`.
+        """
+        target = self.call('Target.createTarget', {'url': 'about:blank', 'newWindow': is_beside})
         attached = self.call(
             'Target.attachToTarget', {'targetId': target['targetId'], 'flatten': True}
         )
-        page = Page(self, target['targetId'], attached['sessionId'])
+        page = Page(self, target['targetId'], attached['sessionId'], pixels)
         self._pages[attached['sessionId']] = page
         for domain in ('Page', 'Runtime', 'Network', 'Log'):
             page.call(f'{domain}.enable')
-        page.look_like(width, height, phone=phone, dark=dark)
+        page.look_like(**look)
         page.go(url)
         return page
+
+    def close_page(self, target, session):
+        """Close a tab."""
+        self.call('Target.closeTarget', {'targetId': target})
+        del self._pages[session]
 
     def call(self, method, params=None, session=None):
         """Call a method of the protocol and return its result."""
@@ -154,10 +170,13 @@ class Chromium:
 class Page:
     """A tab: what was loaded, what it complained of, and what a person would do in it."""
 
-    def __init__(self, browser, target, session):
+    def __init__(self, browser, target, session, pixels):
         self._browser = browser
         self._target = target
         self._session = session
+        self._pixels = pixels
+        self._keys = {}
+        self._pressed = None
         self._loaded = threading.Event()
         self.errors = []
         """What the console shows in red: errors and uncaught exceptions."""
@@ -191,11 +210,16 @@ class Page:
         if not self._loaded.wait(PATIENCE):
             raise BrowserError(f'{url} did not load')
 
-    def look_like(self, width, height, *, phone=False, dark=False):
+    def look_like(self, width=1440, height=900, *, phone=False, dark=False):
         """Be a screen of that size in CSS pixels."""
         self.call(
             'Emulation.setDeviceMetricsOverride',
-            {'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': phone},
+            {
+                'width': width,
+                'height': height,
+                'deviceScaleFactor': self._pixels,
+                'mobile': phone,
+            },
         )
         self.call('Emulation.setTouchEmulationEnabled', {'enabled': phone})
         scheme = {'name': 'prefers-color-scheme', 'value': 'dark' if dark else 'light'}
@@ -245,6 +269,17 @@ class Page:
         flags = sum(_MODIFIERS[name] for name in modifiers)
         event = {'type': kind, 'code': code, 'key': key or letter, 'modifiers': flags}
         self.call('Input.dispatchKeyEvent', event)
+        if kind == 'keyUp':
+            self._keys.pop(code, None)
+        else:
+            self._keys[code] = key
+
+    def let_go(self):
+        """Let go of the keys and the mouse button that are held."""
+        for code, key in [*self._keys.items()]:
+            self.key_up(code, key)
+        if self._pressed:
+            self.mouse('mouseReleased', *self._pressed)
 
     def click(self, selector):
         """Click with the mouse at the middle of the first element of a CSS selector."""
@@ -273,6 +308,10 @@ class Page:
             {'type': kind, 'x': x, 'y': y, 'button': 'left', 'buttons': int(is_pressed),
              'clickCount': 1},
         )  # fmt: skip
+        if kind == 'mousePressed':
+            self._pressed = (x, y)
+        elif kind == 'mouseReleased':
+            self._pressed = None
 
     def screenshot(self, path):
         """Write what is seen as a PNG."""
@@ -282,7 +321,7 @@ class Page:
     def close(self):
         """Close the tab, as a person does: the page is not asked."""
         OPEN_PAGES.discard(self)
-        self._browser.call('Target.closeTarget', {'targetId': self._target})
+        self._browser.close_page(self._target, self._session)
 
 
 def _environment():

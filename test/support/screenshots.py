@@ -22,7 +22,8 @@ IMAGES = ROOT / 'docs' / 'images'
 def page_of(browser, *words, **look):
     """A page over a stack of its own that is up."""
     with own_domain(), Program(BRINGUP, *words) as stack:
-        page = browser.open(stack.expect(r'The page is at (http://\S+)')[1], **look)
+        url = stack.expect(r'The page is at (http://\S+)')[1]
+        page = browser.open(url, pixels=1.0, **look)
         page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
         yield page
         page.close()

@@ -6,17 +6,19 @@ The page in a real browser, over a real simulation: what a person sees, presses 
 What the robot does is heard on its topics by the test itself, not believed of the page.
 """
 
-from contextlib import ExitStack
+from contextlib import contextmanager, ExitStack
 from math import hypot
 from pathlib import Path
 import re
 import signal
+import time
 
 from ament_index_python.packages import get_package_prefix
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 import pytest
-import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from support import chromium
@@ -24,20 +26,12 @@ from support.needs import need
 from support.running_programs import PATIENCE, Program
 
 from amr_description.clock import NANOSECONDS
-from amr_description.ros.service_calls import wait_until
 from amr_description.testing.program import own_domain
 
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 AT_REST = 0.01  # m/s
 STOPS_WITHIN = 0.5
 """s of simulated time, from the command to stop; from 0.5 m/s the controller's limits allow it."""
-
-
-@pytest.fixture(scope='module')
-def browser():
-    need(chromium.executable(), 'no chromium; apt install chromium')
-    with chromium.Chromium() as browser:
-        yield browser
 
 
 @pytest.fixture(scope='module')
@@ -67,8 +61,10 @@ def url_of(program):
 class Ears(Node):
     """What the test hears of the robot."""
 
-    def __init__(self):
-        super().__init__('test_page_in_browser')
+    def __init__(self, context):
+        super().__init__('test_page_in_browser', context=context)
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(self)
         self.truth = []
         self.commands = []
         self.joints = {}
@@ -91,10 +87,18 @@ class Ears(Node):
         """The last speed that anybody commanded, m/s."""
         return self.commands[-1].twist.linear.x if self.commands else 0.0
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._executor.shutdown()
+        self.destroy_node()
+
     def wait(self, condition):
-        assert wait_until(
-            self, lambda: condition() or None, lambda: None, every=9.0, timeout=PATIENCE
-        )
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < deadline, 'waited in vain'
+            self._executor.spin_once(0.05)
 
     def drives(self):
         self.wait(lambda: self.truth and self.speed > 0.3 and self.commanded > 0.3)
@@ -124,22 +128,42 @@ def stamp_of(message):
     return message.header.stamp.sec + message.header.stamp.nanosec / NANOSECONDS
 
 
-@pytest.fixture
-def ears(simulation):
-    rclpy.init(args=[])
-    ears = Ears()
-    ears.wait(lambda: ears.truth and ears.joints)
-    yield ears
-    ears.destroy_node()
-    rclpy.try_shutdown()
+@contextmanager
+def ros():
+    context = Context()
+    context.init([])
+    yield context
+    context.try_shutdown()
+
+
+@pytest.fixture(scope='module')
+def context(simulation):
+    with ros() as context:
+        yield context
 
 
 @pytest.fixture
-def page(browser, viewer):
+def ears(context):
+    with Ears(context) as ears:
+        ears.wait(lambda: ears.truth and ears.joints)
+        yield ears
+
+
+@pytest.fixture(scope='module')
+def tab(browser, viewer):
     page = browser.open(url_of(viewer))
     is_shown(page)
     yield page
+    assert page.errors == []
     page.close()
+
+
+@pytest.fixture
+def page(tab):
+    """The page, where nobody drives; the tests share it, as to open it costs a second of CPU."""
+    tab.wait_until('!document.hidden && amr.now.driver === null && !amr.now.driving')
+    yield tab
+    tab.let_go()
 
 
 def is_shown(page):
@@ -180,7 +204,7 @@ def test_the_other_keys(page, ears):
     'happening',
     [
         "window.dispatchEvent(new Event('blur'))",
-        "Object.defineProperty(document, 'hidden', {value: true});"
+        "Object.defineProperty(document, 'hidden', {value: true, configurable: true});"
         "document.dispatchEvent(new Event('visibilitychange'))",
         "window.dispatchEvent(new Event('pagehide'))",
     ],
@@ -192,6 +216,7 @@ def test_who_looks_away_stops(page, ears, happening):
     page.evaluate(happening)
     assert ears.has_stopped() < STOPS_WITHIN
     page.key_up('KeyW')
+    page.evaluate('delete document.hidden')
 
 
 def test_a_closed_tab_stops(browser, viewer, ears):
@@ -213,7 +238,7 @@ def test_the_joystick(page, ears):
 
 
 def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
-    other = browser.open(url_of(viewer))
+    other = browser.open(url_of(viewer), is_beside=True)
     is_shown(other)
     page.key_down('KeyW')
     ears.drives()
@@ -290,8 +315,6 @@ def test_sliders_move_joints(browser):
     with own_domain(), Program(BRINGUP, 'display') as stack:
         page = browser.open(url_of(stack))
         is_shown(page)
-        rclpy.init(args=[])
-        ears = Ears()
         page.click('[role=tab]:nth-child(2)')
         page.evaluate(
             """(() => {
@@ -301,8 +324,7 @@ def test_sliders_move_joints(browser):
               slider.dispatchEvent(new Event('input', {bubbles: true}));
             })()"""
         )
-        ears.wait(lambda: abs(ears.joints.get('joint_wheel_front_left', 0.0) - 1.25) < 1e-6)
-        ears.destroy_node()
-        rclpy.try_shutdown()
+        with ros() as context, Ears(context) as ears:
+            ears.wait(lambda: abs(ears.joints.get('joint_wheel_front_left', 0.0) - 1.25) < 1e-6)
         page.close()
         assert stack.end(signal.SIGINT) == 0

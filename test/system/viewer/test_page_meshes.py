@@ -7,9 +7,7 @@ import signal
 
 from ament_index_python.packages import get_package_prefix
 import pytest
-from support import chromium
 from support.mesh_files import ascii_stl, binary_stl, box, dae, glb, gltf, obj, write
-from support.needs import need
 from support.running_programs import Program
 
 from amr_description.testing.program import own_domain
@@ -43,14 +41,12 @@ def urdf():
     return f'<robot name="row">{links}</robot>'
 
 
-def test_meshes_of_every_format_are_drawn_where_they_are(tmp_path):
-    need(chromium.executable(), 'no chromium; apt install chromium')
+def test_meshes_of_every_format_are_drawn_where_they_are(browser, tmp_path):
     (tmp_path / 'meshes').mkdir()
     for name, content in FILES.items():
         write(tmp_path / 'meshes' / name, content)
     path = write(tmp_path / 'row.urdf', urdf())
     with (
-        chromium.Chromium() as browser,
         own_domain(),
         Program(BRINGUP, 'display', f'urdf:={path}') as stack,
     ):

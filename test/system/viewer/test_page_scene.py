@@ -13,8 +13,6 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from support import chromium
-from support.needs import need
 from support.paths import TESTS
 from support.running_programs import PATIENCE, Program
 from test_page_memory import LongDrive
@@ -32,13 +30,6 @@ CONTROLS = {
 }  # fmt: skip
 MOST_TABS = 40
 """Presses of the key until the stop button is reached."""
-
-
-@pytest.fixture(scope='module')
-def browser():
-    need(chromium.executable(), 'no chromium; apt install chromium')
-    with chromium.Chromium() as browser:
-        yield browser
 
 
 @pytest.fixture(scope='module')
@@ -61,7 +52,7 @@ def driven(browser):
     drive = LongDrive()
     drive.end = 60.0
     with serving(drive) as server:
-        page = browser.open(server.url)
+        page = browser.open(server.url, pixels=1.0, is_beside=True)
         page.wait_until('amr.now.scene.frames > 0 && amr.now.time >= 60')
         yield page
         assert page.errors == []
