@@ -9,7 +9,7 @@ command it.
 
 A page whose robot was stopped by another page must let go before it drives on: send nothing for
 the time-out, or a stop. So a key that is still held does not drive on after the stop button of
-another page.
+another page, nor does one whose page was late, so that the lock had expired before the stop.
 """
 
 from dataclasses import dataclass
@@ -31,6 +31,8 @@ class DriveLock:
     def __init__(self, timeout: float = DRIVE_TIMEOUT) -> None:
         self._timeout = timeout
         self._holders: dict[str, _Holder] = {}
+        self._latest: dict[str, str] = {}
+        """Robot -> the client that drove it last, unless that has let go or been stopped."""
         self._blocked: dict[tuple[str, str], float] = {}
         """(robot, client) that another client stopped -> until when it is refused."""
 
@@ -57,6 +59,7 @@ class DriveLock:
             self._blocked[robot, client] = time + self._timeout
             return False
         self._holders[robot] = _Holder(client, time + self._timeout)
+        self._latest[robot] = client
         return True
 
     def stop(self, robot: str, client: str, time: float) -> str | None:
@@ -64,18 +67,20 @@ class DriveLock:
         Release the lock of a robot, whoever holds it, because ``client`` stops the robot.
 
         Returns:
-            The other client that held it and must let go; None: nobody, or ``client`` itself.
+            The other client that drove it and must let go; None: nobody, or ``client`` itself.
         """
-        holder = self._holders.pop(robot, None)
+        self._holders.pop(robot, None)
         self._blocked.pop((robot, client), None)
-        if holder is None or holder.client == client:
+        driver = self._latest.pop(robot, None)
+        if driver is None or driver == client:
             return None
-        self._blocked[robot, holder.client] = time + self._timeout
-        return holder.client
+        self._blocked[robot, driver] = time + self._timeout
+        return driver
 
     def release_all(self, client: str) -> list[str]:
         """Release the locks of a client that is gone; return their robots, to be stopped."""
         self._blocked = {key: until for key, until in self._blocked.items() if key[1] != client}
+        self._latest = {key: latest for key, latest in self._latest.items() if latest != client}
         return self._release([r for r, each in self._holders.items() if each.client == client])
 
     def expire(self, time: float) -> list[str]:

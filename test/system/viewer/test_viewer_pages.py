@@ -210,6 +210,20 @@ def test_a_stop_of_an_unknown_robot_is_reported_to_the_page_that_asked(backend, 
         ])  # fmt: skip
 
 
+def test_a_page_that_is_late_with_its_key_must_let_go_after_the_stop_of_another(backend, server):
+    """Where a busy browser stalls, the time-out stops the robot, and the button must hold too."""
+    with Page(server.url) as driver, Page(server.url) as other:
+        driver.say('drive', robot='/', linear=1.0, angular=0.0)
+        driver.wait(lambda: driver.is_told_that_nobody_drives)
+        other.say('stop', robot=None)
+        name = driver.last('hello')['client']
+        driver.wait(lambda: driver.last('driver')['stopped'] == name)
+        driver.say('drive', robot='/', linear=1.0, angular=0.0)
+        notice = driver.wait(lambda: driver.last('notice'))
+        assert notice['text'] == '/ was stopped by another page; let go, and drive again'
+        assert backend.calls.count((1.0, 0.0)) == 1
+
+
 def test_slider_positions_reach_the_backend(backend, server):
     with Page(server.url) as page:
         page.say('set_joints', robot='/', positions={'a': 1, 'b': -0.5})

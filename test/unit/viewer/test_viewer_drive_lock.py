@@ -75,6 +75,27 @@ def test_a_client_stopped_by_another_lets_go_by_a_stop():
     assert lock.acquire('/', 'a', 0.2)
 
 
+def test_a_client_whose_lock_has_expired_must_let_go_first_too():
+    """Its page was late, and says again that a key is held only after another's stop."""
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    lock.expire(0.45)
+    assert lock.stop('/', 'b', 0.5) == 'a'
+    assert not lock.acquire('/', 'a', 0.6)
+    assert not lock.acquire('/', 'a', 0.9)
+    assert lock.acquire('/', 'a', 1.3)
+
+
+def test_a_client_that_has_let_go_is_not_stopped():
+    lock = DriveLock(0.4)
+    lock.acquire('/', 'a', 0.0)
+    lock.stop('/', 'a', 0.1)
+    assert lock.stop('/', 'b', 0.2) is None
+    lock.acquire('/', 'a', 0.3)
+    lock.release_all('a')
+    assert lock.stop('/', 'b', 0.4) is None
+
+
 def test_a_client_that_stops_may_drive_at_once():
     lock = DriveLock(0.4)
     lock.acquire('/', 'a', 0.0)
