@@ -75,7 +75,8 @@ def view(args: list[str] | None) -> None:
             node = Node('viewer')
         try:
             with argument_errors():
-                server = _server(node, executor)
+                backend = _backend(node, executor)
+            server = backend.server
             executor.add_node(node)
 
             def start() -> None:
@@ -86,14 +87,15 @@ def view(args: list[str] | None) -> None:
                 serve(executor, stop, start)
             finally:
                 server.stop()
+                backend.disconnect()
         finally:
             stop.leave()
             executor.shutdown()
             node.destroy_node()
 
 
-def _server(node: Node, executor: SingleThreadedExecutor) -> Server:
-    """Create the server and its backend. Raises AmrError."""
+def _backend(node: Node, executor: SingleThreadedExecutor) -> GraphBackend:
+    """Create the backend and its server. Raises AmrError."""
     settings = declare(node, ViewerSettings)
     backend = GraphBackend(node, executor, node.get_logger().error)
     backend.server = Server(
@@ -108,7 +110,7 @@ def _server(node: Node, executor: SingleThreadedExecutor) -> Server:
         backend,
         node.get_logger().error,
     )
-    return backend.server
+    return backend
 
 
 def _version() -> str:

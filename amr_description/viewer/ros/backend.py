@@ -155,6 +155,10 @@ class GraphBackend(GraphObserver):
         """Pass on the present session: rclpy runs tasks in any order."""
         self._monitor.set_session(self._session)
 
+    def disconnect(self) -> None:
+        """Disconnect from the graph, after the server has ended; the last stops have arrived."""
+        self._monitor.set_session(0)
+
     def graph_changed(self) -> None:
         """Publish the graph."""
         connections, found = self._monitor.connections, self._monitor.found

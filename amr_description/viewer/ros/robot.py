@@ -11,6 +11,7 @@ from typing import Any
 
 from controller_manager_msgs.msg import ControllerManagerActivity
 from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -27,6 +28,8 @@ from amr_description.viewer.ros.description import describe_robot, DescribedRobo
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
 
 _COMMAND_FRAME = 'base_link'
+_ACK_TIMEOUT = Duration(seconds=0.5)
+"""For the last command, a stop, to arrive before its publisher is gone."""
 
 
 class RobotConnection:
@@ -108,7 +111,7 @@ class RobotConnection:
         """Destroy all publishers and subscriptions."""
         for publisher in (self._commands, self._joints):
             if publisher is not None:
-                self._node.destroy_publisher(publisher)
+                _destroy_publisher(self._node, publisher)
         self._commands = self._joints = None
         for subscription in (self._description, self._activity):
             if subscription is not None:
@@ -176,12 +179,17 @@ class RobotConnection:
         self.topics = RobotTopics(self._node, self.found, joints)
 
 
+def _destroy_publisher(node: Node, publisher: Publisher) -> None:
+    publisher.wait_for_all_acked(_ACK_TIMEOUT)
+    node.destroy_publisher(publisher)
+
+
 def _replace_publisher(
     publisher: Publisher | None, node: Node, message_type: Any, topic: str | None
 ) -> Publisher | None:
     """Destroy a publisher; return a new one for ``topic``, None without a topic."""
     if publisher is not None:
-        node.destroy_publisher(publisher)
+        _destroy_publisher(node, publisher)
     return node.create_publisher(message_type, topic, 10) if topic else None
 
 
