@@ -200,8 +200,8 @@ class GraphMonitor:
 
     def _on_description(self, connection: RobotConnection) -> None:
         self._update_sources()
+        self.observer.graph_changed()  # first: it has the robot's name
         self.observer.description_changed(connection)
-        self.observer.graph_changed()
 
     def _update_sources(self) -> None:
         assert self._clock and self._transforms, 'a session is open'
