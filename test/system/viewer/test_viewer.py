@@ -157,6 +157,7 @@ def test_a_page_sees_what_moves(host, url):
     odometry.pose.pose.position.y = -2.0
     odometry.twist.twist.linear.x = 0.25
     time = Clock()
+    time.clock.sec = 10_000  # so that it is seen to go back, however late
 
     def publish():
         time.clock.sec += 1
