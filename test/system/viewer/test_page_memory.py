@@ -27,7 +27,7 @@ SPEED = 0.5  # m/s
 MOST_POINTS = 2 * 1024  # of a trail where the processor draws
 MOST_SAMPLES = 300 * 60  # of the plots
 MOST_GROWTH = 1_000_000
-"""Bytes. Held on to, the states of an hour are 2.5 MB."""
+"""Bytes. Held on to, the bare frames of an hour are 1.5 MB."""
 LEAST_SHARE = 0.35
 """Of the states, that the page takes: one that is slow is not sent all."""
 
