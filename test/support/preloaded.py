@@ -45,6 +45,13 @@ _READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
 # has to be taken down at the end of each program.
 _LIGHT = 'amr_description.cli.main amr_description.nodes.spawner'
 _SIMULATOR = 'amr_description.nodes.mujoco_sim'
+_SERVER = f"""
+import sys
+base = sys.path[1:]
+sys.path[:0] = [{str(ROOT)!r}, {str(ROOT / 'test')!r}]
+from support import preloaded
+preloaded.serve(base)
+"""
 # Have an interpreter take the terminal at its stdin as a terminal emulator does, then become
 # another program.
 _TAKE_TERMINAL = """
@@ -138,11 +145,11 @@ class _Server:
         self._lock = threading.Lock()
         self._libc = ctypes.CDLL(None, use_errno=True)
         self._socket, theirs = socket.socketpair()
-        path = os.pathsep.join([str(ROOT / 'test'), str(ROOT)])
+        variables = {key: each for key, each in os.environ.items() if key != 'PYTHONPATH'}
         subprocess.Popen(
-            [sys.executable, __file__, str(theirs.fileno()), *modules.split()],
+            [sys.executable, '-c', _SERVER, str(theirs.fileno()), *modules.split()],
             # OpenBLAS's threads do not outlive a fork, and its end waits for them.
-            env=os.environ | {'PYTHONPATH': path, 'OPENBLAS_NUM_THREADS': '1'},
+            env=variables | {'OPENBLAS_NUM_THREADS': '1'},
             cwd=ROOT,
             pass_fds=[theirs.fileno()],
             stdin=subprocess.DEVNULL,
@@ -264,21 +271,25 @@ def _execute(program, base):
     path = [folder for folder in os.environ.get('PYTHONPATH', '').split(os.pathsep) if folder]
     if kind == '-m':
         sys.argv = rest
-        sys.path[:] = [os.getcwd(), *path, *base]
+        sys.path[:] = dict.fromkeys([os.getcwd(), *path, *base])
         runpy.run_module(rest[0], run_name='__main__', alter_sys=True)
     elif kind == '-c':
         sys.argv = ['-c', *rest[1:]]
-        sys.path[:] = ['', *path, *base]
+        sys.path[:] = dict.fromkeys(['', *path, *base])
         exec(compile(rest[0], '<string>', 'exec'), sys.modules['__main__'].__dict__)
     else:
         sys.argv = program
-        sys.path[:] = [str(Path(kind).resolve().parent), *path, *base]
+        sys.path[:] = dict.fromkeys([str(Path(kind).resolve().parent), *path, *base])
         runpy.run_path(kind, run_name='__main__')
 
 
-def _main():
-    ours = set(os.environ['PYTHONPATH'].split(os.pathsep)) | {str(Path(__file__).parent)}
-    base = [folder for folder in sys.path if folder not in ours]
+def serve(base):
+    """
+    Import the modules that the command line names, fork programs, and run them in the forks.
+
+    Args:
+        base: What the interpreter itself had in ``sys.path``.
+    """
     for name in sys.argv[2:]:
         __import__(name)
     for name in [name for name in sys.modules if name.startswith('amr_description.nodes.')]:
@@ -290,7 +301,3 @@ def _main():
         request, files = _serve(connection)
     _become(request, files)
     _execute(request['program'], base)
-
-
-if __name__ == '__main__':
-    _main()

@@ -8,10 +8,17 @@ import os
 from pathlib import Path
 from types import SimpleNamespace
 
-import conftest
 import pytest
 from support import ordering
 from support.paths import ROOT, TESTS
+
+CONFTEST = []
+
+
+@pytest.fixture(scope='module', autouse=True)
+def conftest_of_all_tests(pytestconfig):
+    """``import conftest`` may find that of a folder."""
+    CONFTEST[:] = [pytestconfig.pluginmanager.get_plugin(str(TESTS / 'conftest.py'))]
 
 
 @dataclass(frozen=True)
@@ -39,7 +46,7 @@ def in_order(items, seed=None, long=False, **config):
         'option': SimpleNamespace(random_order=seed, long=long),
         'hook': SimpleNamespace(pytest_deselected=lambda items: deselected.extend(items)),
     }
-    conftest.pytest_collection_modifyitems(SimpleNamespace(**config), items)
+    CONFTEST[0].pytest_collection_modifyitems(SimpleNamespace(**config), items)
     assert all('long' in item.marks and not long for item in deselected)
     return items
 
@@ -146,7 +153,7 @@ def test_only_runs_of_whole_files_count(options, arguments, whole):
     config = SimpleNamespace(
         rootpath=ROOT, args=arguments, getoption=lambda name, default: options.get(name, default)
     )
-    assert conftest.Recording(config).is_whole == whole
+    assert CONFTEST[0].Recording(config).is_whole == whole
 
 
 def test_the_committed_table_names_files_that_are_there():

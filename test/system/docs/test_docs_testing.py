@@ -30,7 +30,8 @@ def test_the_tests_of_the_page_pass(tmp_path):
     (tmp_path / 'arm.yaml').write_text(ARM_YAML)
     (tmp_path / 'arm.urdf').write_text(ARM_URDF.read_text())
     paths = {'PYTHONPATH': os.pathsep.join(filter(None, sys.path))}
-    only_its_own = {'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1'}  # importing all others takes 2 s of CPU
+    # Without the options of the run that this is part of, and plugins that take 2 s to load.
+    only_its_own = {'PYTEST_ADDOPTS': '', 'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1'}
     ended = subprocess.run(
         [sys.executable, '-m', 'pytest', '-q', '-p', 'no:cacheprovider', str(tmp_path)],
         capture_output=True,

@@ -219,7 +219,7 @@ class Tmux:
         self('kill-server')
 
     def __call__(self, *words):
-        environment = os.environ | ENVIRONMENT | {'PS1': 'prompt> '}
+        environment = os.environ | ENVIRONMENT
         environment.pop('TMUX', None)
         return subprocess.run(
             ['tmux', '-S', self._socket, *words],
@@ -238,6 +238,7 @@ class Tmux:
 def test_in_tmux(robot, tmp_path):
     robot.listen()
     with Tmux(tmp_path) as tmux:
+        robot.until(lambda: tmux.screen.strip())  # a prompt
         tmux.type(f'echo before $(stty -g); {COMMAND}; echo left with $?, after $(stty -g)\n')
         robot.until(lambda: 'currently:' in tmux.screen)
         robot.until(lambda: tmux.type('i') or FORWARD in robot.commands)

@@ -58,15 +58,25 @@ def test_without_being_asked_each_component_is_limited_by_itself(linear, angular
 
 
 @law
+@given(without_jerk, without_jerk, twists, dts)
+def test_from_rest_it_speeds_up_along_the_arc(linear, angular, command, dt):
+    """
+    With a limit of jerk not always: a component that still speeds up when the other has reached
+    its greatest speed cannot stop doing so at once, and a limit goes before the arc.
+    """
+    limiter = TwistLimiter(linear, angular, keeps_curvature=True)
+    for _ in range(200):
+        v, w = limiter.limit(command, dt)
+        assert v * command[1] == pytest.approx(w * command[0], abs=1e-9)
+
+
+@law
 @given(limiters, limiters, twists, dts)
-def test_from_rest_it_speeds_up_along_the_arc_until_it_drives_what_it_can(
-    linear, angular, command, dt
-):
+def test_from_rest_it_speeds_up_until_it_drives_what_it_can(linear, angular, command, dt):
     assume(command != (0.0, 0.0))
     limiter = TwistLimiter(linear, angular, keeps_curvature=True)
     driven = [(0.0, 0.0)] + [limiter.limit(command, dt) for _ in range(200)]
     for (last_v, last_w), (v, w) in pairs(driven):
-        assert v * command[1] == pytest.approx(w * command[0], abs=1e-9)
         assert abs(v) >= abs(last_v) - 1e-9
         assert abs(w) >= abs(last_w) - 1e-9
         assert math.hypot(v, w) <= math.hypot(*command) + 1e-9
