@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description import streams
-from amr_description.ros.runtime import argument_errors, ros
+from amr_description.ros.runtime import argument_errors, end_wait, ros
 from amr_description.ros.signals import StopRequested, StopRequests
 
 _POLL_PERIOD = 0.02  # s
@@ -58,8 +58,7 @@ class Session:
 
     def interrupt(self) -> None:
         """End the executor's wait for callbacks; on any thread."""
-        # Executor.wake() would have it wait again (rclpy 7.1.6).
-        self.executor.create_task(lambda: None)
+        end_wait(self.executor)
 
     def serve(
         self, done: Callable[[], bool] = lambda: False, timeout: float | None = None

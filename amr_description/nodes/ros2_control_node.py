@@ -47,7 +47,7 @@ from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.qos import CLOCK
-from amr_description.ros.runtime import argument_errors, program, ros, serve
+from amr_description.ros.runtime import argument_errors, end_wait, program, ros, serve
 from amr_description.streams import never_wait_for_stderr
 
 
@@ -145,7 +145,7 @@ class StandAloneManager:
             manager = await self.loop_thread.submit(lambda: self._add_manager(prepared))
         except HardwareStartError as error:
             self.failure = error
-            self._executor.wake()
+            end_wait(self._executor)
             return
         except Exception:
             prepared.release()

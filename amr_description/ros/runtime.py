@@ -70,7 +70,7 @@ from amr_description.ros.transport import udp_only
 from amr_description.streams import print_traceback
 from amr_description.text import unwrap
 
-# Only a bound, s: messages, timers and Executor.wake() end the wait at once.
+# Only a bound, s: messages, timers and end_wait() end the wait at once.
 _SPIN_TIMEOUT = 0.5
 
 
@@ -148,8 +148,8 @@ def spin(executor: Executor, until: Callable[[], bool]) -> None:
     """
     Serve the executor's callbacks in this thread until ``until()``, or a shutdown of the context.
 
-    ``until`` is asked after every callback and twice a second; ``executor.wake()`` has it asked
-    at once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
+    ``until`` is asked after every callback and twice a second; :func:`end_wait` has it asked at
+    once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
     never run a callback. This loop is right for every executor.)
     """
     while executor.context.ok() and not until():
@@ -160,6 +160,19 @@ def spin(executor: Executor, until: Callable[[], bool]) -> None:
         except RCLError:
             if executor.context.ok():  # otherwise: it was shut down while the wait was set up
                 raise
+
+
+def end_wait(executor: Executor) -> None:
+    """
+    Have ``spin_once()`` return at once; from any thread.
+
+    ``Executor.wake()`` does not: in rclpy 7.1.6 the executor then looks at what it has to wait
+    for, and waits on.
+    """
+    executor.create_task(_nothing)
+
+
+def _nothing() -> None: ...
 
 
 def serve(
@@ -183,7 +196,7 @@ def serve(
     def end() -> None:
         nonlocal is_stopping
         is_stopping = True
-        executor.wake()
+        end_wait(executor)
 
     with stop.on_stop(end):
         start()
@@ -208,7 +221,7 @@ def spinning(
         yield server
     finally:
         ended.set()
-        server.wake()
+        end_wait(server)
         thread.join()
         server.shutdown()
         node.destroy_node()
@@ -236,7 +249,7 @@ class ExecutorThread:
     def ask_to_end(self) -> None:
         """Let no other callback begin."""
         self._ending.set()
-        self.executor.wake()
+        end_wait(self.executor)
 
     def end(self) -> None:
         """
@@ -286,7 +299,7 @@ def _spin_until_stopped(
     def end_spin() -> None:
         stopped.set()
         if executor is not None:
-            executor.wake()
+            end_wait(executor)
 
     # A half-made executor complains when it is interrupted, so it is made where nothing raises.
     with stop.on_stop(end_spin):

@@ -31,6 +31,7 @@ from amr_description.control.ros.pacing import WallPacer
 from amr_description.parameters import group, parameter
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
+from amr_description.ros.runtime import end_wait
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler
@@ -207,7 +208,7 @@ class Simulation:
         """Stop, and end the process."""
         await self.stop()
         self._is_quitting = True
-        self._executor.wake()
+        end_wait(self._executor)
 
     async def step(self, count: int) -> int:
         """
