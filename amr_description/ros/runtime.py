@@ -89,9 +89,9 @@ def run(
 
     In every way out ``destroy_node()`` is called while the node can still publish.
 
-    EventsExecutor costs 2.6 % of a core for a 100 Hz timer, SingleThreadedExecutor 6.5 %; with
-    either a stop takes about 10 ms (rclpy 7.1.6). A node with an ``async def`` service callback
-    needs ``executor=SingleThreadedExecutor``: EventsExecutor dies of it with a TypeError.
+    EventsExecutor costs 2.6 % of a core for a 100 Hz timer, SingleThreadedExecutor 6.5 %
+    (rclpy 7.1.6). A node with an ``async def`` service callback needs
+    ``executor=SingleThreadedExecutor``: EventsExecutor dies of it with a TypeError.
     """
 
     def body() -> None:

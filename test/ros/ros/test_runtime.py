@@ -16,11 +16,12 @@ from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
-from support.running_programs import Program
+from support.running_programs import PATIENCE, Program
 
 from amr_description.errors import ParameterError, UsageError
 from amr_description.ros.runtime import (
     argument_errors,
+    end_wait,
     ExecutorThread,
     program,
     ros,
@@ -232,6 +233,20 @@ def test_spin_ends_when_its_condition_is_true(listener, make_executor):
     executor.add_node(listener)
     spin(executor, until=lambda: len(ticks) >= 3)
     assert rclpy.ok()
+    executor.shutdown()
+
+
+@pytest.mark.parametrize('make_executor', [EventsExecutor, SingleThreadedExecutor])
+def test_a_wait_of_an_executor_is_ended_from_another_thread(listener, make_executor):
+    executor = make_executor()
+    executor.add_node(listener)
+    threading.Timer(0.05, end_wait, [executor]).start()
+    waiter = threading.Thread(
+        target=executor.spin_once, kwargs={'timeout_sec': 10 * PATIENCE}, daemon=True
+    )
+    waiter.start()
+    waiter.join(PATIENCE)
+    assert not waiter.is_alive()
     executor.shutdown()
 
 
