@@ -96,7 +96,7 @@ def test_an_empty_list_without_a_parameter_is_what_the_genuine_command_makes_of_
         ('@x', "line 1, column 1: found character '@' .* for a string write '\"@x\"'"),
         ('a: b: c', 'line 1, column 5: mapping values are not allowed here'),
         ('*b', "line 1, column 1: found undefined alias 'b'"),
-        ('{' * 5000, 'nested too deeply$'),
+        ('{\n' * 5000, 'nested too deeply$'),
         ('\udcff', r'U\+DCFF, which YAML does not allow$'),
     ],
 )

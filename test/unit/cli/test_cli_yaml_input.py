@@ -34,7 +34,7 @@ def test_something_else_is_named(text, found):
         ('!!python/object:os.system {}', 'line 1, column 1: could not determine a constructor'),
         ('data: \x07', 'character 7 is U+0007'),
         ('data: \udcff', 'character 7 is U+DCFF'),
-        ('{' * 5000, 'nested too deeply'),
+        ('{\n' * 5000, 'nested too deeply'),
         ('2026-99-99', 'month must be in 1..12'),
     ],
 )
