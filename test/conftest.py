@@ -26,11 +26,14 @@ sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 
 KEPT = {}  # what has to last as long as the run
 
-settings.load_profile('ci')  # everywhere the same numbers, and no deadline on a busy machine
+# Everywhere the same numbers, no deadline on a busy machine, and half as many examples as
+# Hypothesis tries by itself: whoever is writing waits for them.
+settings.register_profile('normal', settings.get_profile('ci'), max_examples=50)
 # Numbers that nobody has tried yet, and many of them (support/examples.py).
 settings.register_profile(
     'long', settings.get_profile('ci'), max_examples=2_000, derandomize=False
 )
+settings.load_profile('normal')
 
 
 def pytest_addoption(parser):

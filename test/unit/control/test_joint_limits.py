@@ -119,7 +119,7 @@ def test_limits_that_exclude_each_other_are_refused():
 
 # --- what is let through: laws -------------------------------------------------------------------
 
-LAW = examples(200)
+LAW = examples(100)
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 SMALL = st.floats(-100.0, 100.0)
 ANY = st.floats(allow_nan=False)

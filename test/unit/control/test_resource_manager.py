@@ -408,7 +408,7 @@ ACTIONS = st.sampled_from(['read', 'write', 'shut_down', *map(LifecycleState, ra
 FAULTS = st.lists(st.sampled_from([*FROM, 'read', 'write']), max_size=2)
 
 
-@examples(300)
+@examples(150)
 @given(st.lists(st.tuples(ACTIONS, FAULTS), max_size=12))
 def test_the_lifecycle_holds_whatever_is_requested_and_whatever_fails(requests):
     hardware = Recorded('hardware')

@@ -168,7 +168,7 @@ faults = st.one_of(
 )
 
 
-@examples(150)
+@examples(75)
 @given(st.lists(st.tuples(faults, actions), min_size=5, max_size=15))
 def test_the_laws_hold_whatever_is_asked_and_whatever_fails(sequence):
     bench = Bench()

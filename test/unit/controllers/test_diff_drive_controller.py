@@ -124,7 +124,7 @@ speeds = st.floats(-2.0, 2.0).filter(lambda value: value == 0.0 or abs(value) > 
 sizes = st.floats(0.5, 2.0)
 
 
-@examples(60)
+@examples(50)
 @given(
     st.lists(st.tuples(speeds, speeds, st.integers(1, 40)), min_size=1, max_size=6),
     st.fixed_dictionaries(
@@ -464,7 +464,7 @@ def test_deactivate_then_activate():
 numbers = st.floats(allow_nan=True, allow_infinity=True)
 
 
-@examples(100)
+@examples(50)
 @given(st.lists(st.tuples(numbers, numbers), min_size=1, max_size=5), st.booleans())
 def test_whatever_is_commanded_the_wheels_get_finite_commands(commands, chained):
     bench = Bench(enable_cmd_vel_unstamped=True, open_loop=True).activate(None, chained=chained)

@@ -65,7 +65,7 @@ def bounds_of_change(limiter, last):
     return low, high
 
 
-@examples(200)
+@examples(100)
 @given(
     st.builds(RateLimiter, **limits),
     st.lists(st.tuples(any_speed, st.floats(1e-4, 1.0)), min_size=1, max_size=40),

@@ -10,7 +10,7 @@ from support.examples import examples
 
 from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
 
-law = examples(100)
+law = examples(50)
 speeds = st.floats(-3.0, 3.0).filter(lambda value: value == 0.0 or abs(value) > 1e-3)
 twists = st.tuples(speeds, speeds)
 dts = st.sampled_from((0.001, 0.01, 0.1))

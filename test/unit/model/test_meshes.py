@@ -213,7 +213,7 @@ CONTENTS = {
 }  # fmt: skip
 
 
-@examples(200, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(100, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.sampled_from(sorted(CONTENTS)),
     st.integers(0, 3000),
