@@ -93,8 +93,7 @@ class DurationRecorder:
 
     def add(self, nodeid: str, seconds: float) -> None:
         """Add a set-up, a test or a tear-down."""
-        file = self._root / nodeid.partition('::')[0]
-        self._seconds[path_in_tests(file)] += seconds
+        self._seconds[nodeid.partition('::')[0]] += seconds
 
     def write(self, table: Path, files: Iterable[str]) -> None:
         """
@@ -104,7 +103,10 @@ class DurationRecorder:
 
         :param files: All test files, as the tables call them.
         """
-        durations = read_durations(table) | {n: round(s, 2) for n, s in self._seconds.items()}
+        measured = {
+            path_in_tests(self._root / file): round(s, 2) for file, s in self._seconds.items()
+        }
+        durations = read_durations(table) | measured
         known = {name: durations[name] for name in sorted(durations.keys() & set(files))}
         with contextlib.suppress(OSError):  # a full or read-only disk is no test's fault
             table.parent.mkdir(parents=True, exist_ok=True)
