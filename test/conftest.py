@@ -6,6 +6,7 @@ Give each test process a ROS of its own: a free domain, this host only, its own 
 So several can run side by side: of several checkouts, or of one (``scripts/test``).
 """
 
+import gc
 import math
 import os
 from pathlib import Path
@@ -21,6 +22,7 @@ from support import failures, ordering
 from amr_description.testing.program import take_domain
 
 ROOT = Path(__file__).resolve().parents[1]
+UNIT = ROOT / 'test' / 'unit'
 # The parts of these are tested too, and benchmarks/ is imported from the checkout.
 sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 
@@ -87,12 +89,15 @@ def has_workers(config):
 
 
 @pytest.hookimpl(optionalhook=True)
-def pytest_xdist_auto_num_workers():
+def pytest_xdist_auto_num_workers(config):
     """
     How many processes ``-n auto`` is: one more than cores, as they often wait for others; with
-    two for each core the programs under test do not answer in time.
+    two for each core the programs under test do not answer in time. What is in ``test/unit``
+    waits for nobody: one for each core, each more would only collect all of it once more.
     """
-    return len(os.sched_getaffinity(0)) + 1
+    paths = [(config.invocation_params.dir / arg.split('::')[0]) for arg in config.args]
+    is_waiting = not all(path.resolve().is_relative_to(UNIT) for path in paths)
+    return len(os.sched_getaffinity(0)) + is_waiting
 
 
 def is_worker(config):
@@ -153,6 +158,13 @@ class Recording:
     def pytest_sessionfinish(self, exitstatus):
         if self.is_whole and exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
             self.durations.write(ordering.OWN_TABLE, ordering.test_files())
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish():
+    # Thousands of tests stay as long as the run: no garbage collection need look at them again.
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_report_header(config):
