@@ -11,6 +11,7 @@ import pytest
 
 from amr_description.control.contracts import null_log
 from amr_description.model.frames import Transform
+from amr_description.sim import wheel_trim
 from amr_description.sim.robot_spec import build_robot
 from amr_description.sim.spawning import read_description
 from amr_description.sim.wheel_contact import WHEEL_CONTACT
@@ -140,6 +141,21 @@ def test_a_robot_that_does_not_stand_on_wheels_keeps_its_contacts():
     # On its back, so to speak: a chassis deeper than the wheels reach.
     bellied = AMR.replace('<box size="0.5 0.3 0.1"/>', '<box size="0.5 0.3 0.3"/>')
     assert set(contacts(bellied).values()) == {WHEEL_CONTACT}
+
+
+def test_the_same_robot_settles_once_and_any_other_anew(monkeypatch):
+    monkeypatch.setattr(wheel_trim, '_KNOWN', {})
+    settled = []
+    settle = wheel_trim._settle
+    monkeypatch.setattr(
+        wheel_trim, '_settle', lambda *model: settled.append(model) or settle(*model)
+    )
+    first = contacts(TWO_WHEELS)
+    assert contacts(TWO_WHEELS) == first
+    assert len(settled) == 1
+    assert contacts(TWO_WHEELS, gravity=1.62) != first
+    assert contacts(AMR) != contacts(heavier(10.0))
+    assert len(settled) == 4
 
 
 def test_faults_while_trimming_are_not_logged_for_the_world():
