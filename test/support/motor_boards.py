@@ -3,9 +3,10 @@
 """A simulated motor board behind a pseudo-terminal, with faults; and a robot on it."""
 
 from contextlib import ExitStack
-from threading import Event, Thread
+from threading import Condition, Event, Thread
 
 from support.paths import ROOT
+from support.running_programs import PATIENCE
 
 from amr_description.bringup.stacks.hardware import swap_hardware
 from amr_description.hardware.simulated_motor_board import MotorConstants, SimulatedMotorBoard
@@ -38,6 +39,7 @@ class TamperedBoard(SimulatedMotorBoard):
         self.tamper = lambda answer: answer
         self.is_deaf = False
         self.answered = Event()
+        self._moved = Condition()
 
     def receive(self, data):
         self.received += data
@@ -45,6 +47,16 @@ class TamperedBoard(SimulatedMotorBoard):
         if data:
             self.answered.set()
         return answer
+
+    def advance(self, dt):
+        super().advance(dt)
+        with self._moved:
+            self._moved.notify_all()
+
+    def comes(self, condition):
+        """Wait, without taking time from the board's thread; return whether it came."""
+        with self._moved:
+            return self._moved.wait_for(condition, PATIENCE)
 
 
 class BoardOnPty:

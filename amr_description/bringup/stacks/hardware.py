@@ -33,6 +33,8 @@ from amr_description.errors import DescriptionError
 _HARDWARE = re.compile(r'<hardware>.*?</hardware>', re.DOTALL)
 _SIMULATED_BOARD = {'answer_timeout': '1.0'}
 """s; a board that is a process of a busy computer may answer late, and turns no motors."""
+_PSEUDO_TERMINALS = '/dev/pts/'
+"""What is behind a port there is a program, perhaps a ``motor_board`` of another terminal."""
 _PORT_TIMEOUT = 10.0
 """s; the port of a board that was just plugged in appears after two or three."""
 
@@ -68,15 +70,16 @@ def serial(
     """The robot behind a serial port: a real motor board, or a simulated one."""
     boards: list[Node] = []
     timeout: float | None = _PORT_TIMEOUT
-    patience: dict[str, str] = {}
+    is_simulated = not port or os.path.realpath(port).startswith(_PSEUDO_TERMINALS)
     if not port:
-        timeout, patience = None, _SIMULATED_BOARD
+        timeout = None
         port = str(Path(tempfile.gettempdir(), f'amr_motor_board_{os.getpid()}'))
         boards = [Node('motor_board', arguments=['--link', port], required=False)]
     description = swap_hardware(
         robot_description(urdf, xacro_args),
         'amr_description/SerialBaseSystem',
-        {'port': port, 'left_joints': left, 'right_joints': right} | patience,
+        {'port': port, 'left_joints': left, 'right_joints': right}
+        | (_SIMULATED_BOARD if is_simulated else {}),
     )
     files = [path_of(urdf), path_of(controllers)]
     return _controlled(description, files, viewer, boards, path_exists(port), timeout)

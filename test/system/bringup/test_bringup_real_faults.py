@@ -8,12 +8,11 @@ from pathlib import Path
 import re
 import signal
 import sys
-import time
 
 from fixtures.bringup.running import Bringup, ends, STACKS
 import pytest
 from support.motor_boards import BoardOnPty
-from support.running_programs import PATIENCE, Program
+from support.running_programs import Program
 
 from amr_description.hardware.simulated_motor_board import BoardMode
 
@@ -79,20 +78,12 @@ def test_the_wheels_stop_when_the_orchestrator_is_killed(tmp_path):
             with Program(
                 sys.executable, '-m', 'amr_description.cli', 'ros2', 'topic', 'pub', *DRIVE
             ):
-                assert comes(lambda: board.left.target > 0 and board.right.target > 0)
+                assert board.comes(lambda: board.left.target > 0 and board.right.target > 0)
                 pids = bringup.left()
                 bringup.signal(signal.SIGKILL)
                 assert all(ends(pid) for pid in pids)
-        assert comes(lambda: board.mode is not BoardMode.ARMED)
+        assert board.comes(lambda: board.mode is not BoardMode.ARMED)
         assert board.left.target == board.right.target == 0.0
-
-
-def comes(condition):
-    """Wait for what a thread of this process does; return whether it came."""
-    deadline = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < deadline:
-        os.sched_yield()
-    return condition()
 
 
 def shared_memory(pids):

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stacks without the simulator: the order of starts, and the swapped hardware."""
 
+import os
+
 import pytest
 from support.paths import ROOT
 
@@ -74,6 +76,19 @@ def test_a_real_board():
     assert list(waves(made)) == [['robot_state_publisher'], *CONTROLLED]
     assert hardware(made).parameters['port'] == '/dev/ttyUSB0'
     assert 'answer_timeout' not in hardware(made).parameters
+
+
+def test_a_simulated_board_of_another_terminal(tmp_path):
+    terminal, slave = os.openpty()
+    port = tmp_path / 'board'
+    port.symlink_to(os.ttyname(slave))
+    try:
+        info = hardware(stack(serial, port=str(port)))
+    finally:
+        os.close(terminal)
+        os.close(slave)
+    assert info.parameters['port'] == str(port)
+    assert info.parameters['answer_timeout'] == '1.0'
 
 
 def test_a_missing_port_is_reported_soon():
