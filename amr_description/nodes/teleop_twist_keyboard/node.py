@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node of ``teleop_twist_keyboard``: parameters, commands, and the type subscribers expect."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from geometry_msgs.msg import Twist, TwistStamped
@@ -97,6 +98,7 @@ class TeleopTwistKeyboard(Node):
         self._commands = self._create_commands()
         self._announced: bool | None = None
         self._printed: set[str] = set()
+        self._seeks_listeners = True
 
     @property
     def alternative(self) -> str:
@@ -109,6 +111,9 @@ class TeleopTwistKeyboard(Node):
     def check(self) -> list[str]:
         """Switch to the type that subscribers expect, unless it was given; return new lines."""
         found = listeners(self, _TOPIC)
+        if not found:
+            return self._where_others_listen()
+        self._seeks_listeners = False
         topic = self._commands.topic_name
         if self._is_automatic and not self.settings.frame_id:
             self._change_type(wants_stamped(found, otherwise=self._is_stamped))
@@ -125,8 +130,18 @@ class TeleopTwistKeyboard(Node):
         """As :meth:`check`, with a line if there is no subscription."""
         if listeners(self, _TOPIC):
             return self.check()
-        line = nobody(self._commands.topic_name, other_topics(self), stamped=self._is_stamped)
-        return [line]
+        return self._where_others_listen() or [self._nobody([])]
+
+    def _where_others_listen(self) -> list[str]:
+        """Return a line with the topics that have listeners, once; they may be found late."""
+        if not self._seeks_listeners:
+            return []
+        others = [topic for topic in other_topics(self) if topic != self._commands.topic_name]
+        self._seeks_listeners = not others
+        return [self._nobody(others)] if others else []
+
+    def _nobody(self, others: Sequence[str]) -> str:
+        return nobody(self._commands.topic_name, others, stamped=self._is_stamped)
 
     def publish(self, velocity: Velocity) -> None:
         """Publish one command, stamped with the node's clock."""

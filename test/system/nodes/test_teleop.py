@@ -176,6 +176,19 @@ def test_who_comes_later_gets_the_type_that_it_wants(robot):
         robot.until(lambda: robot.commands[-1] == (0.0, 0.0))
 
 
+def test_a_topic_with_listeners_that_is_found_later_is_told_once(robot):
+    with Program.module('teleop_twist_keyboard', terminal=True, env=XTERM) as program:
+        program.expect(r'publishing Twist on /cmd_vel, which has no listener yet\r?\n')
+        robot.listen(Twist, '/another/cmd_vel')
+        program.expect('which has no listener yet; -r cmd_vel:=/another/cmd_vel has')
+        robot.listen(TwistStamped, '/third/cmd_vel')
+        robot.listen(Twist)
+        program.expect('publishing Twist on /cmd_vel: /robot wants it')
+        assert program.output.count('no listener yet') == 2
+        program.type('\x03')
+        assert program.end() == 0
+
+
 def test_a_type_that_is_given_is_kept_and_the_mistake_told(robot):
     robot.listen(TwistStamped)
     words = ['--ros-args', '-p', 'stamped:=false']
