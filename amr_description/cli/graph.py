@@ -9,7 +9,6 @@ Names of topics, services and nodes are absolute, unless a function says otherwi
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 import os
-import time
 
 from rclpy.node import Node
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
@@ -52,7 +51,8 @@ def wait_for_discovery(
     Wait until the graph is complete.
 
     It is complete when all participants of this host are found, and nothing has changed for 0.4 s.
-    On a busy machine changes come in batches, so after late changes the wait is longer.
+    On a busy machine changes come in batches, so after late changes the wait is longer; and times
+    are those of the session's clock, so that it is longer where this process has to wait its turn.
 
     Args:
         session: of the verb.
@@ -60,13 +60,13 @@ def wait_for_discovery(
         found: returns whether a wanted name is there. If not, wait for it, up to 2 s in all: it
             may be on another host.
     """
-    start = last_change = time.monotonic()
+    start = last_change = session.clock.now()
     known = None
     least = _QUIET_WITH_SERVER if os.environ.get('ROS_DISCOVERY_SERVER') else _QUIET
 
     def is_complete() -> bool:
         nonlocal known, last_change
-        now = time.monotonic()
+        now = session.clock.now()
         snapshot = _snapshot(session.node)
         if snapshot != known:
             known, last_change = snapshot, now
@@ -76,7 +76,7 @@ def wait_for_discovery(
 
     session.spin(is_complete, max(at_least, _LONGEST_DISCOVERY))
     if found is not None:
-        session.spin(found, start + max(at_least, _LOOKUP_TIMEOUT) - time.monotonic())
+        session.spin(found, start + max(at_least, _LOOKUP_TIMEOUT) - session.clock.now())
 
 
 def _snapshot(node: Node) -> object:

@@ -4,7 +4,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import os
 import threading
 import time
@@ -21,6 +21,29 @@ _POLL_PERIOD = 0.02  # s
 _IDLE_PERIOD = 0.5  # s; callbacks, signals and timeouts end the wait at once
 
 
+class WaitClock:
+    """
+    ``time.monotonic()`` without the time in which this process wanted to run and could not.
+
+    On a busy machine, or after Ctrl-Z, that is time in which it has not looked for what it waits
+    for, which may have come long ago.
+    """
+
+    def __init__(self) -> None:
+        self._lost = 0.0  # s
+
+    def now(self) -> float:
+        """Return the time, s."""
+        return time.monotonic() - self._lost
+
+    def wait(self, timeout: float, wait: Callable[[float], object]) -> None:
+        """Call ``wait(timeout)``, s; beyond the timeout only the processor time of it counts."""
+        began, worked = time.monotonic(), time.thread_time()
+        wait(timeout)
+        took = time.monotonic() - began
+        self._lost += max(0.0, took - timeout - (time.thread_time() - worked))
+
+
 @dataclass(frozen=True)
 class Session:
     """The node of a verb, and the executor of its callbacks, which run in the verb's thread."""
@@ -28,6 +51,7 @@ class Session:
     node: Node
     executor: Executor
     stop: StopRequests
+    clock: WaitClock = field(default_factory=WaitClock)
 
     def spin(
         self,
@@ -37,7 +61,7 @@ class Session:
         poll: float = _POLL_PERIOD,
     ) -> bool:
         """
-        Run callbacks until ``until()`` is true, at most for ``timeout`` s.
+        Run callbacks until ``until()`` is true, at most for ``timeout`` s of ``clock``.
 
         ``until`` is called after every callback, and every ``poll`` s.
 
@@ -47,13 +71,13 @@ class Session:
         Raises:
             StopRequested: after a callback, never inside of one.
         """
-        deadline = float('inf') if timeout is None else time.monotonic() + timeout
+        deadline = float('inf') if timeout is None else self.clock.now() + timeout
         with self.stop.deferred(self.interrupt) as is_stopping:
             while not (is_stopping() or until()):
-                left = deadline - time.monotonic()
+                left = deadline - self.clock.now()
                 if left <= 0.0:
                     return False
-                self.executor.spin_once(timeout_sec=min(left, poll))
+                self.clock.wait(min(left, poll), self.executor.spin_once)
         return True
 
     def interrupt(self) -> None:

@@ -97,11 +97,18 @@ def ask(
     service_type: Any,
     request: Any,
     timeout: float | None,
+    *,
+    changes: bool = False,
 ) -> Any:
-    """Return the response of a node's service, by its name below the node. Raises AmrError."""
+    """
+    Return the response of a node's service, by its name below the node. Raises AmrError.
+
+    ``changes``: as of :func:`amr_description.cli.service_calls.responses`.
+    """
     from amr_description.cli.service_calls import responses
 
-    found = responses(session, service_type, {f'{node}/{service}': request}, timeout)
+    requests = {f'{node}/{service}': request}
+    found = responses(session, service_type, requests, timeout, changes=changes)
     if not found:
         raise AmrError(no_response(node, timeout))
     return found[f'{node}/{service}']

@@ -45,7 +45,9 @@ def main(args: Namespace) -> int:
         )
         known = [description.transition for description in available.available_transitions]
         request = ChangeState.Request(transition=chosen(args.transition, known))
-        response = ask(session, node, 'change_state', ChangeState, request, args.timeout)
+        response = ask(
+            session, node, 'change_state', ChangeState, request, args.timeout, changes=True
+        )
     if not response.success:
         raise AmrError('Transitioning failed')
     print('Transitioning successful')
