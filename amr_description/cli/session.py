@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 import os
 import threading
-import time
 
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
@@ -16,32 +15,10 @@ from rclpy.parameter import Parameter
 from amr_description import streams
 from amr_description.ros.runtime import argument_errors, end_wait, ros
 from amr_description.ros.signals import StopRequested, StopRequests
+from amr_description.ros.wait_clock import WaitClock
 
 _POLL_PERIOD = 0.02  # s
 _IDLE_PERIOD = 0.5  # s; callbacks, signals and timeouts end the wait at once
-
-
-class WaitClock:
-    """
-    ``time.monotonic()`` without the time in which this process wanted to run and could not.
-
-    On a busy machine, or after Ctrl-Z, that is time in which it has not looked for what it waits
-    for, which may have come long ago.
-    """
-
-    def __init__(self) -> None:
-        self._lost = 0.0  # s
-
-    def now(self) -> float:
-        """Return the time, s."""
-        return time.monotonic() - self._lost
-
-    def wait(self, timeout: float, wait: Callable[[float], object]) -> None:
-        """Call ``wait(timeout)``, s; beyond the timeout only the processor time of it counts."""
-        began, worked = time.monotonic(), time.thread_time()
-        wait(timeout)
-        took = time.monotonic() - began
-        self._lost += max(0.0, took - timeout - (time.thread_time() - worked))
 
 
 @dataclass(frozen=True)

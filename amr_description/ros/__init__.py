@@ -16,6 +16,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``qos.py``              QoS profiles that several nodes share
 
 ``service_calls.py``    wait for something, and call services, in a program that then ends
+``wait_clock.py``       the time for which a program has waited, on a busy machine too
 ``polled_topic.py``     a subscription without a callback
 ``endpoints.py``        publishers and subscriptions of the graph, by their nodes
 ``type_mismatch.py``    endpoints of one topic with different types; Twist or TwistStamped

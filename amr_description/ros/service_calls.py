@@ -14,6 +14,7 @@ from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import AmrError
 from amr_description.ros.runtime import argument_errors
+from amr_description.ros.wait_clock import WaitClock
 
 _POLL = 0.05
 """s: how soon a change of the graph is seen; messages and responses are seen at once."""
@@ -59,7 +60,7 @@ def wait_until[Result](
         condition: Asked after every callback, and 20 times a second.
         on_wait: Called every ``every`` s.
         every: s.
-        timeout: s; 0: without end.
+        timeout: s, of a :class:`~amr_description.ros.wait_clock.WaitClock`; 0: without end.
 
     Returns:
         What ``condition()`` returned; ``None``: the time is over.
@@ -69,15 +70,16 @@ def wait_until[Result](
     # has it collect what it waits for twice more.
     was_added = executor.add_node(node)
     try:
-        start = last = time.monotonic()
+        clock = WaitClock()
+        start = last = clock.now()
         while (result := condition()) is None:
-            now = time.monotonic()
+            now = clock.now()
             if timeout and now - start >= timeout:
                 return None
             if now - last >= every:
                 last = now
                 on_wait()
-            executor.spin_once(timeout_sec=_POLL)
+            clock.wait(_POLL, executor.spin_once)
         return result
     finally:
         if was_added:

@@ -6,14 +6,12 @@ import os
 import signal
 import threading
 import time
-from types import SimpleNamespace
 
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from support.running_programs import PATIENCE
 
-from amr_description.cli import session as session_module
 from amr_description.cli.session import open_session
 from amr_description.ros import signals
 from amr_description.ros.signals import STOP_SIGNALS, StopRequested
@@ -57,27 +55,6 @@ def test_a_wait_for_callbacks_ends_at_once(executor, monkeypatch):
         timer = threading.Timer(0.05, lambda: os.kill(os.getpid(), signal.SIGINT))
         timer.start()
         session.spin(lambda: False, poll=PATIENCE)
-
-
-@pytest.mark.parametrize(
-    ('took', 'worked', 'counted'),
-    [(0.02, 0.0, 0.02), (0.3, 0.0, 0.02), (0.3, 0.1, 0.12), (0.01, 0.01, 0.01)],
-)
-def test_time_in_which_a_verb_cannot_run_is_not_waited(monkeypatch, took, worked, counted):
-    """s; it waits for 0.02 s at most, and what its callbacks compute is time that passes."""
-    now = {'wall': 5.0, 'processor': 1.0}
-    fake = SimpleNamespace(monotonic=lambda: now['wall'], thread_time=lambda: now['processor'])
-    monkeypatch.setattr(session_module, 'time', fake)
-    clock = session_module.WaitClock()
-    began = clock.now()
-
-    def wait(_timeout):
-        now['wall'] += took
-        now['processor'] += worked
-
-    for _ in range(2):
-        clock.wait(0.02, wait)
-    assert clock.now() - began == pytest.approx(2 * counted)
 
 
 @EXECUTORS
