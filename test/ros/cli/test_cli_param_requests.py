@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Requests to the parameter services of nodes that discover their client late, or never answer."""
+"""Requests to services of nodes that discover their client late, or never answer."""
 
 from types import SimpleNamespace
 
@@ -9,7 +9,9 @@ from rcl_interfaces.msg import ListParametersResult
 from rcl_interfaces.srv import ListParameters, SetParameters
 from rclpy.task import Future
 
+from amr_description.cli import service_calls
 from amr_description.cli.param import requests
+from amr_description.ros.wait_clock import WaitClock
 
 ROUNDS = 20
 """How often a condition is looked at before the time is over."""
@@ -42,6 +44,7 @@ class Session:
         self.node = SimpleNamespace(
             create_client=lambda _type, name: self.clients[name], destroy_client=lambda _: None
         )
+        self.clock = WaitClock()
 
     def spin(self, until, timeout):
         return any(until() for _ in range(ROUNDS))
@@ -52,7 +55,8 @@ class Session:
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch):
-    monkeypatch.setattr(requests, '_REPEAT_PERIOD', 0.0)
+    for module in (requests, service_calls):
+        monkeypatch.setattr(module, '_REPEAT_PERIOD', 0.0)
 
 
 def test_a_response_that_was_thrown_away_is_asked_for_again():
@@ -76,3 +80,16 @@ def test_what_changes_something_is_sent_once():
     asked = {'/mute': SetParameters.Request()}
     assert requests.ask_all(session, 'set_parameters', SetParameters, asked, changes=True) == {}
     assert client.sent == 1
+
+
+@pytest.mark.parametrize(
+    ('changes', 'sent', 'answered'), [(False, (3, 1), 'late there'), (True, (1, 1), 'there')]
+)
+def test_services_of_several_nodes_are_asked_again_unless_that_changes_something(
+    changes, sent, answered
+):
+    session = Session(late=2, there=0)
+    asked = dict.fromkeys(session.clients, ListParameters.Request())
+    found = service_calls.responses(session, ListParameters, asked, 1.0, changes=changes)
+    assert sorted(found) == [f'/{name}/list_parameters' for name in answered.split()]
+    assert (session.sent('late'), session.sent('there')) == sent
