@@ -26,6 +26,7 @@ UNIT = ROOT / 'test' / 'unit'
 # The parts of these are tested too, and benchmarks/ is imported from the checkout.
 sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 
+pytest_plugins = ['support.stderr_file']
 KEPT = {}  # what has to last as long as the run
 
 # Everywhere the same numbers, no deadline on a busy machine, and half as many examples as

@@ -253,19 +253,16 @@ def test_a_failing_cycle_of_the_loop_ends_the_process_with_the_motors_stopped(ho
     assert host.hardware.count('deactivate') == 1
 
 
-def test_converters_that_fail_end_nothing(host, capfd):
+def test_converters_that_fail_end_nothing(host, stderr):
     host.client.set_parameters('babbler', {'type': 'third_party/Babbler'})
     host.activate('babbler')
     publisher = host.client_node.create_publisher(String, '/babbler/heard', 1)
 
     def complained():
         publisher.publish(String())
-        errors = capfd.readouterr().err
-        lines.extend(line for line in errors.splitlines() if 'TypeError' in line)
-        said = '\n'.join(lines)
+        said = '\n'.join(line for line in stderr().splitlines() if 'TypeError' in line)
         return "on '/babbler/said'" in said and "on '~/heard'" in said or None
 
-    lines = []
     assert wait_until(host.client_node, complained, lambda: None, every=1.0, timeout=5.0)
     assert not host.loop_thread.failed
     assert host.client.states() == {'babbler': 'active'}

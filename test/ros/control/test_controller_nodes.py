@@ -45,17 +45,17 @@ def test_transitions_are_published_as_a_lifecycle_node_does(host):
     ]
 
 
-def test_a_component_has_a_node_and_says_what_it_says_under_its_name(host, capfd):
+def test_a_component_has_a_node_and_says_what_it_says_under_its_name(host, stderr):
     assert 'hardware' in host.client_node.get_node_names()
     host.hardware.log(Severity.WARN, 'the motors are warm')
     wait_until(
         host.client_node,
-        lambda: '[hardware]: the motors are warm' in capfd.readouterr().err or None,
+        lambda: '[hardware]: the motors are warm' in stderr() or None,
         timeout=5.0,
     )
 
 
-def test_logger_levels_set_by_service_hold_for_the_log_port(host, capfd):
+def test_logger_levels_set_by_service_hold_for_the_log_port(host, stderr):
     assert host.client.load('joint_state_broadcaster')
 
     def set_level(node, level):
@@ -67,15 +67,13 @@ def test_logger_levels_set_by_service_hold_for_the_log_port(host, capfd):
     assert host.client.configure('joint_state_broadcaster')  # says INFO under its own name
     set_level('controller_manager', LoggerLevel.LOG_LEVEL_DEBUG)
     host.manager_node.log(Severity.DEBUG, 'the whole story')
-    lines = []
 
     def last_is_there():
-        lines.extend(capfd.readouterr().err.splitlines())
-        return any('[controller_manager]: the whole story' in line for line in lines) or None
+        return '[controller_manager]: the whole story' in stderr() or None
 
     assert wait_until(host.client_node, last_is_there, timeout=5.0)
-    assert any("Configuring controller: 'joint_state_broadcaster'" in line for line in lines)
-    assert not any("'joints' or 'interfaces' parameter is empty" in line for line in lines)
+    assert "Configuring controller: 'joint_state_broadcaster'" in stderr()
+    assert "'joints' or 'interfaces' parameter is empty" not in stderr()
 
 
 def test_a_controller_is_never_its_own_fallback(host):
@@ -89,16 +87,14 @@ def test_a_controller_is_never_its_own_fallback(host):
     assert 'joint_state_broadcaster' not in host.client_node.get_node_names()
 
 
-def test_is_async_is_taken_with_a_warning(host, capfd):
+def test_is_async_is_taken_with_a_warning(host, stderr):
     host.client.set_parameters(
         'joint_state_broadcaster', {'node_options_args': ['-p', 'is_async:=true']}
     )
     assert host.client.load('joint_state_broadcaster')
-    lines = []
 
     def warned():
-        lines.extend(capfd.readouterr().err.splitlines())
-        return [line for line in lines if 'is_async is true' in line] or None
+        return [line for line in stderr().splitlines() if 'is_async is true' in line] or None
 
     (line,) = wait_until(host.client_node, warned, timeout=5.0)
     assert line.startswith('[WARN]')

@@ -140,19 +140,13 @@ def test_a_xacro_file_with_arguments_and_movers(start, observer):
     )
 
 
-def test_an_unusable_description_is_told_and_the_old_one_kept(start, observer, capfd):
+def test_an_unusable_description_is_told_and_the_old_one_kept(start, observer, stderr):
     start()
     observer.describe(CART.format(LIMIT))
     observer.sees(axle=0.0, hinge=1.0)
     observer.describe(CART.format(''))
-    said = []
-
-    def complained():
-        said.append(capfd.readouterr().err)
-        return 'a revolute joint needs limits' in ''.join(said)
-
-    observer.until(complained)
-    assert 'robot_description cannot be used, the old one is kept: ' in ''.join(said)
+    observer.until(lambda: 'a revolute joint needs limits' in stderr())
+    assert 'robot_description cannot be used, the old one is kept: ' in stderr()
     observer.heard.clear()
     observer.sees(axle=0.0, hinge=1.0)
     observer.describe(CART.format(LIMIT.replace('1.5', '3.5')))
@@ -172,18 +166,16 @@ def test_the_same_description_again_leaves_the_joints_where_they_are(start, obse
     observer.sees(axle=0.5, hinge=0.75)
 
 
-def test_a_message_with_too_few_positions_is_told_and_ignored(start, observer, capfd):
+def test_a_message_with_too_few_positions_is_told_and_ignored(start, observer, stderr):
     start(rate=50.0)
     observer.describe(CART.format(LIMIT))
     observer.until(lambda: observer.movers[SETTER].get_subscription_count())
     wrong = JointState(name=['axle', 'hinge'], position=[1.0])
-    said = []
 
     def is_told():
         # Again and again: the first message of a publisher may find no reader yet.
         observer.movers[SETTER].publish(wrong)
-        said.append(capfd.readouterr().err)
-        return 'a JointState with 2 names and 1, 0, 0 positions' in ''.join(said)
+        return 'a JointState with 2 names and 1, 0, 0 positions' in stderr()
 
     observer.until(is_told)
     observer.move(SETTER, axle=0.5)
