@@ -60,8 +60,10 @@ def pytest_configure(config):
     config.addinivalue_line('markers', 'long: takes minutes, and runs with --long only')
     if config.option.long:
         settings.load_profile('long')
-    if config.option.random_order == '':
-        config.option.random_order = secrets.token_hex(4)  # xdist hands it on to the workers
+    if is_worker(config):
+        config.option.random_order = config.workerinput['seed']
+    elif config.option.random_order == '':
+        config.option.random_order = secrets.token_hex(4)
     if has_workers(config) or not is_worker(config):
         KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)
         config.pluginmanager.register(Recording(config))
@@ -108,7 +110,8 @@ def is_worker(config):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_configure_node(node):
-    """Tell a worker how long files take: all must have the same table, whoever writes it."""
+    """Tell a worker the seed, and how long files take: all must have the same order of tests."""
+    node.workerinput['seed'] = node.config.option.random_order
     node.workerinput['durations'] = KEPT['durations']
 
 
