@@ -22,7 +22,7 @@ WALK = (  # what is set, and the state that follows
 
 @pytest.fixture(scope='module', autouse=True)
 def nodes():
-    hidden = ('--ros-args', '-r', '__node:=_hidden', '-p', 'broken:=true')
+    hidden = ('--ros-args', '-r', '__node:=_hidden')
     with running_node('lifecycle_node.py'), running_node('lifecycle_node.py', *hidden):
         yield
 
@@ -69,10 +69,12 @@ def test_all_transitions():
 
 
 def test_a_transition_that_fails_is_an_error():
-    hidden = ('--include-hidden-nodes', '_hidden')
-    assert lifecycle('set', *hidden, 'configure') == (0, 'Transitioning successful\n', '')
-    assert lifecycle('set', *hidden, 'activate') == (1, '', 'Transitioning failed\n')
-    assert lifecycle('get', *hidden) == (0, 'inactive [2]\n', '')
+    hidden = ('--include-hidden-nodes', '_broken')
+    words = ('--ros-args', '-r', '__node:=_broken', '-p', 'broken:=true')
+    with running_node('lifecycle_node.py', *words):
+        assert lifecycle('set', *hidden, 'configure') == (0, 'Transitioning successful\n', '')
+        assert lifecycle('set', *hidden, 'activate') == (1, '', 'Transitioning failed\n')
+        assert lifecycle('get', *hidden) == (0, 'inactive [2]\n', '')
 
 
 def test_an_unknown_transition_is_told_what_there_is():
@@ -127,7 +129,13 @@ def test_ctrl_c_ends_a_wait_without_a_word():
 
 
 def test_a_node_goes_through_its_life():
-    for transition, state in WALK:
-        assert lifecycle('set', '/managed', transition)[:2] == (0, 'Transitioning successful\n')
-        assert lifecycle('get', '/managed') == (0, f'{state}\n', '')
-    assert lifecycle('set', '/managed', 'configure')[2].endswith('available ones are: none\n')
+    # A node of its own: the others find theirs at the beginning of its life.
+    with running_node('lifecycle_node.py', '--ros-args', '-r', '__node:=mortal'):
+        for transition, state in WALK:
+            assert lifecycle('set', '/mortal', transition)[:2] == (
+                0,
+                'Transitioning successful\n',
+            )
+            assert lifecycle('get', '/mortal') == (0, f'{state}\n', '')
+        refused = lifecycle('set', '/mortal', 'configure')[2]
+        assert refused.endswith('available ones are: none\n')
