@@ -93,12 +93,14 @@ def test_it_ends_as_a_started_one(code, expected):
 
 
 def test_it_has_a_terminal_and_ctrl_c_reaches_it():
-    # Short sleeps: a signal just before a call that blocks is seen only when the call returns.
+    # Blocked until it waits: just before a call that blocks, a signal would be seen after it.
     code = """if True:
-        import os, time
+        import os, signal
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         print('tty', os.ttyname(0), open('/dev/tty').isatty())
-        while True:
-            time.sleep(0.01)
+        signal.sigwait([signal.SIGINT])
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+        raise KeyboardInterrupt
     """
     with Program.of(code, terminal=True) as program:
         program.expect(r'tty /dev/pts/\d+ True')

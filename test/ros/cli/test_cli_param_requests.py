@@ -55,8 +55,7 @@ class Session:
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch):
-    for module in (requests, service_calls):
-        monkeypatch.setattr(module, '_REPEAT_PERIOD', 0.0)
+    monkeypatch.setattr(service_calls, '_REPEAT_PERIOD', 0.0)
 
 
 def test_a_response_that_was_thrown_away_is_asked_for_again():

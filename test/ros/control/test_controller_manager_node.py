@@ -38,6 +38,8 @@ def host(ros, tmp_path, monkeypatch):
     monkeypatch.delitem(sys.modules, 'third_party', raising=False)
     with running_host(tmp_path) as host:
         yield host
+    # Who has all libraries reloaded later would not find it any more.
+    sys.modules.pop('third_party', None)
 
 
 def test_a_controller_goes_through_its_states_by_services(host):

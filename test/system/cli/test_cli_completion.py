@@ -62,7 +62,7 @@ def fixture_node():
         yield node
 
 
-@pytest.fixture(scope='module')
+@pytest.fixture  # of one test: others count the nodes that are there
 def host(tmp_path_factory):
     with ros_in_this_process(), running_host(tmp_path_factory.mktemp('host')) as host:
         host.activate(JOINTS)

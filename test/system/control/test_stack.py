@@ -35,6 +35,8 @@ from amr_description.sim.actuators import FASTEST_JOINT
 PERIOD = 0.05
 """s between two commands."""
 
+pytestmark = pytest.mark.in_order('one robot: it rests, is driven, and drives still at the end')
+
 
 @pytest.fixture(scope='module')
 def stack(tmp_path_factory):

@@ -63,6 +63,8 @@ one sample: on a busy machine some are lost.
 FASTEST = 0.55
 """m/s; the commanded speed, and a little."""
 
+pytestmark = pytest.mark.in_order('one simulator: it is paused, plays, and is stopped at the end')
+
 
 @pytest.fixture(scope='module')
 def sim(tmp_path_factory):

@@ -7,7 +7,7 @@ What the robot does is heard on its topics by the test itself, not believed of t
 """
 
 from contextlib import contextmanager, ExitStack
-from math import hypot
+from math import dist, hypot
 from pathlib import Path
 import re
 import signal
@@ -76,6 +76,12 @@ class Ears(Node):
 
     def hear_joints(self, message):
         self.joints.update(zip(message.name, message.position, strict=True))
+
+    @property
+    def position(self):
+        """Where it truly is on the ground, m, shape (2,)."""
+        position = self.truth[-1].pose.pose.position
+        return position.x, position.y
 
     @property
     def speed(self):
@@ -259,14 +265,16 @@ def test_pause_step_play_and_reset(page, ears):
     page.wait_until(f'amr.now.time > {begin}')
     page.click('.transport .play')
     page.wait_until(f'amr.now.time > {begin} + 1')
+    start = ears.position
     page.key_down('KeyW')
-    ears.wait(lambda: ears.truth[-1].pose.pose.position.x > 0.3)
+    ears.drives()
+    ears.wait(lambda: dist(ears.position, start) > 0.3)
     page.key_up('KeyW')
     ears.has_stopped()
     before = page.evaluate('amr.now.time')
     page.click('.transport [title^=Reset]')
     page.wait_until(f'amr.now.time < {before} - 1')
-    ears.wait(lambda: abs(ears.truth[-1].pose.pose.position.x) < 0.01)
+    ears.wait(lambda: hypot(*ears.position) < 0.01)
     page.wait_until('amr.now.time > 1')
     assert page.errors == []
 

@@ -28,6 +28,8 @@ CONTROLS = {
     'button', 'checkbox', 'combobox', 'link', 'menuitem', 'radio', 'slider', 'spinbutton',
     'switch', 'tab', 'textbox',
 }  # fmt: skip
+TRIANGLES = 1202
+"""What is drawn of it, twice for the shadows; 48 are of meshes, which come one after the other."""
 MOST_TABS = 40
 """Presses of the key until the stop button is reached."""
 
@@ -38,6 +40,7 @@ def display(browser):
     with own_domain(), Program(BRINGUP, 'display', f'urdf:={MESHED}') as stack:
         page = browser.open(stack.expect(r'The page is at (http://\S+)')[1])
         page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
+        page.wait_until(f'amr.now.scene.triangles >= {TRIANGLES}')
         rclpy.init(args=[])
         yield page
         rclpy.try_shutdown()
