@@ -82,6 +82,10 @@ from amr_description.ros.signals import StopRequested, StopRequests
 def say(*words):  # a line at a time, from any thread
     os.write(1, (' '.join(words) + os.linesep).encode())
 
+def wait():  # in turns: the handler of a signal just before a call that blocks runs after it
+    while not threading.Event().wait(0.05):
+        pass
+
 try:
     with StopRequests(wake=lambda: say('woken')) as stop:
         {body}
@@ -137,7 +141,7 @@ def test_a_node_can_still_publish_when_it_is_asked_to_stop(listener):
     [
         (signal.SIGINT, 'rclpy.spin(node)'),
         (signal.SIGTERM, 'rclpy.spin_until_future_complete(node, rclpy.Future())'),
-        (signal.SIGHUP, "print('up'); threading.Event().wait()"),
+        (signal.SIGHUP, "print('up')\n        while not threading.Event().wait(0.05): pass"),
     ],
 )
 def test_a_program_is_interrupted_wherever_it_waits(signum, wait):
@@ -306,7 +310,7 @@ def phases(body, **options):
 
 @pytest.mark.parametrize('signum', SIGNALS)
 def test_a_request_interrupts_the_program_and_wakes_it(signum):
-    with phases("say('up'); threading.Event().wait()") as waiting:
+    with phases("say('up'); wait()") as waiting:
         waiting.expect('up')
         assert waiting.end(signum) == 0
         assert f'raised {signum.name}\nasked by {signum.name}\n' in waiting.output
@@ -316,7 +320,7 @@ def test_within_on_stop_a_request_calls_back_and_a_second_one_raises():
     body = """
         with stop.on_stop(lambda: say('called')):
             say('up')
-            threading.Event().wait()"""
+            wait()"""
     with phases(body) as stubborn:
         stubborn.expect('up')
         stubborn.signal(signal.SIGTERM)
@@ -363,7 +367,7 @@ def test_a_process_that_was_asked_to_stop_cannot_be_interrupted_on_its_last_step
 def test_the_lifeline_stops_the_program_when_its_last_writer_is_gone():
     reader, writer = os.pipe()
     lifeline = {'AMR_LIFELINE_FD': str(reader)}
-    body = "say('up'); threading.Event().wait()"
+    body = "say('up'); wait()"
     with phases(body, env=lifeline, pass_fds=[reader]) as child:
         os.close(reader)
         child.expect('up')
@@ -374,14 +378,14 @@ def test_the_lifeline_stops_the_program_when_its_last_writer_is_gone():
 
 @pytest.mark.parametrize('number', ['0', '99', 'three', ''])
 def test_a_variable_without_a_lifeline_means_nothing(number):
-    with phases("say('up'); threading.Event().wait()", env={'AMR_LIFELINE_FD': number}) as child:
+    with phases("say('up'); wait()", env={'AMR_LIFELINE_FD': number}) as child:
         child.expect('up')
         assert child.end(signal.SIGINT) == 0
         assert 'asked by SIGINT' in child.output
 
 
 def test_hang_up_stays_ignored_under_nohup():
-    code = PHASES.format(body="say('up'); threading.Event().wait()")
+    code = PHASES.format(body="say('up'); wait()")
     with Program('nohup', sys.executable, '-c', code) as child:
         child.expect('up')
         child.signal(signal.SIGHUP)

@@ -27,6 +27,8 @@ ahead:
 """
 FRONT, BACK = 'joint_wheel_front_left', 'joint_wheel_back_left'
 
+pytestmark = pytest.mark.in_order('one manager: as it was recorded, then with a chain')
+
 
 @pytest.fixture(scope='module')
 def host(tmp_path_factory):
