@@ -20,6 +20,7 @@ import os
 import signal
 
 INTERRUPTED = 128 + signal.SIGINT
+_BLAS_THREADS = 'OPENBLAS_NUM_THREADS'
 LIFELINE_VARIABLE = 'AMR_LIFELINE_FD'
 """By which the bring-up hands its lifeline (``bringup/lifeline.py``) to the programs it starts."""
 
@@ -81,7 +82,13 @@ def _imported(
 
     The collector would look through all of it several times in vain, at the end once more; without
     it 10 to 20 % of the CPU time of an import is saved (CPython 3.12).
+
+    numpy's OpenBLAS starts a thread for each processor, which waits for its first work in a loop;
+    no matrix here is large enough for two. One thread will do, in this process alone: what it
+    starts gets ``os.environ``, which does not change.
     """
+    if _BLAS_THREADS not in os.environ:
+        os.putenv(_BLAS_THREADS, '1')
     was_enabled = gc.isenabled()
     gc.disable()
     try:

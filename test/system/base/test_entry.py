@@ -3,7 +3,9 @@
 """The entry point of the executables: quiet on Ctrl-C, even during an import."""
 
 import gc
+import os
 import signal
+import subprocess
 import sys
 
 from fixtures.entry import slow
@@ -99,3 +101,18 @@ def test_the_commands_go_the_same_way(command):
     with Program(*words) as program:
         assert program.end() == 0
         assert f'usage: {command}' in program.output
+
+
+@pytest.mark.parametrize(('wished', 'threads'), [({}, 1), ({'OPENBLAS_NUM_THREADS': '2'}, 2)])
+def test_numpy_starts_no_threads_unless_the_user_wants_them(wished, threads):
+    # In a started interpreter: that of support.preloaded has loaded numpy already.
+    code = START.format("LazyEntryPoint('fixtures.entry.numerical').main")
+    variables = {name: os.environ[name] for name in os.environ if name != 'OPENBLAS_NUM_THREADS'}
+    said = subprocess.run(
+        [sys.executable, '-c', code],
+        env={**variables, 'PYTHONPATH': os.pathsep.join(sys.path), **wished},
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+    assert said == f'threads {threads} variable {wished.get("OPENBLAS_NUM_THREADS")}\n'
