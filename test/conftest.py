@@ -164,11 +164,15 @@ class Recording:
             self.durations.write(ordering.OWN_TABLE, ordering.test_files())
 
 
+def pytest_sessionstart():
+    gc.disable()  # thousands of tests come, and stay: no garbage collection need look at them
+
+
 @pytest.hookimpl(trylast=True)
 def pytest_collection_finish():
-    # Thousands of tests stay as long as the run: no garbage collection need look at them again.
     gc.collect()
     gc.freeze()
+    gc.enable()
 
 
 def pytest_report_header(config):
