@@ -12,7 +12,6 @@ publication: ``auto`` for a std_msgs/Header, ``now`` for a builtin_interfaces/Ti
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 from rosidl_parser.definition import (
     AbstractGenericString,
     AbstractNestedType,
@@ -20,6 +19,7 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
+from amr_description.cli.message_text import of_numpy
 from amr_description.errors import AmrError
 from amr_description.ros.message_types import message_type
 from amr_description.text import shorten
@@ -94,7 +94,9 @@ def _array(field: Any, slot: Any, value: Any, path: str, stamps: list[Stamp]) ->
         for index, element in enumerate(value)
     ]
     try:
-        if isinstance(field, np.ndarray):
+        if of_numpy(field, 'ndarray'):
+            import numpy as np
+
             return np.array(elements, dtype=field.dtype)
         return type(field)(field.typecode, elements) if hasattr(field, 'typecode') else elements
     except (OverflowError, TypeError, ValueError) as error:

@@ -10,15 +10,18 @@ process and a child of the test all the same: with a pid, session, environment, 
 signals and an end of its own, and nothing of DDS is initialised before.
 
 What differs: its modules are loaded before it asks for them, so a test of what a program imports
-must use ``subprocess``; and ``/proc/PID/cmdline`` is the server's. A command that is no Python
+must use ``subprocess``; these modules are not taken down object by object at its end, which would
+copy all their memory; and ``/proc/PID/cmdline`` is the server's. A command that is no Python
 program, one with options of the interpreter, and one whose environment changes the interpreter is
 started as ever.
 """
 
+import atexit
 import ctypes
 import fcntl
 import functools
 import gc
+import importlib
 import io
 import json
 import os
@@ -41,9 +44,13 @@ _PR_SET_CHILD_SUBREAPER = 36
 # What an interpreter, a loader or a library reads as it starts, or as it is imported.
 _READ_AT_START = ('PYTHON', 'LANG', 'LC_', 'LD_', 'RMW_', 'MUJOCO', 'OMP_', 'OPENBLAS', 'MALLOC')
 _READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
-# One server has what ``ros2`` and most nodes load, the other the simulator: whatever is loaded
-# has to be taken down at the end of each program.
-_LIGHT = 'amr_description.cli.main amr_description.nodes.spawner'
+# One server has what ``ros2`` and most nodes load, the other the simulator.
+_LIGHT = """
+amr_description.cli.main amr_description.cli.ros2 amr_description.cli.action.send_goal
+amr_description.cli.lifecycle amr_description.cli.param.load amr_description.cli.service.call
+amr_description.cli.topic.echo amr_description.cli.topic.hz amr_description.cli.topic.pub
+amr_description.nodes.spawner numpy rosidl_generator_py std_msgs.msg std_srvs.srv
+"""
 _SIMULATOR = 'amr_description.nodes.mujoco_sim'
 _SERVER = f"""
 import sys
@@ -283,6 +290,14 @@ def _execute(program, base):
         runpy.run_path(kind, run_name='__main__')
 
 
+def _forget(modules):
+    """Have the interpreter end without looking at modules; it frees no other memory either."""
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(modules))
+    for name, module in modules.items():
+        if sys.modules.get(name) is module and name not in ('builtins', 'sys', '__main__'):
+            del sys.modules[name]
+
+
 def serve(base):
     """
     Import the modules that the command line names, fork programs, and run them in the forks.
@@ -290,13 +305,16 @@ def serve(base):
     Args:
         base: What the interpreter itself had in ``sys.path``.
     """
+    loaded: dict[str, object] = {}
+    atexit.register(_forget, loaded)  # of all that are registered, the last to be called
     for name in sys.argv[2:]:
-        __import__(name)
+        importlib.import_module(name)
     for name in [name for name in sys.modules if name.startswith('amr_description.nodes.')]:
         del sys.modules[name]  # what is run as the main program must not be loaded under its name
     # The threads that this warning is about are those that LTTng starts and no program needs.
     warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
     gc.freeze()
+    loaded |= sys.modules
     with socket.socket(fileno=int(sys.argv[1])) as connection:
         request, files = _serve(connection)
     _become(request, files)

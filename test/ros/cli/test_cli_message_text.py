@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A message -> YAML and CSV."""
 
+import os
+import subprocess
+import sys
+
 from geometry_msgs.msg import PoseArray, Twist
 from nav_msgs.msg import Odometry
 import pytest
@@ -116,3 +120,14 @@ def test_messages_without_fields_and_bytes():
     assert to_yaml(Empty()) == '{}\n'
     assert to_yaml(Byte(data=b'A')) == 'data: A\n'
     assert to_csv(Byte(data=b'A')) == "b'A'"
+
+
+@pytest.mark.parametrize('module', ['echo_printer', 'message_fields'])
+def test_numpy_is_loaded_only_for_messages_that_hold_something_of_it(module):
+    code = f'import sys, amr_description.cli.{module}; print("numpy" in sys.modules)'
+    said = subprocess.check_output(
+        [sys.executable, '-c', code],  # started: that of support.preloaded has loaded it
+        env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)},
+        text=True,
+    )
+    assert said == 'False\n'

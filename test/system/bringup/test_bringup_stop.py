@@ -152,7 +152,15 @@ def test_a_killed_guardian_is_replaced(tmp_path):
 
 def guardians_of(orchestrator):
     children = [process.pid for process in processes('') if process.parent == orchestrator]
-    return [pid for pid in children if 'guardian.py' in Path(f'/proc/{pid}/cmdline').read_text()]
+    return [pid for pid in children if 'guardian.py' in command_of(pid)]
+
+
+def command_of(pid):
+    """The command line of a process, which has none for a moment when it has just been started."""
+    deadline = time.monotonic() + PATIENCE
+    while not (command := Path(f'/proc/{pid}/cmdline').read_text()):
+        assert time.monotonic() < deadline, f'{pid} has no command line'
+    return command
 
 
 def test_a_reader_that_goes_away_ends_the_stack(tmp_path):
