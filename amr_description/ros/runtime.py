@@ -227,6 +227,19 @@ def spinning(
         node.destroy_node()
 
 
+def await_executor(node: Node) -> None:
+    """
+    Wait, in another thread, until the node's executor has done all that it had to do before.
+
+    It has then let go of what was destroyed: EventsExecutor keeps a publisher or a subscription
+    until it has looked at the node again, and the callback of an event keeps it, too.
+    """
+    assert node.executor is not None, 'it has been added to one'
+    done = threading.Event()
+    node.executor.create_task(done.set)
+    done.wait()
+
+
 class ExecutorThread:
     """
     A thread that serves the nodes of one robot among many; they are added to its ``executor``.

@@ -15,6 +15,7 @@ from amr_description.errors import ParameterError
 from amr_description.nodes.teleop_twist_keyboard.keys import Velocity
 from amr_description.parameters import parameter
 from amr_description.ros.parameters import declare
+from amr_description.ros.runtime import await_executor
 from amr_description.ros.type_mismatch import (
     await_listeners,
     choice,
@@ -170,6 +171,7 @@ class TeleopTwistKeyboard(Node):
             return
         self._is_stamped = stamped
         self.destroy_publisher(self._commands)
+        await_executor(self)  # a participant has one type a topic: the old publisher must be gone
         self._commands = self._create_commands()
         # The parameter is read-only: the node can only set it together with a descriptor.
         self._set_parameters_atomically_common(

@@ -10,17 +10,19 @@ import threading
 
 import pytest
 import rclpy
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.task import Future
-from std_msgs.msg import String
+from std_msgs.msg import Empty, String
 from support.running_programs import PATIENCE, Program
 
 from amr_description.errors import ParameterError, UsageError
 from amr_description.ros.runtime import (
     argument_errors,
+    await_executor,
     end_wait,
     ExecutorThread,
     program,
@@ -285,6 +287,29 @@ def test_a_thread_serves_its_nodes_and_ends_though_a_coroutine_awaits_for_ever(l
     assert ended.is_set()
     assert 'served' not in [each.name for each in threading.enumerate()]
     thread.executor.shutdown()
+
+
+@pytest.mark.parametrize('executor', [EventsExecutor, SingleThreadedExecutor])
+def test_a_busy_executor_has_let_go_of_a_publisher_when_it_was_awaited(context, executor):
+    node = Node('talker')
+    publisher = node.create_publisher(String, 'topic', 10)
+    busy, destroyed = threading.Event(), threading.Event()
+
+    def handle_event():  # as an event's callback does, which uses the publisher
+        with publisher.handle:
+            busy.set()
+            assert destroyed.wait(PATIENCE)
+
+    with spinning(node, executor=executor):
+        await_executor(node)
+        node.executor.create_task(handle_event)
+        assert busy.wait(PATIENCE)
+        node.destroy_publisher(publisher)
+        with pytest.raises(RCLError, match='incompatible type'):
+            node.create_publisher(Empty, 'topic', 10)
+        destroyed.set()
+        await_executor(node)
+        node.create_publisher(Empty, 'topic', 10)
 
 
 @pytest.mark.parametrize('error', [LookupError('mine'), SystemExit(4)])
