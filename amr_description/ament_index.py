@@ -5,6 +5,9 @@ ROS packages, their executables and files: the ament index of ``AMENT_PREFIX_PAT
 
 A package is found in the first prefix whose index names it, as in ``ament_index_python``. What
 cannot be found raises :class:`~amr_description.errors.ResourceError`.
+
+A workspace may have a package of this one's name, as the tutorial makes it. It overlays this one:
+its executables and files are found first, and what it lacks is found here.
 """
 
 from collections.abc import Iterator
@@ -19,6 +22,8 @@ from amr_description.errors import ResourceError
 from amr_description.text import shorten, suggestion
 
 OWN_PACKAGE = 'amr_description'
+_OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
+_INDEX = 'share/ament_index/resource_index/packages'
 _SOURCE_TREE = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
 
@@ -77,26 +82,63 @@ def package_share(package: str) -> Path:
         ) from error
 
 
+def own_prefix() -> Path | None:
+    """Return the folder that this package itself is installed in; None: it is not installed."""
+    folders = (prefix / 'lib' / OWN_PACKAGE for prefix in prefixes())
+    return next((path.parents[1] for path in folders if (path / _OWN_EXECUTABLE).is_file()), None)
+
+
+def own_share() -> Path:
+    """Return the share folder of this package itself. Raises ResourceError."""
+    prefix = own_prefix()
+    return prefix / 'share' / OWN_PACKAGE if prefix else package_share(OWN_PACKAGE)
+
+
+def overlay() -> Path | None:
+    """Return the prefix of a package of this one's name that overlays it, if there is one."""
+    own = own_prefix()
+    first = next((p for p in prefixes() if (p / _INDEX / OWN_PACKAGE).is_file()), None)
+    return first if own is not None and first != own else None
+
+
+def _prefixes_of(package: str) -> list[Path]:
+    """Return where to look for what is in a package, in this order. Raises ResourceError."""
+    first, own = package_prefix(package), own_prefix()
+    return [first, own] if package == OWN_PACKAGE and own not in (None, first) else [first]
+
+
+def shared_file(package: str, below: str) -> Path:
+    """Return a path in the share folder of a package, where there may be no file."""
+    paths = [prefix / 'share' / package / below for prefix in _prefixes_of(package)]
+    return next((path for path in paths if path.exists()), paths[0])
+
+
 def executables_of(package: str) -> list[Path]:
     """
-    Return all executable files in ``lib/<package>``, sorted by path.
+    Return all executable files in ``lib/<package>``, sorted by path; of each name the first.
 
     Raises ResourceError with the text of ``ros2 run``, which does not say where it searched.
     """
     if prefixes() and not is_installed(package):
         raise ResourceError(f"Package '{shorten(package)}' not found")
-    return sorted(_executables_below(package_prefix(package) / 'lib' / package))
+    first, *others = (prefix / 'lib' / package for prefix in _prefixes_of(package))
+    found = list(_executables_below(first))
+    names = {path.name for path in found}
+    for folder in others:
+        found += (path for path in _executables_below(folder) if path.name not in names)
+    return sorted(found)
 
 
 def executable_of(package: str, name: str) -> Path:
     """Return ``<prefix>/lib/<package>/<name>``. Raises ResourceError with the closest name."""
-    folder = package_prefix(package) / 'lib' / package
-    path = folder / name
-    if _is_executable(path):
-        return path
-    known = sorted(file.name for file in folder.glob('*') if _is_executable(file))
+    folders = [prefix / 'lib' / package for prefix in _prefixes_of(package)]
+    for folder in folders:
+        if _is_executable(folder / name):
+            return folder / name
+    files = (file for folder in folders for file in folder.glob('*'))
+    known = sorted(file.name for file in files if _is_executable(file))
     raise ResourceError(
-        f"executable '{name}' not found on the libexec directory '{folder}'"
+        f"executable '{name}' not found on the libexec directory '{folders[0]}'"
         + suggestion(name, known)
     )
 
@@ -121,7 +163,9 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     path = unquote(parts.path)
     match parts.scheme:
         case 'package':
-            return package_share(parts.netloc) / path.lstrip('/')
+            share = package_share(parts.netloc)
+            below = path.lstrip('/')
+            return share / below if share == _SOURCE_TREE else shared_file(parts.netloc, below)
         case 'file':
             return Path(path)
         case '':
@@ -141,7 +185,7 @@ def path_of(file: str) -> Path:
     """
     if file.startswith('package://'):
         package, _, below = file.removeprefix('package://').partition('/')
-        path = package_prefix(package) / 'share' / package / below
+        path = shared_file(package, below)
     else:
         path = Path(file).expanduser().absolute()
     if not path.is_file():

@@ -18,11 +18,23 @@ import gc
 import importlib
 import os
 import signal
+import sys
 
 INTERRUPTED = 128 + signal.SIGINT
 _BLAS_THREADS = 'OPENBLAS_NUM_THREADS'
 LIFELINE_VARIABLE = 'AMR_LIFELINE_FD'
 """By which the bring-up hands its lifeline (``bringup/lifeline.py``) to the programs it starts."""
+
+
+def python_command(code: str) -> tuple[str, ...]:
+    """
+    Return a command that runs ``code``, which imports modules of this package.
+
+    They are those of this installation, whatever PYTHONPATH and the current folder say: a
+    workspace may have a package of the same name.
+    """
+    folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    return (sys.executable, '-P', '-c', f'import sys; sys.path.insert(0, {folder!r}); {code}')
 
 
 class LazyEntryPoint:

@@ -15,7 +15,13 @@ import re
 import shlex
 import shutil
 
-from amr_description.ament_index import executable_of, path_of
+from amr_description.ament_index import (
+    executable_of,
+    overlay,
+    OWN_PACKAGE,
+    own_prefix,
+    path_of,
+)
 from amr_description.bringup.description import Node, ParameterValue, Stack
 from amr_description.bringup.environment import interpreter_of
 from amr_description.bringup.placement import Placement, ResolvedNode
@@ -113,9 +119,10 @@ class ProcessSpec:
     @property
     def unblocks_sigint(self) -> bool:
         """Whether it is an executable of this package: it may be started with SIGINT blocked."""
-        return self.node.package == 'amr_description' and not (
-            self.node.prefix or self.launch_prefix
+        is_ours = self.node.package == OWN_PACKAGE and (
+            overlay() is None or self.executable.is_relative_to(own_prefix() or '/')
         )
+        return is_ours and not (self.node.prefix or self.launch_prefix)
 
     def explain(self, error: OSError) -> str:
         """Return why it could not be started; the kernel names no missing interpreter."""

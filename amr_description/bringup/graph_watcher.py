@@ -12,18 +12,15 @@ from collections.abc import Callable, Iterable
 import os
 from pathlib import Path
 import signal
-import sys
 
 from amr_description.bringup.conditions import Condition, PathState, RosGraph
 from amr_description.bringup.graph_conditions import GraphCondition, PathExists
 from amr_description.bringup.process import RunningProcess
+from amr_description.entry import python_command
 
 GRAPH_WATCH = 'graph_watch'
-COMMAND = (
-    sys.executable,
-    '-P',
-    '-c',
-    'import sys; from amr_description.entry import nodes; sys.exit(nodes.graph_watch.main())',
+COMMAND = python_command(
+    'from amr_description.entry import nodes; sys.exit(nodes.graph_watch.main())'
 )
 """Through ``entry.py``, so that an early SIGINT ends it without a traceback."""
 _POLL_PERIOD = 0.1  # s

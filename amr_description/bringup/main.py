@@ -19,6 +19,7 @@ import sys
 import threading
 
 from amr_description import streams
+from amr_description.ament_index import overlay, OWN_PACKAGE
 from amr_description.bringup import environment, run_registry
 from amr_description.bringup.arguments import declared, parse, show
 from amr_description.bringup.command_line import LaunchPrefix, process_specs, ProcessSpec
@@ -164,6 +165,9 @@ def _console(stack: Stack, folder: LogFolder) -> Console:
     where = with_tilde(folder.path)
     console.log('INFO', LAUNCH, f'All log files can be found below {where}')
     console.log('INFO', LAUNCH, environment.discovery_text(os.environ))
+    if found := overlay():
+        text = f"package '{OWN_PACKAGE}' of {found} overlays this one: its files come first"
+        console.log('INFO', LAUNCH, text)
     for level, text in stack.all_notes:
         console.log(level, LAUNCH, text)
     return console

@@ -10,12 +10,15 @@ import subprocess
 import sys
 
 from amr_description.ament_index import path_of
+from amr_description.entry import python_command
 from amr_description.errors import BringupError, UsageError
 from amr_description.model.mesh_paths import with_absolute_paths
 
 _PROCESSOR_TIME = 60  # s; large robots take one or two
 _MEMORY = 4 * 2**30  # bytes of address space
-_EXPAND = (sys.executable, '-P', '-m', 'amr_description.model.description_file')
+_EXPAND = python_command(
+    'from amr_description.model.description_file import main; sys.exit(main(sys.argv[1:]))'
+)
 
 
 def robot_description(urdf: str, xacro_args: str = '') -> str:

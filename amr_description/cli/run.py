@@ -94,7 +94,7 @@ def main(args: Namespace) -> int:
 
 def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     """Return the path of an executable, and what to append to its words. Raises AmrError."""
-    from amr_description.ament_index import executables_of, packages
+    from amr_description.ament_index import executables_of, overlay, own_prefix, packages
 
     known = packages()
     if package not in known and (package, name) in INSTEAD:
@@ -103,7 +103,12 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     if package not in known and _OURS in known and others and name not in others:
         raise AmrError(f"Package '{package}' not found; of it there are here: {', '.join(others)}")
     if package in known or (package, name) not in STAND_INS or _OURS not in known:
-        return _only_one(executables_of(package), package, name), ()
+        found = _only_one(executables_of(package), package, name)
+        first, own = overlay(), own_prefix()
+        if package == _OURS and first and own and found.is_relative_to(own):
+            lacks = f"package '{package}' of {first} has no '{name}'"
+            print(f'[ros2run]: {lacks}: running that of {own}', file=sys.stderr)
+        return found, ()
     stand_in, *words = STAND_INS[package, name].split()
     ours = executables_of(_OURS)
     if stand_in not in {path.name for path in ours}:

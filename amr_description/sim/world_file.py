@@ -37,7 +37,7 @@ from pathlib import Path
 
 import mujoco
 
-from amr_description.ament_index import OWN_PACKAGE, package_share
+from amr_description.ament_index import own_share
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.parameters import parameter
@@ -156,7 +156,7 @@ def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.M
 
 def shipped_worlds() -> dict[str, Path]:
     """Return the worlds of this package: name → file."""
-    folder = package_share(OWN_PACKAGE) / 'config' / 'worlds'
+    folder = own_share() / 'config' / 'worlds'
     return {path.stem: path for path in sorted(folder.glob('*.xml'))}
 
 

@@ -22,7 +22,7 @@ from simulation_interfaces.msg import SimulationState
 from simulation_interfaces.srv import SetSimulationState
 import yaml
 
-from amr_description.ament_index import package_share
+from amr_description.ament_index import own_share
 from amr_description.testing.simulation import Simulation
 
 _CONTROLLER = 'recorded_drive'
@@ -96,7 +96,7 @@ def load(count: int) -> Iterator[None]:
 
 def _files(folder: Path, log: Path, seconds: float) -> tuple[Path, Path]:
     """Write the shipped parameters with the recording controller, and the robot with an IMU."""
-    share = package_share('amr_description')
+    share = own_share()
     urdf = folder / 'amr.urdf'
     text = (share / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
     urdf.write_text(text.replace('</ros2_control>', _IMU), encoding='utf-8')

@@ -32,8 +32,11 @@ COMMAND = """\
 #!/bin/sh
 _ROS_WHEELS_BOOTSTRAP_COMPLETE=1 \
 LD_LIBRARY_PATH={libraries}"${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}" \
-exec {python} -P -m amr_description.cli {command} "$@"
+exec {python} -P -c {code} {command} "$@"
 """
+
+# A workspace may have a package of the same name, in front on PYTHONPATH.
+CODE = 'import sys; sys.path.insert(0, {build!r}); import amr_description.cli.__main__'
 
 LOCAL_SETUP = """\
 # Written by scripts/setup: this virtual environment as a ROS prefix (the underlay of workspaces).
@@ -58,13 +61,14 @@ def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
     """Return the text of each file, by its path in ``venv``, as it has to be at ``home``."""
     python = shlex.quote(str(home / 'bin' / 'python'))
     libraries = shlex.quote(library_path(venv, home))
+    code = shlex.quote(CODE.format(build=str(build)))
     local_setup = LOCAL_SETUP.format(
         venv=shlex.quote(str(home)), bin=shlex.quote(str(home / 'bin'))
     )
     return {
         **{
             venv / 'bin' / command: COMMAND.format(
-                command=command, libraries=libraries, python=python
+                command=command, libraries=libraries, python=python, code=code
             )
             for command in COMMANDS
         },

@@ -297,7 +297,8 @@ def test_replaced_environment_leaves_nothing_behind(tmp_path):
 def test_commands_start_our_python_with_the_libraries(tmp_path):
     venv = tmp_path / 'with space' / '.venv'
     (venv / 'lib/python3.12/site-packages/ros_rcl.libs').mkdir(parents=True)
-    launchers.write(venv, venv, tmp_path / 'build')
+    build = tmp_path / "with 'quotes'"
+    launchers.write(venv, venv, build)
     python = venv / 'bin/python'
     python.write_text(
         '#!/bin/sh\necho "$_ROS_WHEELS_BOOTSTRAP_COMPLETE|$LD_LIBRARY_PATH"\nprintf "%s|" "$@"\n'
@@ -308,9 +309,10 @@ def test_commands_start_our_python_with_the_libraries(tmp_path):
         done = subprocess.run(
             [venv / 'bin/ros2', 'topic', 'a b'], env=given, capture_output=True, text=True
         )
-        assert done.stdout == f'1|{seen}\n-P|-m|amr_description.cli|ros2|topic|a b|'
+        code = launchers.CODE.format(build=str(build))
+        assert done.stdout == f'1|{seen}\n-P|-c|{code}|ros2|topic|a b|'
     assert (venv / 'lib/python3.12/site-packages/amr_description.pth').read_text() == (
-        f'{tmp_path}/build\n'
+        f'{build}\n'
     )
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from rclpy.executors import Executor
 
-from amr_description.ament_index import package_share
+from amr_description.ament_index import own_share
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
@@ -312,7 +312,7 @@ class EntityManager:
             hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
             paths = [path for plugin in hosts for path in plugin.parameters]
         if not paths:
-            paths = [str(package_share('amr_description') / 'config' / 'controllers.yaml')]
+            paths = [str(own_share() / 'config' / 'controllers.yaml')]
         for path in paths:
             read_parameter_file(Path(path))  # its errors have a line number, rcl's have none
         for finding in drive_warnings(robot, paths):
