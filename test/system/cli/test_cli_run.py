@@ -19,11 +19,12 @@ EXECUTABLES = {
     'fail': '#!/bin/sh\nexit 3\n',
     'clean': PYTHON
     + """\
-import signal, sys
+import signal, sys, time
 signal.signal(signal.SIGTERM, lambda *_: sys.exit('terminated'))
 try:
     print('up', flush=True)
-    signal.pause()
+    while True:
+        time.sleep(0.02)  # a signal just before a call that blocks is handled after it
 except KeyboardInterrupt:
     print('interrupted', flush=True)
 """,
