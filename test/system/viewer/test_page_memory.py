@@ -21,6 +21,8 @@ from amr_description.viewer.states import StateFrame
 
 HOUR = 3600.0  # s
 PERIOD = 1.0  # s of simulated time between two states
+EVERY = 200
+"""A state at rest is sent once in so many periods."""
 STAGE = 600.0  # s of simulated time that any machine sends within a test's patience
 RADIUS = 5.0  # m
 SPEED = 0.5  # m/s
@@ -58,10 +60,12 @@ class LongDrive(Backend):
 
     def take_state(self):
         new, self.new = self.new, ()
+        self.count += 1
         if self.time < self.end:
             self.time += PERIOD
             self.drive_on()
-        self.count += 1
+        elif self.count % EVERY:  # else its memory were full of states that the page has not read
+            return new, None
         return new, self.frame.encode(self.count, self.time)
 
     def drive_on(self):
