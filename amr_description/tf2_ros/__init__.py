@@ -3,9 +3,9 @@
 """
 ``tf2_ros`` in Python, for nodes that run where the original is not installed.
 
-Such a node changes only its import::
+In the environment of ``scripts/setup`` such a node imports it under its name::
 
-    import amr_description.tf2_ros as tf2_ros
+    import tf2_ros
 
     self.tf_buffer = tf2_ros.Buffer()
     self.tf_listener = tf2_ros.TransformListener(self.tf_buffer, self)

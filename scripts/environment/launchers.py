@@ -17,6 +17,9 @@ chains it into each workspace that is built on top, the same as it does with ``/
 
 **Path file.** ``amr_description.pth`` makes the package importable by ``.venv/bin/python`` in any
 shell; it names colcon's build folder, where the package's metadata are too.
+
+**tf2_ros.** PyPI has none. Nodes that import it get that of this package, under the names of the
+original's modules.
 """
 
 import os
@@ -38,6 +41,24 @@ exec {python} -P -c {code} {command} "$@"
 # A workspace may have a package of the same name, in front on PYTHONPATH.
 CODE = 'import sys; sys.path.insert(0, {build!r}); import amr_description.cli.__main__'
 
+TF2_ROS = """\
+# Written by scripts/setup: tf2_ros is that of amr_description here.
+import amr_description
+
+# A workspace may have a package of that name, in front on PYTHONPATH: this is found behind it.
+if {modules!r} not in amr_description.__path__:
+    amr_description.__path__.append({modules!r})
+from amr_description.tf2_ros import *  # noqa: E402, F403
+from amr_description.tf2_ros import __all__  # noqa: E402, F401
+"""
+# Where nodes find a class that they do not import from tf2_ros itself.
+TF2_ROS_MODULES = {
+    'buffer': ('Buffer',),
+    'static_transform_broadcaster': ('StaticTransformBroadcaster',),
+    'transform_broadcaster': ('TransformBroadcaster',),
+    'transform_listener': ('TransformListener',),
+}
+
 LOCAL_SETUP = """\
 # Written by scripts/setup: this virtual environment as a ROS prefix (the underlay of workspaces).
 case ":${{PATH-}}:" in *:{bin}:*) ;; *) export PATH={bin}"${{PATH:+:$PATH}}" ;; esac
@@ -57,6 +78,15 @@ def library_path(venv: Path, home: Path) -> str:
     )
 
 
+def tf2_ros(build: Path) -> dict[str, str]:
+    """Return the text of each module of the package ``tf2_ros``, by its name."""
+    modules = {
+        f'{name}.py': f'from tf2_ros import {", ".join(classes)}\n\n__all__ = {list(classes)!r}\n'
+        for name, classes in TF2_ROS_MODULES.items()
+    }
+    return {'__init__.py': TF2_ROS.format(modules=str(build / PACKAGE)), **modules}
+
+
 def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
     """Return the text of each file, by its path in ``venv``, as it has to be at ``home``."""
     python = shlex.quote(str(home / 'bin' / 'python'))
@@ -65,6 +95,7 @@ def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
     local_setup = LOCAL_SETUP.format(
         venv=shlex.quote(str(home)), bin=shlex.quote(str(home / 'bin'))
     )
+    packages = venv / 'lib/python3.12/site-packages'
     return {
         **{
             venv / 'bin' / command: COMMAND.format(
@@ -73,7 +104,8 @@ def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
             for command in COMMANDS
         },
         **{venv / f'local_setup.{shell}': local_setup for shell in ('sh', 'bash', 'zsh')},
-        venv / 'lib/python3.12/site-packages' / f'{PACKAGE}.pth': f'{build}\n',
+        packages / f'{PACKAGE}.pth': f'{build}\n',
+        **{packages / 'tf2_ros' / name: text for name, text in tf2_ros(build).items()},
     }
 
 

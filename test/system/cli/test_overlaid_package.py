@@ -80,6 +80,27 @@ def test_executables_find_their_modules_wherever_they_are_started(variables, tmp
         assert 'usage' in run(variables, program, '--help', cwd=tmp_path).stdout.lower()
 
 
+IMPORT = """
+from tf2_ros import Buffer, LookupException, StaticTransformBroadcaster, TransformException
+from tf2_ros.buffer import Buffer as Same
+from tf2_ros.transform_broadcaster import TransformBroadcaster
+from tf2_ros.transform_listener import TransformListener
+assert Same is Buffer and issubclass(LookupException, TransformException)
+try:
+    Buffer().lookup_transform('odom', 'base_link', __import__('rclpy').time.Time())
+except TransformException as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize('is_overlaid', [False, True])
+def test_a_node_imports_tf2_ros_under_its_name(variables, is_overlaid):
+    if not is_overlaid:
+        del variables['PYTHONPATH']
+    said = run(variables, BIN / 'python', '-c', IMPORT).stdout
+    assert said.startswith('"odom" passed to lookupTransform argument target_frame does not exist')
+
+
 def test_a_stack_of_ours_drives_her_robot(variables, hers, tmp_path):
     bringup = own_prefix() / 'lib' / NAME / 'bringup'
     # Not by support.preloaded: it must find its modules by itself.
