@@ -5,6 +5,7 @@
 from rclpy.node import Node
 from std_msgs.msg import String
 
+from amr_description.ros.node_help import print_help
 from amr_description.ros.runtime import run
 
 
@@ -23,6 +24,8 @@ class MinimalSubscriber(Node):
 
 def main(args: list[str] | None = None) -> int:
     """Run the listener until Ctrl-C."""
+    if print_help(args, 'listener', 'Log every greeting that arrives on the topic "topic".'):
+        return 0
     return run(MinimalSubscriber, args)
 
 

@@ -23,6 +23,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from amr_description.ros.arguments import inherited, ros_arguments
+from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.ros.service_calls import wait_for_clients
@@ -104,6 +105,9 @@ def simulate(args: list[str] | None) -> int:
 
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
+    purpose = 'Simulate robots in MuJoCo: publish /clock, spawn robots, run their controllers.'
+    if print_help(args, 'mujoco_sim', purpose, SimulationParameters):
+        return 0
     never_wait_for_stderr()
     return program(lambda: simulate(args), stopped=0)
 

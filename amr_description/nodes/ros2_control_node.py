@@ -38,6 +38,7 @@ from amr_description.control.ros.controller_manager_node import (
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import SimTimePacer, SystemClockPacer
+from amr_description.control.ros.parameters import ManagerTable
 from amr_description.control.ros.realtime import lock_memory, set_cpu_affinity, set_fifo_priority
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareStartError, ParameterError
@@ -46,9 +47,15 @@ from amr_description.model.robot import Robot
 from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.messages import nanoseconds
+from amr_description.ros.node_help import print_help
 from amr_description.ros.qos import CLOCK
 from amr_description.ros.runtime import argument_errors, end_wait, program, ros, serve
 from amr_description.streams import never_wait_for_stderr
+
+_OPTIONS = (
+    'Also overruns.manage (true): leave out cycles that were missed; thread_priority (50): of the '
+    'loop, by SCHED_FIFO; cpu_affinity: cores that the loop may run on; lock_memory (false).'
+)
 
 
 class StandAloneManager:
@@ -209,6 +216,9 @@ def control(args: list[str] | None) -> int:
 
 def main(args: list[str] | None = None) -> int:
     """Run the executable; return its exit code."""
+    purpose = 'Run the controllers of a robot with real or mock hardware.'
+    if print_help(args, 'ros2_control_node', purpose, ManagerTable, notes=_OPTIONS):
+        return 0
     never_wait_for_stderr()
     return program(lambda: control(args), stopped=0)
 

@@ -5,6 +5,7 @@
 from rclpy.node import Node
 from std_msgs.msg import String
 
+from amr_description.ros.node_help import print_help
 from amr_description.ros.runtime import run
 
 
@@ -28,6 +29,8 @@ class MinimalPublisher(Node):
 
 def main(args: list[str] | None = None) -> int:
     """Run the talker until Ctrl-C."""
+    if print_help(args, 'talker', 'Publish a greeting on the topic "topic" twice per second.'):
+        return 0
     return run(MinimalPublisher, args)
 
 

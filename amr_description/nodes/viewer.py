@@ -40,6 +40,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from amr_description.parameters import parameter
+from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.viewer.ros.backend import GraphBackend
@@ -122,6 +123,9 @@ def _version() -> str:
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the executable; return its exit code."""
+    purpose = 'Show and drive the robots of the ROS graph, on a page in the browser.'
+    if print_help(args, 'viewer', purpose, ViewerSettings):
+        return 0
     return program(lambda: view(None if args is None else list(args)), stopped=0)
 
 

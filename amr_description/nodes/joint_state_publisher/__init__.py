@@ -59,6 +59,7 @@ from amr_description.nodes.joint_state_publisher.joint_positions import (
 )
 from amr_description.parameters import parameter
 from amr_description.ros.arguments import read_description, split_arguments
+from amr_description.ros.node_help import DESCRIPTION, print_help
 from amr_description.ros.parameters import declare, values
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
@@ -238,5 +239,10 @@ def _rate(value: Any) -> float:
 
 def main(args: list[str] | None = None) -> int:
     """Run the node until Ctrl-C; ``args`` as for every executable of this package."""
+    purpose = 'Publish joint states for a robot without controllers, to inspect its model.'
+    if print_help(
+        args, 'joint_state_publisher', purpose, JointStatePublisherSettings, words=DESCRIPTION
+    ):
+        return 0
     description, ros_args = split_arguments(args)
     return run(lambda: JointStatePublisher(description), ros_args)

@@ -65,6 +65,7 @@ from amr_description.parameters import parameter
 from amr_description.ros.arguments import read_description, split_arguments
 from amr_description.ros.cdr import HeadReader
 from amr_description.ros.messages import fill_stamp
+from amr_description.ros.node_help import DESCRIPTION, print_help
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
     declare,
@@ -261,5 +262,10 @@ class RobotStatePublisher(Node):
 
 def main(args: list[str] | None = None) -> int:
     """Run the node until Ctrl-C; ``args`` as for every executable of this package."""
+    purpose = 'Publish the description of a robot, and the poses of its links by its joint states.'
+    if print_help(
+        args, 'robot_state_publisher', purpose, RobotStatePublisherSettings, words=DESCRIPTION
+    ):
+        return 0
     description, ros_args = split_arguments(args)
     return run(lambda: RobotStatePublisher(description), ros_args)

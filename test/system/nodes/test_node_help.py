@@ -1,0 +1,40 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``--help`` of the executables: each prints its usage, and starts nothing."""
+
+import re
+
+import pytest
+from support.paths import ROOT
+from support.ros_processes import run
+
+NODES = {
+    'joint_state_publisher': 'source_list  string_array, empty',
+    'listener': '',
+    'mujoco_sim': 'real_time_factor  double, 1.0\n',
+    'robot_state_publisher': 'publish_frequency  double, 20.0 Hz\n',
+    'ros2_control_node': 'update_rate  integer, 100 Hz\n',
+    'talker': '',
+    'viewer': 'port  integer, 8080\n      Port to listen on, or the next one that is free',
+}
+"""What takes ROS arguments only, or a description: and a line of its help."""
+OTHERS = set(
+    re.findall(r"^ +'(\w+) = ", (ROOT / 'setup.py').read_text(encoding='utf-8'), re.MULTILINE)
+) - {*NODES, 'bringup', 'xacro'}
+
+
+@pytest.mark.parametrize('option', ['-h', '--help'])
+@pytest.mark.parametrize('name', NODES)
+def test_a_node_prints_its_parameters(name, option):
+    result = run(name, option, '--ros-args', '-p', 'x:=1')
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith(f'usage: {name} [-h] ')
+    assert NODES[name] in result.stdout
+    assert result.stderr == ''
+
+
+@pytest.mark.parametrize('name', sorted(OTHERS))
+def test_every_other_executable_prints_its_usage(name):
+    result = run(name, '--help')
+    assert result.returncode == 0, result.stderr
+    assert 'usage: ' in result.stdout.lower()
