@@ -27,6 +27,7 @@ This module imports no rclpy.
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+import itertools
 import os
 import select
 import signal
@@ -69,6 +70,7 @@ class StopRequests:
         self._wake = wake
         self._callback: Callable[[], object] | None = None
         self._deferring: Callable[[], object] | None = None
+        self._numbers = itertools.count()  # of requests
         self._raised = False
         self._leaving = False
         self._previous_handlers: dict[signal.Signals, signal._HANDLER] = {}
@@ -155,7 +157,8 @@ class StopRequests:
 
     def _handle(self, signum: int, _frame: FrameType | None) -> None:
         """Main thread, between two bytecodes, as every signal handler of Python."""
-        first = self.signum is None
+        # In one step: the next signal may interrupt this handler wherever it is.
+        first = next(self._numbers) == 0
         if self.signum is None:
             self.signum = signal.Signals(signum)
         if self._leaving or self._raised:

@@ -45,7 +45,7 @@ _PROFILE_VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILE
 _TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'  # deprecated; 1 wins over the range and over static peers
-_OURS = {str(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST)}
+_OURS = {os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST)}
 
 
 @contextmanager
@@ -55,8 +55,9 @@ def udp_only() -> Iterator[None]:
 
     The profile stays in the environment: Fast DDS reads it when the first node is made.
     """
-    theirs = {os.environ.get(variable, '') for variable in _PROFILE_VARIABLES} - _OURS - {''}
-    if theirs:
+    given = filter(None, (os.environ.get(variable) for variable in _PROFILE_VARIABLES))
+    # A parent process may have found this package by another path, as colcon links to the sources.
+    if {os.path.realpath(file) for file in given} - _OURS:
         yield
     elif os.environ.get(_TRANSPORTS):
         os.environ[_PROFILE_VARIABLES[0]] = str(PROFILE)

@@ -14,6 +14,7 @@ import time
 
 from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import GetParameters
+from rclpy.event_handler import QoSSubscriptionMatchedInfo, SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
@@ -29,6 +30,8 @@ _DISCOVERY_TIME = 1.0
 """s: how long to look around before it is concluded that nobody is there."""
 _REPLY_TIMEOUT = 1.0
 """s: for what comes at once, if it comes."""
+_MATCH_TIMEOUT = 5.0
+"""s: for a subscription to match the publishers that are known."""
 _CLOCK_TIMEOUT = 2.0
 """s: for two messages on ``/clock``."""
 _BURST = 0.1
@@ -274,7 +277,8 @@ def errors_of(node: Node, names: Sequence[str], since: float = 0.0) -> list[str]
         since: s, Unix time.
     """
     loggers = {name.strip('/').replace('/', '.') for name in names}
-    with _subscribed(node, Log, '/rosout', _ROSOUT) as messages:
+    matched = _Matched()
+    with _subscribed(node, Log, '/rosout', _ROSOUT, matched) as messages:
 
         def lines() -> list[str]:
             return [
@@ -285,18 +289,41 @@ def errors_of(node: Node, names: Sequence[str], since: float = 0.0) -> list[str]
                 and nanoseconds(message.stamp) >= since * NANOSECONDS
             ]
 
+        # What is latched comes as soon as a publisher has matched the subscription.
+        wait_until(
+            node,
+            lambda: lines() or matched.count >= node.count_publishers('/rosout') or None,
+            timeout=_MATCH_TIMEOUT,
+        )
         if wait_until(node, lambda: lines() or None, timeout=_REPLY_TIMEOUT):
             wait_until(node, lambda: None, timeout=_BURST)
         return list(dict.fromkeys(lines()))
 
 
+class _Matched(SubscriptionEventCallbacks):
+    """Counts the publishers that a subscription has matched."""
+
+    def __init__(self) -> None:
+        super().__init__(matched=self._note)
+        self.count = 0
+
+    def _note(self, info: QoSSubscriptionMatchedInfo) -> None:
+        self.count = info.current_count
+
+
 @contextmanager
 def _subscribed[Message](
-    node: Node, message_type: type[Message], topic: str, qos: QoSProfile
+    node: Node,
+    message_type: type[Message],
+    topic: str,
+    qos: QoSProfile,
+    events: SubscriptionEventCallbacks | None = None,
 ) -> Iterator[list[Message]]:
     """Subscribe while inside; yields the list that fills."""
     messages: list[Message] = []
-    subscription = node.create_subscription(message_type, topic, messages.append, qos)
+    subscription = node.create_subscription(
+        message_type, topic, messages.append, qos, event_callbacks=events
+    )
     try:
         yield messages
     finally:

@@ -355,6 +355,26 @@ def test_within_on_stop_a_request_calls_back_and_a_second_one_raises():
         assert 'woken' not in stubborn.output
 
 
+@pytest.mark.parametrize('line', [1, 2, 3])
+def test_a_second_request_within_the_handler_of_the_first_one_raises(line):
+    body = f"""
+        lines = []
+
+        def trace(frame, event, _):
+            if event == 'line' and frame.f_code.co_name == '_handle':
+                lines.append(frame.f_lineno)
+                if len(lines) == {line}:
+                    signal.raise_signal(signal.SIGINT)
+            return trace
+
+        with stop.on_stop(lambda: say('called')):
+            sys.settrace(trace)
+            signal.raise_signal(signal.SIGTERM)"""
+    with phases(body) as program_:
+        assert program_.end() == 0
+        assert 'raised SIG' in program_.output
+
+
 def test_a_request_before_on_stop_is_not_lost():
     body = """
         try:

@@ -40,6 +40,14 @@ def test_localhost_is_kept_by_the_profile_as_rmw_would_add_shared_memory_to_it()
         assert os.environ[RANGE] == 'SUBNET'
 
 
+def test_what_a_parent_has_left_may_have_another_path(monkeypatch, tmp_path):
+    (tmp_path / 'linked').symlink_to(UDP_LOCALHOST.parent)  # as colcon links to the sources
+    monkeypatch.setenv(VARIABLES[0], str(tmp_path / 'linked' / UDP_LOCALHOST.name))
+    monkeypatch.setenv(RANGE, 'SUBNET')
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP)
+
+
 @pytest.mark.parametrize('discovery_range', ['SUBNET', 'OFF', 'SYSTEM_DEFAULT', None])
 def test_another_range_stays(monkeypatch, discovery_range):
     if discovery_range is None:
