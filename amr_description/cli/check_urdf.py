@@ -74,7 +74,7 @@ def main(argv: list[str]) -> int:
     except DescriptionError as error:
         return _fail(error, REFUSED_BY_URDFDOM, arguments)
     try:
-        drives = _drives(arguments.controllers)
+        drives = _drives(arguments.controllers, text, source)
     except ParameterError as error:
         return _fail(error, UNUSABLE, arguments)
     find_file = _file_finder(source)
@@ -122,8 +122,9 @@ def _parser() -> argparse.ArgumentParser:
         metavar='YAML',
         action='append',
         default=[],
-        help='also check the robot against the diff_drive_controllers of this parameter file; '
-        'given more than once, the files are read one over the other',
+        help='also check the robot against the diff_drive_controllers of this parameter file '
+        '(without it, of those that the URDF names); given more than once, the files are read one '
+        'over the other',
     )
     add('--strict', action='store_true', help='exit with 1 when there are warnings')
     add('--json', action='store_true', help='print one JSON object instead of the tree')
@@ -211,13 +212,23 @@ def _is_there(find_file: FindFile, uri: str) -> bool:
         raise ResourceError(error.strerror or str(error)) from error
 
 
-def _drives(paths: list[str]) -> tuple[DriveSettings, ...]:
-    """Return the differential drives of parameter files. Raises ParameterError."""
-    if not paths:
-        return ()
-    from amr_description.controllers.drive_files import read_drives
+def _drives(paths: list[str], text: str, source: str) -> tuple[DriveSettings, ...]:
+    """
+    Return the differential drives of parameter files; without any, of those that the URDF names.
 
-    return read_drives(*paths)
+    Raises ParameterError: one of ``paths`` cannot be used.
+    """
+    if not paths and '<parameters>' not in text:
+        return ()
+    from amr_description.controllers.drive_files import drives_named_by, read_drives
+
+    if paths:
+        return read_drives(*paths)
+    try:
+        return drives_named_by(text, source)
+    except ParameterError as error:  # it is no fault of the description
+        _warn(one_line(str(error)))
+        return ()
 
 
 def _drop(examination: Examination) -> 'DropReport | None':

@@ -17,10 +17,13 @@ import yaml
 
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import ParameterError
-from amr_description.model.checks import examine
-from amr_description.model.checks.context import CheckInputs, DriveSettings, SourceLocation
-from amr_description.model.findings import Finding
+from amr_description.model.checks import examine_drives
+from amr_description.model.checks.context import DriveSettings, SourceLocation
+from amr_description.model.findings import Finding, Severity
+from amr_description.model.gazebo import read_gazebo_plugins
 from amr_description.model.robot import Robot
+from amr_description.model.urdf import read_robot
+from amr_description.model.xml_reader import parse_xml
 from amr_description.parameter_files import (
     dotted,
     flatten,
@@ -63,39 +66,74 @@ def read_drives(*paths: str) -> tuple[DriveSettings, ...]:
         ParameterError: a file cannot be read, none names such a controller, or the controller
             would reject a value.
     """
-    found = [each for path in paths for each in _read(path)]
-    found += [each for path in _further_files(found) for each in _read(path)]
-    nodes = list(dict.fromkeys(_drive_nodes(found)))
-    if not nodes:
+    drives = _drives(paths)
+    if not drives:
         raise ParameterError(
             f"parameter file '{', '.join(paths)}' names no controller of type {DIFF_DRIVE}; it is "
             f'written as  controller_manager: {{{KEY}: {{NAME: {{type: {DIFF_DRIVE}}}}}}}'
         )
-    return tuple(_settings(node, found) for node in nodes)
+    return drives
 
 
 def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     """
-    Return the warnings on the differential drives of parameter files for a sound robot.
+    Return what is wrong with the differential drives of parameter files on a sound robot.
 
     Errors that keep a controller from running are left to the manager, which finds them when it
-    loads the controller. Drives with wheels of another robot are skipped.
+    loads the controller; wheels that turn about the wrong axle do not keep it from running. Drives
+    with wheels of another robot are skipped.
 
     Args:
         robot: the robot.
         paths: of the parameter files.
     """
     try:
-        drives = read_drives(*paths)
+        found = examine_drives(robot, drives_of(robot, paths))
     except ParameterError:
         return ()
-    mine = tuple(
-        drive
-        for drive in drives
-        if all(map(robot.has_joint, (*drive.left_wheels, *drive.right_wheels)))
+    return tuple(
+        each for each in found if each.severity is Severity.WARNING or each.source == robot.source
     )
-    found = examine(robot.text, robot.source, CheckInputs(drives=mine)).warnings
-    return tuple(finding for finding in found if finding.source != robot.source)
+
+
+def drives_of(robot: Robot, paths: Sequence[str]) -> tuple[DriveSettings, ...]:
+    """
+    Return the drives of parameter files whose wheels are joints of a robot.
+
+    Raises:
+        ParameterError: as :func:`read_drives`, but not where no such controller is named.
+    """
+    return tuple(drive for drive in _drives(paths) if all(map(robot.has_joint, drive.wheels)))
+
+
+def drives_named_by(text: str, source: str) -> tuple[DriveSettings, ...]:
+    """
+    Return the drives of the parameter files that a URDF names for its ros2_control plugin.
+
+    Files that are not there are left out, and the faults of the URDF to the checker.
+
+    Args:
+        text: the URDF.
+        source: names its file in messages.
+
+    Raises:
+        ParameterError: as :func:`drives_of`.
+    """
+    faults: list[Finding] = []
+    xml = parse_xml(text, source, faults.append)
+    if xml is None:
+        return ()
+    plugins = read_gazebo_plugins(xml, source, faults.append)
+    paths = [path for each in plugins if each.hosts_ros2_control for path in each.parameters]
+    there = [path for path in dict.fromkeys(paths) if Path(path).is_file()]
+    return drives_of(read_robot(xml, text, source, faults.append), there) if there else ()
+
+
+def _drives(paths: Sequence[str]) -> tuple[DriveSettings, ...]:
+    """Return the drives of parameter files, perhaps none. Raises ParameterError."""
+    found = [each for path in paths for each in _read(path)]
+    found += [each for path in _further_files(found) for each in _read(path)]
+    return tuple(_settings(node, found) for node in dict.fromkeys(_drive_nodes(found)))
 
 
 def _read(path: str) -> list[_Section]:

@@ -18,6 +18,7 @@ module               what it holds
 ``shapes.py``        sizes, colours, missing and overlapping collision shapes
 ``inertia.py``       mass, inertia, and whether the robot tips over
 ``joints.py``        limits, axes, mimics, wheels
+``axles.py``         the axles of wheels that controllers name, and angles in degrees
 ``ros2_control.py``  ``<ros2_control>`` blocks, and what controllers assume about the robot
 ===================  =============================================================================
 """
@@ -26,9 +27,17 @@ from dataclasses import dataclass
 from itertools import islice
 
 from amr_description.errors import DescriptionError
-from amr_description.model.checks import inertia, joints, markup, meshes, ros2_control, shapes
-from amr_description.model.checks.context import CheckContext, CheckInputs, Rule
-from amr_description.model.findings import Finding, Report, Severity
+from amr_description.model.checks import (
+    axles,
+    inertia,
+    joints,
+    markup,
+    meshes,
+    ros2_control,
+    shapes,
+)
+from amr_description.model.checks.context import CheckContext, CheckInputs, DriveSettings, Rule
+from amr_description.model.findings import Finding, raise_error, Report, Severity
 from amr_description.model.gazebo import read_gazebo_plugins
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
@@ -38,6 +47,18 @@ from amr_description.model.xml_reader import parse_xml
 # Limits the time and the output for files with absurdly many faults.
 MAX_FINDINGS = 1000
 MAX_FINDINGS_OF_A_RULE = 100
+
+_RULES_OF_DRIVES: tuple[Rule, ...] = (
+    ros2_control.wheel_names_are_joints,
+    axles.axles_are_across,
+    ros2_control.base_frame_is_the_root,
+)
+_RULES_OF_WHOLE_DRIVES: tuple[Rule, ...] = (
+    ros2_control.sides_are_not_swapped,
+    ros2_control.wheel_radius_agrees,
+    ros2_control.wheel_separation_agrees,
+    ros2_control.scrubbing_is_accounted_for,
+)
 
 RULES: tuple[Rule, ...] = (
     markup.xacro_is_expanded,
@@ -71,8 +92,8 @@ RULES: tuple[Rule, ...] = (
     ros2_control.interface_names_are_spelt_right,
     ros2_control.one_block_commands,
     joints.wheels_roll_forward,
-    ros2_control.wheel_names_are_joints,
-    ros2_control.base_frame_is_the_root,
+    axles.angles_are_in_radians,
+    *_RULES_OF_DRIVES,
 )
 """The rules on single parts."""
 
@@ -80,10 +101,7 @@ RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
     shapes.shapes_do_not_overlap,
     joints.sides_are_symmetric,
     inertia.mass_is_supported,
-    ros2_control.sides_are_not_swapped,
-    ros2_control.wheel_radius_agrees,
-    ros2_control.wheel_separation_agrees,
-    ros2_control.scrubbing_is_accounted_for,
+    *_RULES_OF_WHOLE_DRIVES,
 )
 """The rules on the whole robot; checked only without errors, as one fault would cause many."""
 
@@ -142,11 +160,25 @@ def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS
         return Examination(tuple(findings), None)
     if context is None:
         return Examination(tuple(findings), None)
-    for rules in (RULES, RULES_OF_THE_WHOLE):
-        if rules is RULES or not any(each.severity is Severity.ERROR for each in findings):
-            for rule in rules:
-                findings += islice(rule(context), MAX_FINDINGS_OF_A_RULE)
+    findings += _apply(context, RULES)
+    if not any(each.severity is Severity.ERROR for each in findings):
+        findings += _apply(context, RULES_OF_THE_WHOLE)
     return Examination(tuple(findings), context.robot)
+
+
+def examine_drives(robot: Robot, drives: tuple[DriveSettings, ...]) -> tuple[Finding, ...]:
+    """Return what only the controllers of a sound robot let find, as :func:`examine` does."""
+    context = _read(robot.text, robot.source, CheckInputs(drives=drives), raise_error)
+    if context is None:
+        return ()
+    findings = _apply(context, _RULES_OF_DRIVES)
+    if not any(each.severity is Severity.ERROR for each in findings):
+        findings += _apply(context, _RULES_OF_WHOLE_DRIVES)
+    return tuple(findings)
+
+
+def _apply(context: CheckContext, rules: tuple[Rule, ...]) -> list[Finding]:
+    return [each for rule in rules for each in islice(rule(context), MAX_FINDINGS_OF_A_RULE)]
 
 
 def _read(text: str, source: str, inputs: CheckInputs, report: Report) -> CheckContext | None:

@@ -50,6 +50,11 @@ class DriveSettings:
     open_loop: bool
     locations: Mapping[str, SourceLocation] = field(default_factory=dict)
 
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """The names of all its wheels, the left ones first."""
+        return (*self.left_wheels, *self.right_wheels)
+
     def location_of(self, parameter: str) -> SourceLocation:
         """Return the line of a parameter, or of the controller if no file sets it."""
         return self.locations.get(parameter, self.location)

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from itertools import permutations, product
 import math
 
+from amr_description.model.checks.axles import lying_flat
 from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform, Vector
@@ -191,7 +192,7 @@ def mass_is_supported(context: CheckContext) -> Iterator[Finding]:
 
     All joints are at 0. The polygon is the convex hull of the points where the lowest shapes touch
     the ground. Robots with fewer than two wheels, with a fixed base or with collision meshes are
-    not checked.
+    not checked. Where the wheels lie flat, that is the cause.
     """
     robot = context.robot
     meshes = any(
@@ -202,7 +203,10 @@ def mass_is_supported(context: CheckContext) -> Iterator[Finding]:
         return
     points = _ground_points(context)
     outside = _distance_outside(centre, convex_hull(points)) if points else 0.0
-    if outside > _TOLERANCE:
+    flat = lying_flat(context) if outside > _TOLERANCE else None
+    if flat is not None:
+        yield flat
+    elif outside > _TOLERANCE:
         wheel = robot.joint(context.wheels[0].joint)
         xs, ys = [point[0] for point in points], [point[1] for point in points]
         yield context.warning(

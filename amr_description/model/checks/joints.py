@@ -7,6 +7,7 @@ Rules on joints: each by itself, those that mimic others, and those that carry w
 from collections.abc import Iterator
 import math
 
+from amr_description.model.axles import ACROSS
 from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
 from amr_description.model.frames import rotate
@@ -21,9 +22,6 @@ _UNIT_TOLERANCE = 1e-3
 _EXTREME = 1e6
 # Joints of a chain of mimics; limits the time for absurd files.
 _LONGEST_CHAIN = 100
-# An axle within this cosine of the robot's y axis is that of a wheel that rolls along x; others
-# (a turning lidar, the wheels of an omnidirectional robot) are not checked.
-_ALONG_Y = 0.9
 # m; two sides may differ by this much, and a wheel this close to the middle is on neither.
 _TOLERANCE = 0.001
 
@@ -126,18 +124,27 @@ def wheels_roll_forward(context: CheckContext) -> Iterator[Finding]:
 
     A wheel on the ground that turns about its axle moves the robot along axle × z, so the axle
     must point to the robot's left, +y of the root at zero pose (REP 103: x forward). Wheels are
-    the continuous joints with a velocity command. There is one finding for all wheels.
+    the continuous joints with a velocity command; others (a turning lidar, the wheels of an
+    omnidirectional robot) are left out. There is one finding for all wheels. It is an error if a
+    controller has wheels of both kinds: it cannot drive straight then.
     """
-    backwards = [
-        joint for joint in context.speed_joints if _axle_to_the_left(context, joint) < -_ALONG_Y
-    ]
+    to_the_left = {joint.name: _axle_to_the_left(context, joint) for joint in context.speed_joints}
+    backwards = [joint for joint in context.speed_joints if to_the_left[joint.name] < -ACROSS]
     if not backwards:
         return
     names = quote_all([joint.name for joint in backwards])
     plural = 's' if len(backwards) > 1 else ''
-    yield context.warning(
+    is_split = any(
+        min(axles, default=0.0) < -ACROSS and max(axles, default=0.0) > ACROSS
+        for drive in context.inputs.drives
+        for axles in [[to_the_left.get(wheel, 0.0) for wheel in drive.wheels]]
+    )
+    also = ', and its other wheels drive it forward: it turns where it should roll'
+    report = context.error if is_split else context.warning
+    yield report(
         backwards[0].line,
-        f'wheel joint{plural} {names}: a positive speed drives the robot backwards',
+        f'wheel joint{plural} {names}: a positive speed drives the robot backwards'
+        f'{also if is_split else ""}',
         found='the axle along -y of the root frame',
         expected='+y',
         fix=_reversed_axes(backwards),
@@ -155,7 +162,7 @@ def sides_are_symmetric(context: CheckContext) -> Iterator[Finding]:
     for wheel in context.wheels:
         y = _hub(context, wheel)[1]
         along_y = abs(_axle_to_the_left(context, context.robot.joint(wheel.joint)))
-        if abs(y) > _TOLERANCE and along_y > _ALONG_Y:
+        if abs(y) > _TOLERANCE and along_y > ACROSS:
             sides[y > 0.0].append(wheel)
     left, right = (
         sorted(sides[is_left], key=lambda wheel: _hub(context, wheel)[0])

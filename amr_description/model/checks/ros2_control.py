@@ -140,7 +140,7 @@ def wheel_radius_agrees(context: CheckContext) -> Iterator[Finding]:
     """The radius is that of the wheels' collision shapes."""
     radii = {wheel.joint: wheel.radius for wheel in context.wheels}
     for drive in context.inputs.drives:
-        for name in (*drive.left_wheels, *drive.right_wheels):
+        for name in drive.wheels:
             radius = radii.get(name, math.nan)
             if abs(radius - drive.radius) > _TOLERANCE * radius:
                 yield drive.warning(

@@ -115,6 +115,18 @@ def test_each_fault_of_the_tutorial_is_named_once_and_nothing_else():
     assert place.format(16, 'wheels one behind the other scrub in a turn') in scrubbing
 
 
+def test_a_wrong_axle_is_one_warning_at_the_spawn(sim, node):
+    axes = URDF.count('<axis xyz="0 0 -1"/>')
+    wrong = URDF.replace('<axis xyz="0 0 -1"/>', '<axis xyz="1 0 0"/>')
+    request = SpawnEntity.Request(name='crab', resource_string=wrong)
+    request.initial_pose.pose.position.z = 0.2
+    response = call(node, SpawnEntity, f'{SERVICES}/spawn_entity', request, timeout=20.0)
+    assert (axes, response.result.result) == (4, Result.RESULT_OK)
+    words = 'of diff_drive_controller: the axle points ahead, so that the wheel rolls sideways: '
+    sim.program.expect(words)
+    assert sim.program.output.count(words) == 1
+
+
 def test_a_robot_is_spawned_falls_and_rests(sim, node):
     request = SpawnEntity.Request(name='amr', resource_string=URDF)
     request.initial_pose.pose.position.x = 1.5

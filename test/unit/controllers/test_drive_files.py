@@ -178,6 +178,22 @@ def test_drives_that_run_with_wrong_parameters_are_warned_of():
     assert 'wheel_separation_multiplier' in multiplier.text
 
 
+def test_a_wheel_with_a_wrong_axle_is_warned_of(tmp_path):
+    """It keeps no controller from running, so that nobody else would tell."""
+    text = (ROOT / 'test/fixtures/urdf_good/cart.urdf').read_text()
+    path = tmp_path / 'c.yaml'
+    names = WHEELS.replace('[l]', '[left_joint]').replace('[r]', '[right_joint]')
+    path.write_text(f'{MANAGER}drive:\n  ros__parameters:\n{names}    base_frame_id: base_link\n')
+    frames = drive_warnings(urdf.parse(text, 'r.urdf'), [str(path)])
+    robot = urdf.parse(text.replace('<axis xyz="0 0 1"/>', '<axis xyz="1 0 0"/>', 2), 'r.urdf')
+    axles, *others = drive_warnings(robot, [str(path)])
+    assert axles.text.startswith(
+        'r.urdf:18: wheel joints "left_joint", "right_joint" of drive: the axle points ahead, so '
+        'that the wheel rolls sideways: found (1, 0, 0) in the frame of "base_link"'
+    )
+    assert tuple(others) == frames
+
+
 def test_what_the_manager_will_refuse_is_left_to_it(tmp_path):
     robot = urdf.load(ROOT / 'urdf/amr.urdf')
     path = tmp_path / 'c.yaml'
