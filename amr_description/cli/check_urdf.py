@@ -86,7 +86,8 @@ def main(argv: list[str]) -> int:
         file_exists=lambda uri: _is_there(find_file, uri), find_file=find_file, drives=drives
     )
     examination = examine(text, source, inputs)
-    drop = _drop(examination) if arguments.drop else None
+    wheels = [wheel for drive in drives for wheel in drive.wheels]
+    drop = _drop(examination, wheels) if arguments.drop else None
     code = exit_code(examination, drop, strict=arguments.strict)
     if arguments.json:
         print(to_json(source, examination, drop, code))
@@ -231,14 +232,14 @@ def _drives(paths: list[str], text: str, source: str) -> tuple[DriveSettings, ..
         return ()
 
 
-def _drop(examination: Examination) -> 'DropReport | None':
-    """Return how the robot falls; None when it is not sound."""
+def _drop(examination: Examination, wheels: list[str]) -> 'DropReport | None':
+    """Return how the robot falls, and drives by its ``wheels``; None when it is not sound."""
     if examination.robot is None or examination.errors:
         return None
     from amr_description.sim.drop_test import drop_test, DropReport
 
     try:
-        return drop_test(examination.robot)
+        return drop_test(examination.robot, wheels)
     except SimulationError as error:
         return DropReport(failures=(str(error),))
 

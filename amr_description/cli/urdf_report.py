@@ -75,8 +75,16 @@ def drop_lines(report: 'DropReport') -> list[str]:
             for name, value, scale, unit in rows
             if value is not None
         ),
-        f'    {"passed" if not report.failures else "failed"}',
+        *(f'    {line}' for line in report.left_out),
+        *_verdict(report),
     ]
+
+
+def _verdict(report: 'DropReport') -> list[str]:
+    """Return the last line of a drop; none for a robot that passes as far as it was tried."""
+    if report.failures:
+        return ['    failed']
+    return [] if report.left_out else ['    passed']
 
 
 def to_json(source: str, examination: Examination, drop: 'DropReport | None', code: int) -> str:

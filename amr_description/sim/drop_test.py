@@ -7,8 +7,9 @@ Deterministic: the same description gives the same numbers. It takes a few secon
 time, a fraction of a second of wall time.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from itertools import pairwise
 import math
 
 import mujoco
@@ -18,12 +19,15 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import EFFORT, VELOCITY
 from amr_description.errors import SimulationError
+from amr_description.model.axles import axle_fault, vector_text
 from amr_description.model.frames import rotate, Transform, Vector, yaw_of
-from amr_description.model.robot import Robot, WORLD_LINK
+from amr_description.model.kinematics import link_poses
+from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import Wheel
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.world import MujocoWorld
+from amr_description.text import quote, quote_all
 
 DROP_HEIGHT = 0.2
 """m; height of the robot's lowest point above the ground."""
@@ -42,6 +46,15 @@ _STILL, _STILL_TURNING = 0.002, 0.02
 _MAX_DRIFT = 0.005
 _MAX_TILT = math.radians(20.0)
 _MIN_SHARE = 0.2
+"""Of the way that the wheels roll; a robot that makes less does not drive."""
+_MAX_ASIDE = 0.05
+"""The share of that way by which the middle of the wheels may be off the robot's heading."""
+_MIN_TURN = 0.05
+"""Of the yaw of two wheels that do not slip; six in a row on each side reach about 0.1."""
+_PAIRED = 0.01
+"""m; joints of a pair are mirror images of each other within this distance."""
+_MIDDLE = 0.001
+"""m; a wheel that is closer to the robot's x axis is on neither side."""
 _MAX_SPEED = 20.0
 _UP: Vector = (0.0, 0.0, 1.0)
 
@@ -77,6 +90,8 @@ class DropReport:
     """Yaw, meanwhile."""
     turn: float | None = None
     """Yaw in a second of turning left."""
+    left_out: tuple[str, ...] = ()
+    """What was not done, and why, each in one line."""
     failures: tuple[str, ...] = ()
 
 
@@ -84,22 +99,30 @@ class _FailedError(Exception):
     """The robot has failed so that the remaining measurements have no meaning."""
 
 
-def drop_test(robot: Robot) -> DropReport:
+def drop_test(robot: Robot, wheels: Collection[str] = ()) -> DropReport:
     """
     Drop a robot that the checker has found sound by 20 cm onto flat ground, and measure.
 
-    A robot whose root is called ``world`` stands fixed; it is only simulated for a second. Raises
-    SpawnError: the simulator rejects the robot.
+    A robot whose root is called ``world`` stands fixed; it is only simulated for a second.
+
+    Args:
+        robot: the robot.
+        wheels: the joints that a controller names as its wheels. Without any, the wheels are found
+            by what they are: round about a joint that takes commands, or on the ground with one.
+
+    Raises:
+        SpawnError: the simulator rejects the robot.
     """
-    return _DropTest(robot).run()
+    return _DropTest(robot, wheels).run()
 
 
 class _DropTest:
     """One robot in the empty world, and what has been measured so far."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, named: Collection[str]) -> None:
         self._measured: dict[str, float] = {}
         self._failures: list[str] = []
+        self._left_out: list[str] = []
         self._errors: list[str] = []
         self._stands = robot.root.name == WORLD_LINK
         clearance = 0.0 if self._stands else DROP_HEIGHT - _lowest_point(robot)
@@ -107,8 +130,16 @@ class _DropTest:
         self._view = self._world.spawn('robot', robot, Transform((0.0, 0.0, clearance)))
         self._root = robot.root.name
         by_speed, by_effort = _commanded(robot, VELOCITY), _commanded(robot, EFFORT)
-        self._wheels = [w for w in self._view.wheels if w.joint in by_speed | by_effort]
         self._by_effort = by_effort - by_speed
+        self._driven = [
+            joint
+            for joint in robot.joints
+            if joint.name in by_speed | by_effort
+            and (joint.name in named if named else joint.type is JointType.CONTINUOUS)
+        ]
+        self._is_named = bool(named)
+        self._standing: set[str] = set()
+        self._wheels: list[Wheel] = []
 
     def run(self) -> DropReport:
         """Run the test, up to the failure that makes the rest meaningless."""
@@ -118,13 +149,19 @@ class _DropTest:
             else:
                 self._fall()
                 self._rest()
+                self._find_wheels()
                 self._push()
                 if self._wheels:
                     self._roll()
                     self._turn()
         except (_FailedError, SimulationError) as failure:
             self._failures.append(str(failure))
-        return DropReport(self._stands, **self._measured, failures=tuple(self._failures))
+        return DropReport(
+            self._stands,
+            **self._measured,
+            left_out=tuple(self._left_out),
+            failures=tuple(self._failures),
+        )
 
     def _log(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
         """Keep the errors that the world logs: a lost state, a robot below the ground."""
@@ -141,7 +178,10 @@ class _DropTest:
         self._measured['rest_time'] = (self._world.time - released) / NANOSECONDS - _REST_TIME
         tilt = self._measured['tilt'] = self._tilt()
         if tilt > _MAX_TILT:
-            raise _FailedError(f'it tips over: it rests at a tilt of {math.degrees(tilt):.0f}°')
+            cause = self._axle_faults() if self._has_a_pair() else ''
+            raise _FailedError(
+                f'it tips over: it rests at a tilt of {math.degrees(tilt):.0f}°{cause}'
+            )
 
     def _rest(self) -> None:
         start = self._pose()
@@ -149,6 +189,59 @@ class _DropTest:
         drift = self._measured['drift'] = math.dist(start.translation, self._pose().translation)
         if drift > _MAX_DRIFT:
             raise _FailedError(f'it drifts at rest: by {drift * 1000.0:.1f} mm in 1 s')
+
+    def _find_wheels(self) -> None:
+        """
+        Find the wheels of the robot at rest, and say why there are none.
+
+        A link that stands on the ground and turns with a driven joint is one, whatever its shape:
+        its radius is the height of its hub. One that hangs in the air with a vertical axle (a
+        lidar, a rotor) is not, if no controller names it.
+        """
+        self._standing = self._standing_links()
+        robot, poses = self._view.description, link_poses(self._view.description)
+        by_joint = {wheel.joint: wheel for wheel in self._view.wheels}
+        for joint in self._driven:
+            wheel = by_joint.get(joint.name)
+            if joint.child not in self._standing and not self._is_named:
+                fault = axle_fault(robot, poses, joint, self._root)
+                if wheel is None or (fault is not None and fault.is_vertical):
+                    continue
+            hub = self._view.pose(joint.child).translation[2]
+            if wheel is not None or hub > _MIDDLE:
+                self._wheels.append(wheel or Wheel(joint.child, joint.name, -1, hub, 0.0))
+        names = quote_all([joint.name for joint in self._driven])
+        if not self._driven:
+            self._left_out.append(
+                'not driven: no continuous joint takes a velocity or an effort command'
+            )
+        elif not self._wheels and self._has_a_pair():
+            self._failures.append(
+                f'it does not drive: it stands on none of the joints that take a command, {names}'
+                f'{self._axle_faults()}'
+            )
+        elif not self._wheels:
+            self._left_out.append(
+                f'not driven: it stands on none of the joints that take a command, {names}'
+            )
+
+    def _has_a_pair(self) -> bool:
+        """Return whether two driven joints mirror each other, as wheels do: left and right."""
+        to_root = self._pose().inverse()
+        hubs = [(to_root @ self._view.pose(joint.child)).translation for joint in self._driven]
+        return any(
+            math.dist((x, -y, z), other) < _PAIRED < abs(y) for x, y, z in hubs for other in hubs
+        )
+
+    def _standing_links(self) -> set[str]:
+        """Return the topmost links of the rigid bodies that touch the ground, now."""
+        model, data = self._world.engine.model, self._world.engine.data
+        standing = set()
+        for geoms in data.contact.geom.tolist() if data.ncon else ():
+            bodies = [int(model.body_weldid[model.geom_bodyid[geom]]) for geom in geoms]
+            if 0 in bodies:
+                standing.add(model.body(max(bodies)).name.removeprefix(f'{self._view.name}/'))
+        return standing
 
     def _push(self) -> None:
         start, engine = self._pose(), self._world.engine
@@ -180,38 +273,92 @@ class _DropTest:
             raise _FailedError('it does not come to rest after a push')
 
     def _roll(self) -> None:
-        ahead, aside, veer = self._drive(ROLL_TIME, lambda wheel: 1.0)
+        middle = self._middle_of_wheels()
+        moved, veer = self._drive(ROLL_TIME, lambda wheel: 1.0)
+        ahead, aside, _ = moved.translation
         self._measured |= {'ahead': ahead, 'aside': aside, 'veer': veer}
         asked = ROLL_SPEED * ROLL_TIME
-        if ahead < -_MIN_SHARE * asked:
+        # On its arc, the middle of the wheels moves along the heading that is half the yaw.
+        x, y, _ = map(float.__sub__, moved.apply(middle), middle)
+        sideways = y * math.cos(veer / 2.0) - x * math.sin(veer / 2.0)
+        faults, least = self._axle_faults(), _MIN_SHARE * asked
+        # Wheels that spin on the spot hold the robot on no line.
+        if abs(sideways) > _MAX_ASIDE * asked and (abs(ahead) > least or faults):
+            self._failures.append(
+                f'it goes sideways: positive wheel speeds carry it by {ahead:.3f} m along its x '
+                f'and by {sideways:.3f} m along its y{faults}'
+            )
+        if ahead < -least:
             self._failures.append(
                 f'it drives backwards: positive wheel speeds carry it by {ahead:.3f} m along its '
                 'x; turn the <axis> of the wheel joints round'
             )
-        elif ahead < _MIN_SHARE * asked:
+        elif ahead < least and not self._failures:
             self._failures.append(
                 f'it does not drive: positive wheel speeds carry it by {ahead:.3f} m along its x, '
-                f'of {asked:.3f} m that the wheels roll'
+                f'of {asked:.3f} m that the wheels roll{faults}'
             )
         self._settle()
 
     def _turn(self) -> None:
-        y = {
-            wheel.joint: (self._pose().inverse() @ self._view.pose(wheel.link)).translation[1]
-            for wheel in self._wheels
-        }
+        to_root = self._pose().inverse()
+        y = {w.joint: (to_root @ self._view.pose(w.link)).translation[1] for w in self._wheels}
         if not min(y.values()) < 0.0 < max(y.values()):
+            if max(map(abs, y.values())) < _MIDDLE:
+                self._left_out.append('not turned: its driven wheels are in the middle')
+            else:
+                self._failures.append(
+                    f'it cannot turn: its driven wheels are on one side, {quote_all([*y])}'
+                )
             return
-        _, _, turn = self._drive(TURN_TIME, lambda wheel: math.copysign(1.0, -y[wheel.joint]))
+        _, turn = self._drive(TURN_TIME, lambda wheel: math.copysign(1.0, -y[wheel.joint]))
         self._measured['turn'] = turn
-        if turn <= 0.0 < self._measured['ahead']:
+        asked = ROLL_SPEED * TURN_TIME / (math.fsum(map(abs, y.values())) / len(y))
+        if self._failures:  # it does not drive as it should, for a reason that is told
+            return
+        if turn <= -_MIN_TURN * asked:
             self._failures.append(
                 'it turns the wrong way: with the right wheels forward and the left ones back it '
                 f'yaws by {math.degrees(turn):.1f}°'
             )
+        elif turn < _MIN_TURN * asked:
+            self._failures.append(
+                'it does not turn: with the right wheels forward and the left ones back it yaws '
+                f'by {math.degrees(turn):.1f}°, of {math.degrees(asked):.0f}° that they roll'
+            )
 
-    def _drive(self, seconds: float, sign: Callable[[Wheel], float]) -> tuple[float, float, float]:
-        """Turn the wheels at ROLL_SPEED; return the travel in x and y (m) and the yaw (rad)."""
+    def _middle_of_wheels(self) -> Vector:
+        """Return the mean of the hubs in the frame of the root."""
+        to_root = self._pose().inverse()
+        hubs = [(to_root @ self._view.pose(wheel.link)).translation for wheel in self._wheels]
+        x, y, z = (math.fsum(parts) / len(hubs) for parts in zip(*hubs, strict=True))
+        return (x, y, z)
+
+    def _axle_faults(self) -> str:
+        """
+        Return the end of a failure: the wheels whose axles explain it; '' if there are none.
+
+        While no wheels are known, they explain it only if no driven joint has the axle of a wheel:
+        a lidar beside wheels explains nothing.
+        """
+        robot, poses = self._view.description, link_poses(self._view.description)
+        faults = {
+            joint.name: fault
+            for joint in self._driven
+            if joint.child in self._standing or not self._wheels
+            if (fault := axle_fault(robot, poses, joint, self._root)) is not None
+        }
+        if not self._wheels and len(faults) < len(self._driven):
+            return ''
+        groups: dict[str, list[str]] = {}
+        for name, fault in faults.items():
+            found = f'{vector_text(fault.direction)} in the frame of {quote(self._root)}'
+            words = f'{fault.what}: found {found}, expected (0, 1, 0); {fault.fix}'
+            groups.setdefault(words, []).append(name)
+        return ''.join(f'; {quote_all(names)}: {words}' for words, names in groups.items())
+
+    def _drive(self, seconds: float, sign: Callable[[Wheel], float]) -> tuple[Transform, float]:
+        """Turn the wheels at ROLL_SPEED; return the motion of the root in its frame, and yaw."""
         start = self._pose()
         speeds = [(w, sign(w) * ROLL_SPEED / w.radius) for w in self._wheels]
         self._view.joints([w.joint for w, _ in speeds if w.joint not in self._by_effort]).command(
@@ -221,16 +368,21 @@ class _DropTest:
         pushed = [(w, speed) for w, speed in speeds if w.joint in self._by_effort]
         starts = self._view.joints([w.joint for w, _ in pushed]).positions()
         begin = self._world.time
+        headings = [yaw_of(start.rotation)]
 
         def push() -> None:
+            headings.append(yaw_of(self._pose().rotation))
             passed = (self._world.time - begin) / NANOSECONDS
             for (wheel, speed), position in zip(pushed, starts, strict=True):
                 self._push_wheel(wheel, speed, position + speed * passed)
 
         self._run(seconds, push)
-        moved = start.inverse() @ self._pose()
+        end = self._pose()
         self._view.joints([wheel.joint for wheel in self._wheels]).hold()
-        return moved.translation[0], moved.translation[1], yaw_of(moved.rotation)
+        # Summed, as a small robot turns by more than half a turn.
+        steps = pairwise([*headings, yaw_of(end.rotation)])
+        yaw = math.fsum(math.remainder(after - before, math.tau) for before, after in steps)
+        return start.inverse() @ end, yaw
 
     def _push_wheel(self, wheel: Wheel, speed: float, target: float) -> None:
         """Control a wheel that has only an effort interface: its speed, rad/s, and target, rad."""

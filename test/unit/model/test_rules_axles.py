@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrong axles and angles in degrees: one line each, with the direction found and what would do."""
 
+import json
 import re
 
 import pytest
@@ -255,3 +256,32 @@ def test_wheels_that_lie_flat_are_the_cause_of_tipping_over(check):
         f'warning: r.urdf:18: wheel joints "left_joint", "right_joint": {FLAT}, and the robot '
         f'tips over: found (0, 0, 1) {LEVEL}rpy="-1.5708 0 0" in its <origin>'
     )
+
+
+def test_the_drop_finds_what_no_controller_names(check):
+    for wheels, verb, cause in (
+        ({'axis': '1 0 0'}, 'it goes sideways: ', 'the axle points ahead'),
+        ({'axis': '0 1 0'}, 'it does not drive: ', FLAT),
+        ({'rpy': ''}, 'it does not drive: it stands on none of the joints', FLAT),
+        ({'rpy': '', 'axis': '0 1 0'}, 'it does not drive: it stands on none', 'the cylinder of'),
+        ({'axis': '1 0 0', 'shape': '<sphere radius="0.1"/>'}, 'it goes sideways: ', 'the axle'),
+    ):
+        code, lines = check(cart(**wheels), '--drop')
+        (failure,) = [line for line in lines if line.startswith('error: dropped: ')]
+        assert code == 1
+        assert failure.startswith(f'error: dropped: {verb}')
+        assert f'; "left_joint", "right_joint": {cause}' in failure
+        assert '; write ' in failure
+
+
+def test_what_is_not_driven_is_no_pass(tmp_path, capsys):
+    still = CART[: CART.index('  <ros2_control')] + '</robot>\n'
+    (tmp_path / 'r.urdf').write_text(still)
+    assert check_urdf.main([str(tmp_path / 'r.urdf'), '--drop']) == 0
+    lines = capsys.readouterr().out.splitlines()
+    reason = 'not driven: no continuous joint takes a velocity or an effort command'
+    assert lines[-1] == f'    {reason}'
+    assert not any('passed' in line for line in lines)
+    assert check_urdf.main([str(tmp_path / 'r.urdf'), '--drop', '--json']) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told['drop']['left_out'] == [reason]

@@ -21,7 +21,7 @@ def dropped(text):
 
 def test_shipped_robot_in_numbers():
     report = dropped(AMR)
-    assert report.failures == ()
+    assert report.failures == report.left_out == ()
     fall = math.sqrt(2.0 * 0.2 / 9.81)
     assert fall < report.rest_time < 1.0
     assert report.fastest == pytest.approx(9.81 * fall, rel=0.02), 'v² = 2 g h'
@@ -63,6 +63,74 @@ def test_one_axle_turned_round_turns_instead_of_rolling():
     report = dropped(CART[:place] + CART[place:].replace('0 0 1', '0 0 -1', 1))
     assert report.failures[0].startswith('it does not drive: positive wheel speeds carry it by')
     assert abs(report.veer) > 0.1
+    assert len(report.failures) == 1, 'that it does not turn either has the same cause'
+
+
+TYRES = re.compile(r'(<link name="(left|right)_wheel">)\s*(<collision>.*?</collision>)')
+
+
+def test_wheels_that_are_no_cylinders_about_their_axles_are_driven_too():
+    """The tyre of each is a link of its own: what makes it a wheel is that it stands on it."""
+
+    def with_tyre(found):
+        return (
+            f'<link name="{found[2]}_tyre">{found[3]}'
+            '<inertial><mass value="0.01"/><inertia ixx="0.00003" ixy="0" ixz="0" iyy="0.00003" '
+            'iyz="0" izz="0.00005"/></inertial></link>'
+            f'<joint name="{found[2]}_rim" type="fixed"><parent link="{found[2]}_wheel"/>'
+            f'<child link="{found[2]}_tyre"/></joint>{found[1]}'
+        )
+
+    text, count = TYRES.subn(with_tyre, CART)
+    assert count == 2
+    report, plain = dropped(text), dropped(CART)
+    assert report.failures == report.left_out == ()
+    assert report.ahead == pytest.approx(plain.ahead, rel=0.1)
+    assert report.turn > plain.turn / 2.0
+
+
+def test_the_wheels_that_a_controller_names_are_driven_and_no_others():
+    robot = urdf.parse(CART, 'f')
+    assert drop_test(robot, ['left_joint', 'right_joint']) == drop_test(robot)
+    (failure,) = drop_test(robot, ['left_joint']).failures[-1:]
+    assert failure == 'it cannot turn: its driven wheels are on one side, "left_joint"'
+
+
+def test_a_wheel_in_the_middle_drives_and_cannot_turn():
+    """A tricycle: two wheels that nothing drives, and one in front."""
+    wheel = CART[
+        CART.index('  <joint name="left_joint"') : CART.index('  <joint name="right_joint"')
+    ]
+    front = wheel.replace('left', 'front').replace('0.1 0.15 0', '0.15 0 0')
+    free = CART.replace('<collision><geometry><sphere radius="0.05"/></geometry></collision>', '')
+    text = free.replace('  <joint name="caster_joint"', f'{front}  <joint name="caster_joint"')
+    driven = text.replace('0.1 0.15 0', '-0.1 0.15 0').replace('0.1 -0.15 0', '-0.1 -0.15 0')
+    head, _, tail = driven.partition('<ros2_control')
+    block = tail.replace('left_joint', 'front_joint').partition('    <joint name="right_joint"')[0]
+    report = dropped(f'{head}<ros2_control{block}  </ros2_control>\n</robot>')
+    assert report.failures == ()
+    assert report.left_out == ('not turned: its driven wheels are in the middle',)
+    assert report.ahead > 0.1
+    assert report.turn is None
+
+
+def test_what_turns_about_a_vertical_axle_in_the_air_is_no_wheel():
+    """A lidar that spins; it takes a velocity command, and the robot stands without it."""
+    head, _, _ = CART.partition('  <joint name="left_joint"')
+    lidar = (
+        '<joint name="spin" type="continuous"><parent link="base_link"/><child link="lidar"/>'
+        '<origin xyz="0 0 0.2"/><axis xyz="0 0 1"/></joint><link name="lidar"><collision>'
+        '<geometry><cylinder radius="0.04" length="0.04"/></geometry></collision><inertial>'
+        '<mass value="0.2"/><inertia ixx="0.0001" ixy="0" ixz="0" iyy="0.0001" iyz="0" '
+        'izz="0.00016"/></inertial></link><ros2_control name="s" type="system"><hardware>'
+        '<plugin>p</plugin></hardware><joint name="spin"><command_interface name="velocity"/>'
+        '<state_interface name="position"/></joint></ros2_control></robot>'
+    )
+    report = dropped(head + lidar)
+    assert report.failures == ()
+    assert report.left_out == (
+        'not driven: it stands on none of the joints that take a command, "spin"',
+    )
 
 
 def test_without_collision_it_falls_through_the_ground():
@@ -82,6 +150,28 @@ def test_without_its_caster_it_tips_over():
     )
     (failure,) = dropped(text).failures
     assert failure.startswith('it tips over')
+
+
+def test_wheels_that_lie_flat_are_the_cause_of_tipping_over():
+    """The robot without its caster, and with wheels that nobody has turned."""
+    caster = '<collision><geometry><sphere radius="0.05"/></geometry></collision>'
+    text = CART.replace(caster, '').replace(' rpy="-1.5707963267948966 0 0"', '')
+    # Low enough for the wheels' rims to be the first to touch.
+    text = text.replace('<box size="0.4 0.2 0.1"/>', '<box size="0.1 0.2 0.02"/>')
+    (failure,) = dropped(text).failures
+    assert failure.startswith('it tips over: it rests at a tilt of ')
+    assert (
+        '; "left_joint", "right_joint": the axle is vertical, so that the wheel cannot' in failure
+    )
+
+
+def test_a_small_robot_turns_by_more_than_half_a_turn():
+    """Wheels 12 cm apart that roll at 0.3 m/s turn by 5 rad in a second."""
+    near = CART.replace('0.1 0.15 0', '0 0.06 0').replace('0.1 -0.15 0', '0 -0.06 0')
+    near = near.replace('<box size="0.4 0.2 0.1"/>', '<box size="0.3 0.06 0.1"/>')
+    report = dropped(near)
+    assert report.failures == ()
+    assert report.turn > math.pi
 
 
 def test_a_robot_that_stands_on_a_point_does_not_rest_upright():
@@ -113,6 +203,9 @@ def test_a_box_without_wheels_is_not_driven():
     )
     report = dropped(text)
     assert report.failures == ()
+    assert report.left_out == (
+        'not driven: no continuous joint takes a velocity or an effort command',
+    )
     assert report.rest_time > 0.2
     assert report.fastest == pytest.approx(math.sqrt(2.0 * 9.81 * 0.2), rel=0.02)
     assert report.ahead is None
