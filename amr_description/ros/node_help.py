@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 import sys
 from textwrap import fill
 
+from amr_description import streams
 from amr_description.parameters import Spec, specs
 from amr_description.ros.arguments import other_arguments
 
@@ -38,7 +39,10 @@ def print_help(
     given = other_arguments(sys.argv[1:] if args is None else args)
     if not {'-h', '--help'} & {*given}:
         return False
-    print('\n'.join(_lines(program, purpose, tables, words, notes)))
+    try:
+        print('\n'.join(_lines(program, purpose, tables, words, notes)), flush=True)
+    except BrokenPipeError:  # as of `| head`
+        streams.abandon_stdout()
     return True
 
 

@@ -3,7 +3,9 @@
 """``--help`` of the executables: each prints its usage, and starts nothing."""
 
 import re
+import sys
 
+from fixtures.cli.commands import shell
 import pytest
 from support.paths import ROOT
 from support.ros_processes import run
@@ -31,6 +33,12 @@ def test_a_node_prints_its_parameters(name, option):
     assert result.stdout.startswith(f'usage: {name} [-h] ')
     assert NODES[name] in result.stdout
     assert result.stderr == ''
+
+
+def test_a_reader_that_goes_away_is_no_fault(tmp_path):
+    command = f'{sys.executable} -m amr_description.nodes.viewer --help'
+    result = shell(f'{command} | true; echo ${{PIPESTATUS[0]}}', tmp_path)
+    assert (result.stdout, result.stderr) == ('0\n', '')
 
 
 @pytest.mark.parametrize('name', sorted(OTHERS))
