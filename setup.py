@@ -16,7 +16,7 @@ EXECUTABLE = """\
 # a workspace may have a package of the same name.
 import sys
 
-sys.path[0] = {folder!r}
+sys.path.insert(0, {folder!r})
 from {module} import {name}
 
 sys.exit({name}{attributes}())

@@ -101,6 +101,12 @@ def overlay() -> Path | None:
     return first if own is not None and first != own else None
 
 
+def is_own(executable: Path) -> bool:
+    """Return whether a file of a package of this one's name is of this package itself."""
+    own = own_prefix()
+    return own is None or executable.is_relative_to(own)
+
+
 def _prefixes_of(package: str) -> list[Path]:
     """Return where to look for what is in a package, in this order. Raises ResourceError."""
     first, own = package_prefix(package), own_prefix()
@@ -108,9 +114,15 @@ def _prefixes_of(package: str) -> list[Path]:
 
 
 def shared_file(package: str, below: str) -> Path:
-    """Return a path in the share folder of a package, where there may be no file."""
-    paths = [prefix / 'share' / package / below for prefix in _prefixes_of(package)]
-    return next((path for path in paths if path.exists()), paths[0])
+    """
+    Return a path in the share folder of a package, where there may be no file.
+
+    Raises ResourceError as :func:`package_share` does.
+    """
+    path = package_share(package) / below
+    if package == OWN_PACKAGE and not path.exists() and (own_share() / below).exists():
+        return own_share() / below
+    return path
 
 
 def executables_of(package: str) -> list[Path]:
@@ -163,9 +175,7 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     path = unquote(parts.path)
     match parts.scheme:
         case 'package':
-            share = package_share(parts.netloc)
-            below = path.lstrip('/')
-            return share / below if share == _SOURCE_TREE else shared_file(parts.netloc, below)
+            return shared_file(parts.netloc, path.lstrip('/'))
         case 'file':
             return Path(path)
         case '':

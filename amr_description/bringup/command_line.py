@@ -15,13 +15,7 @@ import re
 import shlex
 import shutil
 
-from amr_description.ament_index import (
-    executable_of,
-    overlay,
-    OWN_PACKAGE,
-    own_prefix,
-    path_of,
-)
+from amr_description.ament_index import executable_of, is_own, OWN_PACKAGE, path_of
 from amr_description.bringup.description import Node, ParameterValue, Stack
 from amr_description.bringup.environment import interpreter_of
 from amr_description.bringup.placement import Placement, ResolvedNode
@@ -119,9 +113,7 @@ class ProcessSpec:
     @property
     def unblocks_sigint(self) -> bool:
         """Whether it is an executable of this package: it may be started with SIGINT blocked."""
-        is_ours = self.node.package == OWN_PACKAGE and (
-            overlay() is None or self.executable.is_relative_to(own_prefix() or '/')
-        )
+        is_ours = self.node.package == OWN_PACKAGE and is_own(self.executable)
         return is_ours and not (self.node.prefix or self.launch_prefix)
 
     def explain(self, error: OSError) -> str:

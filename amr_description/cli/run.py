@@ -94,7 +94,7 @@ def main(args: Namespace) -> int:
 
 def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     """Return the path of an executable, and what to append to its words. Raises AmrError."""
-    from amr_description.ament_index import executables_of, overlay, own_prefix, packages
+    from amr_description.ament_index import executables_of, is_own, overlay, packages
 
     known = packages()
     if package not in known and (package, name) in INSTEAD:
@@ -104,10 +104,9 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
         raise AmrError(f"Package '{package}' not found; of it there are here: {', '.join(others)}")
     if package in known or (package, name) not in STAND_INS or _OURS not in known:
         found = _only_one(executables_of(package), package, name)
-        first, own = overlay(), own_prefix()
-        if package == _OURS and first and own and found.is_relative_to(own):
+        if package == _OURS and (first := overlay()) and is_own(found):
             lacks = f"package '{package}' of {first} has no '{name}'"
-            print(f'[ros2run]: {lacks}: running that of {own}', file=sys.stderr)
+            print(f'[ros2run]: {lacks}: running {found}', file=sys.stderr)
         return found, ()
     stand_in, *words = STAND_INS[package, name].split()
     ours = executables_of(_OURS)

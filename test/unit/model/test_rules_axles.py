@@ -14,19 +14,7 @@ CART = (ROOT / 'test/fixtures/urdf_good/cart.urdf').read_text()
 TURNED = ' rpy="-1.5707963267948966 0 0"'
 ALONG_Z = '<axis xyz="0 0 1"/>'
 CYLINDER = '<cylinder radius="0.1" length="0.04"/>'
-DRIVE = """\
-controller_manager:
-  ros__parameters:
-    drive:
-      type: diff_drive_controller/DiffDriveController
-drive:
-  ros__parameters:
-    left_wheel_names: [left_joint]
-    right_wheel_names: [right_joint]
-    wheel_separation: 0.3
-    wheel_radius: 0.1
-    base_frame_id: base_footprint
-"""
+DRIVE = (ROOT / 'test/fixtures/urdf_good/cart.yaml').read_text()
 BOTH = 'wheel joints "left_joint", "right_joint" of drive: '
 LEVEL = 'in the frame of "base_footprint", expected (0, 1, 0): level, to the left; write '
 AHEAD = 'the axle points ahead, so that the wheel rolls sideways: found (1, 0, 0) '

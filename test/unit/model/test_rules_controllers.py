@@ -11,19 +11,7 @@ AMR = ROOT / 'urdf/amr.urdf'
 CART = ROOT / 'test/fixtures/urdf_good/cart.urdf'
 SHIPPED = (ROOT / 'config/controllers.yaml').read_text()
 TUTORIAL = ROOT / 'test/fixtures/tutorial'
-CART_DRIVE = """\
-controller_manager:
-  ros__parameters:
-    drive:
-      type: diff_drive_controller/DiffDriveController
-drive:
-  ros__parameters:
-    left_wheel_names: [left_joint]
-    right_wheel_names: [right_joint]
-    wheel_separation: 0.3
-    wheel_radius: 0.1
-    base_frame_id: base_footprint
-"""
+CART_DRIVE = CART.with_suffix('.yaml').read_text()
 
 
 @pytest.fixture
