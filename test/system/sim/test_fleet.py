@@ -137,10 +137,16 @@ def drive(sim, request):
             sim.spawn(GONE, STARTS[GONE])
             command(sim, GONE)
         sim.run(LOOK)
+        sim.wait(lambda: tells_of_now(sim), 'odometry of this time, which is on its way')
         states = sim.ask(GetEntitiesStates)
         for name, state in zip(states.entities, states.states, strict=True):
             found[name].append((motion_of_entity(state), sim.robots[name].odometry))
     return Drive(seconds, comes, found)
+
+
+def tells_of_now(sim):
+    """Whether the last odometry of all robots is of this time, but for a few periods of it."""
+    return all(robot.odometry.time > sim.time - 0.1 for robot in sim.robots.values())
 
 
 def place(motion):
