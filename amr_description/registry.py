@@ -8,6 +8,8 @@ So ``ros2 --help`` and a talker do not import MuJoCo, or controllers that are no
 
 from collections.abc import Mapping
 import importlib
+import os
+import sys
 from typing import Any
 
 from amr_description.errors import AmrError
@@ -16,7 +18,34 @@ from amr_description.errors import AmrError
 def resolve(target: str) -> Any:
     """Import ``module:attribute``. Raises ImportError or AttributeError, as ``import`` does."""
     module, _, attribute = target.partition(':')
-    return getattr(importlib.import_module(module), attribute)
+    try:
+        found = importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if not _include_overlay(error.name or ''):
+            raise
+        found = importlib.import_module(module)
+    return getattr(found, attribute)
+
+
+def _include_overlay(module: str) -> bool:
+    """
+    Have a package of ours also find what another one of its name has; return whether there is one.
+
+    A workspace may have a package of this one's name, as the tutorial makes it, with a controller
+    of its own. ``amr_description`` then is ours, which was imported first.
+
+    Args:
+        module: what was not found, ``amr_description.my_controller``.
+    """
+    package, _, _ = module.rpartition('.')
+    if package.partition('.')[0] != __package__ or package not in sys.modules:
+        return False
+    known = sys.modules[package].__path__
+    below = package.replace('.', os.sep)
+    found = [os.path.join(folder, below) for folder in sys.path]
+    more = [folder for folder in found if folder not in known and os.path.isdir(folder)]
+    known.extend(more)
+    return bool(more)
 
 
 class Registry:

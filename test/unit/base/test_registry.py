@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+import amr_description
+from amr_description import controllers
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
 from amr_description.registry import Registry, resolve
@@ -52,6 +54,25 @@ def test_the_shipped_controllers_are_found_by_the_names_of_ros2_controllers():
     assert found.__qualname__ == 'DiffDriveController'
     for name in CONTROLLERS.names:
         assert CONTROLLERS.find(name).parameters_type
+
+
+@pytest.mark.parametrize('package', [amr_description, controllers])
+def test_a_module_of_a_package_of_this_ones_name_is_found(package, tmp_path, monkeypatch):
+    known = list(package.__path__)
+    monkeypatch.setattr(package, '__path__', [*known])
+    below = tmp_path.joinpath(*package.__name__.split('.'))
+    below.mkdir(parents=True)
+    (below / 'hers.py').write_text('class Mine:\n    pass\n')
+    (below / 'errors.py').write_text('class AmrError:\n    pass\n')
+    with pytest.raises(ModuleNotFoundError, match='hers'):
+        resolve(f'{package.__name__}.hers:Mine')
+    monkeypatch.syspath_prepend(tmp_path)
+    registry = Registry('thing', TABLE, ControllerError)
+    assert registry.find(f'{package.__name__}.hers/Mine').__name__ == 'Mine'
+    assert package.__path__[: len(known)] == known  # ours first
+    monkeypatch.delitem(sys.modules, f'{package.__name__}.hers')
+    with pytest.raises(ModuleNotFoundError, match='nobody'):
+        resolve(f'{package.__name__}.nobody:Mine')
 
 
 def test_resolve_raises_what_import_raises():
