@@ -24,6 +24,7 @@ _QUIET = 0.4  # s without changes until discovery is complete; Fast DDS repeats 
 _QUIET_WITH_SERVER = 1.5  # s; discovery by a server has several steps, 0.45 s each
 _LONGEST_DISCOVERY = 5.0  # s; a graph may never stop changing, and Fast DDS may pause for 3 s
 _LOOKUP_TIMEOUT = 2.0  # s to wait for a given name
+_LOOKUP_TIMEOUT_OF_HOSTS = 4.0  # s, where it may be on another one, which speaks up every 3 s
 _SHOWN_NODES = 5  # in an error
 
 _NODE_LISTS = 'ros_discovery_info'  # on it participants publish their nodes (rmw_dds_common)
@@ -57,8 +58,8 @@ def wait_for_discovery(
     Args:
         session: of the verb.
         at_least: shortest time to wait, s.
-        found: returns whether a wanted name is there. If not, wait for it, up to 2 s in all: it
-            may be on another host.
+        found: returns whether a wanted name is there. If not, wait for it, up to 2 s in all; where
+            it may be on another host, 4 s.
     """
     start = last_change = session.clock.now()
     known = None
@@ -76,7 +77,31 @@ def wait_for_discovery(
 
     session.spin(is_complete, max(at_least, _LONGEST_DISCOVERY))
     if found is not None:
-        session.spin(found, start + max(at_least, _LOOKUP_TIMEOUT) - session.clock.now())
+        session.spin(found, start + max(at_least, _lookup_timeout()) - session.clock.now())
+
+
+def _lookup_timeout() -> float:
+    """Return how long to wait for a given name, s."""
+    is_this_host = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE') in ('LOCALHOST', 'OFF')
+    if is_this_host and not os.environ.get('ROS_STATIC_PEERS'):
+        return _LOOKUP_TIMEOUT
+    return _LOOKUP_TIMEOUT_OF_HOSTS
+
+
+def is_ready_within(session: Session, is_ready: Callable[[], bool], timeout: float | None) -> bool:
+    """
+    Wait for a server; return whether it is there.
+
+    Args:
+        session: of the verb.
+        is_ready: returns whether the server is there.
+        timeout: how long to wait, s; None: without limit. It is not over before the graph is
+            complete: until then nobody knows.
+    """
+    if session.spin(is_ready, timeout):
+        return True
+    wait_for_discovery(session, 0.0)
+    return is_ready()
 
 
 def _snapshot(node: Node) -> object:
@@ -140,7 +165,7 @@ def only_type_of(node: Node, topic: str) -> str:
 
 def wait_for_type(session: Session, topic: str) -> str:
     """Wait without limit for a topic; return its type. Raises AmrError if there are several."""
-    if not session.spin(lambda: is_published(session.node, topic), _LOOKUP_TIMEOUT):
+    if not session.spin(lambda: is_published(session.node, topic), _lookup_timeout()):
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
         session.spin(lambda: is_published(session.node, topic))
     return only_type_of(session.node, topic)
@@ -177,9 +202,7 @@ def find_node(session: Session, word: str, timeout: float) -> str:
     def known() -> list[str]:
         return [node.full_name for node in nodes(session.node, hidden=True)]
 
-    if not session.spin(lambda: name in known(), timeout):
-        wait_for_discovery(session, 0.0)
-    if name not in known():
+    if not is_ready_within(session, lambda: name in known(), timeout):
         others = [node.full_name for node in nodes(session.node)]
         raise AmrError(f'Node not found{_other_nodes(name, others)}')
     return name

@@ -17,8 +17,10 @@ processor time is the same. The sockets ask for buffers of 4 MB, and get what ``
 grants.
 
 ``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`` has rmw_fastrtps_cpp add a shared-memory transport of
-its own to whatever a profile says. So rclpy is initialised with the range SUBNET instead, together
-with a profile that keeps discovery on this host as LOCALHOST does.
+its own to whatever a profile says. So rclpy is initialised with the range SYSTEM_DEFAULT instead,
+with which it adds nothing, together with a profile that keeps discovery on this host as LOCALHOST
+does. Only with static peers it is SUBNET: the peers are taken then, and this participant announces
+itself to the network by multicast, too, which LOCALHOST would not.
 
 ==================================  =================================================
 what the user has set               what holds
@@ -45,6 +47,7 @@ _PROFILE_VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILE
 _TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'  # deprecated; 1 wins over the range and over static peers
+_PEERS = 'ROS_STATIC_PEERS'
 _OURS = {os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST)}
 
 
@@ -80,5 +83,7 @@ def udp_only() -> Iterator[None]:
 def _changes(localhost_only: str | None, discovery_range: str | None) -> dict[str, str]:
     """What to tell rcl where the user keeps discovery on this host; elsewhere nothing."""
     if localhost_only == '1':
-        return {_LOCALHOST_ONLY: '0', _RANGE: 'SUBNET', 'ROS_STATIC_PEERS': ''}
-    return {_RANGE: 'SUBNET'} if discovery_range == 'LOCALHOST' else {}
+        return {_LOCALHOST_ONLY: '0', _RANGE: 'SYSTEM_DEFAULT', _PEERS: ''}
+    if discovery_range == 'LOCALHOST':
+        return {_RANGE: 'SUBNET' if os.environ.get(_PEERS) else 'SYSTEM_DEFAULT'}
+    return {}

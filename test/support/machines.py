@@ -51,9 +51,10 @@ class Machine:
         words = ['nsenter', f'--target={self._holder.pid}', *spaces, '--']
         return [*words, 'env', f'--chdir={Path.cwd()}']  # which the new /dev/shm made forget
 
-    def do(self, *words: str) -> None:
-        """Run a command on it."""
-        subprocess.run([*self.inside(), *words], check=True)
+    def do(self, *words: str) -> str:
+        """Run a command on it; return what it prints."""
+        command = [*self.inside(), *words]
+        return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE).stdout
 
     def cable_to(self, other: 'Machine', address: str, other_address: str) -> None:
         """Join both by an Ethernet cable; addresses with prefix length, ``10.0.0.1/24``."""

@@ -34,9 +34,16 @@ def untouched(monkeypatch):
 def test_localhost_is_kept_by_the_profile_as_rmw_would_add_shared_memory_to_it():
     with udp_only():
         assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
-        assert os.environ[RANGE] == 'SUBNET'
+        assert os.environ[RANGE] == 'SYSTEM_DEFAULT'
     assert os.environ[RANGE] == 'LOCALHOST'
     with udp_only():  # what a parent of ours has left is not the user's
+        assert os.environ[RANGE] == 'SYSTEM_DEFAULT'
+
+
+def test_static_peers_are_taken_with_localhost(monkeypatch):
+    monkeypatch.setenv(PEERS, '10.0.0.1')
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
         assert os.environ[RANGE] == 'SUBNET'
 
 
@@ -66,6 +73,7 @@ def test_the_old_variable_for_localhost_counts_as_well(monkeypatch):
     with udp_only():
         assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
         assert (os.environ[LOCALHOST_ONLY], os.environ[PEERS]) == ('0', '')
+        assert os.environ[RANGE] == 'SYSTEM_DEFAULT'
     assert (os.environ[LOCALHOST_ONLY], os.environ[PEERS]) == ('1', '10.0.0.1')
     assert RANGE not in os.environ
 

@@ -102,9 +102,17 @@ def test_this_host_only_is_the_default():
         host = stack.enter_context(person(first, chapter, 'source '))
         host.type('ros2 run amr_description talker')
         host.see('Publishing')
+        assert multicasts(first) == 0  # it has announced itself at once; then every 3 s
         assert '/topic\n' not in topics(stack.enter_context(person(second, chapter, 'export ')))
         assert '/topic\n' in topics(stack.enter_context(person(first, chapter, 'source ')))
         host.interrupt()
+
+
+def multicasts(machine):
+    """How many packets it has sent to groups of machines, since it was there."""
+    table = machine.do('cat', '/proc/net/netstat')
+    names, values = (line.split() for line in table.splitlines() if line.startswith('IpExt:'))
+    return int(dict(zip(names, values, strict=True))['OutMcastPkts'])
 
 
 def topics(shell):
