@@ -8,10 +8,11 @@ DDS standard (DDSI-RTPS 2.5, 9.6.2.3) that port tells its domain:
 ``7400 + 250 * domain + 10 + 2 * participant``. Linux lists the ports in use.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from contextlib import suppress
 
-_TABLES = ('/proc/net/udp', '/proc/net/udp6')
+from amr_description.ros.udp_sockets import udp_sockets
+
 _PORT_BASE = 7400
 _DOMAIN_GAIN = 250
 _PARTICIPANT_GAIN = 2
@@ -21,24 +22,18 @@ _PARTICIPANTS = range(120)
 
 def count_local_participants(domain: int) -> int:
     """Return how many participants of a domain run on this host, ours included."""
-    return len(participant_ids(_lines(), domain))
+    with suppress(OSError):
+        return len(participant_ids(udp_sockets(), domain))
+    return 0
 
 
-def participant_ids(table: Iterable[str], domain: int) -> set[int]:
+def participant_ids(ports: Collection[int], domain: int) -> set[int]:
     """
-    Return the participants of a domain, from the lines of ``/proc/net/udp``.
+    Return the participants of a domain, from the UDP ports in use.
 
     A participant has the port after that too, for its data; a lone port is some other program's:
     the ports of the highest domains lie among those that Linux gives to any socket.
     """
-    ports = {int(line.split()[1].rpartition(':')[2], 16) for line in table}
     first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
     own = ((participant, first + _PARTICIPANT_GAIN * participant) for participant in _PARTICIPANTS)
     return {participant for participant, port in own if port in ports and port + 1 in ports}
-
-
-def _lines() -> Iterable[str]:
-    for path in _TABLES:
-        with suppress(OSError), open(path) as table:
-            next(table)  # the heading
-            yield from table

@@ -8,6 +8,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``signals.py``          SIGINT, SIGTERM, SIGHUP and the end of the bring-up as one request to stop
 ``discovery.py``        have Fast DDS find other processes at once
 ``transport.py``        have Fast DDS send by UDP, so that no killed process holds us up
+``udp_sockets.py``      which UDP ports of this host are in use
 ``rclpy_internals.py``  the private members of rclpy that are used, and nothing else uses
 
 ``arguments.py``        ROS arguments of a command line; a robot description named there
