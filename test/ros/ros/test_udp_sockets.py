@@ -69,7 +69,7 @@ def test_none_is_left_out_while_others_come_and_go():
 
 def test_a_table_is_read_below_its_heading():
     table = [
-        'sl local_address rem_address st tx_queue rx_queue tr tm->when retrnsmt uid timeout inode\n',
+        'sl local_address rem_address st tx_queue rx_queue tr tm->when retrnsmt uid timeout inode',
         '4: 0100007F:1CF2 00000000:0000 07 00000000:00000000 00:00000000 00000000 0 0 5065452 2\n',
     ]
     assert list(sockets_of_table(table)) == [(7410, 5065452)]
