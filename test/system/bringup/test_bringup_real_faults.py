@@ -15,6 +15,7 @@ from support.motor_boards import BoardOnPty
 from support.running_programs import Program
 
 from amr_description.hardware.simulated_motor_board import BoardMode
+from amr_description.ros.udp_sockets import udp_sockets
 
 AT_ONCE = ['create-3', 'mujoco_sim-1', 'robot_state_publisher-2']
 COMMAND = '/diff_drive_controller/cmd_vel'
@@ -95,10 +96,11 @@ def shared_memory(pids):
 def udp_ports(pids):
     """The inodes of the UDP sockets that the processes hold."""
     links = (os.readlink(fd) for pid in pids for fd in Path(f'/proc/{pid}/fd').iterdir())
-    sockets = {found[1] for link in links if (found := re.fullmatch(r'socket:\[(\d+)\]', link))}
+    found = (re.fullmatch(r'socket:\[(\d+)\]', link) for link in links)
+    sockets = {int(socket[1]) for socket in found if socket}
     return sockets & bound_udp_ports()
 
 
 def bound_udp_ports():
     """The inodes of all UDP sockets of this machine."""
-    return {line.split()[9] for line in Path('/proc/net/udp').read_text().splitlines()[1:]}
+    return set().union(*udp_sockets().values())
