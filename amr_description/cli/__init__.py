@@ -20,7 +20,6 @@ check_urdf.py           a description and its findings; urdf_report.py, inertia.
 arguments.py            flags that several verbs have, and the types of values
 qos_arguments.py        the ``--qos-*`` flags
 yaml_input.py           YAML from the command line
-local_participants.py   how many DDS participants run on this host
 meters.py               rates, delays and bandwidths of messages
 
 session.py              the hidden node of a verb; waiting and stopping

@@ -13,11 +13,11 @@ import os
 from rclpy.node import Node
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
-from amr_description.cli.local_participants import count_local_participants
 from amr_description.cli.names import full_name
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.local_participants import count_local_participants
 from amr_description.text import did_you_mean
 
 _QUIET = 0.4  # s without changes until discovery is complete; Fast DDS repeats after 0.28 s

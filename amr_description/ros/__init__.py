@@ -3,28 +3,29 @@
 """
 rclpy as every node of this package uses it; start with ``runtime.py``.
 
-======================= ===========================================================================
-``runtime.py``          start, spin and end a program; exit codes
-``signals.py``          SIGINT, SIGTERM, SIGHUP and the end of the bring-up as one request to stop
-``discovery.py``        have Fast DDS find other processes at once
-``transport.py``        have Fast DDS send by UDP, so that no killed process holds us up
-``udp_sockets.py``      which UDP ports of this host are in use
-``rclpy_internals.py``  the private members of rclpy that are used, and nothing else uses
+========================= =========================================================================
+``runtime.py``            start, spin and end a program; exit codes
+``signals.py``            SIGINT, SIGTERM, SIGHUP and the bring-up's end as one request to stop
+``discovery.py``          have Fast DDS find other processes at once
+``transport.py``          have Fast DDS send by UDP, so that no killed process holds us up
+``udp_sockets.py``        which UDP ports of this host are in use
+``rclpy_internals.py``    the private members of rclpy that are used, and nothing else uses
 
-``arguments.py``        ROS arguments of a command line; a robot description named there
-``node_help.py``        ``--help`` of an executable that has no other options
-``parameters.py``       parameters of a node from a table of ``amr_description.parameters``
-``log_thread.py``       logging that never blocks the caller
-``qos.py``              QoS profiles that several nodes share
+``arguments.py``          ROS arguments of a command line; a robot description named there
+``node_help.py``          ``--help`` of an executable that has no other options
+``parameters.py``         parameters of a node from a table of ``amr_description.parameters``
+``log_thread.py``         logging that never blocks the caller
+``qos.py``                QoS profiles that several nodes share
 
-``service_calls.py``    wait for something, and call services, in a program that then ends
-``wait_clock.py``       the time for which a program has waited, on a busy machine too
-``polled_topic.py``     a subscription without a callback
-``endpoints.py``        publishers and subscriptions of the graph, by their nodes
-``type_mismatch.py``    endpoints of one topic with different types; Twist or TwistStamped
+``service_calls.py``      wait for something, and call services, in a program that then ends
+``wait_clock.py``         the time for which a program has waited, on a busy machine too
+``polled_topic.py``       a subscription without a callback
+``endpoints.py``          publishers and subscriptions of the graph, by their nodes
+``local_participants.py`` DDS participants on this host, from the UDP ports in use
+``type_mismatch.py``      endpoints of one topic with different types; Twist or TwistStamped
 
-``messages.py``         stamps, poses and velocities ↔ messages
-``message_types.py``    classes of messages, services and actions by their names
-``cdr.py``              serialized messages, read without making messages of them
-======================= ===========================================================================
+``messages.py``           stamps, poses and velocities ↔ messages
+``message_types.py``      classes of messages, services and actions by their names
+``cdr.py``                serialized messages, read without making messages of them
+========================= =========================================================================
 """

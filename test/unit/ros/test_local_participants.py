@@ -7,7 +7,7 @@ import socket
 
 import pytest
 
-from amr_description.cli.local_participants import count_local_participants, participant_ids
+from amr_description.ros.local_participants import count_local_participants, participant_ids
 
 
 @pytest.mark.parametrize('domain', [0, 33, 101])
