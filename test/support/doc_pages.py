@@ -49,15 +49,24 @@ class Page:
         return [' '.join(each.split()) for each in re.findall(r'`([^`]+)`', prose)]
 
     def is_sound(self):
-        """Every file that it links to, and every executable that it starts, is there."""
+        """Every file and heading that it links to, and every executable it starts, is there."""
         links = re.findall(r'\]\(([^):]+)\)', self.text)
         setup = (ROOT / 'setup.py').read_text()
         started = re.findall(r'ros2 run amr_description (\w+)', self.text)
         return (
             bool(links and started)
-            and all((ROOT / 'docs' / link).is_file() for link in links)
+            and all(self._leads_somewhere(*link.partition('#')[::2]) for link in links)
             and all(f"'{name} = amr_description." in setup for name in started)
         )
+
+    def _leads_somewhere(self, path, heading):
+        page = ROOT / 'docs' / (path or self.name)
+        if not (page.is_file() and heading):
+            return page.is_file()
+        titles = re.findall(r'^#+ (.*)', page.read_text(), re.MULTILINE)
+        return heading in {
+            re.sub(r'[^\w -]', '', title.lower()).replace(' ', '-') for title in titles
+        }
 
 
 def install(folder, monkeypatch, **modules):
