@@ -22,10 +22,15 @@ with which it adds nothing, together with a profile that keeps discovery on this
 does. Only with static peers it is SUBNET: the peers are taken then, and this participant announces
 itself to the network by multicast, too, which LOCALHOST would not.
 
+LOCALHOST announces itself to this host only, but listens to all: it talks to a participant of
+another host that has this one among its static peers. ``udp_loopback.xml``, which tests have, does
+not hear that one.
+
 ==================================  =================================================
 what the user has set               what holds
 ==================================  =================================================
 nothing of the below                ``udp.xml``, with LOCALHOST ``udp_localhost.xml``
+LOCALHOST and ``udp_loopback.xml``  ``udp_loopback.xml``
 ``FASTDDS_BUILTIN_TRANSPORTS``      that, and ``discovery.xml``
 ``FASTRTPS_DEFAULT_PROFILES_FILE``  that file, and nothing of ours
 ==================================  =================================================
@@ -42,13 +47,14 @@ from amr_description.ros.discovery import PROFILE
 
 UDP = Path(__file__).with_name('udp.xml')
 UDP_LOCALHOST = Path(__file__).with_name('udp_localhost.xml')
+UDP_LOOPBACK = Path(__file__).with_name('udp_loopback.xml')
 
 _PROFILE_VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
 _TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'  # deprecated; 1 wins over the range and over static peers
 _PEERS = 'ROS_STATIC_PEERS'
-_OURS = {os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST)}
+_OURS = {os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK)}
 
 
 @contextmanager
@@ -58,16 +64,20 @@ def udp_only() -> Iterator[None]:
 
     The profile stays in the environment: Fast DDS reads it when the first node is made.
     """
-    given = filter(None, (os.environ.get(variable) for variable in _PROFILE_VARIABLES))
     # A parent process may have found this package by another path, as colcon links to the sources.
-    if {os.path.realpath(file) for file in given} - _OURS:
+    given = (os.environ.get(variable) for variable in _PROFILE_VARIABLES)
+    inherited = {os.path.realpath(file) for file in given if file}
+    if inherited - _OURS:
         yield
     elif os.environ.get(_TRANSPORTS):
         os.environ[_PROFILE_VARIABLES[0]] = str(PROFILE)
         yield
     else:
         changes = _changes(os.environ.get(_LOCALHOST_ONLY), os.environ.get(_RANGE))
-        os.environ[_PROFILE_VARIABLES[0]] = str(UDP_LOCALHOST if changes else UDP)
+        of_this_host = (
+            UDP_LOOPBACK if os.path.realpath(UDP_LOOPBACK) in inherited else UDP_LOCALHOST
+        )
+        os.environ[_PROFILE_VARIABLES[0]] = str(of_this_host if changes else UDP)
         previous = {variable: os.environ.get(variable) for variable in changes}
         os.environ.update(changes)
         try:

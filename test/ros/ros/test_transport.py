@@ -15,7 +15,7 @@ from support.running_programs import PATIENCE, Program
 
 from amr_description.ros.discovery import PROFILE
 from amr_description.ros.service_calls import wait_until
-from amr_description.ros.transport import UDP, UDP_LOCALHOST, udp_only
+from amr_description.ros.transport import UDP, UDP_LOCALHOST, UDP_LOOPBACK, udp_only
 
 VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
 RANGE, LOCALHOST_ONLY = 'ROS_AUTOMATIC_DISCOVERY_RANGE', 'ROS_LOCALHOST_ONLY'
@@ -53,6 +53,18 @@ def test_what_a_parent_has_left_may_have_another_path(monkeypatch, tmp_path):
     monkeypatch.setenv(RANGE, 'SUBNET')
     with udp_only():
         assert os.environ[VARIABLES[0]] == str(UDP)
+
+
+def test_the_profile_of_a_test_stays_on_this_host_alone(monkeypatch):
+    monkeypatch.setenv(VARIABLES[0], str(UDP_LOOPBACK))
+    for discovery_range, profile, passed_on in (
+        ('LOCALHOST', UDP_LOOPBACK, 'SYSTEM_DEFAULT'),
+        ('SUBNET', UDP, 'SUBNET'),
+    ):
+        monkeypatch.setenv(RANGE, discovery_range)
+        with udp_only():
+            assert os.environ[VARIABLES[0]] == str(profile)
+            assert os.environ[RANGE] == passed_on
 
 
 @pytest.mark.parametrize('discovery_range', ['SUBNET', 'OFF', 'SYSTEM_DEFAULT', None])
@@ -93,7 +105,7 @@ def test_transports_of_the_users_stay(monkeypatch):
         assert os.environ[VARIABLES[0]] == str(PROFILE)
 
 
-@pytest.mark.parametrize('profile', [PROFILE, UDP, UDP_LOCALHOST])
+@pytest.mark.parametrize('profile', [PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK])
 def test_every_profile_listens_before_it_announces(profile):
     assert '<throughputController>' in profile.read_text(encoding='utf-8')
 
@@ -106,6 +118,18 @@ def test_a_program_maps_no_shared_memory_and_fast_dds_has_no_complaint(discovery
         maps = Path(f'/proc/{talker.process.pid}/maps').read_text(encoding='utf-8')
         assert 'librmw_fastrtps_cpp' in maps
         assert '/dev/shm/fastrtps' not in maps
+
+
+def test_the_two_profiles_of_this_host_differ_in_where_they_listen_alone():
+    def content(profile):
+        return profile.read_text(encoding='utf-8').partition('<dds')[2].split('\n')
+
+    added = set(content(UDP_LOOPBACK)) - set(content(UDP_LOCALHOST))
+    assert len(content(UDP_LOOPBACK)) == len(content(UDP_LOCALHOST)) + 1
+    assert {line.strip() for line in added} == {
+        '<interfaceWhiteList><address>127.0.0.1</address></interfaceWhiteList>',
+        '<participant profile_name="udp_loopback" is_default_profile="true">',
+    }
 
 
 def test_programs_with_shared_memory_are_reached():
