@@ -19,7 +19,7 @@ from hypothesis import settings
 import pytest
 from support import failures, ordering
 
-from amr_description.testing.program import take_domain
+from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
 
 ROOT = Path(__file__).resolve().parents[1]
 UNIT = ROOT / 'test' / 'unit'
@@ -76,6 +76,8 @@ def pytest_configure(config):
     KEPT['logs'] = tempfile.TemporaryDirectory(prefix='amr-test-logs-')
     prefixes = [str(ROOT / 'install' / 'amr_description'), sys.prefix]
     known = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
+    for variable in WAYS_TO_OTHERS:
+        os.environ.pop(variable, None)
     os.environ |= {
         'ROS_DOMAIN_ID': str(domain),
         'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',

@@ -1,23 +1,34 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Counts the DDS participants on this host, which discovery has to find.
+The DDS participants on this host, from the UDP ports in use: nobody is asked, or disturbed.
 
-Each listens to its discovery messages at a UDP port of its own, and by the port formula of the
-DDS standard (DDSI-RTPS 2.5, 9.6.2.3) that port tells its domain:
-``7400 + 250 * domain + 10 + 2 * participant``. Linux lists the ports in use.
+By the port formula of the DDS standard (DDSI-RTPS 2.5, 9.6.2.3) a participant listens to discovery
+messages at ``7400 + 250 * domain + 10 + 2 * participant``, of its own, and with the range SUBNET
+at ``7400 + 250 * domain``, which it shares. Linux lists the ports in use, of all users.
+
+The list is that of the network namespace. Those in another one (a container, unless it has the
+network of the host) have addresses of their own and count as other hosts. Participants without
+UDP (``FASTDDS_BUILTIN_TRANSPORTS=SHM``), and those whose profile sets ports, are not seen.
+
+This module imports no rclpy.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
+import os
+from pathlib import Path
+import re
 
 from amr_description.ros.udp_sockets import udp_sockets
+from amr_description.text import one_line, quote
 
 _PORT_BASE = 7400
 _DOMAIN_GAIN = 250
 _PARTICIPANT_GAIN = 2
 _UNICAST_OFFSET = 10
 _PARTICIPANTS = range(120)
+_SOCKET = re.compile(r'socket:\[(\d+)\]')
 
 
 def count_local_participants(domain: int) -> int:
@@ -34,6 +45,56 @@ def participant_ids(ports: Collection[int], domain: int) -> set[int]:
     A participant has the port after that too, for its data; a lone port is some other program's:
     the ports of the highest domains lie among those that Linux gives to any socket.
     """
-    first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
-    own = ((participant, first + _PARTICIPANT_GAIN * participant) for participant in _PARTICIPANTS)
-    return {participant for participant, port in own if port in ports and port + 1 in ports}
+    own = dict(zip(_PARTICIPANTS, _discovery_ports(domain)[1:], strict=True))
+    return {
+        participant for participant, port in own.items() if port in ports and port + 1 in ports
+    }
+
+
+def discovery_sockets(domain: int) -> dict[int, set[int]]:
+    """
+    Return the sockets at which a participant of a domain may be listening: port → inodes.
+
+    A lone port counts too: whoever looks for a domain of its own rather leaves one out. Raises
+    OSError: the system shows no table of sockets.
+    """
+    sockets = udp_sockets()
+    return {port: sockets[port] for port in _discovery_ports(domain) if port in sockets}
+
+
+def is_on_the_network(domain: int) -> bool:
+    """Return whether a participant of a domain on this host listens to other hosts (SUBNET)."""
+    return _discovery_ports(domain)[0] in discovery_sockets(domain)
+
+
+def foreign_sockets(domain: int, processes: Iterable[int]) -> dict[int, set[int]]:
+    """Return those of :func:`discovery_sockets` that none of these processes has open."""
+    found = discovery_sockets(domain)
+    own = {inode for pid in processes for inode in _open_sockets(Path(f'/proc/{pid}'))}
+    return {port: inodes - own for port, inodes in found.items() if inodes - own}
+
+
+def owner_of(inodes: set[int]) -> str:
+    """Return pid and command line of the process that has a socket open; '': another user's."""
+    for process in Path('/proc').glob('[0-9]*'):
+        if inodes.intersection(_open_sockets(process)):
+            with suppress(OSError):
+                words = (process / 'cmdline').read_text(errors='replace').split('\0')
+                return f'pid {process.name} {quote(one_line(" ".join(words).strip()))}'
+    return ''
+
+
+def _open_sockets(process: Path) -> Iterator[int]:
+    """Yield the inodes; none of a process that has ended, or is another user's."""
+    with suppress(OSError):
+        for descriptor in os.scandir(process / 'fd'):
+            with suppress(OSError):
+                if found := _SOCKET.fullmatch(os.readlink(descriptor.path)):
+                    yield int(found[1])
+
+
+def _discovery_ports(domain: int) -> tuple[int, ...]:
+    """Return the port of all participants, then that of each."""
+    first = _PORT_BASE + _DOMAIN_GAIN * domain
+    own = (first + _UNICAST_OFFSET + _PARTICIPANT_GAIN * number for number in _PARTICIPANTS)
+    return first, *own

@@ -30,6 +30,7 @@ from simulation_interfaces.srv import (
 
 from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
+from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.service_calls import ask_until_answered, name_of_type, wait_until
@@ -41,6 +42,9 @@ _RETRY_DELAY = 0.05
 """s until a command counts as lost and is published again; doubled after each attempt."""
 _MAX_STEPS = 1000
 """Physics steps in one request, so that none takes long."""
+
+_GUID_PREFIX = 12
+"""Bytes of an endpoint's GUID that are its participant's (DDSI-RTPS 2.5, 9.3.1)."""
 
 type Condition = Callable[[], Any]
 
@@ -64,13 +68,17 @@ class LockStep:
         self._publishers: dict[str, Publisher] = {}
         self._published: dict[str, int] = {}
         self._acknowledged: dict[str, int] = {}
+        self._checked: dict[str, int] = {}
         self.time = 0
         """Simulated time, ns."""
         self.timestep = 0
         """A physics step, ns; set by :meth:`measure_timestep`."""
-        topic = loop_publisher.ACKNOWLEDGEMENT_TOPIC.replace('~', name)
+        self._acknowledgements = loop_publisher.ACKNOWLEDGEMENT_TOPIC.replace('~', name)
         node.create_subscription(
-            KeyValue, topic, self._on_acknowledgement, loop_publisher.ACKNOWLEDGEMENT_QOS
+            KeyValue,
+            self._acknowledgements,
+            self._on_acknowledgement,
+            loop_publisher.ACKNOWLEDGEMENT_QOS,
         )
 
     # --- services -----------------------------------------------------------------------------
@@ -97,8 +105,10 @@ class LockStep:
             **fields: Of the request.
 
         Raises:
-            SimulationError: The simulator reports an error, or has ended.
+            SimulationError: The simulator reports an error, has ended, or is not the only one.
         """
+        if self.node.count_publishers(self._acknowledgements) > 1:
+            raise SimulationError(f'a second simulator {self._name} {self._intruder()}')
         client, name = self._client(service_type), name_of_type(service_type)
         self.wait(client.service_is_ready, f"the simulator's service {name}")
         future = client.call_async(service_type.Request(**fields))
@@ -140,7 +150,7 @@ class LockStep:
             messages: Topic → message.
 
         Raises:
-            SimulationError: No controller accepts a message.
+            SimulationError: No controller accepts a message, or a second robot hears it.
         """
         waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
         for topic, message in waiting.items():
@@ -173,6 +183,7 @@ class LockStep:
         for topic in [each for each in self._publishers if each.startswith(inside)]:
             self.node.destroy_publisher(self._publishers.pop(topic))
             self._acknowledged.pop(topic, None)
+            self._checked.pop(topic, None)
 
     def _prepare(self, topic: str, message: Any) -> None:
         """Stamp a message, and wait until its topic has a subscriber."""
@@ -186,6 +197,33 @@ class LockStep:
         self.wait(
             publisher.get_subscription_count,
             f"a subscriber of '{topic}' ({type(message).__name__})",
+        )
+        self._require_one_robot(topic)
+
+    def _require_one_robot(self, topic: str) -> None:
+        """
+        Raise SimulationError if two participants have a controller of one name on a topic.
+
+        Looked at again only when the number of subscriptions has changed: that of the graph, which
+        knows a subscription before the publisher sends to it.
+        """
+        count = self.node.count_subscribers(topic)
+        if self._checked.get(topic) == count:
+            return
+        found: dict[str, bytes] = {}
+        for each in self.node.get_subscriptions_info_by_topic(topic):
+            name, participant = endpoint_node(each), bytes(each.endpoint_gid[:_GUID_PREFIX])
+            if name is None:  # not yet discovered
+                return
+            if found.setdefault(name, participant) != participant:
+                raise SimulationError(f'a second controller {name} {self._intruder()}')
+        self._checked[topic] = count
+
+    def _intruder(self) -> str:
+        domain = self.node.context.get_domain_id()
+        return (
+            f'has come into ROS domain {domain}, which is that of this test; give that another '
+            'ROS_DOMAIN_ID, and run the test again'
         )
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:

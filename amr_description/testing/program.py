@@ -4,7 +4,10 @@
 The simulator as a process of a test, in a ROS domain of its own.
 
 The process ends with the test, in whatever way that ends. Domains are taken by lock files, so that
-several tests can run side by side: of one checkout, or of several.
+several tests can run side by side: of one checkout, or of several. One with a participant on this
+host is never taken, and nobody of another host is heard in it. Who starts something in it later,
+on this host, is noticed: by :func:`require_alone` at the start, then by
+:class:`~amr_description.testing.lock_step.LockStep`.
 """
 
 from collections.abc import Iterator, Mapping
@@ -23,18 +26,32 @@ import amr_description
 from amr_description.bringup.command_line import yaml_text
 from amr_description.entry import LIFELINE_VARIABLE
 from amr_description.errors import SimulationError
+from amr_description.ros.local_participants import discovery_sockets, foreign_sockets, owner_of
+from amr_description.ros.transport import UDP_LOOPBACK
 
 STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""
 
 DOMAINS = range(1, 102)
 """ROS domains whose ports are below the ephemeral ports of the system; 0 is the default one."""
-LOCKS = Path(tempfile.gettempdir())
-"""The folder of the lock files, one for each domain."""
+LOCKS = Path('/tmp')
+"""The folder of the lock files, one for each domain; TMPDIR makes no other domains of them."""
+WAYS_TO_OTHERS = (
+    'ROS_LOCALHOST_ONLY',
+    'ROS_STATIC_PEERS',
+    'ROS_DISCOVERY_SERVER',
+    'FASTDDS_DEFAULT_PROFILES_FILE',
+    'FASTDDS_BUILTIN_TRANSPORTS',
+)
+"""Environment variables by which a shell finds others; a robot may be among them."""
 
 _MODULE = 'amr_description.nodes.mujoco_sim'
 _LINE = re.compile(r'^\[(?:ERROR|FATAL)\] (?:\[[^]]*\] ?)*:? ?(.*)', re.MULTILINE)
-_DOMAIN, _RANGE = 'ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+_DOMAIN = 'ROS_DOMAIN_ID'
+_THIS_HOST_ONLY = {
+    'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+    'FASTRTPS_DEFAULT_PROFILES_FILE': str(UDP_LOOPBACK),
+}
 
 
 class SimulatorProcess:
@@ -137,27 +154,78 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 def take_domain() -> tuple[int, int]:
     """
-    Return a domain that no other test uses, and the open file that reserves it.
+    Return a domain that nobody else uses, and the open file that reserves it.
 
-    Never the domain of the environment: a robot may be in it. Raises SimulationError: none is
-    free.
+    Nobody: no other test, and no participant on this host. Never the domain of the environment: a
+    robot may be in it, here or elsewhere.
+
+    Raises:
+        SimulationError: None is free, or the system does not show who is there.
     """
     forbidden = os.environ.get(_DOMAIN)
     start = os.getpid() % len(DOMAINS)
+    occupied = 0
     for domain in (*DOMAINS[start:], *DOMAINS[:start]):
         if str(domain) == forbidden:
             continue
-        try:
-            lock = os.open(LOCKS / f'ros_domain_{domain}.lock', os.O_CREAT | os.O_RDWR, 0o666)
-        except PermissionError:  # another user's
+        lock = _lock(domain)
+        if lock is None:
             continue
+        # Looked at with the lock, so that no other test can come in between.
+        if not _is_occupied(domain):
+            return domain, lock
+        os.close(lock)
+        occupied += 1
+    raise SimulationError(
+        f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken: {occupied} by programs on '
+        f'this host, {len(DOMAINS) - occupied} by other tests or this shell; end some of them'
+    )
+
+
+def _lock(domain: int) -> int | None:
+    """Return the open lock file of a domain; None: it is another test's."""
+    path = LOCKS / f'ros_domain_{domain}.lock'
+    try:
         try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(lock)
-            continue
-        return domain, lock
-    raise SimulationError(f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken')
+            lock = os.open(path, os.O_RDONLY)  # whoever made it: to lock it, one may only read it
+        except FileNotFoundError:
+            lock = os.open(path, os.O_RDONLY | os.O_CREAT, 0o644)
+    except PermissionError:
+        return None
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(lock)
+        return None
+    return lock
+
+
+def _is_occupied(domain: int) -> bool:
+    try:
+        return bool(discovery_sockets(domain))
+    except OSError as error:
+        raise SimulationError(
+            f'a test needs a ROS domain without anybody in it, and who is there cannot be read: '
+            f'{error.filename}: {error.strerror}'
+        ) from None
+
+
+def require_alone(domain: int, simulator: int) -> None:
+    """
+    Raise SimulationError if others than this process and the simulator are in a domain.
+
+    Whoever has started there since the domain was taken is seen at once, before discovery.
+
+    Args:
+        domain: That of the test.
+        simulator: Process id.
+    """
+    for port, inodes in foreign_sockets(domain, (os.getpid(), simulator)).items():
+        who = owner_of(inodes) or 'a process of another user'
+        raise SimulationError(
+            f'ROS domain {domain} is that of this test, and {who} has come into it (UDP port '
+            f'{port}); give that another ROS_DOMAIN_ID, and run the test again'
+        )
 
 
 @contextmanager
@@ -165,13 +233,15 @@ def own_domain() -> Iterator[int]:
     """
     Set a free domain, on this host only, in the environment while inside; yield its number.
 
-    It applies to processes and rclpy contexts that are started inside. Raises SimulationError:
-    none is free.
+    It applies to processes and rclpy contexts that are started inside. What the environment says
+    of static peers, a discovery server, transports and profiles holds outside only. Raises
+    SimulationError: no domain is free.
     """
-    before = {name: os.environ.get(name) for name in (_DOMAIN, _RANGE)}
     domain, lock = take_domain()
+    changed = (_DOMAIN, *_THIS_HOST_ONLY, *WAYS_TO_OTHERS)
+    before = {name: os.environ.pop(name, None) for name in changed}
     try:
-        os.environ |= {_DOMAIN: str(domain), _RANGE: 'LOCALHOST'}
+        os.environ |= {_DOMAIN: str(domain), **_THIS_HOST_ONLY}
         yield domain
     finally:
         for name, value in before.items():

@@ -24,7 +24,7 @@ Several robots, each in the namespace of its name::
 """
 
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 import math
 from pathlib import Path
 import time as wall
@@ -47,9 +47,10 @@ from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
 from amr_description.ros.discovery import use_whole_graph
+from amr_description.ros.local_participants import is_on_the_network
 from amr_description.ros.transport import udp_only
 from amr_description.testing.lock_step import Condition, LockStep
-from amr_description.testing.program import own_domain, simulator
+from amr_description.testing.program import own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
 from amr_description.testing.robot import DRIVE, Robot, spawn, spawn_controllers, Topics
 
@@ -124,11 +125,12 @@ class Simulation:
             self._description = self._read_description()
             # Before anything is started: what is wrong with it is told at once.
             self._is_controlled = bool(hardware_of(parse_urdf(self._description)))
-            stack.enter_context(own_domain())
+            domain = stack.enter_context(own_domain())
             self._simulator = stack.enter_context(simulator(self._parameters))
-            context = self._ros(stack)
+            context = self._ros(stack, domain)
             self._lock_step = LockStep(self.node, self._simulator)
             self._running.connect()
+            require_alone(domain, self._simulator.process.pid)
             self._readings = Node(
                 'simulation_readings', context=context, use_global_arguments=False
             )
@@ -156,17 +158,20 @@ class Simulation:
             )
         return self._lock_step
 
-    def _ros(self, stack: ExitStack) -> Context:
+    def _ros(self, stack: ExitStack, domain: int) -> Context:
         """Make a context and a node; the test may have initialised rclpy itself, or not."""
         use_whole_graph()
-        context = Context()
-        with udp_only():
-            rclpy.init(args=[], context=context)
+        context, self.node = _client(udp_only())
+        """For the test's own subscriptions, publishers and clients; :meth:`wait` spins it."""
+        if is_on_the_network(domain):
+            # Fast DDS reads its profile once in a process, and the test had a node before: so it
+            # knows none that keeps a participant without shared memory on this host.
+            self.node.destroy_node()
+            context.shutdown()
+            context, self.node = _client(nullcontext())
         stack.callback(context.try_shutdown)
         executor = SingleThreadedExecutor(context=context)
         stack.callback(executor.shutdown)
-        self.node = Node('simulation_client', context=context, use_global_arguments=False)
-        """For the test's own subscriptions, publishers and clients; :meth:`wait` spins it."""
         stack.callback(self.node.destroy_node)
         executor.add_node(self.node)
         return context
@@ -404,6 +409,14 @@ class Simulation:
         """Spin the node until an instant of ``time.monotonic``, s."""
         while (delay := instant - wall.monotonic()) > 0.0:
             self.node.executor.spin_once(timeout_sec=delay)
+
+
+def _client(transport: AbstractContextManager[None]) -> tuple[Context, Node]:
+    """Return a node of the test, in a context that is initialised with ``transport``."""
+    context = Context()
+    with transport:
+        rclpy.init(args=[], context=context)
+    return context, Node('simulation_client', context=context, use_global_arguments=False)
 
 
 def _twist(linear: float, angular: float) -> TwistStamped:

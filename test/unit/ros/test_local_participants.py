@@ -1,13 +1,21 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whom discovery has yet to find, from the UDP ports in use."""
+"""Who is in a domain on this host, from the UDP ports in use."""
 
 import os
 import socket
 
 import pytest
 
-from amr_description.ros.local_participants import count_local_participants, participant_ids
+from amr_description.ros.local_participants import (
+    count_local_participants,
+    discovery_sockets,
+    foreign_sockets,
+    is_on_the_network,
+    owner_of,
+    participant_ids,
+)
+from amr_description.testing.program import take_domain
 
 
 @pytest.mark.parametrize('domain', [0, 33, 101])
@@ -35,3 +43,43 @@ def test_ports_in_use_count():
         user.bind(('127.0.0.1', first + 1))
         assert count_local_participants(domain) == before + 1
     assert count_local_participants(domain) == before
+
+
+@pytest.fixture
+def first_port():
+    """Of a domain without participants."""
+    domain, lock = take_domain()
+    yield 7400 + 250 * domain
+    os.close(lock)
+
+
+@pytest.mark.parametrize('address', ['0.0.0.0', '127.0.0.1', '::', '::1'])
+@pytest.mark.parametrize('offset', [0, 10, 12, 248])
+def test_a_socket_where_a_participant_listens_is_seen(first_port, address, offset):
+    domain, port = (first_port - 7400) // 250, first_port + offset
+    assert discovery_sockets(domain) == {}
+    family = socket.AF_INET6 if ':' in address else socket.AF_INET
+    with socket.socket(family, socket.SOCK_DGRAM) as listener:
+        try:
+            listener.bind((address, port))
+        except OSError as error:
+            pytest.skip(f'no IPv6 here: {error}')
+        inode = os.fstat(listener.fileno()).st_ino
+        assert discovery_sockets(domain) == {port: {inode}}
+        assert is_on_the_network(domain) == (offset == 0)
+        assert foreign_sockets(domain, [os.getpid()]) == {}
+        assert foreign_sockets(domain, [os.getppid()]) == {port: {inode}}
+        assert owner_of({inode}).startswith(f'pid {os.getpid()} "')
+    assert discovery_sockets(domain) == {}
+
+
+@pytest.mark.parametrize('offset', [-2, 1, 11, 249, 250])
+def test_a_socket_elsewhere_is_nobodys(first_port, offset):
+    domain = (first_port - 7400) // 250
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(('127.0.0.1', first_port + offset))
+        assert discovery_sockets(domain) == {}
+
+
+def test_a_socket_of_nobody_has_no_owner():
+    assert owner_of({0}) == ''
