@@ -13,6 +13,9 @@ from contextlib import contextmanager, ExitStack
 from pathlib import Path
 import shutil
 import subprocess
+import time
+
+from support.running_programs import PATIENCE
 
 # Says that it is there, and holds its namespaces until its stdin is closed.
 _HOLD = 'mount -t tmpfs tmpfs /dev/shm && ip link set lo up && echo up && read -r end'
@@ -64,6 +67,20 @@ class Machine:
         for machine, name, its in ((self, end, address), (other, other_end, other_address)):
             machine.do('ip', 'address', 'add', its, 'dev', name)
             machine.do('ip', 'link', 'set', name, 'up')
+        for machine, name in ((self, end), (other, other_end)):
+            machine.wait_for_carrier(name)
+
+    def wait_for_carrier(self, interface: str) -> None:
+        """
+        Wait until the kernel says that a cable is plugged in: seconds later, on a busy host.
+
+        A participant of Fast DDS asks once, at its start, and would never use the interface.
+        """
+        show = [*self.inside(), 'ip', '-oneline', 'link', 'show', 'dev', interface]
+        deadline = time.monotonic() + PATIENCE
+        while ' state UP ' not in (state := subprocess.check_output(show, text=True)):
+            if time.monotonic() > deadline:
+                raise OSError(f'no carrier: {state.strip()}')
 
 
 @contextmanager

@@ -4,7 +4,6 @@
 
 from contextlib import contextmanager
 import os
-import subprocess
 import sys
 
 from geometry_msgs.msg import TwistStamped
@@ -12,7 +11,7 @@ import pytest
 from support import machines
 from support.needs import need
 from support.paths import ROOT
-from support.running_programs import ENVIRONMENT, PATIENCE, Program
+from support.running_programs import Program
 
 from amr_description.errors import SimulationError
 from amr_description.testing import simulation
@@ -148,24 +147,14 @@ with own_domain() if sys.argv[1] == 'of_a_test' else nullcontext():
         names = set(node.get_node_names())
         rclpy.spin_once(node, timeout_sec=0.05)
     print('sees', *sorted(names), flush=True)
-    sys.stdin.read()
+    rclpy.spin(node)
 """
 
 
-@contextmanager
 def node_on(machine, *args, **variables):
-    """A node on a machine, until the end; its output is a pipe."""
-    process = subprocess.Popen(
-        [*machine.inside(), sys.executable, '-c', NODE, *args],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        env=os.environ | ENVIRONMENT | {'FASTRTPS_DEFAULT_PROFILES_FILE': ''} | variables,
-    )
-    try:
-        yield process.stdout
-    finally:
-        process.communicate(timeout=PATIENCE)
+    """A node on a machine, until the end."""
+    env = {'FASTRTPS_DEFAULT_PROFILES_FILE': ''} | variables  # as in a shell
+    return Program(*machine.inside(), sys.executable, '-c', NODE, *args, env=env)
 
 
 def test_a_robot_elsewhere_that_has_this_host_as_a_peer_does_not_see_a_test():
@@ -174,11 +163,12 @@ def test_a_robot_elsewhere_that_has_this_host_as_a_peer_does_not_see_a_test():
         pytest.skip(refused)
     peer = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET', 'ROS_STATIC_PEERS': '192.168.7.1'}
     with machines.one_network() as (here, elsewhere), node_on(here, 'of_a_test') as test:
-        _, domain = test.readline().split()
+        domain = test.expect(r'domain (\d+)\n')[1]
         with (
             node_on(elsewhere, 'robot', domain, **peer) as robot,
             node_on(here, 'on_this_host', domain) as other,
         ):
-            assert robot.readline() == other.readline() == f'domain {domain}\n'
-            assert test.readline() == 'sees of_a_test on_this_host\n'
-            assert robot.readline() == 'sees on_this_host robot\n'
+            for program in (robot, other):
+                program.expect(f'domain {domain}\n')
+            test.expect(r'sees of_a_test on_this_host\n')
+            robot.expect(r'sees on_this_host robot\n')
