@@ -32,7 +32,7 @@ from amr_description.ros.transport import UDP_LOOPBACK
 STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""
 
-DOMAINS = range(1, 102)
+DOMAINS = range(1, 101)
 """ROS domains whose ports are below the ephemeral ports of the system; 0 is the default one."""
 LOCKS = Path('/tmp')
 """The folder of the lock files, one for each domain; TMPDIR makes no other domains of them."""
