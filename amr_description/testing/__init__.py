@@ -19,6 +19,8 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 ``readings.py``         its motion and joint states, from messages
 ``lock_step.py``        services of a paused simulator; commands that are known to have arrived
 ``program.py``          the simulator's process and its ROS domain
+``failure_logs.py``     the simulator's log, for a test that fails
+``tracebacks.py``       which of our frames a failed test shows
 
 ``recorded_drive.py``   a controller that drives a course and records every state
 ``determinism.py``      two runs of it, compared byte by byte

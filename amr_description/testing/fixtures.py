@@ -7,11 +7,14 @@ In your ``conftest.py``::
 
     pytest_plugins = ['amr_description.testing.fixtures']
 
+A test that fails shows the last lines of the simulator's log; all of it is in a file beside that
+of ``--junitxml`` (``failure_logs.py``).
+
 They are not registered by an entry point ``pytest11``: that would load them, with their names,
 into every pytest of the environment.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack
 from typing import Any
 import warnings
@@ -19,9 +22,30 @@ import warnings
 import pytest
 
 from amr_description.errors import SimulationError
+from amr_description.testing.failure_logs import add_logs, forget_ended
 from amr_description.testing.simulation import Simulation
+from amr_description.testing.tracebacks import is_for_the_test, without_frames
+
+__tracebackhide__ = is_for_the_test
 
 type MakeSimulation = Callable[..., Simulation]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup() -> None:
+    """Forget the simulators of earlier tests."""
+    forget_ended()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item,
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Add the logs of the simulators to the report of a test that fails."""
+    report = yield
+    if report.failed:
+        add_logs(item, report)
+    return report
 
 
 @pytest.fixture(scope='module')
@@ -33,28 +57,31 @@ def simulation() -> Iterator[MakeSimulation]:
     and started again if it has ended. All end with the module. The controllers stay as the last
     test has switched them.
     """
-    running: dict[str, tuple[Simulation, ExitStack]] = {}
+    running: dict[str, Simulation] = {}
 
     def make(*args: Any, **options: Any) -> Simulation:
         key = repr((args, sorted(options.items())))
         if key in running:
-            sim, own = running[key]
+            sim = running[key]
             if sim.is_alive:
                 sim.reset()
                 return sim
             del running[key]
             try:
-                own.close()
+                _end([sim])
             except SimulationError as error:
                 warnings.warn(f'{error}; it is started again', stacklevel=2)
-        own = ExitStack()
-        sim = own.enter_context(Simulation(*args, **options))
-        running[key] = (sim, own)
-        return sim
+        running[key] = Simulation(*args, **options).__enter__()
+        return running[key]
 
+    try:
+        yield make
+    finally:
+        _end(running.values())
+
+
+@without_frames
+def _end(simulations: Iterable[Simulation]) -> None:
     with ExitStack() as stack:
-        try:
-            yield make
-        finally:
-            for _, own in running.values():
-                stack.push(own)
+        for sim in simulations:
+            stack.push(sim)

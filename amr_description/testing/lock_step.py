@@ -35,6 +35,9 @@ from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.service_calls import ask_until_answered, name_of_type, wait_until
 from amr_description.testing.program import SimulatorProcess
+from amr_description.testing.tracebacks import is_for_the_test, without_frames
+
+__tracebackhide__ = is_for_the_test
 
 TIMEOUT = 30.0
 """s of the wall clock, for every wait."""
@@ -226,6 +229,7 @@ class LockStep:
             'ROS_DOMAIN_ID, and run the test again'
         )
 
+    @without_frames
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
         Spin the node until a condition holds; return what it returned.

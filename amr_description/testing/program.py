@@ -10,6 +10,7 @@ on this host, is noticed: by :func:`require_alone` at the start, then by
 :class:`~amr_description.testing.lock_step.LockStep`.
 """
 
+from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 import fcntl
@@ -28,6 +29,9 @@ from amr_description.entry import LIFELINE_VARIABLE
 from amr_description.errors import SimulationError
 from amr_description.ros.local_participants import discovery_sockets, foreign_sockets, owner_of
 from amr_description.ros.transport import UDP_LOOPBACK
+from amr_description.testing.tracebacks import is_for_the_test
+
+__tracebackhide__ = is_for_the_test
 
 STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""
@@ -61,11 +65,23 @@ class SimulatorProcess:
     def __init__(self, process: subprocess.Popen[bytes], log: Path) -> None:
         self.process = process
         self._log = log
+        self._last_log: str | None = None
 
     @property
     def log(self) -> str:
         """Its output so far."""
+        if self._last_log is not None:
+            return self._last_log
         return self._log.read_text(encoding='utf-8', errors='replace')
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether it was ended, or ended by itself."""
+        return self.process.poll() is not None
+
+    def keep_log(self) -> None:
+        """Read the log for the last time: the file will be removed."""
+        self._last_log = self.log
 
     def check(self) -> None:
         """Raise SimulationError, with its last error, if it has ended."""
@@ -97,6 +113,10 @@ class SimulatorProcess:
             raise SimulationError(self._describe_end(code))
 
 
+started: deque[SimulatorProcess] = deque(maxlen=20)
+"""The last simulators of this process, for the logs of a test that fails."""
+
+
 @contextmanager
 def simulator(parameters: Mapping[str, Any]) -> Iterator[SimulatorProcess]:
     """
@@ -121,11 +141,13 @@ def simulator(parameters: Mapping[str, Any]) -> Iterator[SimulatorProcess]:
                     start_new_session=True,  # Ctrl-C is for the test, which then ends it
                 )
             simulator_process = SimulatorProcess(process, log)
+            started.append(simulator_process)
             try:
                 yield simulator_process
                 simulator_process.stop()
             finally:
                 _end(process)
+                simulator_process.keep_log()
         finally:
             os.close(reader)
             os.close(writer)

@@ -27,6 +27,9 @@ from amr_description.testing.readings import (
     motion_of_entity,
     motion_of_odometry,
 )
+from amr_description.testing.tracebacks import is_for_the_test
+
+__tracebackhide__ = is_for_the_test
 
 DRIVE = 'DiffDriveController'
 """The end of the type of the controllers whose odometry and command topics are used."""

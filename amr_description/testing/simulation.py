@@ -53,6 +53,9 @@ from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
 from amr_description.testing.robot import DRIVE, Robot, spawn, spawn_controllers, Topics
+from amr_description.testing.tracebacks import is_for_the_test, without_frames
+
+__tracebackhide__ = is_for_the_test
 
 _AT_ORIGIN = Transform()
 _COMMAND_PERIOD = 0.1
@@ -120,6 +123,7 @@ class Simulation:
 
     # --- beginning and end --------------------------------------------------------------------
 
+    @without_frames
     def __enter__(self) -> Self:
         with ExitStack() as stack:
             self._description = self._read_description()
@@ -131,9 +135,7 @@ class Simulation:
             self._lock_step = LockStep(self.node, self._simulator)
             self._running.connect()
             require_alone(domain, self._simulator.process.pid)
-            self._readings = Node(
-                'simulation_readings', context=context, use_global_arguments=False
-            )
+            self._readings = _node('simulation_readings', context)
             stack.callback(self._readings.destroy_node)
             for name, pose in self._poses.items():
                 self._spawn(name, pose)
@@ -141,6 +143,7 @@ class Simulation:
             self._stack = stack.pop_all()
         return self
 
+    @without_frames
     def __exit__(
         self,
         kind: type[BaseException] | None,
@@ -179,7 +182,7 @@ class Simulation:
     def _read_description(self) -> str:
         if self._urdf.lstrip().startswith('<'):
             return self._urdf
-        return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=5))
+        return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=6))
 
     def _spawn(self, name: str, pose: Transform) -> Robot:
         """``name``: of the entity and its namespace; empty: that of the URDF, no namespace."""
@@ -227,6 +230,7 @@ class Simulation:
         """The name of the robot's entity."""
         return self.robot.name
 
+    @without_frames
     def spawn(self, name: str, pose: Transform = _AT_ORIGIN) -> Robot:
         """
         Add a robot, in the namespace ``name``; no time passes.
@@ -398,7 +402,7 @@ class Simulation:
     @property
     def is_alive(self) -> bool:
         """Whether the simulator runs."""
-        return self._simulator.process.poll() is None
+        return not self._simulator.has_ended
 
     def _steps_in(self, seconds: float) -> int:
         if not (math.isfinite(seconds) and seconds >= 0.0):
@@ -416,7 +420,12 @@ def _client(transport: AbstractContextManager[None]) -> tuple[Context, Node]:
     context = Context()
     with transport:
         rclpy.init(args=[], context=context)
-    return context, Node('simulation_client', context=context, use_global_arguments=False)
+    return context, _node('simulation_client', context)
+
+
+def _node(name: str, context: Context) -> Node:
+    """Make a node without /rosout: two simulations of a test have nodes of the same names."""
+    return Node(name, context=context, use_global_arguments=False, enable_rosout=False)
 
 
 def _twist(linear: float, angular: float) -> TwistStamped:
