@@ -19,6 +19,8 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
+from rclpy.clock import Clock as SystemClock
+from rclpy.clock_type import ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import get_logger
 from rclpy.node import Node
@@ -45,6 +47,7 @@ from amr_description.errors import HardwareStartError, ParameterError
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.arguments import ros_arguments
+from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.node_help import print_help
@@ -56,6 +59,10 @@ _OPTIONS = (
     'Also overruns.manage (true): leave out cycles that were missed; thread_priority (50): of the '
     'loop, by SCHED_FIFO; cpu_affinity: cores that the loop may run on; lock_memory (false).'
 )
+
+
+CLOCK_TIMEOUT = 3.0
+"""s without a message on ``/clock`` after which a warning says so."""
 
 
 class StandAloneManager:
@@ -140,7 +147,19 @@ class StandAloneManager:
         self.node.create_subscription(
             Clock, '/clock', lambda message: pacer.receive(nanoseconds(message.clock)), CLOCK
         )
+        self._watch_clock(pacer)
         return loop
+
+    def _watch_clock(self, pacer: SimTimePacer) -> None:
+        """Warn once if there is no time after a while."""
+
+        def look() -> None:
+            timer.cancel()
+            if not pacer.has_begun:
+                self._log(Severity.WARN, without_clock(self.node))
+
+        steady = SystemClock(clock_type=ClockType.STEADY_TIME)
+        timer = self.node.create_timer(CLOCK_TIMEOUT, look, clock=steady)
 
     def _loop_of(self, pacer: SystemClockPacer | SimTimePacer) -> Loop:
         self._pacer = pacer
@@ -176,6 +195,18 @@ class StandAloneManager:
         set_cpu_affinity(self._cores, self._log)
         if self._locks_memory:
             lock_memory(self._log)
+
+
+def without_clock(node: Node) -> str:
+    """Say why the controllers stand still, and what would do."""
+    publishers = {endpoint_node(each) for each in node.get_publishers_info_by_topic('/clock')}
+    silent = ', '.join(sorted(filter(None, publishers)))
+    cause = f'{silent} has published nothing on /clock' if silent else 'nobody publishes /clock'
+    return (
+        f'use_sim_time is true, and {cause}: the controllers stand still until time passes there; '
+        'start the simulation, or set use_sim_time to false, as mock and real hardware go by the '
+        'system clock'
+    )
 
 
 def option(node: Node, name: str, default: Any, *kinds: type) -> Any:

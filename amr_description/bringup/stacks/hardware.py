@@ -26,15 +26,21 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.conditions import Condition
+from amr_description.bringup.input_files import Note
 from amr_description.bringup.stacks.simulation import CONTROLLERS, how_to_drive, URDF
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
 
+_USES_SIM_TIME = re.compile(
+    r'^\s*["\']?use_sim_time["\']?\s*:\s*true\b', re.MULTILINE | re.IGNORECASE
+)
 _HARDWARE = re.compile(r'<hardware>.*?</hardware>', re.DOTALL)
 _SIMULATED_BOARD = {'answer_timeout': '1.0'}
 """s; a board that is a process of a busy computer may answer late, and turns no motors."""
 _PSEUDO_TERMINALS = '/dev/pts/'
 """What is behind a port there is a program, perhaps a ``motor_board`` of another terminal."""
+_SYSTEM_CLOCK = {'use_sim_time': False}
+"""Whatever the file says: with ``simulation``, which shares it, time comes from the simulator."""
 _PORT_TIMEOUT = 10.0
 """s; the port of a board that was just plugged in appears after two or three."""
 
@@ -106,7 +112,7 @@ def _controlled(
     """
     ros2_control_node = Node(
         'ros2_control_node',
-        parameters=[files[1]],
+        parameters=[files[1], _SYSTEM_CLOCK],
         on_exit='shutdown',
         start_when=start_when,
         timeout=timeout,
@@ -133,8 +139,15 @@ def _controlled(
         ],
         ready_when=exited_cleanly(diff_drive_controller),
         next_steps=how_to_drive(viewer),
-        notes=notes_on(files),
+        notes=[*notes_on(files), *_notes_on_clock(files[1])],
     )
+
+
+def _notes_on_clock(controllers: Path) -> list[Note]:
+    """Return a note where the parameters of the controllers ask for a simulator's clock."""
+    if not _USES_SIM_TIME.search(controllers.read_text('utf-8', errors='replace')):
+        return []
+    return [('INFO', f'use_sim_time: false, though {controllers} says true: nobody simulates')]
 
 
 def swap_hardware(urdf: str, plugin: str, parameters: Mapping[str, str] | None = None) -> str:

@@ -198,6 +198,11 @@ class SimTimePacer:
         """Simulated time; while it paces, the instant that is waited for."""
         return self._now
 
+    @property
+    def has_begun(self) -> bool:
+        """Whether a message has come."""
+        return self._received is not None
+
     def receive(self, time_received: int) -> None:
         """Take the time of a message, and wake the control thread; on the ROS thread."""
         last, self._received = self._received, time_received

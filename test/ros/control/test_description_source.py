@@ -8,6 +8,7 @@ import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from support.control_fakes import FakeLog, LEFT, RIGHT
 from support.manager_host import ros_in_this_process
@@ -18,6 +19,7 @@ from amr_description.bringup.stacks.hardware import swap_hardware
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareError
 from amr_description.model.urdf import parse
+from amr_description.nodes import ros2_control_node
 from amr_description.nodes.ros2_control_node import StandAloneManager
 from amr_description.ros.service_calls import wait_until
 
@@ -141,6 +143,29 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
             thread.join()
             robot.close()
             observer.destroy_node()
+
+
+@pytest.mark.parametrize(
+    ('publisher', 'cause'),
+    [('', 'nobody publishes /clock'), ('simulator', '/simulator has published nothing on /clock')],
+)
+def test_who_waits_for_a_clock_says_so_and_whose(stderr, monkeypatch, publisher, cause):
+    monkeypatch.setattr(ros2_control_node, 'CLOCK_TIMEOUT', 0.1)
+    with ros_in_this_process():
+        executor = SingleThreadedExecutor()
+        robot = StandAloneManager(executor, ['-p', 'use_sim_time:=true'])
+        simulator = Node(publisher or 'nobody')
+        try:
+            if publisher:
+                simulator.create_publisher(Clock, '/clock', 1)
+            robot.start()
+            while 'the controllers stand still' not in stderr():
+                executor.spin_once(timeout_sec=5.0)
+        finally:
+            executor.shutdown()
+            robot.close()
+            simulator.destroy_node()
+    assert f'use_sim_time is true, and {cause}: the controllers stand still until' in stderr()
 
 
 def test_hardware_that_does_not_reach_its_first_state_ends_the_process():

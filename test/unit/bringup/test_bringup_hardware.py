@@ -58,6 +58,27 @@ def test_mock_hardware():
     assert hardware(made).plugin == 'mock_components/GenericSystem'
 
 
+@pytest.mark.parametrize('function', [mock, serial])
+@pytest.mark.parametrize(
+    ('line', 'noted'),
+    [
+        ('    use_sim_time: true', True),
+        ('  use_sim_time : True  # s', True),
+        ('    rate: 1', False),
+    ]
+    + [('    use_sim_time: false', False), ('    # use_sim_time: true', False)],
+)
+def test_the_clock_is_that_of_the_system_whatever_the_file_says(tmp_path, function, line, noted):
+    file = tmp_path / 'controllers.yaml'
+    file.write_text(f'controller_manager:\n  ros__parameters:\n{line}\n')
+    made = stack(function, controllers=str(file))
+    (manager,) = [node for node in made.nodes if node.executable == 'ros2_control_node']
+    assert manager.parameters == [file, {'use_sim_time': False}]
+    assert [text for _, text in made.notes if 'use_sim_time' in text] == (
+        [f'use_sim_time: false, though {file} says true: nobody simulates'] if noted else []
+    )
+
+
 def test_a_simulated_board_where_there_is_no_real_one():
     made = stack(serial)
     before_the_port = ['motor_board', 'robot_state_publisher']
