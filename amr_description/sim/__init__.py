@@ -25,6 +25,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``wheel_slip.py``       load and slip of wheels: ground truth
 
 ``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log
+``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``static_geometry.py``  the visible shapes of a world
 ``drop_test.py``        a physical test of a description, in numbers

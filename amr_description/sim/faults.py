@@ -14,7 +14,7 @@ robot, from a state saved before.
 """
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 import math
 import re
@@ -26,6 +26,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.sim.actuators import rotor_name
 from amr_description.sim.engine import compiler_message, Engine
+from amr_description.sim.tilt import tilt
 
 FALL_HEIGHT = -0.1
 """m; a robot whose root is below this height, with no ground under it, is falling."""
@@ -38,6 +39,9 @@ CAPPED_CHECKS = 5
 
 SLOW_CHECK_INTERVAL = 100_000_000
 """ns of simulated time between two of the checks that are not made after each step."""
+
+TILTED_CHECKS = 3
+"""Slow checks in a row that find a robot tilted before it is logged: no kerb takes so long."""
 
 REPEAT_INTERVAL = 5 * NANOSECONDS
 """ns of simulated time without a fault after which it is logged again as a new one."""
@@ -90,14 +94,17 @@ class FaultMonitor:
         self._state_is_lost = False
         self._last_seen: dict[str, int] = {}
         self._capped = 0
+        self._tilted: dict[str, int] = {}
         self._next_slow_check = 0
 
-    def check(self, roots: Iterable[tuple[str, int]]) -> None:
+    def check(self, roots: Iterable[tuple[str, int]], on_wheels: Container[str] = ()) -> None:
         """
         Check the state after a step.
 
-        ``roots``: of each robot that moves freely its name, and the index of the height of its
-        root in ``qpos``.
+        Args:
+            roots: Of each robot that moves freely its name, and the index of the height of its
+                root in ``qpos``.
+            on_wheels: The names of those that stand on wheels.
         """
         while _warnings:
             self._report_warning(_warnings.popleft())
@@ -106,9 +113,9 @@ class FaultMonitor:
             self._check_solver()
         if self._engine.time >= self._next_slow_check:
             self._next_slow_check = self._engine.time + SLOW_CHECK_INTERVAL
-            self._check_slowly(roots)
+            self._check_slowly(roots, on_wheels)
 
-    def _check_slowly(self, roots: Iterable[tuple[str, int]]) -> None:
+    def _check_slowly(self, roots: Iterable[tuple[str, int]], on_wheels: Container[str]) -> None:
         data = self._engine.data
         data.warning.number[:] = 0  # else MuJoCo warns of each kind once only
         if self._state_is_lost:
@@ -122,6 +129,8 @@ class FaultMonitor:
                 self._engine.model, data, data.qpos[index - 2 : index + 1]
             ):
                 self._report_fall(name, height)
+            if name in on_wheels:
+                self._check_tilt(name, index - 2)
 
     # --- warnings of MuJoCo -------------------------------------------------------------------
 
@@ -223,20 +232,43 @@ class FaultMonitor:
             f'Likely: {cause}',
         )
 
+    def _check_tilt(self, name: str, position: int) -> None:
+        found = tilt(self._engine.model, self._engine.data, position)
+        self._tilted[name] = self._tilted.get(name, 0) + 1 if found else 0
+        if found and self._tilted[name] >= TILTED_CHECKS:
+            self._report(
+                Severity.WARN,
+                f'tilt {name}',
+                f"robot '{name}' is not on all its wheels: {found}, against the ground"
+                f'{self._when}; odometry is wrong while it is so. Likely: {found.likely_cause}',
+                is_physical=False,
+            )
+
     # --- reports ------------------------------------------------------------------------------
 
     @property
     def _when(self) -> str:
         return f' at {self._engine.time / NANOSECONDS:.3f} s'
 
-    def _report(self, severity: Severity, fault: str, line: str) -> None:
-        """Log ``line``, unless ``fault`` has been there since it was last logged."""
+    def _report(
+        self, severity: Severity, fault: str, line: str, *, is_physical: bool = True
+    ) -> None:
+        """
+        Log ``line``, unless ``fault`` has been there since it was last logged.
+
+        Args:
+            severity: Of the line.
+            fault: Identifies it.
+            line: Of the log.
+            is_physical: The simulation is wrong, not what was simulated.
+        """
         now = self._engine.time
         seen = self._last_seen.get(fault, -math.inf)
         self._last_seen[fault] = now
         if now - seen > REPEAT_INTERVAL:
             self._log(severity, line)
-            self.on_fault()
+            if is_physical:
+                self.on_fault()
 
 
 @dataclass(frozen=True, slots=True)

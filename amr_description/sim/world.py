@@ -103,6 +103,7 @@ class MujocoWorld:
         """Checks the state after every step; its ``on_fault`` may be set."""
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
+        self._on_wheels: frozenset[str] = frozenset()
 
     @property
     def time(self) -> int:
@@ -183,7 +184,7 @@ class MujocoWorld:
     def step(self, count: int = 1) -> None:
         """Advance by ``count`` physics steps, then check for faults."""
         self.engine.step(count)
-        self.faults.check(self._roots)
+        self.faults.check(self._roots, self._on_wheels)
 
     def advance(self, period: int) -> None:
         """Advance by ``period`` (ns), rounded to whole physics steps, by one at least."""
@@ -242,3 +243,4 @@ class MujocoWorld:
     def _index_roots(self) -> None:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
         self._roots = tuple((name, index) for name, index in heights if index is not None)
+        self._on_wheels = frozenset(name for name, view in self._robots.items() if view.wheels)
