@@ -22,6 +22,8 @@ import sys
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
+from amr_description.control.contracts import Severity
+from amr_description.errors import SimulationError
 from amr_description.ros.arguments import inherited, ros_arguments
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
@@ -33,6 +35,7 @@ from amr_description.sim.ros import (
     spawn_services,
 )
 from amr_description.sim.ros.entity_services import EntityServices
+from amr_description.sim.ros.other_clock import Other, OtherClock
 from amr_description.sim.ros.simulation import (
     Simulation,
     SimulationParameters,
@@ -70,6 +73,9 @@ class MujocoSim:
         self._services = SimulationServices(
             self.node, self.simulation, FEATURES, spawn_services.SPAWN_FORMATS
         )
+        self.refusal: SimulationError | None = None
+        """Another simulator was there before."""
+        OtherClock(self.node, lambda: self.simulation.world.time, self._on_other_clock)
         factor = parameters.real_time_factor
         self.node.get_logger().info(
             f"World '{parameters.world}', "
@@ -77,6 +83,17 @@ class MujocoSim:
             + (', paused' if parameters.paused else '')
             + f'; waiting for robots on {self.node.get_name()}/spawn_entity'
         )
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the process shall end."""
+        return self.simulation.has_ended or self.refusal is not None
+
+    def _on_other_clock(self, other: Other, line: str) -> None:
+        if other is Other.AHEAD:
+            self.refusal = SimulationError(line)
+        else:
+            self.simulation.log(Severity.WARN, line)
 
     def close(self) -> None:
         """End the simulation and remove all nodes."""
@@ -94,12 +111,14 @@ def simulate(args: list[str] | None) -> int:
         simulation = sim.simulation
         executor.add_node(sim.node)
         try:
-            serve(executor, stop, simulation.start, until=lambda: simulation.has_ended)
+            serve(executor, stop, simulation.start, until=lambda: sim.has_ended)
             if simulation.state is SimulationState.QUITTING:
                 wait_for_clients(sim.node, '~/set_simulation_state')
         finally:
             sim.close()
             executor.shutdown()
+        if sim.refusal is not None:
+            raise sim.refusal
     return 1 if simulation.loop_thread.failed else 0
 
 

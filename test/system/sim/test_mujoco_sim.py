@@ -115,6 +115,15 @@ def test_each_fault_of_the_tutorial_is_named_once_and_nothing_else():
     assert place.format(16, 'wheels one behind the other scrub in a turn') in scrubbing
 
 
+def test_a_second_simulator_in_a_domain_ends_with_one_line_and_the_first_goes_on(sim, node):
+    with Program.module('mujoco_sim', '--ros-args', '-p', 'paused:=true') as second:
+        assert second.end() == 1
+    (line,) = [line for line in second.lines if '[FATAL]' in line]
+    assert '/mujoco_sim publishes /clock in ROS domain' in line
+    assert sim.program.process.poll() is None
+    assert wait_until(node, lambda: node.count_publishers('/clock') == 1 or None, timeout=PATIENCE)
+
+
 def test_a_wrong_axle_is_one_warning_at_the_spawn(sim, node):
     axes = URDF.count('<axis xyz="0 0 -1"/>')
     wrong = URDF.replace('<axis xyz="0 0 -1"/>', '<axis xyz="1 0 0"/>')

@@ -403,7 +403,9 @@ def test_worlds_are_listed_and_the_present_one_is_among_them(sim, tmp_path):
 
 
 def test_it_quits_when_it_is_asked_to(sim):
-    with running('mujoco_sim', '--ros-args', '-r', '__node:=other', until='waiting') as process:
+    # Beside the first one, so with a clock of its own.
+    options = ('--ros-args', '-r', '__node:=other', '-r', '/clock:=/other/clock')
+    with running('mujoco_sim', *options, until='waiting') as process:
         request = SetSimulationState.Request(state=S(state=S.STATE_QUITTING))
         name = '/other/set_simulation_state'
         response = call(sim.node, SetSimulationState, name, request, timeout=PATIENCE)
