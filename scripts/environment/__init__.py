@@ -20,6 +20,11 @@ Each part can be interrupted: it removes its stamp, works (under another name wh
 using the result), and writes the stamp last.
 """
 
+import sys
+import time
+
+_START = time.monotonic()
+
 
 class SetupError(Exception):
     """The environment cannot be made; ``str(error)`` says what was found and what would do."""
@@ -27,6 +32,9 @@ class SetupError(Exception):
 
 def say(text: str) -> None:
     """Tell the person in front of it, on standard error, one line."""
-    import sys
-
     print(f'scripts/setup: {text}', file=sys.stderr, flush=True)
+
+
+def progress(text: str) -> None:
+    """Tell what is being done, with the seconds since the start."""
+    say(f'[{time.monotonic() - _START:3.0f} s] {text}')

@@ -1,15 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Run the programs that do the work, quietly as long as they succeed."""
+"""Run the programs that do the work: quietly as long as they succeed, but for signs of life."""
 
+from collections import deque
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 import os
 from pathlib import Path
 import subprocess
+import threading
 
-from . import SetupError
+from . import progress, SetupError
 
 SHOWN_LINES = 15
+HEARTBEAT = 10.0
+"""s between two lines about a program that goes on."""
+WIDTH = 70
+"""Characters of its last line that are shown."""
 
 
 def run(
@@ -17,15 +24,18 @@ def run(
     environment: Mapping[str, str],
     what: str,
     folder: Path | None = None,
+    hint: str = '',
 ) -> None:
     """
     Run ``command`` in ``folder``; raise :class:`SetupError` with its last lines when it fails.
 
-    The checkout's lock is handed on (``close_fds``), see :func:`.checkout.one_at_a_time`.
+    While it runs, its last line is shown every ten seconds. The checkout's lock is handed on
+    (``close_fds``), see :func:`.checkout.one_at_a_time`.
     """
-    done = subprocess.run(
+    lines: deque[str] = deque(maxlen=SHOWN_LINES)
+    with subprocess.Popen(
         list(map(os.fspath, command)),
-        env=dict(environment),
+        env={**environment, 'PYTHONUNBUFFERED': '1'},
         cwd=folder,
         close_fds=False,
         stdin=subprocess.DEVNULL,
@@ -33,7 +43,27 @@ def run(
         stderr=subprocess.STDOUT,
         text=True,
         errors='replace',
-    )
-    if done.returncode != 0:
-        tail = '\n'.join(f'  | {line}' for line in done.stdout.splitlines()[-SHOWN_LINES:])
-        raise SetupError(f'{what} failed (exit code {done.returncode}):\n{tail}')
+    ) as process:
+        assert process.stdout
+        reader = threading.Thread(target=lines.extend, args=(process.stdout,), daemon=True)
+        reader.start()
+        try:
+            while reader.is_alive():
+                reader.join(HEARTBEAT)
+                if reader.is_alive():
+                    progress(f'  {what}: {_last(lines)}')
+        except BaseException:  # Ctrl-C
+            process.kill()
+            raise
+    if process.returncode != 0:
+        tail = '\n'.join(f'  | {line.rstrip()}' for line in lines)
+        raise SetupError(f'{what} failed (exit code {process.returncode}){hint}:\n{tail}')
+
+
+def _last(lines: deque[str]) -> str:
+    """Return the last line that says something, as far as it fits."""
+    with suppress(RuntimeError):  # one was added meanwhile
+        for line in reversed(lines):
+            if text := ' '.join(line.split()):
+                return text if len(text) <= WIDTH else f'{text[: WIDTH - 3]}...'
+    return 'at work'

@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-from . import say, SetupError, stamps
+from . import progress, SetupError, stamps
 from .commands import run
 from .virtual_environment import pinned_versions, python_of
 
@@ -64,7 +64,7 @@ def _build(interfaces: Path, venv: Path, target: Path, environment: Mapping[str,
         environment = _with_tools(interfaces, venv, Path(scratch), environment)
         copy = Path(scratch, 'interfaces')
         shutil.copytree(interfaces, copy, ignore=shutil.ignore_patterns(*stamps.IGNORED))
-        say('compiling the interface packages that PyPI lacks, a minute or so ...')
+        progress('compiling the interface packages that PyPI lacks ...')
         fresh = Path(tempfile.mkdtemp(dir=target.parent, prefix='unfinished-'))
         options = ['--no-deps', '--no-index', '--no-build-isolation', '--wheel-dir', fresh]
         try:
@@ -98,7 +98,7 @@ def _with_tools(
     )
     complaint = check.stderr.strip().removeprefix('error: ')
     if check.returncode == NO_COMPILER:
-        say('no C++ compiler here; fetching zig from PyPI for this once (100 MB) ...')
+        progress('no C++ compiler here; fetching zig from PyPI for this once (100 MB) ...')
         try:
             run([*fetch, ZIG], environment, f'fetching {ZIG}')
         except SetupError as error:

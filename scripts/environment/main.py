@@ -40,6 +40,7 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
     )
     stale = not stamp(checkout.venv, 'environment').holds(key) or not _starts(checkout.venv)
     if stale:
+        say('this takes 1 to 4 minutes, once; a line every ten seconds says where it is')
         fresh = checkout.venv.with_name('.venv.new')
         virtual_environment.create(fresh, checkout.requirements, environment)
         _install_interfaces(checkout, fresh, environment)

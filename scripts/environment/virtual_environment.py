@@ -14,7 +14,7 @@ import re
 import shutil
 import sys
 
-from . import say, SetupError
+from . import progress, SetupError
 from .checkout import PACKAGE
 from .commands import run
 
@@ -51,7 +51,7 @@ def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
     shutil.rmtree(venv, ignore_errors=True)
     base = getattr(sys, '_base_executable', sys.executable)
     version = '.'.join(map(str, sys.version_info[:3]))
-    say(f'installing {len(pins)} packages for Python {version} ({base}), a minute or so ...')
+    progress(f'installing {len(pins)} packages for Python {version} ({base}) ...')
     make = [base, '-m', 'venv', '--prompt', PACKAGE, venv]
     run(make, environment, 'making the virtual environment')
     pip = [
@@ -65,9 +65,10 @@ def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
         '--no-binary=empy',
         '--no-input',
     ]
-    hint = 'installing packages (is the network there? `pip config list` shows the index used)'
-    run([*pip, f'setuptools=={pins["setuptools"]}'], environment, hint)
-    run([*pip, '-r', lock], environment, hint)
+    hint = '; is the network there? `pip config list` shows the index used'
+    what = 'installing packages'
+    run([*pip, f'setuptools=={pins["setuptools"]}'], environment, what, hint=hint)
+    run([*pip, '-r', lock], environment, what, hint=hint)
 
 
 def relocate(venv: Path, home: Path) -> None:

@@ -12,7 +12,7 @@ import os
 from pathlib import Path
 import shutil
 
-from . import say, stamps
+from . import progress, stamps
 from .checkout import Checkout, PACKAGE
 from .commands import run
 from .virtual_environment import python_of
@@ -55,7 +55,7 @@ def build(checkout: Checkout, environment: Mapping[str, str], on_top: bool) -> N
     On top, the link to the modules stays, for the sake of running programs. colcon would leave
     links to files, and executables, that are gone: those folders are emptied first.
     """
-    say('building the package with colcon ...')
+    progress('building the package with colcon ...')
     stale = [checkout.build, checkout.install]
     if on_top:
         stale = [checkout.install / 'share' / PACKAGE, checkout.install / 'lib' / PACKAGE]

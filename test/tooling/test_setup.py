@@ -9,7 +9,9 @@ import shutil
 import subprocess
 import sys
 
+import environment
 from environment import (
+    commands,
     interface_wheel,
     launchers,
     main,
@@ -268,6 +270,29 @@ def test_a_failing_command_shows_its_last_lines():
     command = [sys.executable, '-c', 'import sys; print(*range(99), sep="\\n"); sys.exit(7)']
     with pytest.raises(SetupError, match=r'(?s)counting failed \(exit code 7\).*\| 97\n.*\| 98'):
         run(command, os.environ, 'counting')
+
+
+def test_a_command_that_goes_on_shows_where_it_is(tmp_path, monkeypatch):
+    go_on, said = tmp_path / 'go_on', []
+    os.mkfifo(go_on)
+
+    def progress(text):
+        said.append(text)
+        if 'half way' in text and go_on.exists():
+            go_on.write_text('now\n')
+            go_on.unlink()
+
+    monkeypatch.setattr(commands, 'progress', progress)
+    monkeypatch.setattr(commands, 'HEARTBEAT', 0.01)
+    run(['sh', '-c', 'echo "half   way"; read line < go_on'], os.environ, 'counting', tmp_path)
+    assert '  counting: half way' in said
+    assert set(said) <= {'  counting: at work', '  counting: half way'}
+
+
+def test_a_line_of_progress_has_its_time(capsys, monkeypatch):
+    monkeypatch.setattr(environment, '_START', environment.time.monotonic() - 75.0)
+    environment.progress('building')
+    assert capsys.readouterr().err == 'scripts/setup: [ 75 s] building\n'
 
 
 def test_relocated_text_names_the_new_home_and_programs_are_left(tmp_path):
