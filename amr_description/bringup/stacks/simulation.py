@@ -3,7 +3,9 @@
 """The stack ``simulation``: the robot in MuJoCo, both controllers active, ready to drive."""
 
 import os
+import re
 from typing import Annotated
+from xml.etree import ElementTree
 
 from amr_description.bringup import (
     exited_cleanly,
@@ -18,6 +20,7 @@ from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 
 URDF = 'package://amr_description/urdf/amr.urdf'
+_NO_NAME = re.compile(r'[^A-Za-z0-9_.-]')
 CONTROLLERS = 'package://amr_description/config/controllers.yaml'
 
 
@@ -52,7 +55,8 @@ def simulation(
     )
 
     # 3. The robot is spawned; its <ros2_control> block brings up /controller_manager.
-    create = Node('create', arguments=['-topic', 'robot_description', '-name', 'amr', '-z', '0.2'])
+    name = entity_name(description)
+    create = Node('create', arguments=['-topic', 'robot_description', '-name', name, '-z', '0.2'])
 
     # 4. The controllers, one after the other, once there is a controller manager.
     joint_state_broadcaster = Node(
@@ -77,6 +81,15 @@ def simulation(
         next_steps=how_to_drive(viewer),
         notes=notes_on([path_of(urdf), path_of(controllers)]),
     )
+
+
+def entity_name(urdf: str) -> str:
+    """Return the robot's name, with ``_`` for what the name of an entity may not have."""
+    try:
+        name = ElementTree.fromstring(urdf).get('name', '')
+    except ElementTree.ParseError:  # robot_state_publisher says where
+        name = ''
+    return _NO_NAME.sub('_', name) or 'robot'
 
 
 def how_to_drive(viewer: bool) -> str:

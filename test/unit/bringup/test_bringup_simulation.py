@@ -10,6 +10,7 @@ from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.errors import AmrError
 from amr_description.model.description_file import description_text
+from amr_description.sim.spawning import check_name
 
 GRIPPER = str(ROOT / 'test/fixtures/urdf/gripper.urdf.xacro')
 
@@ -77,6 +78,22 @@ def test_parameters(installed):
         }
     ]
     assert create.arguments == ['-topic', 'robot_description', '-name', 'amr', '-z', '0.2']
+
+
+@pytest.mark.parametrize(
+    ('urdf', 'name'),
+    [
+        ('<robot name="rover"/>', 'rover'),
+        ('<!-- <robot name="old"/> --><robot name="my rover/2"/>', 'my_rover_2'),
+        ('<robot/>', 'robot'),
+        ('<robot name="rover">', 'robot'),
+    ],
+)
+def test_the_robot_has_the_name_of_its_description(installed, tmp_path, urdf, name):
+    (tmp_path / 'rover.urdf').write_text(urdf)
+    create = stack(urdf=str(tmp_path / 'rover.urdf')).nodes[2]
+    assert create.arguments == ['-topic', 'robot_description', '-name', name, '-z', '0.2']
+    check_name(name, ())
 
 
 def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
