@@ -113,8 +113,14 @@ def _functions(path: Path) -> set[str]:
 
 
 def _foreign(path: Path) -> AmrError:
+    name = path.name.partition('.')[0]
+    name = _TUTORIALS.get(name, name)
+    would_do = (
+        f'for the one of the tutorial: ros2 launch {_OURS} {name}'
+        if name in STACKS
+        else f'or one of: {", ".join(STACKS)} (ros2 launch {_OURS} NAME)'
+    )
     return AmrError(
-        f"'{path}' is written for the launch system of a ROS distribution, which PyPI does not "
-        f'have; here it is a Python file, named after its function that returns a Stack; '
-        f'{_known_stacks()}'
+        f"'{path}': launch files (*.launch.py, .xml, .yaml) are not supported here; use a stack "
+        f'(docs/write_your_own_stack.md), {would_do}'
     )

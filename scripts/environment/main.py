@@ -108,6 +108,6 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
     if busy:
         ignored = host.foreign_settings(environment)
         if ignored:
-            say(f'left aside, as it uses the ROS of PyPI: {", ".join(ignored)}')
+            say(f'ignoring {" and ".join(ignored)} of this shell: it uses the ROS of PyPI alone')
         say(f'done in {time.monotonic() - start:.0f} s; next: source scripts/activate')
     return 0

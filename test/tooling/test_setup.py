@@ -368,6 +368,17 @@ def test_takes_no_arguments(arguments, code, capsys):
     assert 'takes no arguments' in capsys.readouterr().err
 
 
+def test_settings_of_the_shell_that_do_not_count_are_named(monkeypatch, capsys):
+    monkeypatch.setattr(main, 'set_up', lambda *_: True)
+    assert main.main([], {'PYTHONPATH': '/x', 'CONDA_PREFIX': '/conda'}) == 0
+    ignored, done = capsys.readouterr().err.splitlines()
+    assert ignored == (
+        'scripts/setup: ignoring PYTHONPATH and the conda environment /conda of this shell: '
+        'it uses the ROS of PyPI alone'
+    )
+    assert done.startswith('scripts/setup: done in ')
+
+
 def test_a_full_or_foreign_disk_is_one_line(monkeypatch, capsys):
     def refuse(*_):
         raise PermissionError(13, 'Permission denied', '/srv/checkout/.setup.lock')

@@ -7,6 +7,7 @@ import signal
 from fixtures.bringup.running import Bringup, install_toys, STACKS
 from fixtures.cli.commands import ros2
 import pytest
+from support.paths import ROOT
 
 from amr_description.cli.launch_files import find_launch_file
 from amr_description.errors import AmrError, UsageError
@@ -55,8 +56,13 @@ def test_a_package_of_our_name_with_launch_files_of_its_own_is_heeded(share):
     own = share.parents[1] / 'amr_description/launch/gazebo.launch.py'
     own.parent.mkdir(parents=True)
     own.write_text(FOREIGN)
-    with pytest.raises(AmrError, match=f"'{own}' is written for the launch system of a ROS dist"):
+    with pytest.raises(AmrError, match=f"'{own}': launch files .* are not supported here") as told:
         find_launch_file('amr_description', 'gazebo.launch.py', [])
+    assert str(told.value).endswith(
+        'use a stack (docs/write_your_own_stack.md), for the one of the tutorial: '
+        'ros2 launch amr_description simulation'
+    )
+    assert (ROOT / 'docs/write_your_own_stack.md').is_file()
 
 
 @pytest.mark.parametrize(
@@ -97,8 +103,12 @@ def test_two_of_one_name_are_told(share):
 @pytest.mark.parametrize(
     ('name', 'text', 'said'),
     [
-        ('robot.launch.py', FOREIGN, 'is written for the launch system of a ROS distribution'),
-        ('robot.launch.xml', '<launch/>', 'is written for the launch system'),
+        (
+            'robot.launch.py',
+            FOREIGN,
+            r'launch files \(.*\) are not supported here; use a stack \(docs',
+        ),
+        ('robot.launch.xml', '<launch/>', 'not supported here.* or one of: display, fleet, '),
         ('broken.py', 'def broken(:\n', r"broken.py', line 1: is not Python: invalid syntax"),
         ('zero.py', '\0', 'is not Python: '),
     ],
