@@ -14,6 +14,9 @@ the commands start inherits both; ``ros2 run`` takes them away again from foreig
 
 **Hooks.** ``local_setup.*`` puts the environment in front of PATH and AMENT_PREFIX_PATH. colcon
 chains it into each workspace that is built on top, the same as it does with ``/opt/ros/jazzy``.
+Such a shell keeps to this host as one of ``scripts/activate`` does: with the range of the subnet,
+which is the default of ROS, others would see its nodes, and a publisher that sends once, as
+``ros2 topic pub --once``, would not reach a robot that keeps to this host.
 
 **Path file.** ``amr_description.pth`` makes the package importable by ``.venv/bin/python`` in any
 shell; it names colcon's build folder, where the package's metadata are too.
@@ -67,6 +70,7 @@ case ":${{AMENT_PREFIX_PATH-}}:" in
   *) export AMENT_PREFIX_PATH={venv}"${{AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}}" ;;
 esac
 export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
+export ROS_AUTOMATIC_DISCOVERY_RANGE="${{ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}}"
 """
 
 

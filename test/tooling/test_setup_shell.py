@@ -232,3 +232,10 @@ def test_workspace_on_top_finds_the_underlay():
         f'{ROOT}/install/amr_description{os.pathsep}{ROOT}/.venv',
         f'{ROOT}/.venv/bin/ros2',
     ]
+
+
+@needs_set_up
+def test_workspace_on_top_keeps_to_this_host_unless_told_otherwise():
+    line = f'. {ROOT}/install/setup.bash; echo $ROS_AUTOMATIC_DISCOVERY_RANGE'
+    assert shell_run(line).stdout == 'LOCALHOST\n'
+    assert shell_run(line, ROS_AUTOMATIC_DISCOVERY_RANGE='SUBNET').stdout == 'SUBNET\n'
