@@ -315,8 +315,12 @@ class Page:
 
     def screenshot(self, path):
         """Write what is seen as a PNG."""
-        shot = self.call('Page.captureScreenshot', {'format': 'png'})
-        path.write_bytes(base64.b64decode(shot['data']))
+        path.write_bytes(self.picture('png'))
+
+    def picture(self, kind, **options):
+        """Return what is seen as the bytes of a ``png`` or ``webp`` file."""
+        shot = self.call('Page.captureScreenshot', {'format': kind, **options})
+        return base64.b64decode(shot['data'])
 
     def close(self):
         """Close the tab, as a person does: the page is not asked."""

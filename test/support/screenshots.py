@@ -9,6 +9,7 @@ import sys
 
 from ament_index_python.packages import get_package_prefix
 from support import chromium
+from support.animation import animation
 from support.paths import ROOT
 from support.running_programs import Program
 
@@ -39,10 +40,40 @@ def drive(page, *holds):
         page.key_up(code)
 
 
+FRAME = 0.2
+"""s of simulated time between two frames of the film."""
+
+
+def film(page, holds):
+    """Drive as :func:`drive` does, and return a picture for each FRAME of simulated time."""
+    pictures = []
+    for code, seconds in holds:
+        begin = page.evaluate('amr.now.time')
+        if code:
+            page.key_down(code)
+        for frame in range(1, round(seconds / FRAME) + 1):
+            page.wait_until(f'amr.now.time >= {begin + frame * FRAME}')
+            pictures.append(page.picture('webp', quality=38))
+        if code:
+            page.key_up(code)
+    return pictures
+
+
+def write_film(browser):
+    """Write the picture at the top of the README; slowly, as each frame takes its time to draw."""
+    words = ('simulation', 'world:=warehouse', 'rtf:=0.2')
+    with page_of(browser, *words, width=1100, height=640) as page:
+        course = [('KeyW', 1.5), ('KeyA', 1.0), ('KeyW', 1.5), ('KeyD', 1.5), ('KeyW', 1.0)]
+        pictures = film(page, [*course, (None, 0.5)])
+        moving = animation(pictures, round(1000 * FRAME))
+        (IMAGES / 'driving.webp').write_bytes(moving)
+
+
 def main():
     """Write all of them."""
     IMAGES.mkdir(exist_ok=True)
     with chromium.Chromium() as browser:
+        write_film(browser)
         with page_of(browser, 'simulation', 'world:=warehouse') as page:
             drive(page, ('KeyW', 2.0), ('KeyA', 1.0), ('KeyW', 2.0), ('KeyD', 1.5), ('KeyW', 1.0))
             page.screenshot(IMAGES / 'simulation.png')
