@@ -18,6 +18,8 @@ BESIDE = {
     'web': ('viewer',),
     'docs': ('docs',),
     'README.md': ('docs',),
+    'CONTRIBUTING.md': ('docs',),
+    'examples': ('docs',),
     'benchmarks': ('benchmarks',),
     'urdf': ('model', 'sim'),
     'config': ('controllers', 'control'),

@@ -23,11 +23,12 @@ PERIOD = NANOSECONDS // 100
 
 
 class Page:
-    """The text of a page and its blocks."""
+    """The text of a page of docs/ and its blocks; ``../README.md`` is the front page."""
 
     def __init__(self, name):
         self.name = name
-        self.text = (ROOT / 'docs' / name).read_text()
+        self.path = ROOT / 'docs' / name
+        self.text = self.path.read_text(encoding='utf-8')
 
     def blocks(self, language=''):
         """The fenced blocks of a language, in their order."""

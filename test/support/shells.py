@@ -3,6 +3,7 @@
 """A person at a terminal with a book, who types its lines letter for letter."""
 
 from contextlib import contextmanager
+import os
 import re
 
 from support.paths import ROOT
@@ -81,3 +82,25 @@ def terminal(book, *, activate='source scripts/activate', folder=ROOT, machine=(
         shell.type(f'cd {folder}')
         shell.see(re.escape(PROMPT))
         yield shell
+
+
+def newcomer(book, home, *, activate='source scripts/activate', folder=ROOT):
+    """
+    A terminal of one who has just come: an empty home, and no variable of ours.
+
+    But the domain of this test, in which nobody else's robot is.
+
+    :param home: The folder that is her home.
+    """
+    variables = {'PS1': PROMPT, 'TERM': 'dumb', 'COLUMNS': '200', 'HISTFILE': ''}
+    fresh = ['env', '-i', *(f'{name}={value}' for name, value in fresh_variables(home).items())]
+    fresh += [f'{name}={value}' for name, value in variables.items()]
+    return terminal(book, activate=activate, folder=folder, machine=fresh)
+
+
+def fresh_variables(home):
+    """The environment of a shell that has sourced nothing; of this checkout it has the domain."""
+    path = os.pathsep.join(
+        folder for folder in os.environ['PATH'].split(os.pathsep) if str(ROOT) not in folder
+    )
+    return {'PATH': path, 'HOME': str(home), 'ROS_DOMAIN_ID': os.environ['ROS_DOMAIN_ID']}

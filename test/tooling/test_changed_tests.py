@@ -29,6 +29,7 @@ from support.paths import ROOT
         (['scripts/setup', 'amr_description/errors.py'],
          ['test/system/base', 'test/tooling', 'test/unit/base']),
         (['README.md'], ['test/system/docs', 'test/unit/docs']),
+        (['examples/rover/setup.py'], ['test/system/docs', 'test/unit/docs']),
     ],
 )  # fmt: skip
 def test_the_folders_mirror_the_package(changed, tests):

@@ -1,19 +1,24 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The tutorial as an executable document: its shell lines typed into terminals, as in the README.
-And as the tutorial itself prints them, where the packages that it names are not installed.
+The tutorial as an executable document: the lines of docs/tutorial.md and of the README, typed; and
+as the tutorial itself prints them, where the packages that it names are not installed. Beside the
+robot that runs, those of docs/simulator.md and docs/ros2_control.md.
 
-Each terminal is a bash of its own on a pseudo-terminal. What a line must show stands beside it.
+Each terminal is a bash of its own on a pseudo-terminal, with an empty home. What a line must show
+stands beside it.
 """
 
 import re
 
 import pytest
 from support import shells
+from support.doc_pages import Page
 from support.shells import CTRL_C, line_of, PROMPT, ROOT
 
-README = (ROOT / 'README.md').read_text(encoding='utf-8')
+README, PAGE, SIMULATOR, CONTROL = (
+    Page(name).text for name in ('../README.md', 'tutorial.md', 'simulator.md', 'ros2_control.md')
+)
 TUTORIAL = r"""
 source install/setup.bash
 
@@ -33,21 +38,28 @@ ros2 run teleop_twist_keyboard teleop_twist_keyboard \
 ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \
   "{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}"
 """
-BOOKS = pytest.mark.parametrize('book', [README, TUTORIAL], ids=['README', 'tutorial'])
-
-
-def terminal(book=README, *, activated=True, folder=ROOT):
-    """A new terminal for one who reads the book."""
-    activate = 'source scripts/activate' if book is README else 'source install/setup.bash'
-    return shells.terminal(book, activate=activate if activated else '', folder=folder)
+BOOKS = pytest.mark.parametrize('book', [PAGE, TUTORIAL], ids=['page', 'tutorial'])
+CHANGE = 'ros2 service call /mujoco_sim/set_simulation_state simulation_interfaces/srv/'
 
 
 @pytest.fixture(scope='module')
-def stack():
+def terminal(tmp_path_factory):
+    """A function that opens a new terminal for one who reads the book."""
+    home = tmp_path_factory.mktemp('home')
+
+    def opened(book=README, *, activated=True, folder=ROOT):
+        activate = 'source install/setup.bash' if book is TUTORIAL else 'source scripts/activate'
+        return shells.newcomer(book, home, activate=activate if activated else '', folder=folder)
+
+    return opened
+
+
+@pytest.fixture(scope='module')
+def stack(terminal):
     """Terminal 1: the robot."""
     with terminal(activated=False) as shell:
         assert line_of(README, 'scripts/run ')
-        shell.type('scripts/run')
+        shell.type(line_of(PAGE, 'scripts/run\n').strip())
         shell.see(r'ready in \d+\.\d s: open the page')
         shell.see(re.escape('Ctrl-C stops all.'))
         yield shell
@@ -59,10 +71,10 @@ def stack():
 
 @pytest.mark.parametrize(
     ('book', 'package'),
-    [(README, 'amr_description'), (TUTORIAL, 'py_pubsub')],
-    ids=['README', 'tutorial'],
+    [(PAGE, 'amr_description'), (TUTORIAL, 'py_pubsub')],
+    ids=['page', 'tutorial'],
 )
-def test_talker_and_listener(book, package):
+def test_talker_and_listener(terminal, book, package):
     with terminal(book) as first, terminal(book) as second:
         first.start(f'ros2 run {package} talker')
         second.start(f'ros2 run {package} listener')
@@ -83,10 +95,10 @@ def test_talker_and_listener(book, package):
 
 @pytest.mark.parametrize(
     ('book', 'folder', 'line'),
-    [(README, ROOT, 'check_urdf urdf/amr.urdf'), (TUTORIAL, ROOT / 'urdf', 'check_urdf amr.urdf')],
-    ids=['README', 'tutorial'],
+    [(PAGE, ROOT, 'check_urdf urdf/amr.urdf'), (TUTORIAL, ROOT / 'urdf', 'check_urdf amr.urdf')],
+    ids=['page', 'tutorial'],
 )
-def test_check_urdf_prints_the_tree(book, folder, line):
+def test_check_urdf_prints_the_tree(terminal, book, folder, line):
     with terminal(book, folder=folder) as shell:
         assert shell.run(line) == (
             'robot name is: amr\n'
@@ -100,8 +112,8 @@ def test_check_urdf_prints_the_tree(book, folder, line):
         )
 
 
-def test_the_topics_are_there(stack):
-    with terminal() as shell:
+def test_the_topics_are_there(stack, terminal):
+    with terminal(PAGE) as shell:
         topics = shell.run('ros2 topic list').split()
     assert topics == sorted(topics)
     assert set(topics) >= {
@@ -116,7 +128,7 @@ def test_the_topics_are_there(stack):
 
 
 @BOOKS
-def test_both_controllers_are_active(stack, book):
+def test_both_controllers_are_active(stack, terminal, book):
     with terminal(book) as shell:
         said = shell.run('ros2 control list_controllers').splitlines()
         # On a busy machine it says first that it waits, as the original does.
@@ -127,7 +139,7 @@ def test_both_controllers_are_active(stack, book):
 
 
 @BOOKS
-def test_one_command_moves_the_robot_forward(stack, book):
+def test_one_command_moves_the_robot_forward(stack, terminal, book):
     with terminal() as watcher, terminal(book) as shell:
         before = odometry_x(watcher)
         printed = shell.run('ros2 topic pub --once /diff_drive_controller/cmd_vel ')
@@ -141,7 +153,7 @@ def test_one_command_moves_the_robot_forward(stack, book):
     [(README, 'amr_description'), (TUTORIAL, 'teleop_twist_keyboard')],
     ids=['README', 'tutorial'],
 )
-def test_the_keyboard_drives(stack, book, package):
+def test_the_keyboard_drives(stack, terminal, book, package):
     with terminal(book) as keyboard, terminal() as watcher:
         before = odometry_x(watcher)
         keyboard.start(f'ros2 run {package} teleop_twist_keyboard ')
@@ -151,6 +163,82 @@ def test_the_keyboard_drives(stack, book, package):
             keyboard.press('i')
         keyboard.press('k')
         keyboard.interrupt()
+
+
+def test_the_robot_is_dropped(terminal):
+    with terminal(PAGE) as shell:
+        line = 'check_urdf urdf/amr.urdf --controllers config/controllers.yaml --drop'
+        assert shell.run(line).endswith('\n    passed\n')
+
+
+def test_time_is_paused_stepped_and_reset(stack, terminal):
+    """What the page says of each of the five lines; time goes on afterwards, at rate 1."""
+    with terminal(SIMULATOR) as shell:
+        assert shell.run('ros2 param set') == 'Set parameter successful\n'
+        assert 'result=1' in shell.run(f'{CHANGE}SetSimulationState "{{state: {{state: 2}}}}"')
+        shell.book += 'ros2 topic echo --once --field clock /clock\n'
+        paused = seconds(shell)
+        assert 'result=1' in shell.run('ros2 service call /mujoco_sim/step_simulation')
+        stepped = seconds(shell)
+        assert paused < stepped < paused + 1.0
+        assert 'result=1' in shell.run(f'{CHANGE}SetSimulationState "{{state: {{state: 1}}}}"')
+        assert 'result=1' in shell.run('ros2 service call /mujoco_sim/reset_simulation')
+        shell.book += 'ros2 param set /mujoco_sim real_time_factor 1.0'
+        shell.run('ros2 param set /mujoco_sim real_time_factor 1.0')
+
+
+def seconds(shell):
+    """Simulated time, s, by /clock."""
+    found = re.search(r'sec: (\d+)\nnanosec: (\d+)\n', shell.run('ros2 topic echo --once --field'))
+    return int(found[1]) + 1e-9 * int(found[2])
+
+
+def test_a_controller_is_switched_off_and_on(stack, terminal):
+    with terminal(CONTROL + PAGE) as shell:
+        claimed = '\tjoint_wheel_front_left/velocity [available] [claimed]\n'
+        assert claimed in shell.run('ros2 control list_hardware_interfaces')
+        assert 'Successfully' in shell.run('ros2 control switch_controllers --deactivate diff')
+        assert claimed not in shell.run('ros2 control list_hardware_interfaces')
+        assert 'Successfully' in shell.run('ros2 control switch_controllers --activate diff')
+        assert ' inactive' not in shell.run('ros2 control list_controllers')
+
+
+@pytest.mark.long
+def test_a_motor_board_is_unplugged_and_plugged_in_again(terminal, tmp_path):
+    """docs/ros2_control.md; by the services: test/system/hardware/test_serial_stack.py."""
+    port = tmp_path / 'board'
+    board = f'ros2 run amr_description motor_board --link {port}'
+    with terminal() as bench, terminal() as robot, terminal(CONTROL + PAGE) as shell:
+        bench.type(board)
+        bench.see('linked as')
+        robot.type(f'{line_of(CONTROL, "ros2 launch amr_description serial")} port:={port}')
+        robot.see(r'ready in \d+\.\d s')
+        bench.interrupt()
+        robot.see(f'the motor board on {port} is gone')
+        assert ' active' not in shell.run('ros2 control list_controllers')
+        bench.type(board)
+        bench.see('linked as')
+        shell.run('ros2 control set_hardware_component_state AmrSystem active')
+        shell.run('ros2 control switch_controllers --activate joint_state_broadcaster diff')
+        assert shell.run('ros2 control list_controllers').count(' active') == 2
+        robot.interrupt()
+        bench.interrupt()
+
+
+@pytest.mark.long
+def test_the_simulator_without_a_stack(terminal):
+    """The last section of docs/simulator.md: two programs that go on, and two that end."""
+    with terminal(SIMULATOR) as first, terminal(SIMULATOR) as second, terminal(SIMULATOR) as shell:
+        first.start('ros2 run amr_description mujoco_sim')
+        first.see("World 'ramp'")
+        second.start('ros2 run amr_description robot_state_publisher')
+        second.see('Robot initialized')
+        shell.run('ros2 run amr_description create')
+        shell.run('ros2 run amr_description spawner')
+        shell.book = 'ros2 control list_controllers'
+        assert shell.run('ros2 control').count(' active') == 2
+        first.interrupt()
+        second.interrupt()
 
 
 def odometry_x(shell):

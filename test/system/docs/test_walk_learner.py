@@ -1,0 +1,134 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The first hour of a learner, from an empty home: her first package, then the tutorial's.
+
+Where people fell before, and what types it now:
+
+=====================================================  ==========================================
+the tutorial's package name ends every command         test_the_tutorials_own_package, and
+                                                       test/system/cli/test_overlaid_package.py
+launch files                                           test_the_tutorials_own_package
+``colcon test`` of a package                           test_her_first_package; that of one with
+                                                       ``tests_require``: test/system/colcon/
+nobody says that a workspace of your own works         test_her_first_package
+talker, listener, check_urdf, drive                    test/system/docs/test_tutorial.py
+``--help`` of an executable                            test/system/nodes/test_node_help.py
+``bringup stop``                                       test_the_tutorials_own_package
+``pkg create``, ``bag``, message packages, rqt         README, "What is not here"
+=====================================================  ==========================================
+"""
+
+import re
+
+import pytest
+from support.doc_pages import Page, ROOT
+from support.shells import CTRL_C, newcomer, PROMPT
+
+README, PACKAGE, SIMULATOR = map(Page, ('../README.md', 'your_own_package.md', 'simulator.md'))
+LAUNCH_FILE = """
+from launch import LaunchDescription
+
+def generate_launch_description():
+    return LaunchDescription([])
+"""
+
+
+@pytest.fixture
+def home(tmp_path):
+    """An empty one."""
+    folder = tmp_path / 'home'
+    folder.mkdir()
+    return folder
+
+
+def test_her_first_package(home):
+    """The six lines of the README, a second shell without us, and her tests."""
+    with newcomer(README.text, home) as shell:
+        for line in ('mkdir -p ~/ros2_ws', 'cd ~/ros2_ws', 'colcon build', 'source install/'):
+            shell.run(line)
+        shell.start('ros2 run py_pubsub talker')
+        seen = shell.see(r'\[minimal_publisher\]: Publishing: "Hello World: \d+"').string
+        assert 'is not installed' not in seen  # hers, and no stand-in of ours
+        with newcomer(PACKAGE.text, home, activate='source ~/ros2_ws/install/setup.bash') as other:
+            other.start('ros2 run py_pubsub listener')
+            other.see(r'\[minimal_subscriber\]: I heard: "Hello World: \d+"')
+            other.interrupt()
+        shell.interrupt()
+        shell.book = PACKAGE.text
+        assert '1 passed' in shell.run('colcon test')
+        assert shell.run('colcon test-result').startswith('Summary: 1 test, 0 errors, 0 failures')
+        shell.book = 'ros2 pkg executables py_pubsub'
+        assert shell.run('ros2 pkg') == 'py_pubsub listener\npy_pubsub talker\n'
+
+
+@pytest.fixture
+def tutorials_package(home):
+    """``amr_description`` as the tutorial makes it, in a workspace of hers: the workspace."""
+    package = home / 'tut_ws/src/amr_description'
+    for folder in ('urdf', 'launch', 'resource', 'amr_description'):
+        (package / folder).mkdir(parents=True)
+    text = (ROOT / 'examples/py_pubsub/setup.py').read_text()
+    text = re.sub(r"'console_scripts': \[.*?\]", "'console_scripts': []", text, flags=re.DOTALL)
+    folders = ''.join(
+        f"        ('share/' + package_name + '/{name}', glob('{name}/*')),\n"
+        for name in ('urdf', 'launch')
+    )
+    text = text.replace('    ],\n    install_', f'{folders}    ],\n    install_')
+    text = text.replace('py_pubsub', 'amr_description')
+    (package / 'setup.py').write_text(f'from glob import glob\n{text}')
+    for name in ('setup.cfg', 'package.xml'):
+        given = (ROOT / 'examples/py_pubsub' / name).read_text()
+        (package / name).write_text(given.replace('py_pubsub', 'amr_description'))
+    (package / 'resource/amr_description').touch()
+    (package / 'amr_description/__init__.py').touch()
+    (package / 'launch/gazebo.launch.py').write_text(LAUNCH_FILE)
+    hers = (ROOT / 'urdf/amr.urdf').read_text().replace('name="amr"', 'name="hers"')
+    (package / 'urdf/amr.urdf').write_text(hers)
+    return package.parents[1]
+
+
+TUTORIAL = """
+colcon build --symlink-install
+source install/setup.bash
+ros2 topic list
+check_urdf src/amr_description/urdf/amr.urdf
+ros2 launch amr_description gazebo.launch.py
+ros2 launch amr_description mock
+ros2 param get /robot_state_publisher robot_description
+"""
+
+
+def test_the_tutorials_own_package(home, tutorials_package):
+    with newcomer(TUTORIAL, home, activate='') as shell:
+        shell.book = f'source scripts/activate\ncd {tutorials_package}\n{TUTORIAL}'
+        for line in ('source scripts/', 'cd', 'colcon', 'source install/'):
+            shell.run(line)
+        assert '/parameter_events' in shell.run('ros2 topic list')
+        assert shell.run('check_urdf').startswith('robot name is: hers\n')
+        refused = shell.run('ros2 launch amr_description gazebo', code=1)
+        assert 'launch files (*.launch.py, .xml, .yaml) are not supported here' in refused
+        assert refused.endswith(
+            'for the one of the tutorial: ros2 launch amr_description simulation\n'
+        )
+        shell.start('ros2 launch amr_description mock')
+        shell.see('overlays this one: its files come first')
+        shell.see(r'ready in \d+\.\d s')
+        with newcomer(SIMULATOR.text, home) as other:
+            status = other.run('ros2 run amr_description bringup status')
+            assert 'robot_state_publisher' in status
+            other.book = TUTORIAL + SIMULATOR.text
+            assert '<robot name="hers"' in other.run('ros2 param get')
+            other.run('ros2 run amr_description bringup stop')
+        shell.see(re.escape(PROMPT))
+
+
+def test_a_launch_that_is_broken_off(home):
+    """Ctrl-C while it starts: nothing is left."""
+    with newcomer(README.text, home, activate='') as shell:
+        shell.start('scripts/run ')
+        shell.see(r'\[mujoco_sim-1\]: process started')
+        shell.press(CTRL_C)
+        shell.see(re.escape(PROMPT))
+        shell.type('jobs; echo "left: $(jobs | wc -l)"')
+        shell.see('left: 0')
