@@ -15,12 +15,18 @@ from amr_description.testing.simulation import Simulation
 PAGE = Page('test_your_robot.md')
 FIRST, CONFTEST, TESTS, FLEET, ARM, SAME_BITS = PAGE.blocks('python')
 (ARM_YAML,) = PAGE.blocks('yaml')
+(OF_README,) = Page('../README.md').blocks('python')
 ARM_URDF = ROOT / 'test' / 'fixtures' / 'sim' / 'arm.urdf'
 
 
 @pytest.mark.parametrize('block', [FIRST, FLEET, SAME_BITS])
 def test_a_block_holds(block):
     PAGE.run(block)
+
+
+def test_the_block_of_the_front_page_holds(monkeypatch):
+    monkeypatch.chdir(ROOT / 'examples/rover')
+    PAGE.run(OF_README)
 
 
 def test_the_tests_of_the_page_pass(tmp_path):

@@ -45,7 +45,7 @@ class Runner:
         self.home.mkdir()
         shutil.copytree(ROVER, self.workspace / 'src/rover')
 
-    def run(self, text, code=0):
+    def run(self, text, code=0, patience=PATIENCE):
         """Run a step; return what it prints."""
         script = self.home.parent / 'step.sh'
         script.write_text(text)
@@ -57,7 +57,7 @@ class Runner:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=PATIENCE,
+            timeout=patience,
             check=False,
         )
         assert done.returncode == code, done.stdout
@@ -118,6 +118,7 @@ def test_the_page_shows_the_workflow():
 def test_a_fresh_clone(tmp_path):
     """The first and the second step for once, of what is committed; it fetches packages."""
     machine = Runner(tmp_path)
-    machine.run(STEPS[GET].replace('https://github.com/OWNER/amr_description', f'file://{ROOT}'))
-    assert 'done in' in machine.run(STEPS[SET_UP])
+    published = 'https://github.com/OWNER/amr_description'
+    machine.run(STEPS[GET].replace(published, f'file://{ROOT} amr_description'))
+    assert 'done in' in machine.run(STEPS[SET_UP], patience=10 * PATIENCE)
     assert 'robot name is: rover' in machine.run(STEPS[CHECK])

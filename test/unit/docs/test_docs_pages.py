@@ -78,7 +78,9 @@ def test_the_picture_moves():
 def test_what_is_shown_of_an_example_is_in_it(name):
     files = [path for path in (ROOT / 'examples').rglob('*') if path.is_file()]
     text = ''.join(path.read_text() for path in files)
-    shown = [block for kind in ('python', 'text', 'xml', 'yaml') for block in Page(name).blocks(kind)]
+    shown = [
+        block for kind in ('python', 'text', 'xml', 'yaml') for block in Page(name).blocks(kind)
+    ]
     assert shown
     assert [block for block in shown if block not in text] == []
 
