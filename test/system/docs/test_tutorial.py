@@ -203,44 +203,6 @@ def test_a_controller_is_switched_off_and_on(stack, terminal):
         assert ' inactive' not in shell.run('ros2 control list_controllers')
 
 
-@pytest.mark.long
-def test_a_motor_board_is_unplugged_and_plugged_in_again(terminal, tmp_path):
-    """docs/ros2_control.md; by the services: test/system/hardware/test_serial_stack.py."""
-    port = tmp_path / 'board'
-    board = f'ros2 run amr_description motor_board --link {port}'
-    with terminal() as bench, terminal() as robot, terminal(CONTROL + PAGE) as shell:
-        bench.type(board)
-        bench.see('linked as')
-        robot.type(f'{line_of(CONTROL, "ros2 launch amr_description serial")} port:={port}')
-        robot.see(r'ready in \d+\.\d s')
-        bench.interrupt()
-        robot.see(f'the motor board on {port} is gone')
-        assert ' active' not in shell.run('ros2 control list_controllers')
-        bench.type(board)
-        bench.see('linked as')
-        shell.run('ros2 control set_hardware_component_state AmrSystem active')
-        shell.run('ros2 control switch_controllers --activate joint_state_broadcaster diff')
-        assert shell.run('ros2 control list_controllers').count(' active') == 2
-        robot.interrupt()
-        bench.interrupt()
-
-
-@pytest.mark.long
-def test_the_simulator_without_a_stack(terminal):
-    """The last section of docs/simulator.md: two programs that go on, and two that end."""
-    with terminal(SIMULATOR) as first, terminal(SIMULATOR) as second, terminal(SIMULATOR) as shell:
-        first.start('ros2 run amr_description mujoco_sim')
-        first.see("World 'ramp'")
-        second.start('ros2 run amr_description robot_state_publisher')
-        second.see('Robot initialized')
-        shell.run('ros2 run amr_description create')
-        shell.run('ros2 run amr_description spawner')
-        shell.book = 'ros2 control list_controllers'
-        assert shell.run('ros2 control').count(' active') == 2
-        first.interrupt()
-        second.interrupt()
-
-
 def odometry_x(shell):
     """The robot's x on /odom, m, by the line of the README."""
     printed = shell.run('ros2 topic echo /odom --once')

@@ -5,18 +5,21 @@ The first hour of a learner, from an empty home: her first package, then the tut
 
 Where people fell before, and what types it now:
 
-=====================================================  ==========================================
-the tutorial's package name ends every command         test_the_tutorials_own_package, and
-                                                       test/system/cli/test_overlaid_package.py
-launch files                                           test_the_tutorials_own_package
-``colcon test`` of a package                           test_her_first_package; that of one with
-                                                       ``tests_require``: test/system/colcon/
-nobody says that a workspace of your own works         test_her_first_package
-talker, listener, check_urdf, drive                    test/system/docs/test_tutorial.py
-``--help`` of an executable                            test/system/nodes/test_node_help.py
-``bringup stop``                                       test_the_tutorials_own_package
-``pkg create``, ``bag``, message packages, rqt         README, "What is not here"
-=====================================================  ==========================================
+=================================================  ==============================================
+the tutorial's package name ends every command     test_the_tutorials_own_package,
+                                                   test/system/cli/test_overlaid_package.py
+launch files                                       test_the_tutorials_own_package
+that a workspace of your own works                 test_her_first_package
+a shell that sources that workspace alone          test_her_first_package, test_tutorial.py
+``colcon test`` of a package                       test_her_first_package; with ``tests_require``:
+                                                   test/tooling/test_stock_package.py
+talker, listener, check_urdf, drive                test_tutorial.py
+``--help``                                         test/system/nodes/test_node_help.py
+``bringup stop``                                   test_the_tutorials_own_package
+Ctrl-C during the start                            test_a_launch_that_is_broken_off
+a missing package, ``ros2 bag``, ``pkg create``    test/system/cli/
+message packages, rqt                              README, "What is not here"
+=================================================  ==============================================
 """
 
 import re

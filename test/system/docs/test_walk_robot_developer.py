@@ -5,17 +5,22 @@ A robot developer's first hour, from an empty home: docs/your_own_robot.md, type
 
 Where people fell before, and what types it now:
 
-=====================================================  ==========================================
-a wrong axle passes everything                         test_a_wrong_axle_is_named, and
-                                                       test/unit/model/test_checks*.py
-an IMU is written down nowhere                         test_the_robot_in_the_simulator
-a third controller needs a spawner                     test_the_robot_in_the_simulator
-``import tf2_ros``                                     test_a_node_may_import_tf2
-friction tags                                          test/unit/sim/, the rover's caster
-a robot that rears up; ``mock`` with ``use_sim_time``  test/ros/, test/system/control/
-parameter mistakes, lines of a xacro, two robots       test/unit/model/, test/system/control/
-lidar, camera                                          README, "What is not here"
-=====================================================  ==========================================
+=================================================  ==============================================
+a wrong axle passes everything                     test_a_wrong_axle_is_named,
+                                                   test/unit/model/test_rules_controllers.py
+an IMU, a third controller                         test_the_robot_in_the_simulator
+``import tf2_ros`` and the like                    test_a_node_may_import_tf2,
+                                                   test/ros/message_filters/, sensor_msgs_py/
+friction tags                                      the caster of the rover; test/unit/sim/
+multipliers of odometry                            test_odometry_is_calibrated
+mistakes in a YAML file                            test/unit/controllers/test_parameter_faults.py
+``urdf:=`` without ``controllers:=``, a fleet      test/unit/bringup/test_bringup_*_files.py
+lines of a xacro                                   test/unit/model/test_description_file.py
+mm for m                                           test/unit/model/test_urdf_broken.py
+a robot that rears up; ``mock`` without a clock;   test/unit/sim/, test/system/control/,
+two simulators in a domain                         test/system/sim/
+lidar, camera                                      README, "What is not here"
+=================================================  ==============================================
 """
 
 import re
@@ -49,23 +54,22 @@ def test_the_description_is_checked_and_dropped(home):
         assert '    child(1):  base_link\n' in shell.run('check_urdf urdf/rover.urdf.xacro wheel_')
 
 
-def test_the_sliders(home):
-    with person(README, home) as shell:
-        shell.start('ros2 launch amr_description display ')
-        shell.see(r'The page is at http://\S+')
-        shell.press(CTRL_C)
-        shell.see(re.escape(PROMPT))
-
-
 @pytest.fixture(scope='module')
 def robot(home):
-    """The robot runs at another terminal."""
+    """The terminal in which she looks at the robot with sliders, and then has it simulated."""
     with person(README, home) as shell:
+        shell.start('ros2 launch amr_description display ')
+        shell.sliders = shell.see(r'The page is at (http://\S+)')[1]
+        shell.interrupt()
         shell.start('ros2 launch amr_description simulation ')
         shell.see(r'ready in \d+\.\d s')
         yield shell
         shell.press(CTRL_C)
         shell.see(re.escape(PROMPT))
+
+
+def test_the_sliders(robot):
+    assert robot.sliders.startswith('http://127.0.0.1:')
 
 
 def x(printed):
