@@ -87,6 +87,13 @@ def test_the_workflow(runner):
     assert [each.name for each in (runner.workspace / 'build').glob('*/')] == ['rover']
 
 
+def test_the_stack_of_the_package_is_found(runner):
+    """As docs/your_own_robot.md starts it, in a shell that sources the workspace alone."""
+    printed = runner.run('source install/setup.bash\nros2 launch rover rover_sim.py --print')
+    assert 'spawner imu_sensor_broadcaster' in printed
+    assert str(runner.workspace / 'install/rover/share/rover/config/rover.yaml') in printed
+
+
 def test_what_is_uploaded_is_there(runner):
     (upload,) = (step for step in WORKFLOW['jobs']['test']['steps'] if 'upload' in str(step))
     for pattern in upload['with']['path'].split():
