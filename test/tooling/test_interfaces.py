@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from importlib import import_module
 import json
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
@@ -24,7 +25,7 @@ INTERFACES = ROOT / 'interfaces'
 FIXTURES = TESTS / 'fixtures' / 'interfaces'
 # The originals' hashes: control_msgs, simulation_interfaces, TFMessage and those of other packages
 # as published, the rest as built by CMake and by this build alike; pal_statistics_msgs by this
-# build.
+# build; example_interfaces: AddTwoInts as published, the rest by this build (see the tests below).
 HASHES = json.loads((FIXTURES / 'type_hashes.json').read_text())
 # Of a message or a part of a service or action: its constants, and the defaults of its fields,
 # which no hash tells.
@@ -36,6 +37,16 @@ SOURCES = sorted(
     for kind in ('msg', 'srv', 'action')
     for path in (INTERFACES / package).glob(f'{kind}/*.{kind}')
 )
+# std_msgs and std_srvs have them, too; these were there first, but for AddTwoInts and WString.
+SAME_AS_STANDARD = [
+    name
+    for name in SOURCES
+    if re.match('example_interfaces/(msg|srv)/(?!AddTwoInts|WString)', name)
+]
+FIBONACCI = {
+    '_SendGoal': 'RIHS01_d1a57fb2a4afe8c21e34fb10db206f16ce6729b28531141472df92277c55b557',
+    '_GetResult': 'RIHS01_1b0de0d5d29dc955d92f546706568428632771db13ec84c15ec1c1a59f424a57',
+}
 PATIENCE = 30.0  # s; a bound that only a broken test reaches
 
 
@@ -49,11 +60,14 @@ def test_packages_are_whole():
     assert wanted == SOURCES
 
 
-def installed_hash(name):
+def described(name):
     share = Path(get_package_share_directory(name.split('/')[0]))
-    description = json.loads((share.parent / f'{name}.json').read_text())
-    hashes = {entry['type_name']: entry['hash_string'] for entry in description['type_hashes']}
-    return hashes[name]
+    return json.loads((share.parent / f'{name}.json').read_text())
+
+
+def installed_hash(name, part=''):
+    hashes = {each['type_name']: each['hash_string'] for each in described(name)['type_hashes']}
+    return hashes[name + part]
 
 
 @pytest.mark.parametrize('package', PACKAGES)
@@ -68,6 +82,26 @@ def test_types_of_the_wheels_have_the_hashes_of_jazzy():
     others = [name for name in HASHES if name.split('/')[0] not in PACKAGES]
     assert len(others) == 11
     assert {name: installed_hash(name) for name in others} == {n: HASHES[n] for n in others}
+
+
+def test_fibonacci_has_the_published_hashes_of_its_services():
+    name = 'example_interfaces/action/Fibonacci'
+    assert {part: installed_hash(name, part) for part in FIBONACCI} == FIBONACCI
+
+
+@pytest.mark.parametrize('name', SAME_AS_STANDARD)
+def test_examples_are_the_types_that_std_msgs_and_std_srvs_have(name):
+    # A hash tells the name of the package, too.
+    _, kind, message = name.split('/')
+    package = {'msg': 'std_msgs', 'srv': 'std_srvs'}[kind]
+    assert parts_of(name) == parts_of(f'{package}/{kind}/{message}')
+
+
+def parts_of(name):
+    whole = described(name)['type_description_msg']
+    package = name.partition('/')[0]
+    parts = [whole['type_description'], *whole['referenced_type_descriptions']]
+    return sorted(json.dumps(part).replace(f'{package}/', '') for part in parts)
 
 
 @pytest.mark.parametrize('name', SOURCES)
