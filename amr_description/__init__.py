@@ -10,6 +10,9 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``hardware/``           hardware components: MuJoCo, mock, serial
 ``sim/``                MuJoCo without ROS; in ``sim/ros/`` the services of simulation_interfaces
 ``tf2_ros/``            Buffer, TransformListener, broadcasters
+``message_filters/``    synchronizers and caches of topics, as ``import message_filters``
+``sensor_msgs_py/``     point clouds as arrays, as ``import sensor_msgs_py``
+``ament_copyright/``    the linter of copyright notices, as ``import ament_copyright``
 ``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph
 ``ros/``                rclpy as every node uses it
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``

@@ -24,6 +24,8 @@ Every error that this package raises on purpose.
     │   ├── ConnectivityException   the frames are in different trees
     │   ├── ExtrapolationException  the transform is not known at that time
     │   └── InvalidArgumentException  a name or a transform cannot be used
+    ├── MessageFilterError   a message filter cannot do what was asked; an AssertionError, too
+    ├── PointCloudError      points, fields and cloud do not fit; an AssertionError, too
     ├── CalibrationError     the measured drive does not determine the parameters
     ├── ViewerError          the browser page's server cannot do what was asked
     │   └── ProtocolError    a message of a page is malformed
@@ -122,6 +124,14 @@ class ExtrapolationException(TransformException):
 
 class InvalidArgumentException(TransformException):
     """The name of a frame, or a transform, cannot be used."""
+
+
+class MessageFilterError(AmrError, AssertionError):
+    """A message filter cannot do what was asked: in message_filters an AssertionError."""
+
+
+class PointCloudError(AmrError, AssertionError):
+    """Points, fields and cloud do not fit together: in sensor_msgs_py an AssertionError."""
 
 
 class CalibrationError(AmrError):

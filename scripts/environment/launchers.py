@@ -4,9 +4,10 @@
 What ``.venv`` gets beside its packages: commands, and the hooks every ROS prefix has.
 
 **Commands.** colcon puts executables into ``lib/<package>``, where ``ros2 run`` looks; ``ros2``
-and ``check_urdf`` must be on the PATH. Each is a shell script of two lines that starts our Python
-with the wheels' libraries on LD_LIBRARY_PATH, and says so to ``ros_wheels_bootstrapper``: that
-would otherwise start Python a second time, for every command (25 ms of 60, more when cold).
+and ``check_urdf`` must be on the PATH. They are
+shell scripts of two lines that start our Python with the wheels' libraries on LD_LIBRARY_PATH, and
+say so to ``ros_wheels_bootstrapper``: that would otherwise start Python a second time, for every
+command (25 ms of 60, more when cold).
 
 Only the scripts set these two, never the shell: exported, the path would make foreign programs
 load our libraries, and the mark would keep another environment's wheels from finding theirs. What
@@ -21,8 +22,9 @@ which is the default of ROS, others would see its nodes, and a publisher that se
 **Path file.** ``amr_description.pth`` makes the package importable by ``.venv/bin/python`` in any
 shell; it names colcon's build folder, where the package's metadata are too.
 
-**tf2_ros.** PyPI has none. Nodes that import it get that of this package, under the names of the
-original's modules.
+**Modules under their names in ROS.** PyPI has no tf2_ros, message_filters, sensor_msgs_py and
+ament_copyright. Nodes and tests that import them get those of this package, under the names of the
+originals' modules.
 """
 
 import os
@@ -44,22 +46,47 @@ exec {python} -P -c {code} {command} "$@"
 # A workspace may have a package of the same name, in front on PYTHONPATH.
 CODE = 'import sys; sys.path.insert(0, {build!r}); import amr_description.cli.__main__'
 
-TF2_ROS = """\
-# Written by scripts/setup: tf2_ros is that of amr_description here.
-import amr_description
+# Modules under their names in ROS, and ours that each stands for; none: it is empty.
+MODULES = {
+    'ament_copyright': None,
+    'ament_copyright.main': 'ament_copyright.main',
+    'message_filters': 'message_filters',
+    'sensor_msgs_py': None,
+    'sensor_msgs_py.numpy_compat': 'sensor_msgs_py.numpy_compat',
+    'sensor_msgs_py.point_cloud2': 'sensor_msgs_py.point_cloud2',
+    'tf2_ros': 'tf2_ros',
+    'tf2_ros.buffer': 'tf2_ros.buffer',
+    'tf2_ros.static_transform_broadcaster': 'tf2_ros.broadcaster',
+    'tf2_ros.transform_broadcaster': 'tf2_ros.broadcaster',
+    'tf2_ros.transform_listener': 'tf2_ros.listener',
+}
+MODULE = """\
+# Written by scripts/setup: the module of this name is that of amr_description here.
+import amr_description as _package
 
 # A workspace may have a package of that name, in front on PYTHONPATH: this is found behind it.
-if {modules!r} not in amr_description.__path__:
-    amr_description.__path__.append({modules!r})
-from amr_description.tf2_ros import *  # noqa: E402, F403
-from amr_description.tf2_ros import __all__  # noqa: E402, F401
+if {modules!r} not in _package.__path__:
+    _package.__path__.append({modules!r})
+from amr_description.{ours} import *  # noqa: E402, F403
 """
-# Where nodes find a class that they do not import from tf2_ros itself.
-TF2_ROS_MODULES = {
-    'buffer': ('Buffer',),
-    'static_transform_broadcaster': ('StaticTransformBroadcaster',),
-    'transform_broadcaster': ('TransformBroadcaster',),
-    'transform_listener': ('TransformListener',),
+# pytest loads this before it knows the paths of a user's package, which may be called as ours is:
+# nothing of ours is imported here.
+MARKER = {
+    'ament_copyright/pytest_marker.py': """\
+# Written by scripts/setup: the marker of test/test_copyright.py.
+def pytest_configure(config):
+    config.addinivalue_line('markers', 'copyright: marks tests checking for copyright notices')
+""",
+    'ament_copyright-0.dist-info/METADATA': """\
+Metadata-Version: 2.1
+Name: ament-copyright
+Version: 0
+Summary: Written by scripts/setup: that of amr_description
+""",
+    'ament_copyright-0.dist-info/entry_points.txt': """\
+[pytest11]
+ament_copyright = ament_copyright.pytest_marker
+""",
 }
 
 LOCAL_SETUP = """\
@@ -82,13 +109,14 @@ def library_path(venv: Path, home: Path) -> str:
     )
 
 
-def tf2_ros(build: Path) -> dict[str, str]:
-    """Return the text of each module of the package ``tf2_ros``, by its name."""
-    modules = {
-        f'{name}.py': f'from tf2_ros import {", ".join(classes)}\n\n__all__ = {list(classes)!r}\n'
-        for name, classes in TF2_ROS_MODULES.items()
-    }
-    return {'__init__.py': TF2_ROS.format(modules=str(build / PACKAGE)), **modules}
+def modules(build: Path) -> dict[str, str]:
+    """Return the text of what lies in site-packages, by its path there."""
+    packages = {name.partition('.')[0] for name in MODULES}
+    found = dict(MARKER)
+    for name, ours in MODULES.items():
+        path = f'{name}/__init__.py' if name in packages else f'{name.replace(".", "/")}.py'
+        found[path] = MODULE.format(modules=str(build / PACKAGE), ours=ours) if ours else ''
+    return found
 
 
 def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
@@ -109,7 +137,7 @@ def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
         },
         **{venv / f'local_setup.{shell}': local_setup for shell in ('sh', 'bash', 'zsh')},
         packages / f'{PACKAGE}.pth': f'{build}\n',
-        **{packages / 'tf2_ros' / name: text for name, text in tf2_ros(build).items()},
+        **{packages / path: text for path, text in modules(build).items()},
     }
 
 

@@ -40,6 +40,9 @@ ARROWS = {
     'viewer': {'model'},
     'ros': {'control', 'model'},
     'tf2_ros': {'ros', 'model'},
+    'message_filters': set(),
+    'sensor_msgs_py': set(),
+    'ament_copyright': set(),
     'control/ros': {'ros', 'control', 'controllers', 'hardware', 'model'},
     'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
     'viewer/ros': {'viewer', 'ros', 'model'},
@@ -47,8 +50,13 @@ ARROWS = {
     'cli': {'bringup', 'control/ros', 'controllers', 'ros', 'sim', 'model'},
     'testing': {'bringup', 'control/ros', 'nodes', 'ros', 'control', 'model'},  # starts mujoco_sim
 }
-ARROWS['nodes'] = ARROWS.keys() - {'bringup', 'cli', 'testing', 'amr_description'}
-ROS = {'control/ros', 'sim/ros', 'viewer/ros', 'ros', 'tf2_ros', 'nodes', 'cli', 'testing'}
+# For nodes and tests of users, under their names in ROS.
+FOR_USERS = {'message_filters', 'sensor_msgs_py', 'ament_copyright'}
+ARROWS['nodes'] = ARROWS.keys() - {'bringup', 'cli', 'testing', 'amr_description'} - FOR_USERS
+ROS = {
+    'control/ros', 'sim/ros', 'viewer/ros', 'ros', 'tf2_ros', 'message_filters', 'sensor_msgs_py',
+    'nodes', 'cli', 'testing',
+}  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
 PURE = {'base', 'model', 'control', 'controllers'}
 # Heavy libraries have one home each.

@@ -89,6 +89,11 @@ from tf2_ros import Buffer, LookupException, StaticTransformBroadcaster, Transfo
 from tf2_ros.buffer import Buffer as Same
 from tf2_ros.transform_broadcaster import TransformBroadcaster
 from tf2_ros.transform_listener import TransformListener
+import ament_copyright.main, message_filters, sensor_msgs_py.numpy_compat
+from message_filters import *
+from sensor_msgs_py import point_cloud2
+assert ApproximateTimeSynchronizer is message_filters.ApproximateTimeSynchronizer
+assert callable(point_cloud2.create_cloud_xyz32) and callable(ament_copyright.main.main)
 assert Same is Buffer and issubclass(LookupException, TransformException)
 try:
     Buffer().lookup_transform('odom', 'base_link', __import__('rclpy').time.Time())
@@ -98,7 +103,7 @@ except TransformException as error:
 
 
 @pytest.mark.parametrize('is_overlaid', [False, True])
-def test_a_node_imports_tf2_ros_under_its_name(variables, is_overlaid):
+def test_a_node_imports_packages_of_ros_under_their_names(variables, is_overlaid):
     if not is_overlaid:
         del variables['PYTHONPATH']
     said = run(variables, BIN / 'python', '-c', IMPORT).stdout
