@@ -18,6 +18,7 @@ from . import progress, SetupError
 from .checkout import PACKAGE
 from .commands import run
 
+WITHOUT_WHEEL = ('empy', 'flake8-quotes')
 REQUIREMENT = re.compile(r'^([A-Za-z0-9._-]+)==(\S+)')
 
 
@@ -44,8 +45,8 @@ def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
     """
     Make the environment ``venv`` from nothing and install all that ``lock`` pins.
 
-    Never resolved: every package is in the lock. Never built from source, but EmPy, which has no
-    wheel and for which the pinned setuptools is there first.
+    Never resolved: every package is in the lock. Never built from source, but those that have no
+    wheel, for which the pinned setuptools is there first.
     """
     pins = pinned_versions(lock.read_text())
     shutil.rmtree(venv, ignore_errors=True)
@@ -62,7 +63,7 @@ def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
         '--no-deps',
         '--no-build-isolation',
         '--only-binary=:all:',
-        '--no-binary=empy',
+        f'--no-binary={",".join(WITHOUT_WHEEL)}',
         '--no-input',
     ]
     hint = '; is the network there? `pip config list` shows the index used'

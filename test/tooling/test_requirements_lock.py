@@ -65,8 +65,9 @@ def test_lock_is_closed_but_for_what_it_leaves_out():
 
 
 def test_pins_that_keep_things_working():
-    # From 80 on `colcon build --symlink-install` copies.
-    assert int(PINNED['setuptools'].split('.')[0]) < 80
+    # From 72 on `colcon test` runs no test of a package of Jazzy (test_stock_package.py); from 80
+    # on `colcon build --symlink-install` copies.
+    assert int(PINNED['setuptools'].split('.')[0]) < 72
     # Later ones belong to later distributions, and mix without a word.
     assert PINNED['ros-jazzy-rclpy'].startswith('7.1.')
     assert PINNED['ros-jazzy-common-interfaces'].startswith('5.3.')
