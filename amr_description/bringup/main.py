@@ -38,7 +38,7 @@ from amr_description.bringup.run_log import (
     run_name,
     with_tilde,
 )
-from amr_description.bringup.run_registry import registry_folder, RunRecord
+from amr_description.bringup.run_registry import COMMAND, registry_folder, RunRecord
 from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
@@ -122,8 +122,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='bringup',
         description='Start a stack of nodes in order, and stop them all on Ctrl-C.',
-        epilog=f'Stacks: {", ".join(STACKS)}. Try: bringup simulation --show-args. What runs is '
-        'shown by bringup status, and ended by bringup stop.',
+        epilog=f'Stacks: {", ".join(STACKS)}. Try: {COMMAND} simulation --show-args. What runs is '
+        f'shown by {COMMAND} status, and ended by {COMMAND} stop.',
     )
     parser.add_argument('stack', help='name of a stack, or a Python file with one')
     parser.add_argument('arguments', nargs='*', metavar='name:=value', help='its arguments')

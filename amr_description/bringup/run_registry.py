@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from amr_description.bringup.command_line import ProcessSpec
 
 
+COMMAND = 'ros2 run amr_description bringup'
+"""How messages name the command: so it works in every shell that has ROS."""
+
 type State = dict[str, Any]
 """The content of a run's file."""
 
@@ -153,7 +156,7 @@ class RunRecord:
             raise BringupError(
                 f"{', '.join(sorted(common))} would be there twice: the stack '{other['stack']}' "
                 f'(pid {other["pid"]}, since {clock(other["since"])}) runs in ROS domain '
-                f"{other['domain']} already; end it with 'bringup stop {other['pid']}', or take "
+                f"{other['domain']} already; end it with '{COMMAND} stop {other['pid']}', or take "
                 'another domain (--domain N), or start it nevertheless (--force)'
             )
 

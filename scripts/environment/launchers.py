@@ -3,8 +3,8 @@
 """
 What ``.venv`` gets beside its packages: commands, and the hooks every ROS prefix has.
 
-**Commands.** colcon puts executables into ``lib/<package>``, where ``ros2 run`` looks; ``ros2``
-and ``check_urdf`` must be on the PATH. They are
+**Commands.** colcon puts executables into ``lib/<package>``, where ``ros2 run`` looks; ``ros2``,
+``check_urdf`` and ``bringup`` must be on the PATH. ``bringup`` is that executable. The others are
 shell scripts of two lines that start our Python with the wheels' libraries on LD_LIBRARY_PATH, and
 say so to ``ros_wheels_bootstrapper``: that would otherwise start Python a second time, for every
 command (25 ms of 60, more when cold).
@@ -32,7 +32,7 @@ from pathlib import Path
 import shlex
 
 from . import stamps
-from .checkout import PACKAGE
+from .checkout import Checkout, PACKAGE
 
 COMMANDS = ('ros2', 'check_urdf')
 
@@ -41,6 +41,11 @@ COMMAND = """\
 _ROS_WHEELS_BOOTSTRAP_COMPLETE=1 \
 LD_LIBRARY_PATH={libraries}"${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}" \
 exec {python} -P -c {code} {command} "$@"
+"""
+
+BRINGUP = """\
+#!/bin/sh
+exec {install}/lib/amr_description/bringup "$@"
 """
 
 # A workspace may have a package of the same name, in front on PYTHONPATH.
@@ -119,8 +124,9 @@ def modules(build: Path) -> dict[str, str]:
     return found
 
 
-def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
+def files(venv: Path, home: Path, checkout: Checkout) -> dict[Path, str]:
     """Return the text of each file, by its path in ``venv``, as it has to be at ``home``."""
+    build = checkout.build
     python = shlex.quote(str(home / 'bin' / 'python'))
     libraries = shlex.quote(library_path(venv, home))
     code = shlex.quote(CODE.format(build=str(build)))
@@ -135,14 +141,15 @@ def files(venv: Path, home: Path, build: Path) -> dict[Path, str]:
             )
             for command in COMMANDS
         },
+        venv / 'bin' / 'bringup': BRINGUP.format(install=shlex.quote(str(checkout.install))),
         **{venv / f'local_setup.{shell}': local_setup for shell in ('sh', 'bash', 'zsh')},
         packages / f'{PACKAGE}.pth': f'{build}\n',
         **{packages / path: text for path, text in modules(build).items()},
     }
 
 
-def write(venv: Path, home: Path, build: Path) -> None:
+def write(venv: Path, home: Path, checkout: Checkout) -> None:
     """Write the files that are not there already, commands with the execute bit."""
-    for file, text in files(venv, home, build).items():
+    for file, text in files(venv, home, checkout).items():
         if not file.is_file() or file.read_text() != text:
             stamps.replace_file(file, text, 0o755 if file.parent.name == 'bin' else 0o644)

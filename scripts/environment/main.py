@@ -45,10 +45,10 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
         virtual_environment.create(fresh, checkout.requirements, environment)
         _install_interfaces(checkout, fresh, environment)
         virtual_environment.relocate(fresh, checkout.venv)
-        launchers.write(fresh, checkout.venv, checkout.build)
+        launchers.write(fresh, checkout.venv, checkout)
         stamp(fresh, 'environment').write(key)
         virtual_environment.replace(checkout.venv, fresh)
-    launchers.write(checkout.venv, checkout.venv, checkout.build)
+    launchers.write(checkout.venv, checkout.venv, checkout)
     return stale
 
 
@@ -91,7 +91,7 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
     """Run ``scripts/setup``; return its exit code."""
     if arguments:
         say(f'takes no arguments, got {" ".join(arguments)}; it makes .venv, install/ and build/')
-        return 0 if arguments[0] in ('-h', '--help') else 2
+        return 2
     start = time.monotonic()
     checkout = Checkout(Path(__file__).resolve().parents[2])
     try:

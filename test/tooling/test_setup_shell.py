@@ -112,12 +112,14 @@ def test_named_python_is_taken_or_refused(bare):
 class TestActivate:
     def test_commands_and_packages_are_found(self, shell):
         done = shell_run(
-            f'. {ACTIVATE}; command -v ros2 check_urdf python colcon; echo $AMENT_PREFIX_PATH;'
-            'echo $ROS_DISTRO $ROS_AUTOMATIC_DISCOVERY_RANGE; ros2 pkg prefix amr_description',
+            f'. {ACTIVATE}; command -v ros2 check_urdf bringup python colcon;'
+            'echo $AMENT_PREFIX_PATH; echo $ROS_DISTRO $ROS_AUTOMATIC_DISCOVERY_RANGE;'
+            'ros2 pkg prefix amr_description',
             shell,
         )
         programs = [
-            str(ROOT / '.venv/bin' / name) for name in ('ros2', 'check_urdf', 'python', 'colcon')
+            str(ROOT / '.venv/bin' / name)
+            for name in ('ros2', 'check_urdf', 'bringup', 'python', 'colcon')
         ]
         install = f'{ROOT}/install/amr_description'
         assert done.stderr == ''

@@ -101,7 +101,8 @@ def test_a_second_stack_of_the_same_names_is_refused(tmp_path):
             assert second.end() == 1
             (line,) = second.lines
             assert "/left/hand would be there twice: the stack 'in_order' (pid " in line
-            assert f"end it with 'bringup stop {first.process.pid}'" in line
+            end = f'ros2 run amr_description bringup stop {first.process.pid}'
+            assert f"end it with '{end}'" in line
             assert '(--force)' in line
         with Bringup(tmp_path, IN_ORDER, '--domain=99') as elsewhere:
             up(elsewhere)
