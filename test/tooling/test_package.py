@@ -8,6 +8,7 @@ from operator import attrgetter
 import os
 from pathlib import Path
 import re
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -108,7 +109,7 @@ def test_every_declared_ros_package_is_there():
 
 
 def test_setup_declares_nothing_that_breaks_a_build():
-    # The first is unknown to setuptools by now: colcon then runs unittest, and no test at all.
+    # The first is unknown to setuptools from 72 on: colcon then runs unittest, and no test at all.
     assert 'tests_require' not in SETUP
     assert SETUP['extras_require'] == {'test': ['pytest']}
     # Distributions on PyPI are called otherwise (ros-rclpy); package.xml has the ROS names.
@@ -186,6 +187,20 @@ def test_scripts_are_executable(script):
     path = ROOT / 'scripts' / script
     assert os.access(path, os.X_OK)
     assert path.read_text().startswith('#!')
+
+
+@pytest.mark.parametrize(
+    'script', ['setup', 'run', 'test', 'bench', 'lint', 'screenshots', 'fuzz_urdf']
+)
+@pytest.mark.parametrize('option', ['-h', '--help'])
+def test_scripts_print_their_help_and_do_nothing(script, option, tmp_path):
+    alone = shutil.copy(ROOT / 'scripts' / script, tmp_path)  # beside no set-up
+    done = subprocess.run([alone, option], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, '')
+    first, *lines = done.stdout.splitlines()
+    assert first.startswith(f'scripts/{script} ')
+    text = (ROOT / 'scripts' / script).read_text().partition('\n\n')[0].splitlines()
+    assert [f'# {line}'.rstrip() for line in (first, *lines)] == text[4:]
 
 
 def test_license_is_there():
