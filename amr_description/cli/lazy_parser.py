@@ -77,6 +77,17 @@ class LazyParser(argparse.ArgumentParser):
         alternatives = {a for group in groups for a in group}
         return '--' not in args and not open_ended and alternatives.isdisjoint(words)
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """Say what to do instead of a verb that the original has."""
+        instead = None
+        if isinstance(action, _SubParsersAction) and value not in action.choices:
+            from amr_description.cli.not_offered import INSTEAD
+
+            instead = INSTEAD.get(f'{self.prog} {value}')
+        if instead:
+            self.exit(2, f'{self.prog} {value} is not offered here: {instead}\n')
+        super()._check_value(action, value)
+
     def read_table(self, table: Mapping[str, str]) -> None:
         """Parse a name of the table, and the following words with the parser of its module."""
         self._table = table

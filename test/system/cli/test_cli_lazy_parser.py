@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a person sees first: help, wrong words; and that none of it costs an import too many."""
 
+from importlib import import_module
 import re
 import sys
 from types import ModuleType
@@ -11,6 +12,7 @@ import pytest
 
 from amr_description.cli import qos_arguments
 from amr_description.cli.lazy_parser import LazyParser, run
+from amr_description.cli.not_offered import INSTEAD
 from amr_description.cli.ros2 import COMMANDS
 from amr_description.cli.topic import VERBS
 
@@ -72,6 +74,25 @@ def test_an_unknown_word_is_told_with_those_there_are():
     assert result.stderr.startswith('usage: ros2 topic [-h]')
     known = ', '.join(map(repr, sorted(VERBS)))
     assert f"invalid choice: 'ecko' (choose from {known})\n" in result.stderr
+
+
+@pytest.mark.parametrize('command', INSTEAD)
+def test_a_verb_of_the_original_that_is_not_here_is_one_line_with_what_to_do(command, capsys):
+    parser = LazyParser(prog='ros2')
+    parser.read_table(COMMANDS)
+    for rest in ([], ['record', '-a'], ['--help']):
+        with pytest.raises(SystemExit, match='2'):
+            run(parser, [*command.split()[1:], *rest])
+        said = capsys.readouterr()
+        assert said.out == ''
+        assert said.err == f'{command} is not offered here: {INSTEAD[command]}\n'
+
+
+def test_what_is_offered_is_not_in_the_table_of_what_is_not():
+    for command in INSTEAD:
+        group, *verb = command.split()[1:]
+        offered = import_module(COMMANDS[group]).VERBS if verb else COMMANDS
+        assert (verb or [group])[0] not in offered
 
 
 def test_help_needs_neither_rclpy_nor_verbs():

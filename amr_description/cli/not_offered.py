@@ -1,0 +1,25 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Commands and verbs of the original ``ros2`` that are not here, and what to do instead."""
+
+INSTEAD = {
+    'ros2 bag': 'record on a machine with ROS 2 Jazzy in the same domain; or write the values of '
+    'one topic with `ros2 topic echo --csv TOPIC > FILE`',
+    'ros2 component': 'components are C++ nodes, of which there are none here; start nodes with '
+    '`ros2 run` and `ros2 launch`',
+    'ros2 doctor': 'look with `ros2 topic info --verbose TOPIC`, `ros2 node info NODE` and `ros2 '
+    'control list_controllers`, and at a description with `check_urdf FILE`',
+    'ros2 multicast': 'see with `ros2 node list` on both machines whether they find each other '
+    '(docs/two_machines.md)',
+    'ros2 pkg create': 'write the files of a Python package yourself: package.xml, setup.py, '
+    'setup.cfg, resource/NAME and NAME/__init__.py',
+    'ros2 plugin': 'plugins of C++ are not read here; those of the controller manager are listed '
+    'by `ros2 control list_controller_types`',
+    'ros2 security': 'there are no enclaves; keep a robot to this host, or to one network, with '
+    'ROS_AUTOMATIC_DISCOVERY_RANGE (docs/two_machines.md)',
+    'ros2 service echo': 'call the service with `ros2 service call`, or log in its node',
+    'ros2 test': 'write tests for pytest (docs/test_your_robot.md), run by `colcon test`',
+    'ros2 trace': 'see the times of the control loop with `ros2 topic echo /diagnostics`',
+    'ros2 wtf': 'look with `ros2 topic info --verbose TOPIC`, `ros2 node info NODE` and `ros2 '
+    'control list_controllers`, and at a description with `check_urdf FILE`',
+}
