@@ -122,8 +122,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='bringup',
         description='Start a stack of nodes in order, and stop them all on Ctrl-C.',
-        epilog=f'Stacks: {", ".join(STACKS)}. Try: {COMMAND} simulation --show-args. What runs is '
-        f'shown by {COMMAND} status, and ended by {COMMAND} stop.',
+        epilog=f'Stacks: {", ".join(STACKS)}. Try: {COMMAND} simulation --show-args. In place of '
+        'a stack, "status" shows what runs, and "stop" ends it.',
     )
     parser.add_argument('stack', help='name of a stack, or a Python file with one')
     parser.add_argument('arguments', nargs='*', metavar='name:=value', help='its arguments')
@@ -148,14 +148,22 @@ def _parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace) -> int:
     os.environ |= environment.variables(options, os.environ)
     if options.show_args:
-        print(show(declared(find_stack(options.stack))))
-        return 0
+        return _print(show(declared(find_stack(options.stack))))
     stack = make_stack(options.stack, parse(options.arguments))
     prefix = LaunchPrefix(options.launch_prefix, options.launch_prefix_filter)
     if options.print:
-        print(listing(stack, process_specs(stack, Path('LOG_FOLDER'), prefix)))
-        return 0
+        return _print(listing(stack, process_specs(stack, Path('LOG_FOLDER'), prefix)))
     return start(stack, name=Path(options.stack).stem, force=options.force, prefix=prefix)
+
+
+def _print(text: str) -> int:
+    """Print a text; return the exit code: that of shells where the reader is gone (``| head``)."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        streams.abandon_stdout()
+        return 128 + signal.SIGPIPE
+    return 0
 
 
 def _console(stack: Stack, folder: LogFolder) -> Console:

@@ -87,6 +87,21 @@ def test_status_shows_who_waits_and_who_died(tmp_path):
         assert 'never starts: needs that step-1 exited with code 0' in told
 
 
+@pytest.mark.parametrize('option', ['--print', '--show-args'])
+def test_the_reader_of_a_listing_may_go_away(option):
+    reader, writer = os.pipe()
+    os.close(reader)  # as `head` does, sooner or later
+    done = subprocess.run(
+        [sys.executable, '-m', 'amr_description.bringup.main', 'mock', option],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=PATIENCE,
+    )
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (128 + signal.SIGPIPE, '')
+
+
 def test_a_stopped_job_can_be_ended(tmp_path):
     with Bringup(tmp_path, IN_ORDER) as bringup:
         up(bringup).signal(signal.SIGSTOP)  # as Ctrl-Z does
