@@ -96,9 +96,9 @@ def has_workers(config):
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers(config):
     """
-    How many processes ``-n auto`` is: five for two cores, as they wait for others half of the time.
-    What is in ``test/unit`` waits for nobody: one for each core, each more would only collect all
-    of it once more.
+    How many processes ``-n auto`` is: five for two cores, as they wait for others half of the
+    time. What is in ``test/unit`` waits for nobody: one for each core, each more would only
+    collect all of it once more.
     """
     paths = [(config.invocation_params.dir / arg.split('::')[0]) for arg in config.args]
     is_waiting = not all(path.resolve().is_relative_to(UNIT) for path in paths)
