@@ -13,6 +13,7 @@ from amr_description.ament_index import path_of
 from amr_description.entry import python_command
 from amr_description.errors import BringupError, UsageError
 from amr_description.model.mesh_paths import with_absolute_paths
+from amr_description.model.origins import with_file
 
 _PROCESSOR_TIME = 60  # s; large robots take one or two
 _MEMORY = 4 * 2**30  # bytes of address space
@@ -46,7 +47,7 @@ def robot_description(urdf: str, xacro_args: str = '') -> str:
     if xacro_args.strip():
         raise UsageError(f"xacro_args:='{xacro_args}': {path} is no xacro file (*.xacro)")
     try:
-        return with_absolute_paths(path.read_text('utf-8'), path.parent)
+        return with_absolute_paths(with_file(path.read_text('utf-8'), str(path)), path.parent)
     except (OSError, UnicodeDecodeError) as error:
         raise BringupError(f'cannot read the description {path}: {error}') from None
 

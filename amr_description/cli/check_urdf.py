@@ -41,7 +41,7 @@ from amr_description.errors import (
 )
 from amr_description.model.checks import Examination, examine
 from amr_description.model.checks.context import CheckInputs, DriveSettings
-from amr_description.model.description_file import description_text, mappings_of, source_name
+from amr_description.model.description_file import located_text, mappings_of
 from amr_description.model.findings import Finding
 from amr_description.model.mesh_uses import FindFile
 from amr_description.model.urdf import parse
@@ -185,7 +185,7 @@ def _read(path: str, words: list[str]) -> tuple[str, str]:
     mappings = mappings_of(words)
     if path == '-' and not mappings:
         return read_stream(sys.stdin.buffer, _STDIN), _STDIN
-    return description_text(path, mappings, warn=_warn), source_name(path)
+    return located_text(path, mappings, warn=_warn), path
 
 
 def _warn(line: str) -> None:

@@ -12,6 +12,7 @@ from amr_description.model.mesh_solids import (
 )
 from amr_description.model.mesh_uses import FindFile
 from amr_description.model.meshes import load_mesh
+from amr_description.model.origins import place_in
 from amr_description.model.robot import Collision, Link, Mesh, Robot, Visual
 from amr_description.model.shapes import sizes, Solid
 from amr_description.text import quote, quote_all
@@ -44,8 +45,8 @@ def inertial_element(
     bodies = [_body(each, part, find_file) for each in (part.collisions or part.visuals)]
     if not bodies:
         raise DescriptionError(
-            f'{robot.source}:{part.line}: link {quote(link)} has neither <collision> nor '
-            '<visual>, so no shape to weigh'
+            f'{place_in(robot.text, robot.source, part.line)}: link {quote(link)} has neither '
+            '<collision> nor <visual>, so no shape to weigh'
         )
     if mass is None and density is None:
         if part.inertial is None:

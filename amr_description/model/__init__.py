@@ -12,6 +12,8 @@ module                   what it holds
 ``hardware_info.py``     HardwareInfo and its interfaces: the result of reading ``<ros2_control>``
 
 ``description_file.py``  file -> URDF text, xacro expanded
+``xacro_lines.py``       … the lines that its elements come from
+``origins.py``           … how these travel with the text, and findings name them
 ``urdf.py``              URDF -> Robot: ``parse(text, source)``, ``load(path)``
 ``urdf_links.py``        its ``<link>`` and ``<material>`` elements
 ``urdf_joints.py``       its ``<joint>`` elements

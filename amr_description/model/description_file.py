@@ -19,11 +19,14 @@ from typing import Any
 from urllib.parse import parse_qsl
 from xml.parsers.expat import ErrorString, ExpatError
 
-from amr_description.ament_index import resolve_uri
+from ament_index_python.packages import PackageNotFoundError
+
+from amr_description.ament_index import packages, resolve_uri
 from amr_description.errors import AmrError, DescriptionError, UsageError
 from amr_description.model.mesh_paths import with_absolute_paths
+from amr_description.model.origins import Origin, with_file, with_origins
 from amr_description.model.xml_reader import read_file
-from amr_description.text import one_line, quote, quote_all, unwrap
+from amr_description.text import did_you_mean, one_line, quote, quote_all, unwrap
 
 SUFFIX = '.xacro'
 _NO_MAPPINGS: Mapping[str, str] = {}
@@ -35,15 +38,6 @@ _SHOWN_STEPS = 6
 def is_xacro(path: str | Path) -> bool:
     """Return whether a file is expanded: ``robot.urdf.xacro``, ``robot.xacro``."""
     return str(path).endswith(SUFFIX)
-
-
-def source_name(path: str | Path) -> str:
-    """
-    Return the name that messages use for the text of :func:`description_text`.
-
-    It says so if the text is expanded, as its lines are then not those of the file.
-    """
-    return f'{path} (expanded)' if is_xacro(path) else str(path)
 
 
 def mappings_of(words: Sequence[str]) -> dict[str, str]:
@@ -76,7 +70,7 @@ def description_text(
             which macro xacro was.
     """
     if is_xacro(path):
-        return _expanded(str(path), mappings, warn)
+        return _expanded(str(path), mappings, warn)[0]
     if mappings:
         raise DescriptionError(
             f'{path}: takes no arguments ({", ".join(mappings)}:=…), its name does not end in '
@@ -85,11 +79,23 @@ def description_text(
     return read_file(path)
 
 
+def located_text(
+    path: str | Path,
+    mappings: Mapping[str, str] = _NO_MAPPINGS,
+    *,
+    warn: Callable[[str], object] = lambda _line: None,
+) -> str:
+    """Return :func:`description_text`; where it is expanded, with the origins of its lines."""
+    if is_xacro(path):
+        return with_origins(*_expanded(str(path), mappings, warn))
+    return description_text(path, mappings, warn=warn)
+
+
 def description_at(
     uri: str, mappings: Mapping[str, str] | None = None, *, warn: Callable[[str], object]
 ) -> str:
     """
-    Return the URDF at a URI, with relative paths of meshes made absolute.
+    Return the URDF at a URI, with relative paths of meshes made absolute, and its origin.
 
     Args:
         uri: of a file; that of a xacro file may end in its arguments:
@@ -106,7 +112,9 @@ def description_at(
         file, query = uri, ''
     given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
     path = resolve_uri(file)
-    return with_absolute_paths(description_text(path, given, warn=warn), path.parent)
+    text = located_text(path, given, warn=warn)
+    text = text if is_xacro(path) else with_file(text, str(path))
+    return with_absolute_paths(text, path.parent)
 
 
 class _Arguments(dict[str, str]):
@@ -125,29 +133,34 @@ class _Arguments(dict[str, str]):
         return super().__getitem__(name)
 
 
-def _expanded(path: str, mappings: Mapping[str, str], warn: Callable[[str], object]) -> str:
-    import xacro
+def _expanded(
+    path: str, mappings: Mapping[str, str], warn: Callable[[str], object]
+) -> tuple[str, dict[int, Origin]]:
+    """Return the text that a file expands to, and where its elements come from."""
+    from amr_description.model.xacro_lines import expanded
 
     # Read and dropped: a file that is missing, too large or not text gets our message.
     read_file(path)
     arguments = _Arguments(mappings)
     try:
-        text = xacro.process_file(path, mappings=arguments).toprettyxml(indent='  ')
+        text, origins = expanded(path, arguments)
     except Exception as error:  # expressions may raise anything
         raise DescriptionError(_complaint(error, path)) from None
     unknown = [name for name in mappings if name not in arguments.asked]
     if unknown:
         known = sorted(str(name) for name in arguments.asked)
         warn(f'{path}: nothing asks for {quote_all(unknown)}; its arguments: {quote_all(known)}')
-    return text
+    return text, origins
 
 
 def _complaint(error: Exception, path: str) -> str:
     """Return one line: file, line if known, reason, and in which macros xacro was."""
     import xacro
 
+    from amr_description.model.xacro_lines import origin_of_error
+
     files = [str(file) for file in xacro.filestack or [path]]
-    location = files[-1]
+    location, called = files[-1], None
     if isinstance(error, ExpatError):
         location = f'{location}:{error.lineno}'
         reason = f'not well-formed XML: {ErrorString(error.code)}'
@@ -155,13 +168,19 @@ def _complaint(error: Exception, path: str) -> str:
         reason = 'nested too deeply; does a macro or an include contain itself?'
     else:
         reason = unwrap(' '.join(_words(error)))
-    return one_line(f'{location}: {reason}{_macro_trace(xacro.macrostack or [], files[:-1])}')
+        at, called = origin_of_error(error)
+        location = f'{at.file}:{at.line}' if at is not None else location
+    trace = _macro_trace(xacro.macrostack or [], called, files[:-1])
+    return one_line(f'{location}: {reason}{trace}')
 
 
 def _words(error: BaseException) -> Iterator[str]:
     """Yield the texts of an error and of those that xacro wrapped in it."""
     import xacro
 
+    if isinstance(error, PackageNotFoundError):
+        yield _missing_package(str(error.args[0] if error.args else ''))
+        return
     if not isinstance(error, xacro.XacroException):
         kind = type(error)
         yield f'{kind.__name__}: {error}' if kind.__module__ == 'builtins' else str(error)
@@ -177,10 +196,22 @@ def _words(error: BaseException) -> Iterator[str]:
     yield error.suffix or ''
 
 
-def _macro_trace(macros: Sequence[Any], files: Sequence[str]) -> str:
+def _missing_package(words: str) -> str:
+    """Return what ament says of a package that it does not find, and what would do."""
+    match = re.search(r"'([^']+)'", words)
+    name = match[1] if match else words
+    return (
+        f"package '{name}' not found in AMENT_PREFIX_PATH; build it and source install/setup.bash "
+        f'of its workspace, or correct the name{did_you_mean(name, packages())}'
+    )
+
+
+def _macro_trace(macros: Sequence[Any], called: Origin | None, files: Sequence[str]) -> str:
     """Return the macros that were being expanded, innermost first, and the including files."""
     names = [quote(macro.body.getAttribute('name')) for macro in reversed(macros)]
     steps = [f'{"called by" if i else "in macro"} {name}' for i, name in enumerate(names)]
+    if names and called is not None:
+        steps.append(f'called at {called.file}:{called.line}')
     steps += [f'included from {file}' for file in reversed(files)]
     if len(steps) > _SHOWN_STEPS:
         steps[_SHOWN_STEPS:] = ['…']
@@ -193,7 +224,7 @@ def main(arguments: Sequence[str]) -> int:
         if not arguments:
             raise UsageError('usage: FILE [NAME:=VALUE ...]')
         path, *words = arguments
-        text = description_text(path, mappings_of(words), warn=_print_warning)
+        text = located_text(path, mappings_of(words), warn=_print_warning)
         sys.stdout.buffer.write(text.encode('utf-8', 'xmlcharrefreplace'))
     except AmrError as error:
         print(error, file=sys.stderr)

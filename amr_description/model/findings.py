@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from amr_description.errors import DescriptionError
-from amr_description.text import one_line
+from amr_description.text import one_line, quote
 
 
 class Severity(StrEnum):
@@ -31,7 +31,7 @@ class Finding:
 
     ``what`` names the part and its fault, ``found`` and ``expected`` are optional, ``fix`` says
     what to do. ``urdfdom`` is the message of urdfdom if that library refuses the file for this
-    fault, and empty otherwise.
+    fault, and empty otherwise. ``macro`` is that of xacro which the line is in, if it is in one.
     """
 
     severity: Severity
@@ -42,6 +42,7 @@ class Finding:
     expected: str = ''
     fix: str = ''
     urdfdom: str = ''
+    macro: str = ''
 
     @classmethod
     def error(cls, source: str, line: int, what: str, **details: str) -> 'Finding':
@@ -55,12 +56,13 @@ class Finding:
 
     @property
     def text(self) -> str:
-        """``file:line: what: found …, expected …; fix``, in one line."""
+        """``file:line: what: found …, expected …; fix (in macro "…")``, in one line."""
         parts = [f'found {self.found}'] if self.found else []
         parts += [f'expected {self.expected}'] if self.expected else []
         details = f': {", ".join(parts)}' if parts else ''
         fix = f'; {self.fix}' if self.fix else ''
-        return one_line(f'{self.source}:{self.line}: {self.what}{details}{fix}')
+        macro = f' (in macro {quote(self.macro)})' if self.macro else ''
+        return one_line(f'{self.source}:{self.line}: {self.what}{details}{fix}{macro}')
 
     def __str__(self) -> str:
         return f'{self.severity}: {self.text}'

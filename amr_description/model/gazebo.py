@@ -13,8 +13,9 @@ import math
 
 from lxml import etree
 
-from amr_description.model.findings import raise_error, Report
+from amr_description.model.findings import Report
 from amr_description.model.frames import Transform
+from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
 from amr_description.text import quote, truth
@@ -67,8 +68,9 @@ class GazeboPlugin:
 
 def gazebo_plugins_of(robot: Robot) -> tuple[GazeboPlugin, ...]:
     """Return the plugins of all ``<gazebo>`` blocks. Raises DescriptionError."""
-    xml = parse_xml(robot.text, robot.source, raise_error)
-    return () if xml is None else read_gazebo_plugins(xml, robot.source, raise_error)
+    report = raise_error_of(robot.text)
+    xml = parse_xml(robot.text, robot.source, report)
+    return () if xml is None else read_gazebo_plugins(xml, robot.source, report)
 
 
 def ros2_control_host_of(robot: Robot) -> GazeboPlugin:
@@ -134,10 +136,11 @@ class GazeboSensor:
 
 def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
     """Return the sensors of all ``<gazebo>`` blocks. Raises DescriptionError."""
-    xml = parse_xml(robot.text, robot.source, raise_error)
+    report = raise_error_of(robot.text)
+    xml = parse_xml(robot.text, robot.source, report)
     if xml is None:
         return ()
-    reader = ElementReader(robot.source, raise_error)
+    reader = ElementReader(robot.source, report)
     return tuple(
         _read_sensor(sensor, gazebo.get('reference', ''), reader)
         for gazebo in xml.iterchildren('gazebo')

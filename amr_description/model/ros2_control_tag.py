@@ -11,7 +11,7 @@ import math
 
 from lxml import etree
 
-from amr_description.model.findings import raise_error, Report
+from amr_description.model.findings import Report
 from amr_description.model.hardware_info import (
     ComponentInfo,
     ComponentType,
@@ -21,6 +21,7 @@ from amr_description.model.hardware_info import (
     TransmissionEnd,
     TransmissionInfo,
 )
+from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
 from amr_description.text import quote, quote_all
@@ -51,8 +52,9 @@ def hardware_of(robot: Robot) -> tuple[HardwareInfo, ...]:
 
     Raises DescriptionError (``file:line: …``) at the first fault of a block.
     """
-    xml = parse_xml(robot.text, robot.source, raise_error)
-    return () if xml is None else read_hardware(xml, robot, raise_error)
+    report = raise_error_of(robot.text)
+    xml = parse_xml(robot.text, robot.source, report)
+    return () if xml is None else read_hardware(xml, robot, report)
 
 
 def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[HardwareInfo, ...]:

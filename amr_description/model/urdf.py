@@ -14,7 +14,8 @@ from pathlib import Path
 
 from lxml import etree
 
-from amr_description.model.findings import Finding, raise_error, Report
+from amr_description.model.findings import Finding, Report
+from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Joint, Material, Robot
 from amr_description.model.urdf_joints import read_joints
 from amr_description.model.urdf_links import read_links, read_material
@@ -43,9 +44,10 @@ def parse(text: str | bytes, source: str = '<string>') -> Robot:
     """
     if isinstance(text, bytes):
         text = decode(text, source)
-    xml = parse_xml(text, source, raise_error)
+    report = raise_error_of(text)
+    xml = parse_xml(text, source, report)
     assert xml is not None, 'raise_error does not return from an error'
-    return read_robot(xml, text, source, raise_error)
+    return read_robot(xml, text, source, report)
 
 
 def read_robot(xml: etree._Element, text: str, source: str, report: Report) -> Robot:

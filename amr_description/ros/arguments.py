@@ -19,7 +19,6 @@ from amr_description.model.description_file import (
     description_at,
     is_xacro,
     mappings_of,
-    source_name,
 )
 from amr_description.model.urdf import parse
 
@@ -121,5 +120,5 @@ def read_description(words: Sequence[str], warn: Callable[[str], object]) -> str
     """
     path, *mappings = words
     text = description_at(path, mappings_of(mappings), warn=warn)
-    parse(text, source_name(path))
+    parse(text, path)
     return text

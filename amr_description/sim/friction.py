@@ -28,8 +28,9 @@ import mujoco
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.model.findings import raise_error
+from amr_description.model.origins import place_in
 from amr_description.model.robot import Robot
-from amr_description.model.xml_reader import parse_xml
+from amr_description.model.xml_reader import line_of, parse_xml
 
 DEFAULT_FRICTION = 0.5
 """Rubber on a smooth dry floor; holds on 26 degrees, climbs kerbs of 20 mm, and no wall."""
@@ -118,8 +119,8 @@ def link_frictions(robot: Robot, log: Log) -> Mapping[str, float]:
         else:
             log(
                 Severity.WARN,
-                f'{robot.source}:{found.sourceline}: <{found.tag}> of link "{link}" is '
-                f'"{found.text}"; a number from 0 on is needed, and it is left out',
+                f'{place_in(robot.text, robot.source, line_of(found))}: <{found.tag}> of link '
+                f'"{link}" is "{found.text}"; a number from 0 on is needed, and it is left out',
             )
     return frictions
 

@@ -175,6 +175,7 @@ def swap_hardware(urdf: str, plugin: str, parameters: Mapping[str, str] | None =
     lines = [f'<plugin>{escape(plugin)}</plugin>']
     for name, value in (parameters or {}).items():
         lines.append(f'<param name={quoteattr(name)}>{escape(value)}</param>')
-    inside = ''.join(f'\n      {line}' for line in lines)
-    element = f'<hardware>{inside}\n    </hardware>'
+    # On one line, and as many lines as before, so that those behind it keep their numbers.
+    rest = '\n' * found[0].count('\n')
+    element = f'<hardware>{"".join(lines)}{rest}</hardware>'
     return _HARDWARE.sub(lambda _: element, urdf)

@@ -37,8 +37,9 @@ from amr_description.model.checks import (
     shapes,
 )
 from amr_description.model.checks.context import CheckContext, CheckInputs, DriveSettings, Rule
-from amr_description.model.findings import Finding, raise_error, Report, Severity
+from amr_description.model.findings import Finding, Report, Severity
 from amr_description.model.gazebo import read_gazebo_plugins
+from amr_description.model.origins import raise_error_of, relocated
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
 from amr_description.model.urdf import read_robot
@@ -157,24 +158,30 @@ def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS
     except _TooManyFindingsError:
         last = findings[-1].line
         findings.append(Finding.error(source, last, f'{MAX_FINDINGS} findings; reading ends here'))
-        return Examination(tuple(findings), None)
+        return Examination(_relocated(findings, text, source), None)
     if context is None:
-        return Examination(tuple(findings), None)
+        return Examination(_relocated(findings, text, source), None)
     findings += _apply(context, RULES)
     if not any(each.severity is Severity.ERROR for each in findings):
         findings += _apply(context, RULES_OF_THE_WHOLE)
-    return Examination(tuple(findings), context.robot)
+    return Examination(_relocated(findings, text, source), context.robot)
 
 
 def examine_drives(robot: Robot, drives: tuple[DriveSettings, ...]) -> tuple[Finding, ...]:
     """Return what only the controllers of a sound robot let find, as :func:`examine` does."""
-    context = _read(robot.text, robot.source, CheckInputs(drives=drives), raise_error)
+    report = raise_error_of(robot.text)
+    context = _read(robot.text, robot.source, CheckInputs(drives=drives), report)
     if context is None:
         return ()
     findings = _apply(context, _RULES_OF_DRIVES)
     if not any(each.severity is Severity.ERROR for each in findings):
         findings += _apply(context, _RULES_OF_WHOLE_DRIVES)
     return tuple(findings)
+
+
+def _relocated(findings: list[Finding], text: str, source: str) -> tuple[Finding, ...]:
+    """Return findings at the lines of the files that the text was made of."""
+    return tuple(relocated(each, text) if each.source == source else each for each in findings)
 
 
 def _apply(context: CheckContext, rules: tuple[Rule, ...]) -> list[Finding]:

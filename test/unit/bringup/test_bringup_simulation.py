@@ -9,7 +9,8 @@ from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.errors import AmrError
-from amr_description.model.description_file import description_text
+from amr_description.model.description_file import located_text
+from amr_description.model.origins import with_file
 from amr_description.sim.spawning import check_name
 
 GRIPPER = str(ROOT / 'test/fixtures/urdf/gripper.urdf.xacro')
@@ -73,7 +74,9 @@ def test_parameters(installed):
     ]
     assert publisher.parameters == [
         {
-            'robot_description': (ROOT / 'urdf/amr.urdf').read_text(),
+            'robot_description': with_file(
+                (ROOT / 'urdf/amr.urdf').read_text(), f'{installed}/urdf/amr.urdf'
+            ),
             'use_sim_time': True,
         }
     ]
@@ -101,7 +104,7 @@ def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
     made = stack(**given)
     arguments = {'palm': 'false', 'finger_length': '0.08'}
     (parameters,) = made.nodes[1].parameters
-    assert parameters['robot_description'] == description_text(GRIPPER, arguments)
+    assert parameters['robot_description'] == located_text(GRIPPER, arguments)
     assert 'nothing asks for "finger_lenght"' in capsys.readouterr().err
 
 
@@ -109,7 +112,7 @@ def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
     ('expression', 'words'),
     [
         ('[0 for a in range(10**9) for b in range(10**9)]', 'bomb.xacro: no end after 1 s'),
-        ("'x' * 10**10", 'bomb.xacro: MemoryError'),
+        ("'x' * 10**10", 'bomb.xacro:1: MemoryError'),
     ],
 )
 def test_an_endless_expansion_is_stopped(tmp_path, monkeypatch, expression, words):

@@ -8,12 +8,14 @@ import pytest
 from support.paths import ROOT
 import yaml
 
+from amr_description.ament_index import path_of
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.description import nodes_of
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.display import display
 from amr_description.bringup.stacks.hardware import mock
-from amr_description.bringup.stacks.simulation import simulation
+from amr_description.bringup.stacks.simulation import simulation, URDF
+from amr_description.model.origins import with_file
 
 PACKAGES = 'share/ament_index/resource_index/packages'
 
@@ -62,8 +64,10 @@ def test_display_shows_the_robot_and_moves_its_joints():
         for node in startable:
             scheduler.on_start(node)
     assert scheduler.ready
+    path = path_of(URDF)
+    assert path.read_text() == (ROOT / 'urdf/amr.urdf').read_text()
     assert stack.nodes[0].parameters == [
-        {'robot_description': (ROOT / 'urdf/amr.urdf').read_text()}
+        {'robot_description': with_file(path.read_text(), str(path))}
     ]
 
 

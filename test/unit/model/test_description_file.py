@@ -12,7 +12,14 @@ import pytest
 from support.paths import ROOT
 
 from amr_description.errors import DescriptionError, UsageError
-from amr_description.model.description_file import description_text, mappings_of, source_name
+from amr_description.model.checks import check
+from amr_description.model.description_file import (
+    description_at,
+    description_text,
+    located_text,
+    mappings_of,
+)
+from amr_description.model.origins import Origin, origin_of, with_file, with_origins
 from amr_description.model.urdf import load, parse
 
 GRIPPER = ROOT / 'test/fixtures/urdf/gripper.urdf.xacro'
@@ -72,15 +79,29 @@ def test_find_looks_into_the_ament_index(tmp_path):
 @pytest.mark.parametrize(
     ('body', 'words'),
     [
-        ('<link name="${nope}"/>', "robot.urdf.xacro: NameError: name 'nope' is not defined when"),
+        (
+            '\n<link\nname="${nope}"/>',
+            "robot.urdf.xacro:2: NameError: name 'nope' is not defined when",
+        ),
         ('<link name="${1/0}"/>', "division by zero when evaluating expression '1/0'"),
-        ('<link name="$(find no_such_package)"/>', "package 'no_such_package' not found"),
-        ('<xacro:nope/>', 'robot.urdf.xacro: unknown macro name: xacro:nope'),
-        ('<xacro:if value="maybe"/>', 'is not a boolean expression'),
+        (
+            '\n\n<link name="$(find no_such_package)"/>',
+            "robot.urdf.xacro:3: package 'no_such_package' not found in AMENT_PREFIX_PATH; build "
+            'it and source install/setup.bash of its workspace, or correct the name',
+        ),
+        (
+            '<link name="$(find amr_descripton)"/>',
+            "package 'amr_descripton' not found .*; did you mean amr_description",
+        ),
+        ('\n<xacro:nope/>', 'robot.urdf.xacro:2: unknown macro name: xacro:nope'),
+        ('\n<xacro:if value="maybe"/>', 'robot.urdf.xacro:2: .* is not a boolean expression'),
         ('<xacro:include filename="nowhere.xacro"/>', r'No such file or directory: \S+nowhere'),
         ('<xacro:include filename="robot.urdf.xacro"/>', 'does a macro or an include contain'),
         ('\n<link>', 'robot.urdf.xacro:2: not well-formed XML: mismatched tag'),
-        ("${xacro.load_yaml('no.yaml')}", r'robot.urdf.xacro: FileNotFoundError: .*no.yaml'),
+        (
+            "<!-- none -->\n<link>\n ${xacro.load_yaml('no.yaml')}</link>",
+            r'robot.urdf.xacro:2: FileNotFoundError: .*no.yaml',
+        ),
         ('${__import__}', r'Use of invalid name\(s\): __import__'),
     ],
 )
@@ -99,9 +120,12 @@ def test_the_macros_above_a_fault_are_reported(tmp_path):
     )
     with pytest.raises(DescriptionError):
         text_of(tmp_path, inner, 'parts.xacro')
-    with pytest.raises(DescriptionError, match=r'parts.xacro: NameError: .*gone') as caught:
+    with pytest.raises(DescriptionError, match=r'parts.xacro:1: NameError: .*gone') as caught:
         text_of(tmp_path, '<xacro:include filename="parts.xacro"/>')
-    way = f'(in macro "inner", called by "outer", included from {tmp_path}/robot.urdf.xacro)'
+    way = (
+        f'(in macro "inner", called by "outer", called at {tmp_path}/parts.xacro:1, '
+        f'included from {tmp_path}/robot.urdf.xacro)'
+    )
     assert str(caught.value).endswith(way)
 
 
@@ -153,9 +177,71 @@ def test_values_may_be_empty_and_hold_anything():
     assert mappings_of(['a:=', 'b:=x:=y', 'c:= z ']) == {'a': '', 'b': 'x:=y', 'c': 'z'}
 
 
-def test_messages_name_lines_of_the_expanded_text():
-    assert source_name('a.urdf') == 'a.urdf'
-    assert source_name('a.urdf.xacro') == 'a.urdf.xacro (expanded)'
+WHEEL = """\
+<robot name="parts" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <!-- Lines of comments, properties and macros are not in the expanded text. -->
+  <xacro:property name="radius" value="0.1"/>
+  <xacro:macro name="wheel" params="side">
+    <link name="wheel_${side}"/>
+    <joint name="joint_${side}"
+           type="continous">
+      <parent link="base"/>
+      <child link="wheel_${side}"/>
+    </joint>
+  </xacro:macro>
+</robot>
+"""
+
+
+def test_findings_name_lines_of_the_files_that_a_person_edits(tmp_path):
+    parts, main = tmp_path / 'parts.xacro', tmp_path / 'robot.urdf.xacro'
+    parts.write_text(WHEEL)
+    main.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        '<xacro:include filename="parts.xacro"/>\n'
+        '<link name="base"/>\n\n\n'
+        '<xacro:wheel side="left"/> <xacro:wheel side="right"/>\n'
+        '<joint name="arm" type="revolut"><parent link="base"/><child link="base"/></joint>\n'
+        '</robot>\n'
+    )
+    findings = [str(each) for each in check(located_text(main), str(main))]
+    wheels = [each for each in findings if each.startswith(f'error: {parts}:6: joint "joint_')]
+    assert len(wheels) == 2
+    assert all(each.endswith('(in macro "wheel")') for each in wheels)
+    assert any(each.startswith(f'error: {main}:7: joint "arm"') for each in findings)
+    assert not any('expanded' in each for each in findings)
+    with pytest.raises(DescriptionError, match=f'^{parts}:6: joint "joint_left"'):
+        parse(located_text(main), 'robot_description')
+
+
+def test_origins_travel_with_the_text():
+    text = '<robot name="r">\n<link name="a"/>\n<!-- -->\n</robot>'
+    named = with_file(text, '/a b/--r.urdf')
+    assert named.startswith(text)
+    assert parse(named).name == 'r'
+    assert origin_of(named, 3) == Origin('/a b/--r.urdf', 3)
+    assert origin_of(text, 3) is None
+    origins = {
+        1: Origin('r.xacro', 1),
+        2: Origin('a|b.xacro', 7, 'wheel'),
+        3: Origin('r.xacro', 9),
+    }
+    located = with_origins(with_file(text, 'other'), origins)
+    assert parse(located).name == 'r'
+    assert [origin_of(located, line) for line in (1, 2, 3, 4)] == [*origins.values(), origins[3]]
+    assert located.count('<!-- from') == 1
+
+
+@pytest.mark.parametrize('rows', ['1', '1:2:3:4', '::: 1', 'x'])
+def test_a_comment_that_only_looks_like_it_is_none(rows):
+    assert origin_of(f'<robot/>\n<!-- from: a.xacro | | {rows} -->\n', 1) is None
+
+
+def test_descriptions_that_are_passed_on_name_their_file(tmp_path):
+    path = tmp_path / 'r.urdf'
+    path.write_text('<robot name="r">\n<link name="a"/>\n<link name="a"/>\n</robot>\n')
+    with pytest.raises(DescriptionError, match=f'^{path}:3: link "a" is not unique'):
+        parse(description_at(str(path), warn=print), 'amr')
 
 
 def run(*command):
@@ -166,7 +252,8 @@ def test_as_a_program_it_prints_text_or_one_line():
     program = (sys.executable, '-m', 'amr_description.model.description_file')
     done = run(*program, GRIPPER, 'palm:=false')
     assert (done.returncode, done.stderr) == (0, '')
-    assert done.stdout == description_text(GRIPPER, {'palm': 'false'})
+    assert done.stdout == located_text(GRIPPER, {'palm': 'false'})
+    assert done.stdout.startswith(description_text(GRIPPER, {'palm': 'false'}))
     done = run(*program, GRIPPER, 'palm:=perhaps')
     assert done.returncode == 1
     assert len(done.stderr.splitlines()) == 1

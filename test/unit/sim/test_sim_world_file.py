@@ -9,6 +9,7 @@ from amr_description.ament_index import package_share, resolve_uri
 from amr_description.errors import DescriptionError, ResourceError, SimulationError
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
+from amr_description.model.origins import with_file
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world, shipped_worlds
 
@@ -196,6 +197,6 @@ def test_the_description_at_a_uri_is_expanded_with_its_arguments(source_tree, tm
     assert '" 4"' in description_at(f'{path}?x=&y=3', {'y': '4'}, warn=said.append)
     assert said == []
     text = description_at('package://amr_description/urdf/amr.urdf', warn=said.append)
-    assert text == (ROOT / 'urdf/amr.urdf').read_text()
+    assert text == with_file((ROOT / 'urdf/amr.urdf').read_text(), str(ROOT / 'urdf/amr.urdf'))
     with pytest.raises(DescriptionError, match='takes no arguments'):
         description_at('package://amr_description/urdf/amr.urdf', {'x': '1'}, warn=said.append)
