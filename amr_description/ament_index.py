@@ -13,6 +13,7 @@ its executables and files are found first, and what it lacks is found here.
 from collections.abc import Iterator
 import os
 from pathlib import Path
+import re
 from urllib.parse import unquote, urlsplit
 
 from ament_index_python import get_package_prefix, get_packages_with_prefixes
@@ -26,6 +27,7 @@ _OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
 _INDEX = 'share/ament_index/resource_index/packages'
 _SOURCE_TREE = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
+_FIND = re.compile(r'\$\((?:find|find-pkg-share)\s+([\w-]+)\s*\)(.*)')
 
 
 def prefixes() -> list[Path]:
@@ -184,6 +186,19 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
             raise ResourceError(
                 f"'{uri}': scheme '{scheme}' is not known; package://, file:// or a path will do"
             )
+
+
+def parameter_path(text: str, folder: Path | None = None) -> Path:
+    """
+    Return the path that ``<parameters>`` of a URDF names; the file need not exist.
+
+    ``$(find package)`` counts as in xacro, in a URDF that did not go through it. Raises
+    ResourceError, as :func:`resolve_uri`.
+    """
+    match = _FIND.match(text)
+    if match is not None:
+        return shared_file(match[1], match[2].lstrip('/'))
+    return resolve_uri(text, folder)
 
 
 def path_of(file: str) -> Path:

@@ -30,7 +30,7 @@ from typing import Any
 import yaml
 
 from amr_description.errors import ParameterError
-from amr_description.text import unwrap
+from amr_description.text import closest_match, unwrap
 
 KEY = 'ros__parameters'
 EVERY_NODE = '/**'
@@ -98,6 +98,9 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     except YamlError as error:
         line = ''.join(f':{number}' for number in error.where or ())
         raise ParameterError(f'{path}{line}: {error}') from error
+    except SectionError as error:
+        number, _ = find_keys(yaml.compose(text, Loader=yaml.SafeLoader), error.keys)
+        raise ParameterError(f'{path}:{number}: {error}') from error
     except ParameterError as error:
         raise ParameterError(f"parameter file '{path}': {error}") from error
     except RecursionError as error:  # an anchor that holds itself
@@ -105,6 +108,14 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     if not isinstance(content, dict) or not content:
         raise ParameterError(f"parameter file '{path}' holds no node; {_SHAPE}")
     return content
+
+
+class SectionError(ParameterError):
+    """What stands at ``keys`` of a file is no section; they are those above it, and its own."""
+
+    def __init__(self, problem: str, keys: tuple[Any, ...]) -> None:
+        super().__init__(problem)
+        self.keys = keys
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,17 +141,53 @@ class Section:
 
 
 def sections(content: Mapping[Any, Any], above: tuple[Any, ...] = ()) -> Iterator[Section]:
-    """Yield the sections of a file in their order. Raises ParameterError: a node has none."""
+    """Yield the sections of a file in their order. Raises SectionError: a node has none."""
     for key, value in content.items():
         keys = (*above, key)
         if not isinstance(value, dict):
-            raise ParameterError(
-                f"below '{'/'.join(map(str, keys))}' stands {value!r}, and no {KEY}; {_SHAPE}"
+            raise SectionError(
+                f"below '{'/'.join(map(str, keys))}' stands {value!r}, and no {KEY}; {_SHAPE}",
+                keys,
             )
         if KEY in value:
             yield Section(keys, value[KEY])
-        else:
-            yield from sections(value, keys)
+            continue
+        meant = [name for name in value if _is_misspelt(name)]
+        if meant:
+            raise SectionError(
+                f"'{meant[0]}' is misspelt: write {KEY}, with two underscores in front of "
+                f"'parameters'",
+                (*keys, meant[0]),
+            )
+        yield from sections(value, keys)
+
+
+def _is_misspelt(name: Any) -> bool:
+    """Return whether a key is meant as :data:`KEY`: ``ros_parameters``, ``ros__params``."""
+    return bool(closest_match(str(name), [KEY], 0.75))
+
+
+def find_keys(tree: yaml.Node, keys: tuple[Any, ...]) -> tuple[int, yaml.Node]:
+    """
+    Return the line of the innermost key, and the node below it.
+
+    Args:
+        tree: what ``yaml.compose`` makes of the file.
+        keys: from outside to inside.
+    """
+    line = tree.start_mark.line + 1
+    for key in keys:
+        line, tree = _entry(tree, key)
+    return line, tree
+
+
+def _entry(tree: yaml.Node, key: Any) -> tuple[int, yaml.Node]:
+    """Return the line of a key and the node below it; of what is merged in, that of the whole."""
+    if isinstance(tree, yaml.MappingNode):
+        for name, below in tree.value:
+            if name.value == str(key):
+                return name.start_mark.line + 1, below
+    return tree.start_mark.line + 1, tree
 
 
 def flatten(

@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import dataclasses
 from dataclasses import dataclass
 import math
+import re
 from typing import Any, get_type_hints
 
 from amr_description.errors import ParameterError
@@ -37,6 +38,7 @@ TYPE_NAMES: dict[Any, str] = {
 
 _ELEMENT_TYPES = {'string_array': str, 'double_array': float}
 _KEY = 'amr_description.parameter'
+_NUMBER = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?')
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,8 +127,8 @@ class Spec:
             good = TYPE_NAMES.get(type(value)) == self.type
         if not good:
             raise ParameterError(
-                f"parameter '{self.name}' must be of type {self.type}, found {value!r}"
-                + (f'; write {value}.0' if self.type == 'double' and type(value) is int else '')
+                f"parameter '{self.name}' must be of type {self.type}, found {value!r}, "
+                f'{_kind_of(value)}{_rewritten(value, self.type)}'
             )
         complaint = self.bounds.complaint(value)
         if complaint:
@@ -134,6 +136,44 @@ class Spec:
             shown = list(value) if isinstance(value, tuple) else value
             raise ParameterError(f"parameter '{self.name}' {complaint}, found {shown}{unit}")
         return value
+
+
+def _kind_of(value: Any) -> str:
+    """Return the type of a value in words, as YAML has it."""
+    match value:
+        case None:
+            return 'no value'
+        case str() | bool() | int() | float():
+            name = TYPE_NAMES[type(value)]
+            return f'an {name}' if name == 'integer' else f'a {name}'
+        case Sequence() if len(value) > 0:
+            kinds = {_kind_of(item).split()[-1] for item in value}
+            return f'a list of {kinds.pop()}s' if len(kinds) == 1 else 'a list of various types'
+        case Sequence():
+            return 'an empty list'
+    return 'a table'
+
+
+def _rewritten(value: Any, kind: str) -> str:
+    """Return ``; write …`` with the value in the type that it should have; '' if it has none."""
+    match kind, value:
+        case 'double', int() if not isinstance(value, bool):
+            return f'; write {value}.0'
+        case 'double', str() if _NUMBER.fullmatch(value):
+            return f'; write {float(value)!r}, without quotes'
+        case 'integer', float() if value.is_integer():
+            return f'; write {int(value)}'
+        case 'integer', str() if value.isdecimal():
+            return f'; write {value}, without quotes'
+        case 'bool', str() if value.lower() in ('true', 'false'):
+            return f'; write {value.lower()}, without quotes'
+        case 'string', bool() | int() | float():
+            return f"; write '{value}', in quotes"
+        case 'string_array', str() if value:
+            return f'; write [{value}]'
+        case 'double_array', Sequence() if all(type(item) in (int, float) for item in value):
+            return f'; write {[float(item) for item in value]}'
+    return ''
 
 
 def parameter(

@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 from amr_description.errors import AmrError
+from amr_description.text import did_you_mean
 
 
 def resolve(target: str) -> Any:
@@ -77,6 +78,6 @@ class Registry:
                 raise
             raise self._error(
                 f"{self._kind} '{name}' is not known, and cannot be imported as "
-                f'package.module/Class ({type(cause).__name__}: {cause}). '
-                f'Known: {", ".join(self.names)}'
+                f'package.module/Class ({type(cause).__name__}: {cause})'
+                f'{did_you_mean(name, self.names)}. Known: {", ".join(self.names)}'
             ) from cause

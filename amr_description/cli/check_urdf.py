@@ -74,7 +74,7 @@ def main(argv: list[str]) -> int:
     except DescriptionError as error:
         return _fail(error, REFUSED_BY_URDFDOM, arguments)
     try:
-        drives = _drives(arguments.controllers, text, source)
+        drives, faults = _drives(arguments.controllers, text, source)
     except ParameterError as error:
         return _fail(error, UNUSABLE, arguments)
     find_file = _file_finder(source)
@@ -85,7 +85,9 @@ def main(argv: list[str]) -> int:
     inputs = CheckInputs(
         file_exists=lambda uri: _is_there(find_file, uri), find_file=find_file, drives=drives
     )
-    examination = examine(text, source, inputs)
+    examined = examine(text, source, inputs)
+    # What is wrong in the parameters comes first: the rest may be its consequence.
+    examination = Examination((*faults, *examined.findings), examined.robot)
     wheels = [wheel for drive in drives for wheel in drive.wheels]
     drop = _drop(examination, wheels) if arguments.drop else None
     code = exit_code(examination, drop, strict=arguments.strict)
@@ -123,7 +125,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar='YAML',
         action='append',
         default=[],
-        help='also check the robot against the diff_drive_controllers of this parameter file '
+        help='also check this parameter file, and the robot against its diff_drive_controllers '
         '(without it, of those that the URDF names); given more than once, the files are read one '
         'over the other',
     )
@@ -213,23 +215,35 @@ def _is_there(find_file: FindFile, uri: str) -> bool:
         raise ResourceError(error.strerror or str(error)) from error
 
 
-def _drives(paths: list[str], text: str, source: str) -> tuple[DriveSettings, ...]:
+def _drives(
+    paths: list[str], text: str, source: str
+) -> tuple[tuple[DriveSettings, ...], tuple[Finding, ...]]:
     """
-    Return the differential drives of parameter files; without any, of those that the URDF names.
+    Return the differential drives of parameter files, and what is wrong in these.
 
-    Raises ParameterError: one of ``paths`` cannot be used.
+    Without ``paths``, those that the URDF names. Raises ParameterError: one of ``paths`` cannot be
+    read, or they list no controller.
     """
     if not paths and '<parameters>' not in text:
-        return ()
-    from amr_description.controllers.drive_files import drives_named_by, read_drives
+        return (), ()
+    from amr_description.controllers.drive_files import (
+        drives_named_by,
+        examine_drive_files,
+        manager_names,
+        no_drive,
+    )
 
     if paths:
-        return read_drives(*paths)
+        found = examine_drive_files(paths, manager_names(text, source))
+        if not found.controllers and not found.faults:
+            raise ParameterError(no_drive(paths))
+        return found.drives, found.faults
     try:
-        return drives_named_by(text, source)
+        found = drives_named_by(text, source)
     except ParameterError as error:  # it is no fault of the description
         _warn(one_line(str(error)))
-        return ()
+        return (), ()
+    return found.drives, found.faults
 
 
 def _drop(examination: Examination, wheels: list[str]) -> 'DropReport | None':

@@ -20,6 +20,8 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 ``failure_handling.py``      controllers that fail are deactivated, fallbacks activated
 ``controller_manager.py``    load, configure, switch; read → update → write
 
+``manager_parameters.py``    the parameters of a manager, and those of every controller
+
 ``plugin_errors.py``         exceptions of third-party controllers and components, as log lines
 ``snapshot.py``              the state of a manager, for readers on other threads
 ``statistics.py``            running mean and deviation of execution times and rates

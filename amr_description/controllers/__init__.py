@@ -16,7 +16,9 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
 ``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
 
-``drive_files.py``                the differential drives of parameter files, for ``check_urdf``
+``parameter_sections.py``         the sections of parameter files, with their lines
+``parameter_faults.py``           what is wrong in them, by its cause: misspelt names, types
+``drive_files.py``                the differential drives of them, for ``check_urdf``
 ``drive_calibration.py``          multipliers of a differential drive from runs of known motion
 ================================= ================================================================
 """

@@ -6,73 +6,108 @@ The differential drives of parameter files, with the lines on which their parame
 As for a node, the last of several sections that set a parameter counts.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from itertools import islice
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-import re
-from typing import Any
 
-import yaml
-
+from amr_description.ament_index import parameter_path
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
-from amr_description.errors import ParameterError
+from amr_description.controllers.parameter_faults import (
+    controller_parameters,
+    ControllerParameters,
+    errors_of,
+    MANAGER,
+    manager_faults,
+    type_fault,
+)
+from amr_description.controllers.parameter_sections import (
+    listed_controllers,
+    LocatedSection,
+    read_sections,
+)
+from amr_description.errors import AmrError, ParameterError
 from amr_description.model.checks import examine_drives
-from amr_description.model.checks.context import DriveSettings, SourceLocation
+from amr_description.model.checks.context import DriveSettings
 from amr_description.model.findings import Finding, Severity
-from amr_description.model.gazebo import read_gazebo_plugins
+from amr_description.model.gazebo import GazeboPlugin, read_gazebo_plugins
+from amr_description.model.origins import relocated
 from amr_description.model.robot import Robot
 from amr_description.model.urdf import read_robot
 from amr_description.model.xml_reader import parse_xml
-from amr_description.parameter_files import (
-    dotted,
-    flatten,
-    KEY,
-    read_parameter_file,
-    Section,
-    sections,
-)
+from amr_description.parameter_files import KEY
 from amr_description.parameters import build
+from amr_description.text import quote_all
 
 DIFF_DRIVE = 'diff_drive_controller/DiffDriveController'
-_TYPE = '.type'
-# Nodes, and parameters of one: aliases can make a short file mean any number of them.
-_MOST = 10_000
 
 
 @dataclass(frozen=True, slots=True)
-class _Section:
-    """A section with the values of its parameters, and where they stand, by dotted name."""
+class DriveExamination:
+    """The differential drives of parameter files as far as they are sound, and the faults."""
 
-    section: Section
-    location: SourceLocation
-    values: dict[str, Any]
-    locations: dict[str, SourceLocation]
+    drives: tuple[DriveSettings, ...]
+    faults: tuple[Finding, ...]
+    controllers: tuple[str, ...] = ()
+    """The names of all controllers, of whatever type."""
 
-    @property
-    def node(self) -> str:
-        """The full name of the node, perhaps with wildcards."""
-        return self.section.pattern
+
+def examine_drive_files(
+    paths: Sequence[str], managers: Sequence[str] = (MANAGER,)
+) -> DriveExamination:
+    """
+    Return the differential drives of parameter files, and everything that is wrong in these.
+
+    Later files override earlier ones; the files that ``params_file`` of a controller names are
+    read too.
+
+    Args:
+        paths: of the files.
+        managers: the names that the robot gives its controller managers.
+
+    Raises:
+        ParameterError: a file cannot be read.
+    """
+    found = read_sections(paths)
+    listed = listed_controllers(found)
+    nodes = _manager_nodes(found, managers)
+    faults = [fault for node in nodes for fault in manager_faults(found, node)]
+    drives = []
+    for each in listed:
+        kind, fault = type_fault(each.name, each.type, each.location)
+        faults += [fault] if fault is not None else []
+        read = controller_parameters(found, each.node, kind, each.location)
+        faults += read.faults
+        if kind == DIFF_DRIVE and read.is_sound:
+            drives.append(_settings(each.name, read))
+    names = tuple(each.name for each in listed)
+    return DriveExamination(tuple(drives), tuple(dict.fromkeys(faults)), names)
 
 
 def read_drives(*paths: str) -> tuple[DriveSettings, ...]:
     """
     Return the settings of every diff_drive_controller of some parameter files.
 
-    Later files override earlier ones; the files that ``params_file`` of a controller names are
-    read too.
-
     Raises:
-        ParameterError: a file cannot be read, none names such a controller, or the controller
-            would reject a value.
+        ParameterError: as :func:`examine_drive_files`, or none of the files names such a
+            controller, or it would reject a value.
     """
-    drives = _drives(paths)
-    if not drives:
-        raise ParameterError(
-            f"parameter file '{', '.join(paths)}' names no controller of type {DIFF_DRIVE}; it is "
-            f'written as  controller_manager: {{{KEY}: {{NAME: {{type: {DIFF_DRIVE}}}}}}}'
-        )
-    return drives
+    examination = examine_drive_files(paths)
+    errors = errors_of(examination.faults)
+    if errors:
+        raise ParameterError(errors[0].text)
+    if not examination.drives:
+        raise ParameterError(no_drive(paths))
+    return examination.drives
+
+
+def no_drive(paths: Sequence[str]) -> str:
+    """Return the message that no controller of some files is a differential drive."""
+    types = list(dict.fromkeys(each.type for each in listed_controllers(read_sections(paths))))
+    others = f', but {quote_all(types)}' if types else ''
+    return (
+        f"parameter file '{', '.join(paths)}' names no controller of type {DIFF_DRIVE}{others}; "
+        f'it is written as  controller_manager: {{{KEY}: {{NAME: {{type: {DIFF_DRIVE}}}}}}}'
+    )
 
 
 def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
@@ -92,7 +127,9 @@ def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     except ParameterError:
         return ()
     return tuple(
-        each for each in found if each.severity is Severity.WARNING or each.source == robot.source
+        relocated(each, robot.text) if each.source == robot.source else each
+        for each in found
+        if each.severity is Severity.WARNING or each.source == robot.source
     )
 
 
@@ -101,90 +138,80 @@ def drives_of(robot: Robot, paths: Sequence[str]) -> tuple[DriveSettings, ...]:
     Return the drives of parameter files whose wheels are joints of a robot.
 
     Raises:
-        ParameterError: as :func:`read_drives`, but not where no such controller is named.
+        ParameterError: as :func:`examine_drive_files`.
     """
-    return tuple(drive for drive in _drives(paths) if all(map(robot.has_joint, drive.wheels)))
+    drives = examine_drive_files(paths).drives
+    return tuple(drive for drive in drives if all(map(robot.has_joint, drive.wheels)))
 
 
-def drives_named_by(text: str, source: str) -> tuple[DriveSettings, ...]:
+def drives_named_by(text: str, source: str) -> DriveExamination:
     """
     Return the drives of the parameter files that a URDF names for its ros2_control plugin.
 
-    Files that are not there are left out, and the faults of the URDF to the checker.
+    Files that are not there are left out, and the faults of the URDF to the checker. What is wrong
+    in the files is a warning: it is no fault of the description.
 
     Args:
         text: the URDF.
         source: names its file in messages.
 
     Raises:
-        ParameterError: as :func:`drives_of`.
+        ParameterError: as :func:`examine_drive_files`.
     """
     faults: list[Finding] = []
+    hosts = _hosts(text, source)
     xml = parse_xml(text, source, faults.append)
     if xml is None:
-        return ()
-    plugins = read_gazebo_plugins(xml, source, faults.append)
-    paths = [path for each in plugins if each.hosts_ros2_control for path in each.parameters]
-    there = [path for path in dict.fromkeys(paths) if Path(path).is_file()]
-    return drives_of(read_robot(xml, text, source, faults.append), there) if there else ()
+        return DriveExamination((), ())
+    robot = read_robot(xml, text, source, faults.append)
+    found = examine_drive_files(
+        [path for each in hosts for path in files_of(each.parameters, source)],
+        manager_names(text, source),
+    )
+    return DriveExamination(
+        tuple(drive for drive in found.drives if all(map(robot.has_joint, drive.wheels))),
+        tuple(replace(each, severity=Severity.WARNING) for each in found.faults),
+    )
 
 
-def _drives(paths: Sequence[str]) -> tuple[DriveSettings, ...]:
-    """Return the drives of parameter files, perhaps none. Raises ParameterError."""
-    found = [each for path in paths for each in _read(path)]
-    found += [each for path in _further_files(found) for each in _read(path)]
-    return tuple(_settings(node, found) for node in dict.fromkeys(_drive_nodes(found)))
+def manager_names(text: str, source: str) -> list[str]:
+    """Return the names that a URDF gives its controller managers, and the usual one."""
+    names = (each.controller_manager_name for each in _hosts(text, source))
+    return list(dict.fromkeys((MANAGER, *names)))
 
 
-def _read(path: str) -> list[_Section]:
-    content = read_parameter_file(Path(path))
-    tree = yaml.compose(Path(path).read_text(encoding='utf-8'), Loader=yaml.SafeLoader)
-    try:
-        return [_located(each, tree, path) for each in islice(sections(content), _MOST)]
-    except RecursionError:  # an anchor that holds itself
-        raise ParameterError(f"parameter file '{path}': nested too deeply") from None
+def _hosts(text: str, source: str) -> list[GazeboPlugin]:
+    """Return the plugins of a URDF, sound or not, that host ros2_control."""
+    faults: list[Finding] = []
+    xml = parse_xml(text, source, faults.append)
+    plugins = () if xml is None else read_gazebo_plugins(xml, source, faults.append)
+    return [each for each in plugins if each.hosts_ros2_control]
 
 
-def _further_files(found: list[_Section]) -> Iterator[str]:
-    """Yield the files that a manager hands to its differential drives."""
-    for each in found:
-        for name, value in each.values.items():
-            files = each.values.get(f'{name.removesuffix(_TYPE)}.params_file')
-            if name.endswith(_TYPE) and value == DIFF_DRIVE:
-                names = files if isinstance(files, list) else [files]
-                yield from (file for file in names if isinstance(file, str))
+def files_of(parameters: Sequence[str], source: str) -> list[str]:
+    """Return the paths of the files that are there, of those in ``<parameters>`` of a URDF."""
+    paths = []
+    for written in dict.fromkeys(parameters):
+        try:
+            path = parameter_path(written, Path(source).parent)
+        except AmrError:  # of a package that is not installed
+            continue
+        paths += [str(path)] if path.is_file() else []
+    return paths
 
 
-def _drive_nodes(found: list[_Section]) -> Iterator[str]:
-    """Yield the full names of the controllers that the sections give that type."""
-    for each in found:
-        if each.values.get('type') == DIFF_DRIVE and '*' not in each.node:
-            yield each.node
-        for name, value in each.values.items():
-            if name.endswith(_TYPE) and value == DIFF_DRIVE:
-                namespace = each.node.rpartition('/')[0]
-                yield f'{"" if "*" in namespace else namespace}/{name.removesuffix(_TYPE)}'
+def _manager_nodes(found: Sequence[LocatedSection], managers: Sequence[str]) -> list[str]:
+    """Return the nodes that the sections of managers are for; without any, where they would be."""
+    nodes = (each.node for each in found if each.name in managers)
+    named = [f'/{node.rpartition("/")[2]}' if '*' in node else node for node in nodes]
+    return list(dict.fromkeys(named or (f'/{name}' for name in managers)))
 
 
-def _settings(node: str, found: list[_Section]) -> DriveSettings:
-    values: dict[str, Any] = {}
-    locations: dict[str, SourceLocation] = {}
-    mine = [each for each in found if each.section.is_of(node)]
-    for each in mine:
-        values |= each.values
-        locations |= each.locations
-    name = node.rpartition('/')[2]
-    own = [each.location for each in mine if each.node.rpartition('/')[2] == name]
-    location = own[-1] if own else found[0].location
-    try:
-        drive = build(DiffDriveParameters, values)
-    except ParameterError as error:
-        match = re.search(r"parameter '([^']+)'", str(error))
-        source, line = locations.get(match[1], location) if match else location
-        raise ParameterError(f'{source}:{line}: {name}: {error}') from error
+def _settings(name: str, read: ControllerParameters) -> DriveSettings:
+    drive = build(DiffDriveParameters, read.values)
     return DriveSettings(
         name=name,
-        location=location,
+        location=read.location,
         left_wheels=drive.left_wheel_names,
         right_wheels=drive.right_wheel_names,
         separation=drive.wheel_separation,
@@ -195,33 +222,5 @@ def _settings(node: str, found: list[_Section]) -> DriveSettings:
         publishes_transform=drive.enable_odom_tf,
         position_feedback=drive.position_feedback,
         open_loop=drive.open_loop,
-        locations=locations,
+        locations=read.locations,
     )
-
-
-def _located(section: Section, tree: yaml.Node, path: str) -> _Section:
-    line, below = _find(tree, section.keys)
-    values, locations = {}, {}
-    if isinstance(section.parameters, dict):
-        _, below = _find(below, (KEY,))
-        for keys, value in islice(flatten(section.parameters), _MOST):
-            values[dotted(keys)] = value
-            locations[dotted(keys)] = SourceLocation(path, _find(below, keys)[0])
-    return _Section(section, SourceLocation(path, line), values, locations)
-
-
-def _find(tree: yaml.Node, keys: tuple[Any, ...]) -> tuple[int, yaml.Node]:
-    """Return the line of the innermost key, and the node below it."""
-    line = tree.start_mark.line + 1
-    for key in keys:
-        line, tree = _entry(tree, key)
-    return line, tree
-
-
-def _entry(tree: yaml.Node, key: Any) -> tuple[int, yaml.Node]:
-    """Return the line of a key and the node below it; of what is merged in, that of the whole."""
-    if isinstance(tree, yaml.MappingNode):
-        for name, below in tree.value:
-            if name.value == str(key):
-                return name.start_mark.line + 1, below
-    return tree.start_mark.line + 1, tree

@@ -31,6 +31,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
+from amr_description.control.manager_parameters import ManagerTable
 from amr_description.control.ros.controller_manager_node import (
     ControllerManagerNode,
     NODE_NAME,
@@ -40,7 +41,6 @@ from amr_description.control.ros.controller_manager_node import (
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import SimTimePacer, SystemClockPacer
-from amr_description.control.ros.parameters import ManagerTable
 from amr_description.control.ros.realtime import lock_memory, set_cpu_affinity, set_fifo_priority
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareStartError, ParameterError

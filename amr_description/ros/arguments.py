@@ -59,6 +59,11 @@ def other_arguments(words: Sequence[str]) -> list[str]:
     return found
 
 
+def files_in(arguments: Sequence[str]) -> list[str]:
+    """Return the parameter files among ROS arguments, in their order."""
+    return [value[0] for flag, *value in _flags(arguments) if flag == '--params-file' and value]
+
+
 def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list[str]:
     """
     Return what of a node's ROS arguments goes on to the nodes that it makes.

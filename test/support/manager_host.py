@@ -129,9 +129,9 @@ class Host:
 
 
 @contextmanager
-def running_host(folder: Path):
-    """A host that serves; rclpy must have been initialised."""
-    (folder / 'controllers.yaml').write_text(YAML)
+def running_host(folder: Path, text: str = YAML):
+    """A host that serves, with these parameters; rclpy must have been initialised."""
+    (folder / 'controllers.yaml').write_text(text)
     host = Host(folder / 'controllers.yaml')
     host.start()
     try:

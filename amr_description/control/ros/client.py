@@ -25,7 +25,9 @@ from amr_description.ros.service_calls import (
     NoAnswerError,
     wait_until,
 )
+from amr_description.text import did_you_mean
 
+_NO_TYPE = 'no type is set for'
 _LOG_PERIOD = 10.0
 """s: how often it is logged that the manager is still not there."""
 _ATTEMPTS = 3
@@ -211,10 +213,14 @@ class ManagerClient:
         since = self._call_time
         if self.has_type(controller):
             return self.logged(controller, since=since)
+        cause = self.logged(controller, since=since)
+        if cause.startswith(_NO_TYPE):  # the manager has found why in its parameter file
+            return cause
+        typed = self.typed_controllers()
         return (
-            f'no type is set for it; the parameters of {self.name} hold one for: '
-            f'{", ".join(self.typed_controllers()) or "none"}; a parameter file given here may '
-            'name another'
+            f'{_NO_TYPE} it: {self.name} has one for {", ".join(typed) or "no controller"}'
+            f'{did_you_mean(controller, typed)}; name the parameter file that sets its type with '
+            '-p FILE'
         )
 
     def logged(self, *nodes: str, since: float | None = None) -> str:

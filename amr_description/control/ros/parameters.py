@@ -3,11 +3,12 @@
 """
 The parameters of a ``controller_manager`` node: its own, and those that it keeps for a controller.
 
-The tables say what there is; :class:`ManagerParameters` declares and reads them on the node.
+The tables of :mod:`amr_description.control.manager_parameters` say what there is;
+:class:`ManagerParameters` declares and reads them on the node.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,19 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.control.controller_manager import ManagerDefaults
-from amr_description.control.diagnostic_thresholds import Diagnostics
+from amr_description.control.manager_parameters import ControllerEntry, ManagerTable
 from amr_description.control.switching import Strictness
-from amr_description.errors import ControllerError
+from amr_description.controllers.parameter_faults import (
+    controller_parameters,
+    errors_of,
+    manager_faults,
+    type_fault,
+)
+from amr_description.controllers.parameter_sections import listed_controllers, read_sections
+from amr_description.errors import ControllerError, ParameterError
+from amr_description.model.findings import Finding
 from amr_description.parameter_files import read_parameter_file
-from amr_description.parameters import group, parameter
-from amr_description.ros.arguments import inherited, ros_arguments
+from amr_description.ros.arguments import files_in, inherited, ros_arguments
 from amr_description.ros.parameters import (
     add_validation_callback,
     declare,
@@ -29,114 +37,6 @@ from amr_description.ros.parameters import (
     values,
 )
 from amr_description.ros.runtime import argument_errors
-
-MOST_CYCLES = 100_000
-"""Hz: no control loop is faster."""
-
-
-@dataclass(frozen=True)
-class InitialStates:
-    """The states to which the hardware is brought at the start."""
-
-    unconfigured: tuple[str, ...] = parameter((), 'Components that are left unconfigured')
-    inactive: tuple[str, ...] = parameter((), 'Components that are configured, not activated')
-    shutdown_on_initial_state_failure: bool = parameter(
-        True, 'End when a component does not reach its first state', read_only=True
-    )
-
-
-@dataclass(frozen=True)
-class SwitchDefaults:
-    """For what a request to switch leaves open."""
-
-    strictness: str = parameter(
-        'best_effort', 'Where a request names no strictness', choices=('best_effort', 'strict')
-    )
-
-
-@dataclass(frozen=True)
-class Defaults:
-    """How controllers depend on hardware, and requests that leave something open."""
-
-    allow_controller_activation_with_inactive_hardware: bool = parameter(
-        False, 'Let controllers claim commands of hardware that is not active', read_only=True
-    )
-    deactivate_controllers_on_hardware_self_deactivate: bool = parameter(
-        True, 'Deactivate the controllers of hardware that made itself inactive', read_only=True
-    )
-    switch_controller: SwitchDefaults = group('switch_controller', SwitchDefaults)
-
-
-@dataclass(frozen=True)
-class Overruns:
-    """Cycles that take too long."""
-
-    print_warnings: bool = parameter(True, 'Warn of them; default: unless use_sim_time')
-
-
-@dataclass(frozen=True)
-class DiagnosticUpdater:
-    """How ``/diagnostics`` is published."""
-
-    period: float = parameter(
-        1.0, 'Time between two messages', unit='s', above=0.0, magnitude=(1e-3, 1e5)
-    )
-    use_fqn: bool = parameter(False, 'Name the node with its namespace')
-
-
-@dataclass(frozen=True)
-class ManagerTable:
-    """
-    The parameters of the manager.
-
-    ``update_rate`` may be set while it runs, as in ros2_control, but only the start counts.
-    """
-
-    update_rate: int = parameter(
-        100, 'Rate of the control loop', unit='Hz', above=0, magnitude=(1, MOST_CYCLES)
-    )
-    enforce_command_limits: bool = parameter(
-        False, 'Clamp commands to the limits of the URDF', read_only=True
-    )
-    handle_exceptions: bool = parameter(
-        True, 'Go on when a controller or a component raises', read_only=True
-    )
-    hardware_components_initial_state: InitialStates = group(
-        'hardware_components_initial_state', InitialStates
-    )
-    defaults: Defaults = group('defaults', Defaults)
-    overruns: Overruns = group('overruns', Overruns)
-    diagnostics: Diagnostics = group('diagnostics.threshold', Diagnostics)
-    diagnostic_updater: DiagnosticUpdater = group('diagnostic_updater', DiagnosticUpdater)
-
-
-@dataclass(frozen=True)
-class ControllerEntry:
-    """The manager's parameters for one controller, below its name."""
-
-    type: str = parameter('', 'Type of the controller', not_empty=True)
-    params_file: tuple[str, ...] = parameter((), 'Parameter files of the controller')
-    fallback_controllers: tuple[str, ...] = parameter(
-        (), 'Controllers to activate when this one fails'
-    )
-    node_options_args: tuple[str, ...] = parameter((), 'ROS arguments of its node')
-
-
-@dataclass(frozen=True)
-class CommonParameters:
-    """The parameters of every controller's node, besides the controller's own table."""
-
-    is_async: bool = parameter(
-        False, 'Update in a thread of its own: accepted, and updated in the control loop'
-    )
-    thread_priority: int = parameter(-100, 'Priority of that thread; not used')
-    update_rate: int = parameter(
-        100,
-        "Updates per second; default, and 0: the manager's",
-        unit='Hz',
-        minimum=0,
-        magnitude=(1, MOST_CYCLES),
-    )
 
 
 class ManagerParameters:
@@ -160,7 +60,7 @@ class ManagerParameters:
         self._node = node
         self._arguments = list(arguments)
         uses_sim_time = node.get_parameter('use_sim_time').value
-        with argument_errors():
+        with self._explained(self._own_faults), argument_errors():
             self.start = declare(
                 node, ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time}
             )
@@ -191,9 +91,12 @@ class ManagerParameters:
             ParameterError: A value has the wrong type.
         """
         if not self._get(f'{name}.type'):
+            causes = '; '.join(each.text for each in errors_of(self._own_faults()))
             raise ControllerError(
-                f"The 'type' param was not defined for '{name}'. Controllers with a type in the "
-                f'parameters of {self._node.get_fully_qualified_name()}: '
+                f"no type is set for '{name}': {causes}"
+                if causes
+                else f"The 'type' param was not defined for '{name}'. Controllers with a type in "
+                f'the parameters of {self._node.get_fully_qualified_name()}: '
                 f'{", ".join(self._typed_controllers()) or "none"}'
             )
         prefix = f'{name}.'
@@ -218,6 +121,49 @@ class ManagerParameters:
             *(['-p', 'use_sim_time:=true'] if uses_sim_time else []),
             *ros_arguments(['--ros-args', *entry.node_options_args]),
         ]
+
+    @contextmanager
+    def explained(self, name: str, entry: ControllerEntry) -> Iterator[None]:
+        """
+        Name what is wrong with a controller's parameters in its files, while it is made inside.
+
+        What does not keep it from being made is logged. Raises ParameterError: in the place of one
+        that is raised inside, if the files tell its cause.
+        """
+
+        def faults() -> Sequence[Finding]:
+            found = read_sections(files_in(self.arguments_of(entry)))
+            places = [each.location for each in listed_controllers(found) if each.name == name]
+            if not places:
+                return ()  # its type is from elsewhere, and so may be the parameters
+            _, fault = type_fault(name, entry.type, places[-1])
+            node = f'{self._node.get_namespace().rstrip("/")}/{name}'
+            read = controller_parameters(found, node, entry.type, places[-1])
+            return [fault] if fault is not None else read.faults
+
+        with self._explained(faults):
+            yield
+
+    @contextmanager
+    def _explained(self, faults: Callable[[], Sequence[Finding]]) -> Iterator[None]:
+        try:
+            found = faults()
+        except ParameterError:  # rcl has read the file, or complains of it itself
+            found = ()
+        causes = errors_of(found)
+        try:
+            yield
+        except (ParameterError, ControllerError) as error:
+            if causes:
+                raise type(error)('; '.join(each.text for each in causes)) from error
+            raise
+        for each in found:
+            self._node.get_logger().warning(each.text)
+
+    def _own_faults(self) -> Sequence[Finding]:
+        """Return what is wrong with the manager's own sections in its files."""
+        found = read_sections(files_in(self._arguments))
+        return tuple(manager_faults(found, self._node.get_fully_qualified_name()))
 
     def defaults(self) -> ManagerDefaults:
         """Return the present values of ``defaults.…``."""

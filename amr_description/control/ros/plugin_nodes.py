@@ -29,9 +29,9 @@ from amr_description.control.contracts import (
     Severity,
 )
 from amr_description.control.interfaces import LifecycleState
+from amr_description.control.manager_parameters import CommonParameters
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
-from amr_description.control.ros.parameters import CommonParameters
 from amr_description.model.robot import Robot
 from amr_description.registry import resolve
 from amr_description.ros.message_types import message_type

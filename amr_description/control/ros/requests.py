@@ -17,9 +17,10 @@ from rclpy.task import Future
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
+from amr_description.control.manager_parameters import ControllerEntry
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
-from amr_description.control.ros.parameters import ControllerEntry, ManagerParameters
+from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.ros.plugin_nodes import ControllerNode
 from amr_description.control.switching import Strictness
 from amr_description.controllers import CONTROLLERS
@@ -230,6 +231,10 @@ class ManagerRequests:
 
     def _make(self, name: str, entry: ControllerEntry) -> ControllerNode:
         """Make a controller and its node. Raises ControllerError, ParameterError, or anything."""
+        with self._parameters.explained(name, entry):
+            return self._make_of_type(name, entry)
+
+    def _make_of_type(self, name: str, entry: ControllerEntry) -> ControllerNode:
         try:
             controller_class = CONTROLLERS.find(entry.type)
         except ControllerError as error:

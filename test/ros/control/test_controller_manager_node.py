@@ -15,7 +15,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 from support.control_fakes import WHEELS
-from support.manager_host import Host, PERIOD, ros_in_this_process, running_host
+from support.manager_host import Host, PERIOD, ros_in_this_process, running_host, YAML
 from support.paths import TESTS
 
 from amr_description.control.ros.loop_publisher import LoopPublisher
@@ -30,6 +30,25 @@ FIXTURES = TESTS / 'fixtures' / 'nodes'
 def ros():
     with ros_in_this_process():
         yield
+
+
+MISSPELT = """\
+controller_manager:
+  ros__parameters:
+    drive: {type: diff_drive_controller/DiffDriveController}
+    turner: {type: diff_drive_controller/DiffDriveController}
+    driver: {type: diff_drive_controller/DiffDriveControler}
+    untyped: {tpye: diff_drive_controller/DiffDriveController}
+drive:
+  ros__parameters:
+    left_wheel_names: [a]
+    wheel_seperation: 0.3
+    right_wheel_names: [b]
+    wheel_radius: 0.1
+turnner:
+  ros__parameters:
+    {left_wheel_names: [a], right_wheel_names: [b], wheel_separation: 0.3, wheel_radius: 0.1}
+"""
 
 
 @pytest.fixture
@@ -121,10 +140,10 @@ def test_a_slow_configure_keeps_nobody_waiting(host):
 @pytest.mark.parametrize(
     ('name', 'reason'),
     [
-        ('unheard_of', 'no type is set for it; the parameters of /controller_manager hold one'),
+        ('unheard_of', 'no type is set for it: /controller_manager has one for '),
         ('nowhere', "controller type 'no_such_package/Nothing' is not known"),
         ('broken', "load controller 'broken': ValueError: a mistake of a third party"),
-        ('wrong_number', "'wheel_radius' to '1' of type 'INTEGER', expecting type 'DOUBLE'"),
+        ('wrong_number', "'wheel_radius' must be of type double, found 1, an integer; write 1.0"),
     ],
 )
 def test_a_controller_that_cannot_be_loaded_is_refused_with_the_reason(host, name, reason):
@@ -132,6 +151,48 @@ def test_a_controller_that_cannot_be_loaded_is_refused_with_the_reason(host, nam
     assert reason in host.client.reasons(name)
     assert host.client.states() == {}
     assert name not in host.client_node.get_node_names()
+
+
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        (
+            'drive',
+            'x.yaml:10: drive: there is no parameter "wheel_seperation", and it is ignored; did '
+            'you mean "wheel_separation"?',
+        ),
+        (
+            'turner',
+            'x.yaml:13: the section "turnner" is for no node: expected the name of the '
+            'controllers: "drive", "turner", "driver"; did you mean "turner"?',
+        ),
+        (
+            'driver',
+            'x.yaml:5: driver: there is no controller type '
+            '"diff_drive_controller/DiffDriveControler"; did you mean '
+            '"diff_drive_controller/DiffDriveController"?',
+        ),
+        (
+            'untyped',
+            "no type is set for 'untyped': x.yaml:6: controller_manager: there is no parameter "
+            '"untyped.tpye", and it is ignored; did you mean "untyped.type"?',
+        ),
+    ],
+)
+def test_a_mistake_in_a_file_is_named_in_the_place_of_its_consequence(ros, tmp_path, name, reason):
+    with running_host(tmp_path, MISSPELT) as host:
+        assert not host.client.load(name)
+        assert host.client.reasons(name).replace(f'{tmp_path}/controllers', 'x') == reason
+
+
+def test_a_parameter_that_is_ignored_is_warned_of_before_the_controller_runs(ros, tmp_path, capfd):
+    text = YAML + 'rival_1:\n  ros__parameters:\n    publish_rat: 20.0\n'
+    with running_host(tmp_path, text) as host:
+        assert host.client.load('rival_1')
+    assert (
+        'there is no parameter "publish_rat", and it is ignored; did you mean "publish_rate"?'
+        in (capfd.readouterr().err)
+    )
 
 
 @pytest.mark.parametrize(
@@ -314,8 +375,8 @@ def test_a_control_thread_that_was_never_started_stops_at_once(ros):
     [
         ('0', 'must be greater than 0, found 0 Hz'),
         ('-5', 'must be greater than 0, found -5 Hz'),
-        ('99.5', "expecting type 'INTEGER'"),
-        ('fast', "expecting type 'INTEGER'"),
+        ('99.5', 'must be of type integer, found 99.5, a double'),
+        ('fast', "must be of type integer, found 'fast', a string"),
     ],
 )
 def test_an_update_rate_that_cannot_be_is_refused(ros, tmp_path, rate, reason):

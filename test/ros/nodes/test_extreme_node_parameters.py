@@ -12,14 +12,11 @@ from rclpy.parameter import Parameter
 from support.manager_host import ros_in_this_process
 
 from amr_description.clock import NANOSECONDS
+from amr_description.control.manager_parameters import CommonParameters, ManagerTable
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.control.ros.pacing import WallPacer
-from amr_description.control.ros.parameters import (
-    CommonParameters,
-    ManagerParameters,
-    ManagerTable,
-)
+from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.ros.status_topics import DiagnosticsTopic
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import AmrError, ParameterError

@@ -76,7 +76,7 @@ def test_a_parameter_file_names_the_type(host, tmp_path):
 def test_a_load_that_fails_says_why(host, tmp_path):
     code, said, error = control('load_controller', 'nobody')
     assert (code, said) == (1, '')
-    assert error.startswith(f'Failed loading controller nobody {LOGS}: no type is set for it; ')
+    assert error.startswith(f'Failed loading controller nobody {LOGS}: no type is set for it: ')
     assert control('load_controller', 'nobody', 'no.yaml') == failed(
         'Controller parameter file : no.yaml does not exist, Aborting!'
     )

@@ -202,7 +202,11 @@ def test_a_file_that_does_not_speak_of_a_controller_is_told(host, spawner, said,
 @pytest.mark.parametrize(
     ('name', 'words', 'failure'),
     [
-        ('nobody', '', 'Failed loading controller nobody: no type is set for it; the parameters'),
+        (
+            'nobody',
+            '',
+            'Failed loading controller nobody: no type is set for it: /contr',
+        ),
         ('wrong_number', '', 'Failed loading controller wrong_number: .*wheel_radius'),
         ('rival_1', '', 'Failed to activate controller : rival_1: .* claimed by another control'),
         (

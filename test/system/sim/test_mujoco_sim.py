@@ -282,8 +282,8 @@ def test_spawners_tell_why_they_fail(sim):
     sim.controllers.write_text(wrong)
     assert run('create', '-string', URDF, '-z', '0.2').returncode == 0
     failures = {
-        'nobody': 'no type is set for it; the parameters of /controller_manager hold one for: '
-        'diff_drive_controller, joint_state_broadcaster',
+        'nobody': 'no type is set for it: /controller_manager has one for diff_drive_controller, '
+        'joint_state_broadcaster; name the parameter file that sets its type with -p FILE',
         'diff_drive_controller': "the command interface 'joint_wheel_typo/velocity' is not "
         'available',
     }

@@ -126,13 +126,27 @@ def test_dotted_and_nested_names_are_the_same(read):
         (
             f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS.replace("0.1", "1")}',
             r"controllers.yaml:10: drive: parameter 'wheel_radius' must be of type double, found 1"
-            '; write 1.0',
+            ', an integer; write 1.0$',
         ),
         (
             f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS.replace("0.3", "-0.3")}',
             r"controllers.yaml:9: drive: parameter 'wheel_separation' must be greater than 0",
         ),
-        (MANAGER, r"controllers.yaml:1: drive: parameter 'left_wheel_names' must not be empty"),
+        (
+            MANAGER,
+            'controllers.yaml:4: drive: no section has its parameters, of which it needs '
+            '"left_wheel_names", "right_wheel_names", "wheel_separation", "wheel_radius"; write '
+            'them below drive:',
+        ),
+        (
+            f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS.replace("wheel_radius: 0.1", "")}',
+            r"controllers.yaml:5: drive: parameter 'wheel_radius' is not set, and must be greater "
+            r'than 0; add wheel_radius: \(Radius of a wheel, m\)$',
+        ),
+        (
+            'controller_manager:\n  ros__parameters:\n    arm:\n      type: a/Arm\n',
+            f'names no controller of type {DIFF_DRIVE}, but "a/Arm"; it is written as',
+        ),
     ],
 )
 def test_what_cannot_be_used_is_named_with_its_line(read, text, message):

@@ -147,4 +147,4 @@ def test_a_file_that_cannot_be_used_is_one_line(check):
     code, lines = check(CART, 'controller_manager: 7\n')
     assert code == 1
     assert len(lines) == 1
-    assert lines[0].startswith("error: parameter file 'c.yaml': below 'controller_manager' ")
+    assert lines[0].startswith("error: c.yaml:1: below 'controller_manager' stands 7, and no ")
