@@ -11,6 +11,7 @@ known is reported: a file may hold the parameters of any other node, too.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+import math
 from typing import Any
 
 from amr_description.control.manager_parameters import (
@@ -37,6 +38,8 @@ _MISSPELT = 0.8
 _MISSPELT_TYPE = 0.93
 # Names of nodes that are meant alike: "drive_controller", "diff_drive_controller".
 _LIKE = 0.6
+# m; no wheel is farther away.
+_LONGEST = 10.0
 # What nodes have besides their tables.
 _OF_EVERY_NODE = ('use_sim_time', 'type', 'start_type_description_service')
 
@@ -284,5 +287,7 @@ def _value_fault(spec: Spec, value: Any, location: SourceLocation, name: str) ->
     try:
         spec.check(value)
     except ParameterError as error:
-        return Finding.error(*location, f'{name}: {error}')
+        is_long = spec.unit == 'm' and isinstance(value, float) and _LONGEST < value < math.inf
+        unit = f': millimetres? write {value * 0.001:g}' if is_long else ''
+        return Finding.error(*location, f'{name}: {error}{unit}')
     return None

@@ -17,6 +17,7 @@ module               what it holds
 ``meshes.py``        mesh files: units, axes, closed surfaces
 ``shapes.py``        sizes, colours, missing and overlapping collision shapes
 ``inertia.py``       mass, inertia, and whether the robot tips over
+``units.py``         lengths in millimetres, masses in grams
 ``joints.py``        limits, axes, mimics, wheels
 ``axles.py``         the axles of wheels that controllers name, and angles in degrees
 ``ros2_control.py``  ``<ros2_control>`` blocks, and what controllers assume about the robot
@@ -35,6 +36,7 @@ from amr_description.model.checks import (
     meshes,
     ros2_control,
     shapes,
+    units,
 )
 from amr_description.model.checks.context import CheckContext, CheckInputs, DriveSettings, Rule
 from amr_description.model.findings import Finding, Report, Severity
@@ -74,6 +76,8 @@ RULES: tuple[Rule, ...] = (
     meshes.meshes_have_z_up,
     meshes.collision_meshes_are_closed,
     meshes.collision_meshes_fill_their_hull,
+    units.lengths_are_in_metres,
+    units.masses_are_in_kilograms,
     inertia.inertial_is_present,
     inertia.base_has_mass,
     inertia.mass_is_positive,
@@ -104,7 +108,8 @@ RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
     inertia.mass_is_supported,
     *_RULES_OF_WHOLE_DRIVES,
 )
-"""The rules on the whole robot; checked only without errors, as one fault would cause many."""
+"""The rules on the whole robot; checked only without errors and wrong units: one fault would cause
+many."""
 
 NO_INPUTS = CheckInputs()
 
@@ -162,7 +167,8 @@ def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS
     if context is None:
         return Examination(_relocated(findings, text, source), None)
     findings += _apply(context, RULES)
-    if not any(each.severity is Severity.ERROR for each in findings):
+    is_sound = not any(each.severity is Severity.ERROR for each in findings)
+    if is_sound and not units.are_doubtful(context):
         findings += _apply(context, RULES_OF_THE_WHOLE)
     return Examination(_relocated(findings, text, source), context.robot)
 

@@ -14,6 +14,7 @@ import math
 
 from amr_description.model.checks.axles import lying_flat
 from amr_description.model.checks.context import CheckContext
+from amr_description.model.checks.units import is_in_grams, is_in_millimetres
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.robot import Box, Cylinder, Inertia, Inertial, Link, Mesh, Sphere
@@ -155,6 +156,8 @@ def inertia_fits_the_shape(context: CheckContext) -> Iterator[Finding]:
         solid = _solid_moments(link)
         if link.inertial is None or solid is None:
             continue
+        if is_in_millimetres(link) or is_in_grams(link):
+            continue  # which is reported, and explains it
         given = moments_along_axes(link.inertial.inertia, link.inertial.origin)
         if not all(0.0 < moment < math.inf for moment in given):
             continue
@@ -192,7 +195,8 @@ def mass_is_supported(context: CheckContext) -> Iterator[Finding]:
 
     All joints are at 0. The polygon is the convex hull of the points where the lowest shapes touch
     the ground. Robots with fewer than two wheels, with a fixed base or with collision meshes are
-    not checked. Where the wheels lie flat, that is the cause.
+    not checked. Where the wheels lie flat, or a caster reaches below them or not down to the
+    ground, that is the cause.
     """
     robot = context.robot
     meshes = any(
@@ -203,9 +207,12 @@ def mass_is_supported(context: CheckContext) -> Iterator[Finding]:
         return
     points = _ground_points(context)
     outside = _distance_outside(centre, convex_hull(points)) if points else 0.0
-    flat = lying_flat(context) if outside > _TOLERANCE else None
-    if flat is not None:
-        yield flat
+    flat = lying_flat(context)
+    cause = _deeper_than_the_wheels(context)
+    if outside > _TOLERANCE:
+        cause = flat or cause or _above_the_ground(context, centre, points)
+    if cause is not None and (outside > _TOLERANCE or flat is None):
+        yield cause
     elif outside > _TOLERANCE:
         wheel = robot.joint(context.wheels[0].joint)
         xs, ys = [point[0] for point in points], [point[1] for point in points]
@@ -217,6 +224,58 @@ def mass_is_supported(context: CheckContext) -> Iterator[Finding]:
             'of the root frame',
             fix='add a caster, or move the mass or the wheels',
         )
+
+
+def _deeper_than_the_wheels(context: CheckContext) -> Finding | None:
+    """Return the finding on a link that reaches below the driven wheels, so that these hang."""
+    wheels = {wheel.link for wheel in context.wheels}
+    lows = _lowest_points(context)
+    ground = min(low for low, link, _ in lows if link.name in wheels)
+    low, link, _ = min(lows, key=lambda item: item[0])
+    joint = context.robot.parent_joint(link.name)
+    if ground - low < _STANDS or joint is None:
+        return None
+    return context.warning(
+        joint.line,
+        f'link {quote(link.name)} reaches below the driven wheels, which hang in the air',
+        found=f'{(ground - low) * 1000.0:.0f} mm below them',
+        expected='the same height',
+        fix=f'raise it by {ground - low:.3g} m in the <origin> of joint {quote(joint.name)}, or '
+        'make it smaller',
+    )
+
+
+def _above_the_ground(
+    context: CheckContext, centre: _Point, points: Sequence[_Point]
+) -> Finding | None:
+    """Return the finding on a ball that would hold the robot up if it reached the ground."""
+    lows = _lowest_points(context)
+    ground = min(low for low, _, _ in lows)
+    for low, link, solid in sorted(lows, key=lambda item: item[0]):
+        joint = context.robot.parent_joint(link.name)
+        x, y, _ = farthest(solid, _DOWN)
+        if not isinstance(solid.shape, Sphere) or low - ground < _STANDS or joint is None:
+            continue
+        if _distance_outside(centre, convex_hull([*points, (x, y)])) <= _TOLERANCE:
+            return context.warning(
+                joint.line,
+                f'link {quote(link.name)} does not reach the ground, and the robot tips over',
+                found=f'{(low - ground) * 1000.0:.0f} mm above it',
+                expected='the height of the wheels',
+                fix=f'lower it by {low - ground:.3g} m in the <origin> of joint '
+                f'{quote(joint.name)}, or make it larger',
+            )
+    return None
+
+
+def _lowest_points(context: CheckContext) -> list[tuple[float, Link, Solid]]:
+    """Return the height of the lowest point of each collision shape, in the frame of the root."""
+    return [
+        (farthest(solid, _DOWN)[2], link, solid)
+        for link in context.robot.links
+        if link.name in context.poses
+        for solid in solids_of(link.collisions, context.poses[link.name])[:_MOST_POINTS]
+    ]
 
 
 def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
