@@ -20,7 +20,7 @@ from ament_index_python import get_package_prefix, get_packages_with_prefixes
 from ament_index_python.packages import PackageNotFoundError
 
 from amr_description.errors import ResourceError
-from amr_description.text import shorten, suggestion
+from amr_description.text import did_you_mean, shorten, suggestion
 
 OWN_PACKAGE = 'amr_description'
 _OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
@@ -201,12 +201,14 @@ def parameter_path(text: str, folder: Path | None = None) -> Path:
     return resolve_uri(text, folder)
 
 
-def path_of(file: str) -> Path:
+def path_of(file: str, argument: str = '') -> Path:
     """
     Return the absolute path of a file that exists. Raises ResourceError.
 
-    ``file`` is ``package://<package>/<path below its share folder>``, or a path, in which ``~`` is
-    the home folder.
+    Args:
+        file: ``package://<package>/<path below its share folder>``, or a path, in which ``~`` is
+            the home folder.
+        argument: of which it is the value, for the message.
     """
     if file.startswith('package://'):
         package, _, below = file.removeprefix('package://').partition('/')
@@ -214,8 +216,11 @@ def path_of(file: str) -> Path:
     else:
         path = Path(file).expanduser().absolute()
     if not path.is_file():
-        found = 'that is a folder' if path.is_dir() else 'there is no such file'
-        raise ResourceError(f"'{file}' asked for, {found} at {path}")
+        asked = f'{argument}:={file}' if argument else f"'{file}'"
+        if path.is_dir():
+            raise ResourceError(f'{asked}: it is a folder: {path}')
+        near = [each.name for each in path.parent.glob('*')]
+        raise ResourceError(f'{asked}: no such file: {path}{did_you_mean(path.name, near)}')
     return path
 
 

@@ -30,6 +30,7 @@ no clock:
 ``stack_files.py``       finds stacks by name or in users' files; include
 ``stacks/``              the ready-made stacks
 ``urdf_text.py``         the text of a robot description; xacro in a child process
+``controller_files.py``  the parameter file of the controllers where none is given; namespaces
 ``input_files.py``       hashes of the files used; a warning where another copy differs
 ``placement.py``         pure: the tree of groups and stacks, flattened
 ``command_line.py``      one process per node: name, command line, parameter files

@@ -40,7 +40,7 @@ def robot_description(urdf: str, xacro_args: str = '') -> str:
         BringupError: it cannot be read or expanded.
         UsageError: ``xacro_args`` cannot be split, or the file is no xacro file.
     """
-    path = path_of(urdf)
+    path = path_of(urdf, 'urdf')
     if path.suffix == '.xacro':
         text = _expanded([str(path), *_words(xacro_args)])
         return with_absolute_paths(text, path.parent)

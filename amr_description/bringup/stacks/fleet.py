@@ -23,7 +23,9 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
+from amr_description.bringup.controller_files import controllers_file, require_namespaces
 from amr_description.bringup.environment import setup_command
+from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS, URDF
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 from amr_description.model.shapes import horizontal_reach
@@ -39,13 +41,11 @@ type _Position = tuple[float, float]
 
 def fleet(
     robots: Annotated[int, 'how many'] = 3,
-    urdf: Annotated[
-        str, 'robot description, URDF or xacro'
-    ] = 'package://amr_description/urdf/amr.urdf',
+    urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     controllers: Annotated[
-        str, 'parameters of the controllers, for any namespace: /**/controller_manager: …'
-    ] = 'package://amr_description/config/controllers.yaml',
+        str, f'{ABOUT_CONTROLLERS}; for any namespace: /**/controller_manager: …'
+    ] = '',
     world: Annotated[str, 'world to simulate'] = 'empty',
     rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
     spacing: Annotated[float, 'm between two robots; 0: by their size'] = 0.0,
@@ -62,12 +62,12 @@ def fleet(
         f'spacing:={spacing}: the robots would touch; they need more than {needed:.2f} m',
     )
     positions = dict(_positions(robots, spacing or needed + _GAP))
+    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    require_namespaces(file, list(positions))
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(
         'mujoco_sim',
-        parameters=[
-            {'world': world, 'real_time_factor': rtf, 'controllers': str(path_of(controllers))}
-        ],
+        parameters=[{'world': world, 'real_time_factor': rtf, 'controllers': str(file)}],
         on_exit='shutdown',
     )
     # 2. The origins of the odometry frames: they join the robots in one tree of frames.
@@ -89,7 +89,7 @@ def fleet(
         ],
         ready_when=up,
         next_steps=_how_to_drive(list(positions)),
-        notes=notes_on([path_of(urdf), path_of(controllers)]),
+        notes=notes_on([path_of(urdf), file]),
     )
 
 

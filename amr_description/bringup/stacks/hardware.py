@@ -26,8 +26,9 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.conditions import Condition
+from amr_description.bringup.controller_files import controllers_file
 from amr_description.bringup.input_files import Note
-from amr_description.bringup.stacks.simulation import CONTROLLERS, how_to_drive, URDF
+from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS, how_to_drive, URDF
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
 
@@ -48,7 +49,7 @@ _PORT_TIMEOUT = 10.0
 def mock(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
-    controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
+    controllers: Annotated[str, ABOUT_CONTROLLERS] = '',
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot's controllers over mock hardware: no physics, wheels follow commands."""
@@ -57,13 +58,14 @@ def mock(
         'mock_components/GenericSystem',
         {'calculate_dynamics': 'true'},
     )
-    return _controlled(description, [path_of(urdf), path_of(controllers)], viewer)
+    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    return _controlled(description, [path_of(urdf), file], viewer)
 
 
 def serial(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
-    controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
+    controllers: Annotated[str, ABOUT_CONTROLLERS] = '',
     port: Annotated[str, 'port of the motor board; empty: a simulated board is started'] = '',
     left: Annotated[str, 'joints that the left motor turns'] = (
         'joint_wheel_front_left joint_wheel_back_left'
@@ -87,7 +89,8 @@ def serial(
         {'port': port, 'left_joints': left, 'right_joints': right}
         | (_SIMULATED_BOARD if is_simulated else {}),
     )
-    files = [path_of(urdf), path_of(controllers)]
+    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    files = [path_of(urdf), file]
     return _controlled(description, files, viewer, boards, path_exists(port), timeout)
 
 

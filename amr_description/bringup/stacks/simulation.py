@@ -15,19 +15,22 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
+from amr_description.bringup.controller_files import controllers_file
 from amr_description.bringup.environment import setup_command
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 
 URDF = 'package://amr_description/urdf/amr.urdf'
 _NO_NAME = re.compile(r'[^A-Za-z0-9_.-]')
-CONTROLLERS = 'package://amr_description/config/controllers.yaml'
+ABOUT_CONTROLLERS = (
+    'parameters of the controllers; empty: the file that the URDF names, for amr the shipped one'
+)
 
 
 def simulation(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
-    controllers: Annotated[str, 'parameters of the controllers'] = CONTROLLERS,
+    controllers: Annotated[str, ABOUT_CONTROLLERS] = '',
     world: Annotated[str, 'world to simulate'] = 'empty',
     rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
     paused: Annotated[bool, 'whether time stands still at first'] = False,
@@ -37,13 +40,13 @@ def simulation(
     if not rtf >= 0:
         raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
     description = robot_description(urdf, xacro_args)
-    file = str(path_of(controllers))
+    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(
         'mujoco_sim',
         parameters=[
-            {'world': world, 'real_time_factor': rtf, 'paused': paused, 'controllers': file}
+            {'world': world, 'real_time_factor': rtf, 'paused': paused, 'controllers': str(file)}
         ],
         on_exit='shutdown',
     )
@@ -79,7 +82,7 @@ def simulation(
         ],
         ready_when=exited_cleanly(diff_drive_controller),
         next_steps=how_to_drive(viewer),
-        notes=notes_on([path_of(urdf), path_of(controllers)]),
+        notes=notes_on([path_of(urdf), file]),
     )
 
 

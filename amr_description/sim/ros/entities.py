@@ -14,7 +14,7 @@ from pathlib import Path
 
 from rclpy.executors import Executor
 
-from amr_description.ament_index import own_share
+from amr_description.ament_index import own_share, parameter_path
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
@@ -310,7 +310,7 @@ class EntityManager:
         paths = [self._controllers] if self._controllers else []
         if not paths:
             hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
-            paths = [path for plugin in hosts for path in plugin.parameters]
+            paths = [str(parameter_path(path)) for host in hosts for path in host.parameters]
         if not paths:
             paths = [str(own_share() / 'config' / 'controllers.yaml')]
         for path in paths:

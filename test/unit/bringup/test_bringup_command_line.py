@@ -78,7 +78,7 @@ def test_what_is_missing_is_reported_before_anything_starts(prefix, monkeypatch)
     libexec = "executable 'wrker' not found on the libexec directory '.*/lib/toys'"
     refuses(f"{libexec}; did you mean 'worker'\\? known: .*, plain, step", executable='wrker')
     refuses("Package 'toyz' not found, searching: .*/other, .*/toys", package='toyz')
-    refuses("'no.yaml' asked for, there is no such file at /", parameters=['no.yaml'])
+    refuses("'no.yaml': no such file: /", parameters=['no.yaml'])
     (prefix / 'lib/toys/step').chmod(0o644)
     refuses("executable 'step' not found")
     monkeypatch.setenv('AMENT_PREFIX_PATH', '')
@@ -118,7 +118,10 @@ def test_files_of_packages_and_others(prefix, tmp_path, monkeypatch):
     assert path_of('package://toys/a.urdf') == share / 'a.urdf'
     monkeypatch.chdir(share)
     assert path_of('a.urdf') == share / 'a.urdf'
-    with pytest.raises(ResourceError, match="'package://toys/b.urdf' asked for, there is no such"):
+    with pytest.raises(
+        ResourceError,
+        match="'package://toys/b.urdf': no such file: /.*b.urdf; did you mean a.urdf",
+    ):
         path_of('package://toys/b.urdf')
-    with pytest.raises(ResourceError, match='that is a folder at'):
+    with pytest.raises(ResourceError, match='it is a folder: /'):
         path_of(str(tmp_path))

@@ -101,7 +101,7 @@ def test_the_next_steps_name_two_robots():
         ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
         ({'spacing': '-1'}, 'spacing:=-1.0: a distance is 0'),
         ({'spacing': '0.5'}, r'spacing:=0.5: the robots would touch; they need more than \d'),
-        ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),
+        ({'urdf': 'no.urdf'}, 'urdf:=no.urdf: no such file: /'),
     ],
 )
 def test_bad_arguments_are_reported_before_anything_starts(given, text):

@@ -141,8 +141,8 @@ def test_the_files_are_noted_with_their_hashes(installed):
         ({'urdf': GRIPPER, 'xacro_args': 'palm'}, "'palm' is no argument of a xacro file"),
         ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
         ({'rtf': 'nan'}, 'rtf:=nan: a real-time factor is 0'),
-        ({'urdf': 'no.urdf'}, "'no.urdf' asked for, there is no such file"),
-        ({'controllers': '/'}, "'/' asked for, that is a folder"),
+        ({'urdf': 'no.urdf'}, 'urdf:=no.urdf: no such file: /'),
+        ({'controllers': '/'}, 'controllers:=/: it is a folder: /'),
     ],
 )
 def test_bad_arguments_are_reported_before_anything_starts(given, text):

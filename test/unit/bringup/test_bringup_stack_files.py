@@ -53,7 +53,7 @@ def test_wrong_arguments_are_refused_by_name(values, text):
 def test_a_return_value_that_is_no_stack_is_refused(tmp_path):
     with pytest.raises(BringupError, match="missing required argument 'text'"):
         include(CHATTY)
-    with pytest.raises(ResourceError, match="'simulaton' asked for, there is no such file at"):
+    with pytest.raises(ResourceError, match="'simulaton': no such file: /"):
         include('simulaton')
     (tmp_path / 'nothing.py').write_text('def nothing(): pass')
     with pytest.raises(BringupError, match=r"nothing.py' returned None; a stack's function"):

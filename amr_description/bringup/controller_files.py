@@ -1,0 +1,106 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which parameter file a stack's controllers have, where none or one is given, and whom it is for.
+
+YAML and the URDF are read where they are needed only: a stack of the shipped robot starts at once.
+"""
+
+from pathlib import Path
+
+from amr_description.ament_index import parameter_path, path_of
+from amr_description.errors import ResourceError, UsageError
+from amr_description.text import quote_all
+
+SHIPPED = 'package://amr_description/config/controllers.yaml'
+_MANAGER = 'controller_manager'
+
+
+def controllers_file(controllers: str, urdf: str, description: str, *, is_shipped: bool) -> Path:
+    """
+    Return the parameter file of the controllers of a stack.
+
+    Args:
+        controllers: as given; '': that which the URDF names for its ros2_control plugin, else the
+            shipped one, if it is for this robot.
+        urdf: the description as given, for messages.
+        description: its text.
+        is_shipped: whether it is the robot of this package.
+
+    Raises:
+        ResourceError: there is no such file.
+        DescriptionError: the description cannot be read.
+        UsageError: it has to be given.
+    """
+    if controllers:
+        return path_of(controllers, 'controllers')
+    shipped = path_of(SHIPPED)
+    if is_shipped:
+        return shipped
+    named = _named_by(description)
+    for written in named:
+        try:
+            path = parameter_path(written)
+        except ResourceError:  # of a package that is not installed
+            continue
+        if path.is_file():
+            return path
+    foreign = _foreign_wheels(description, shipped)
+    if not foreign:
+        return shipped
+    gone = f' ({quote_all(named)}, which it names in <parameters>, is not there)' if named else ''
+    raise UsageError(
+        f'urdf:={urdf}: {shipped} has the controllers of amr, and this robot has no joint '
+        f'{foreign[0]}; give controllers:=FILE{gone}'
+    )
+
+
+def require_namespaces(file: Path, namespaces: list[str]) -> None:
+    """Raise UsageError: the parameter file is for a single robot, without a namespace."""
+    import yaml
+
+    from amr_description.parameter_files import find_keys, read_parameter_file, sections
+
+    found = [
+        each
+        for each in sections(read_parameter_file(file))
+        if each.pattern.rpartition('/')[2] == _MANAGER
+    ]
+    managers = [f'/{namespace}/{_MANAGER}' for namespace in namespaces]
+    lacking = [node for node in managers if not any(each.is_of(node) for each in found)]
+    if not found or not lacking:
+        return
+    line, _ = find_keys(yaml.compose(file.read_text('utf-8')), found[0].keys)
+    raise UsageError(
+        f'{file}:{line}: the section {"/".join(map(str, found[0].keys))} is not for {lacking[0]}; '
+        f'write /**/{_MANAGER}: there, and /**/ before the names of the controllers, for robots '
+        'in any namespace'
+    )
+
+
+def _named_by(description: str) -> list[str]:
+    """Return what the ros2_control plugins of a URDF name in ``<parameters>``, as written."""
+    from amr_description.model.gazebo import gazebo_plugins_of
+    from amr_description.model.urdf import parse
+
+    hosts = [each for each in gazebo_plugins_of(parse(description)) if each.hosts_ros2_control]
+    return [path for each in hosts for path in each.parameters]
+
+
+def _foreign_wheels(description: str, file: Path) -> list[str]:
+    """Return the wheels in a parameter file that a robot with ``<ros2_control>`` lacks."""
+    from amr_description.model.ros2_control_tag import hardware_of
+    from amr_description.model.urdf import parse
+    from amr_description.parameter_files import flatten, read_parameter_file, sections
+
+    robot = parse(description)
+    if not hardware_of(robot):
+        return []
+    wheels = [
+        wheel
+        for section in sections(read_parameter_file(file))
+        for keys, value in flatten(section.parameters)
+        if str(keys[-1]).endswith('_wheel_names')
+        for wheel in value
+    ]
+    return [wheel for wheel in wheels if not robot.has_joint(wheel)]
