@@ -15,7 +15,7 @@ lazy_parser.py          a parser that imports only the modules of its command li
 completion.py           tab completion in bash and zsh, with the functions in completers/
 ros2.py                 the commands of ``ros2``
 topic/ node/ ...        a command each; one file per verb
-run.py launch.py        commands without verbs; child_process.py, launch_files.py
+run.py launch.py        commands without verbs; child_process.py, launch_files.py, not_offered.py
 check_urdf.py           a description and its findings; urdf_report.py, inertia.py
 arguments.py            flags that several verbs have, and the types of values
 qos_arguments.py        the ``--qos-*`` flags

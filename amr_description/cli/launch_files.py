@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from amr_description.ament_index import package_prefix
+from amr_description.ament_index import is_installed, package_prefix
 from amr_description.bringup.stacks import STACKS
+from amr_description.cli.not_offered import INSTEAD_OF_PACKAGES
 from amr_description.errors import AmrError, UsageError
 from amr_description.text import suggestion
 
@@ -51,6 +52,8 @@ def _is_path(word: str) -> bool:
 
 
 def _of_package(package: str, file: str) -> str:
+    if package in INSTEAD_OF_PACKAGES and not is_installed(package):
+        raise AmrError(f"Package '{package}' not found: {INSTEAD_OF_PACKAGES[package]}")
     share = package_prefix(package) / 'share' / package
     found = sorted(path for path in share.rglob(file) if path.is_file()) if _is_name(file) else []
     if len(found) > 1:

@@ -81,9 +81,9 @@ class LazyParser(argparse.ArgumentParser):
         """Say what to do instead of a verb that the original has."""
         instead = None
         if isinstance(action, _SubParsersAction) and value not in action.choices:
-            from amr_description.cli.not_offered import INSTEAD
+            from amr_description.cli.not_offered import INSTEAD_OF_COMMANDS
 
-            instead = INSTEAD.get(f'{self.prog} {value}')
+            instead = INSTEAD_OF_COMMANDS.get(f'{self.prog} {value}')
         if instead:
             self.exit(2, f'{self.prog} {value} is not offered here: {instead}\n')
         super()._check_value(action, value)

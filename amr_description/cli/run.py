@@ -46,17 +46,6 @@ STAND_INS = {
     ('xacro', 'xacro'): 'xacro',
 }
 
-# Packages that we do not replace, and what to use instead.
-INSTEAD = {
-    ('joint_state_publisher_gui', 'joint_state_publisher_gui'): (
-        "its sliders are on the page of 'ros2 launch amr_description display'"
-    ),
-    ('rviz2', 'rviz2'): (
-        "what it shows is on the page of 'ros2 launch amr_description display', or, beside a "
-        "running robot, of 'ros2 run amr_description viewer'"
-    ),
-}
-
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
@@ -95,10 +84,11 @@ def main(args: Namespace) -> int:
 def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     """Return the path of an executable, and what to append to its words. Raises AmrError."""
     from amr_description.ament_index import executables_of, is_own, overlay, packages
+    from amr_description.cli.not_offered import INSTEAD_OF_PACKAGES
 
     known = packages()
-    if package not in known and (package, name) in INSTEAD:
-        raise AmrError(f"Package '{package}' not found: {INSTEAD[package, name]}")
+    if package not in known and package in INSTEAD_OF_PACKAGES and (package, name) not in STAND_INS:
+        raise AmrError(f"Package '{package}' not found: {INSTEAD_OF_PACKAGES[package]}")
     others = sorted(other for owner, other in STAND_INS if owner == package)
     if package not in known and _OURS in known and others and name not in others:
         raise AmrError(f"Package '{package}' not found; of it there are here: {', '.join(others)}")

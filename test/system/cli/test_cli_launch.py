@@ -80,6 +80,18 @@ def test_a_package_of_our_name_with_launch_files_of_its_own_is_heeded(share):
         ('amr_description', 'rtf:=0', UsageError, "which one of 'amr_description'"),
         ('simulation', None, UsageError, "'simulation' is a stack; .* amr_description simulation"),
         ('nopkg', 'x.launch.py', AmrError, "Package 'nopkg' not found"),
+        (
+            'ros_gz_sim',
+            'gz_sim.launch.py',
+            AmrError,
+            "Package 'ros_gz_sim' not found: the simulator here is MuJoCo: 'ros2 launch amr_descr",
+        ),
+        (
+            'nav2_bringup',
+            'navigation_launch.py',
+            AmrError,
+            "Package 'nav2_bringup' not found: it runs on a machine with ROS 2 Jazzy beside",
+        ),
         ('toys', 'nope.py', AmrError, "file 'nope.py' was not found in the share directory of pa"),
         ('toys', '../toys/a.py', AmrError, 'was not found in the share directory'),
         ('./nope.py', None, AmrError, "there is no launch file 'nope.py'"),

@@ -12,7 +12,7 @@ import pytest
 
 from amr_description.cli import qos_arguments
 from amr_description.cli.lazy_parser import LazyParser, run
-from amr_description.cli.not_offered import INSTEAD
+from amr_description.cli.not_offered import INSTEAD_OF_COMMANDS
 from amr_description.cli.ros2 import COMMANDS
 from amr_description.cli.topic import VERBS
 
@@ -76,7 +76,7 @@ def test_an_unknown_word_is_told_with_those_there_are():
     assert f"invalid choice: 'ecko' (choose from {known})\n" in result.stderr
 
 
-@pytest.mark.parametrize('command', INSTEAD)
+@pytest.mark.parametrize('command', INSTEAD_OF_COMMANDS)
 def test_a_verb_of_the_original_that_is_not_here_is_one_line_with_what_to_do(command, capsys):
     parser = LazyParser(prog='ros2')
     parser.read_table(COMMANDS)
@@ -85,11 +85,11 @@ def test_a_verb_of_the_original_that_is_not_here_is_one_line_with_what_to_do(com
             run(parser, [*command.split()[1:], *rest])
         said = capsys.readouterr()
         assert said.out == ''
-        assert said.err == f'{command} is not offered here: {INSTEAD[command]}\n'
+        assert said.err == f'{command} is not offered here: {INSTEAD_OF_COMMANDS[command]}\n'
 
 
 def test_what_is_offered_is_not_in_the_table_of_what_is_not():
-    for command in INSTEAD:
+    for command in INSTEAD_OF_COMMANDS:
         group, *verb = command.split()[1:]
         offered = import_module(COMMANDS[group]).VERBS if verb else COMMANDS
         assert (verb or [group])[0] not in offered

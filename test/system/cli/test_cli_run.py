@@ -10,7 +10,7 @@ from fixtures.cli.commands import ros2, started
 import pytest
 
 from amr_description.ament_index import executables_of, package_prefix, packages
-from amr_description.cli.run import STAND_INS
+from amr_description.cli.run import _find as find_executable, STAND_INS
 from amr_description.errors import AmrError
 
 PYTHON = f'#!{sys.executable}\n'
@@ -191,6 +191,25 @@ def test_what_would_do_instead_of_a_program_with_a_window_is_told(only_ours, nam
     assert (result.returncode, result.stdout) == (1, '')
     (line,) = result.stderr.splitlines()
     assert "the page of 'ros2 launch amr_description display'" in line
+
+
+@pytest.mark.parametrize(
+    ('package', 'name', 'said'),
+    [
+        (
+            'ros_gz_bridge',
+            'parameter_bridge',
+            'no bridge is needed: the simulator',
+        ),
+        ('rqt_graph', 'rqt_graph', "'ros2 node info NODE'"),
+        ('nav2_bringup', 'anything', 'on a machine with ROS 2 Jazzy beside the simulator'),
+        ('ros_gz_sim', 'gzserver', 'the simulator here is MuJoCo'),
+    ],
+)
+def test_what_would_do_instead_of_a_package_is_told(only_ours, monkeypatch, package, name, said):
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(only_ours))
+    with pytest.raises(AmrError, match=f"^Package '{package}' not found: .*{said}"):
+        find_executable(package, name)
 
 
 @pytest.mark.parametrize(
