@@ -97,7 +97,8 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
             pass
     except YamlError as error:
         line = ''.join(f':{number}' for number in error.where or ())
-        raise ParameterError(f'{path}{line}: {error}') from error
+        tabs = '; YAML is indented by spaces, not tabs' if "'\\t'" in str(error) else ''
+        raise ParameterError(f'{path}{line}: {error}{tabs}') from error
     except SectionError as error:
         number, _ = find_keys(yaml.compose(text, Loader=yaml.SafeLoader), error.keys)
         raise ParameterError(f'{path}:{number}: {error}') from error

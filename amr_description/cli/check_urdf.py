@@ -39,6 +39,7 @@ from amr_description.errors import (
     SimulationError,
     UsageError,
 )
+from amr_description.hardware import HARDWARE
 from amr_description.model.checks import Examination, examine
 from amr_description.model.checks.context import CheckInputs, DriveSettings
 from amr_description.model.description_file import located_text, mappings_of
@@ -83,7 +84,10 @@ def main(argv: list[str]) -> int:
     if arguments.mass or arguments.density:
         raise UsageError('--mass and --density are of the link that --inertia LINK names')
     inputs = CheckInputs(
-        file_exists=lambda uri: _is_there(find_file, uri), find_file=find_file, drives=drives
+        file_exists=lambda uri: _is_there(find_file, uri),
+        find_file=find_file,
+        drives=drives,
+        hardware_plugins=HARDWARE.names,
     )
     examined = examine(text, source, inputs)
     # What is wrong in the parameters comes first: the rest may be its consequence.

@@ -23,16 +23,18 @@ from ament_index_python.packages import PackageNotFoundError
 
 from amr_description.ament_index import packages, resolve_uri
 from amr_description.errors import AmrError, DescriptionError, UsageError
+from amr_description.model.findings import Finding
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.origins import Origin, with_file, with_origins
-from amr_description.model.xml_reader import read_file
-from amr_description.text import did_you_mean, one_line, quote, quote_all, unwrap
+from amr_description.model.xml_reader import parse_xml, read_file
+from amr_description.text import closest_match, did_you_mean, one_line, quote, quote_all, unwrap
 
 SUFFIX = '.xacro'
 _NO_MAPPINGS: Mapping[str, str] = {}
 # xacro prefixes its messages with the class of the exception that it caught.
 _CLASS = re.compile(r"^<class '[^']*'>: ")
 _SHOWN_STEPS = 6
+_NOT_WELL_FORMED = 'not well-formed XML: '
 
 
 def is_xacro(path: str | Path) -> bool:
@@ -162,12 +164,12 @@ def _complaint(error: Exception, path: str) -> str:
     files = [str(file) for file in xacro.filestack or [path]]
     location, called = files[-1], None
     if isinstance(error, ExpatError):
-        location = f'{location}:{error.lineno}'
-        reason = f'not well-formed XML: {ErrorString(error.code)}'
+        location = f'{files[-1]}:{error.lineno}'
+        reason = _NOT_WELL_FORMED + _markup_fault(files[-1], error)
     elif isinstance(error, RecursionError):
         reason = 'nested too deeply; does a macro or an include contain itself?'
     else:
-        reason = unwrap(' '.join(_words(error)))
+        reason = unwrap(' '.join(_words(error))) + _hint(error)
         at, called = origin_of_error(error)
         location = f'{at.file}:{at.line}' if at is not None else location
     trace = _macro_trace(xacro.macrostack or [], called, files[:-1])
@@ -196,13 +198,57 @@ def _words(error: BaseException) -> Iterator[str]:
     yield error.suffix or ''
 
 
+def _markup_fault(path: str, error: ExpatError) -> str:
+    """Return what is wrong in the text of a file; libxml2 tells more of it than expat."""
+    faults: list[Finding] = []
+    parse_xml(read_file(path), path, faults.append)
+    found = faults[0].what if faults else ''
+    told = found.removeprefix(_NOT_WELL_FORMED) if found.startswith(_NOT_WELL_FORMED) else ''
+    match = re.match(r'Opening and ending tag mismatch: (\S+) line (\d+) and (\S+)', told)
+    if match:
+        tag, line, end = match.groups()
+        return (
+            f'</{end}> stands where <{tag}> of line {line} is still open; write </{tag}> before '
+            f'it, or <{tag} …/>'
+        )
+    if told.startswith('AttValue'):
+        told += '; write the value of the attribute in quotes'
+    return told or ErrorString(error.code)
+
+
+def _hint(error: BaseException) -> str:
+    """Return ``; did you mean …?`` or what else would do, for a name that xacro does not know."""
+    from amr_description.model.xacro_lines import known_names
+
+    symbols, macros, parameters = known_names(error)
+    text = ' '.join(_words(error))
+    for pattern, known, prefix in (
+        (r"name '(\w+)' is not defined", symbols, ''),
+        (r'unknown macro name: xacro:(\S+)', macros, 'xacro:'),
+        (r'Invalid parameter "(\w+)"', parameters, ''),
+    ):
+        match = re.search(pattern, text)
+        meant = closest_match(match[1], known) if match else ''
+        if meant:
+            return f'; did you mean {prefix}{meant}?'
+    match = re.search(r'Undefined parameters \[(\w+)', text)
+    if match:
+        return f'; give {match[1]}="…" where the macro is called'
+    match = re.search(r'No such file or directory: (.+)$', text)
+    if match:
+        path = Path(match[1].strip())
+        return did_you_mean(path.name, [each.name for each in path.parent.glob('*')])
+    return ''
+
+
 def _missing_package(words: str) -> str:
     """Return what ament says of a package that it does not find, and what would do."""
     match = re.search(r"'([^']+)'", words)
     name = match[1] if match else words
+    near = closest_match(name, packages(), 0.8)
     return (
         f"package '{name}' not found in AMENT_PREFIX_PATH; build it and source install/setup.bash "
-        f'of its workspace, or correct the name{did_you_mean(name, packages())}'
+        f'of its workspace, or correct the name{f"; did you mean {near}?" if near else ""}'
     )
 
 

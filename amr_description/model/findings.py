@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from amr_description.errors import DescriptionError
-from amr_description.text import one_line, quote
+from amr_description.text import one_line
 
 
 class Severity(StrEnum):
@@ -31,7 +31,8 @@ class Finding:
 
     ``what`` names the part and its fault, ``found`` and ``expected`` are optional, ``fix`` says
     what to do. ``urdfdom`` is the message of urdfdom if that library refuses the file for this
-    fault, and empty otherwise. ``macro`` is that of xacro which the line is in, if it is in one.
+    fault, and empty otherwise. ``context`` is what more there is to say of the
+    place, such as the macro that it is in.
     """
 
     severity: Severity
@@ -42,7 +43,7 @@ class Finding:
     expected: str = ''
     fix: str = ''
     urdfdom: str = ''
-    macro: str = ''
+    context: str = ''
 
     @classmethod
     def error(cls, source: str, line: int, what: str, **details: str) -> 'Finding':
@@ -56,13 +57,13 @@ class Finding:
 
     @property
     def text(self) -> str:
-        """``file:line: what: found …, expected …; fix (in macro "…")``, in one line."""
+        """``file:line: what: found …, expected …; fix (context)``, in one line."""
         parts = [f'found {self.found}'] if self.found else []
         parts += [f'expected {self.expected}'] if self.expected else []
         details = f': {", ".join(parts)}' if parts else ''
         fix = f'; {self.fix}' if self.fix else ''
-        macro = f' (in macro {quote(self.macro)})' if self.macro else ''
-        return one_line(f'{self.source}:{self.line}: {self.what}{details}{fix}{macro}')
+        context = f' ({self.context})' if self.context else ''
+        return one_line(f'{self.source}:{self.line}: {self.what}{details}{fix}{context}')
 
     def __str__(self) -> str:
         return f'{self.severity}: {self.text}'

@@ -7,10 +7,11 @@ What xacro expands has other lines than the files that a person edits, and nobod
 a file. The origins of its elements travel with the text, as a comment behind its end, so that who
 gets it from a topic can name the file, too::
 
-    <!-- from: r.urdf.xacro parts.xacro | wheel | 8:0:3: 9:1:12:0 … -->
+    <!-- from: r.urdf.xacro parts.xacro | wheel | 8:0:3::: 9:1:12:0:0:20 … -->
 
 Files and macros are numbered from 0; then stand, for each element, its line in the text, the file,
-the line there, and the macro if it stands in one. Without numbers the lines are those of the file.
+the line there, and if it stands in a macro, this and file and line of the call. Without numbers
+the lines are those of the file.
 """
 
 from bisect import bisect_right
@@ -23,15 +24,29 @@ from urllib.parse import quote, unquote
 from amr_description.model.findings import Finding, raise_error, Report
 
 _COMMENT = re.compile(r'<!-- from: ([^|]*)\|([^|]*)\|([\d: ]*)-->\s*\Z')
+# Where a finding names a second line.
+_ON_LINE = re.compile(r'\bon line (\d+)$')
 
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """A line of a file, and the xacro macro that it is in; '': none."""
+    """
+    A line of a file.
+
+    ``macro`` is that of xacro which it is in, or ''; ``called`` is where that was called, if it is
+    known: file and line.
+    """
 
     file: str
     line: int
     macro: str = ''
+    called: tuple[str, int] | None = None
+
+    @property
+    def context(self) -> str:
+        """``in macro "wheel", called at r.urdf.xacro:20``; '' outside of macros."""
+        call = '' if self.called is None else f', called at {self.called[0]}:{self.called[1]}'
+        return f'in macro "{self.macro}"{call}' if self.macro else ''
 
 
 def with_file(text: str, file: str) -> str:
@@ -43,11 +58,13 @@ def with_file(text: str, file: str) -> str:
 
 def with_origins(text: str, origins: Mapping[int, Origin]) -> str:
     """Return an expanded description with the origins of its lines, as far as they are known."""
-    files = list(dict.fromkeys(origin.file for origin in origins.values()))
+    files = list(dict.fromkeys(file for each in origins.values() for file in _files_of(each)))
     macros = list(dict.fromkeys(origin.macro for origin in origins.values() if origin.macro))
     rows = ' '.join(
         f'{line}:{files.index(origin.file)}:{origin.line}:'
-        f'{macros.index(origin.macro) if origin.macro else ""}'
+        f'{macros.index(origin.macro) if origin.macro else ""}:'
+        f'{"" if origin.called is None else files.index(origin.called[0])}:'
+        f'{"" if origin.called is None else origin.called[1]}'
         for line, origin in sorted(origins.items())
     )
     names = [' '.join(map(_word, words)) for words in (files, macros)]
@@ -72,11 +89,11 @@ def _table(text: str) -> tuple[list[str], list[int], list[Origin]]:
     lines, origins = [], []
     try:
         for row in match[3].split():
-            line, file, found, macro = row.split(':')
+            line, file, found, macro, caller, call = row.split(':')
             lines.append(int(line))
-            origins.append(
-                Origin(files[int(file)], int(found), macros[int(macro)] if macro else '')
-            )
+            name = macros[int(macro)] if macro else ''
+            called = (files[int(caller)], int(call)) if caller else None
+            origins.append(Origin(files[int(file)], int(found), name, called))
     except (IndexError, ValueError):  # somebody has written such a comment by hand
         return [], [], []
     return files, lines, origins
@@ -87,7 +104,21 @@ def relocated(finding: Finding, text: str) -> Finding:
     origin = origin_of(text, finding.line)
     if origin is None:
         return finding
-    return replace(finding, source=origin.file, line=origin.line, macro=origin.macro)
+
+    def place(match: re.Match[str]) -> str:
+        other = origin_of(text, int(match[1]))
+        if other is None:
+            return match[0]
+        file, line = other.called or (other.file, other.line)
+        return f'at {file}:{line}'
+
+    return replace(
+        finding,
+        source=origin.file,
+        line=origin.line,
+        found=_ON_LINE.sub(place, finding.found),
+        context=origin.context,
+    )
 
 
 def place_in(text: str, source: str, line: int) -> str:
@@ -99,6 +130,10 @@ def place_in(text: str, source: str, line: int) -> str:
 def raise_error_of(text: str) -> Report:
     """Return :func:`raise_error` for findings in a text, which names where they come from."""
     return lambda finding: raise_error(relocated(finding, text))
+
+
+def _files_of(origin: Origin) -> list[str]:
+    return [origin.file, *(origin.called[:1] if origin.called is not None else ())]
 
 
 def _without_comment(text: str) -> str:

@@ -24,7 +24,7 @@ from amr_description.model.hardware_info import (
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
-from amr_description.text import quote, quote_all
+from amr_description.text import closest_match, quote, quote_all
 
 _INTEGER_RANGES = {
     'int8': (-(2**7), 2**7 - 1),
@@ -154,11 +154,13 @@ def _read_joints(
             continue
         seen.add(name)
         if name and not robot.has_joint(name):
-            moving = quote_all([joint.name for joint in robot.joints if joint.has_position])
+            moving = [joint.name for joint in robot.joints if joint.has_position]
+            meant = closest_match(name, moving)
             reader.error(
                 child,
                 f"Joint '{name}' not found in URDF",
-                expected=f'one of {moving}',
+                expected=f'one of {quote_all(moving)}',
+                fix=f'write name="{meant}"' if meant else '',
             )
         joint = robot.joint(name) if robot.has_joint(name) else None
         if joint is not None and joint.type is JointType.FIXED:

@@ -10,7 +10,7 @@ from amr_description.model.frames import Vector
 from amr_description.model.robot import Dynamics, Joint, JointType, Limit, Mimic, SafetyController
 from amr_description.model.urdf_links import read_origin
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number
-from amr_description.text import quote
+from amr_description.text import closest_match, quote
 
 # URDF's default axis.
 _X_AXIS: Vector = (1.0, 0.0, 0.0)
@@ -94,11 +94,13 @@ def _read_type(element: etree._Element, name: str, reader: ElementReader) -> Joi
         )
     else:
         words = f'Joint [{name}] has no known type [{text}]'
+        meant = closest_match(text, [str(each) for each in JointType])
         reader.error(
             element,
             'unknown joint type',
             found=quote(text),
             expected=f'one of {known}',
+            fix=f'write type="{meant}"' if meant else '',
             urdfdom=_refusal(words),
         )
     return JointType.FIXED

@@ -9,6 +9,7 @@ goes on to the copies that are made of a macro.
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from types import TracebackType
 from typing import Any
 from xml.dom import minidom, UserDataHandler
@@ -55,42 +56,72 @@ def origin_of_error(error: BaseException) -> tuple[Origin | None, Origin | None]
     return at, called
 
 
+def known_names(error: BaseException) -> tuple[set[str], set[str], set[str]]:
+    """Return the properties, the macros and the parameters of the macro where an error arose."""
+    found: dict[str, set[str]] = {'symbols': set(), 'macros': set(), 'm': set()}
+    trace: TracebackType | None = error.__traceback__
+    while trace is not None:
+        frame = trace.tb_frame
+        if frame.f_globals.get('__name__') == 'xacro':
+            for name in ('symbols', 'macros'):
+                table = frame.f_locals.get(name)
+                while isinstance(table, Mapping):
+                    found[name] |= {key for key in table if isinstance(key, str)}
+                    table = getattr(table, 'parent', None)
+            macro = frame.f_locals.get('m')
+            found['m'] = set(getattr(macro, 'params', ())) or found['m']
+        trace = trace.tb_next
+    return found['symbols'], found['macros'], found['m']
+
+
 @contextmanager
 def _located_parsing(xacro: Any) -> Iterator[None]:
-    """Have xacro's parser note the lines, in included files too."""
-    parse = xacro.parse
+    """Have xacro's parser note the lines, in included files too, and where macros are called."""
+    parse, call_macro = xacro.parse, xacro.handle_macro_call
+    calls: list[Origin | None] = []
 
     def located(inp: Any, filename: str | None = None) -> minidom.Document:
         document = parse(inp, filename)
         if inp is None and filename is not None:
-            _note_lines(document, filename)
+            _note_lines(document, filename, _Copy(calls))
         return document
 
-    xacro.parse = located
+    def traced(node: Any, *tables: Any) -> bool:
+        calls.append(_origin(node))
+        try:
+            return bool(call_macro(node, *tables))
+        finally:
+            calls.pop()
+
+    xacro.parse, xacro.handle_macro_call = located, traced
     try:
         yield
     finally:
-        xacro.parse = parse
+        xacro.parse, xacro.handle_macro_call = parse, call_macro
 
 
-def _note_lines(document: minidom.Document, file: str) -> None:
+def _note_lines(document: minidom.Document, file: str, copy: '_Copy') -> None:
     with open(file, 'rb') as stream:
         lines = _start_lines(stream.read())
     for element, line in zip(document.getElementsByTagName('*'), lines, strict=False):
-        _note(element, Origin(file, line, _macro_above(element)))
-
-
-def _note(element: Any, origin: Origin) -> None:
-    element.setUserData(_KEY, origin, _Copy())
+        element.setUserData(_KEY, Origin(file, line, _macro_above(element)), copy)
 
 
 class _Copy(UserDataHandler):
-    """Hands the origin of an element on to its copies."""
+    """Hands the origin of an element on to its copies, with the call of the macro."""
+
+    def __init__(self, calls: list[Origin | None]) -> None:
+        """``calls``: of the macros that are being expanded, the innermost one last."""
+        self._calls = calls
 
     def handle(self, operation: int, key: str, data: Origin, src: Any, dst: Any) -> None:
         """Called by DOM when an element was copied, renamed or moved to another document."""
-        if operation == self.NODE_CLONED:
-            dst.setUserData(key, data, self)
+        if operation != self.NODE_CLONED:
+            return
+        call = self._calls[-1] if self._calls else None
+        if data.macro and call is not None and data.called is None:
+            data = replace(data, called=(call.file, call.line))
+        dst.setUserData(key, data, self)
 
 
 def _macro_above(element: Any) -> str:

@@ -47,7 +47,7 @@ ARROWS = {
     'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
     'viewer/ros': {'viewer', 'ros', 'model'},
     'bringup': {'model'},
-    'cli': {'bringup', 'control/ros', 'controllers', 'ros', 'sim', 'model'},
+    'cli': {'bringup', 'control/ros', 'controllers', 'hardware', 'ros', 'sim', 'model'},
     'testing': {'bringup', 'control/ros', 'nodes', 'ros', 'control', 'model'},  # starts mujoco_sim
 }
 # For nodes and tests of users, under their names in ROS.

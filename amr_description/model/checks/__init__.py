@@ -94,6 +94,7 @@ RULES: tuple[Rule, ...] = (
     joints.mimicked_joint_exists,
     ros2_control.commanded_joints_have_a_position,
     ros2_control.components_offer_interfaces,
+    ros2_control.plugins_are_spelt_right,
     ros2_control.interface_names_are_spelt_right,
     ros2_control.one_block_commands,
     joints.wheels_roll_forward,

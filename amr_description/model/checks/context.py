@@ -4,7 +4,7 @@
 What the rules of the checker get: the description, and what it is checked against.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -81,11 +81,13 @@ class CheckInputs:
         file_exists: looks for the files that the description names; None: they are not checked.
         find_file: returns the file of a mesh; None: no mesh is read.
         drives: the controllers of the robot.
+        hardware_plugins: the names of those that are shipped; empty: they are not checked.
     """
 
     file_exists: FileExists | None = None
     find_file: FindFile | None = None
     drives: tuple[DriveSettings, ...] = ()
+    hardware_plugins: Collection[str] = ()
 
 
 @dataclass(frozen=True)

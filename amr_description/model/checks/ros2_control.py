@@ -24,6 +24,8 @@ _MANY_COORDINATES = (JointType.PLANAR, JointType.FLOATING)
 _OF_JOINTS = ('position', 'velocity', 'acceleration', 'effort', 'torque', 'force', 'current')
 # Between a typing error ("velocty", 0.93) and another word ("speed", 0.15).
 _MISSPELT = 0.8
+# Names of plugins are long, and alike: gz_ and gazebo_ros2_control/…System, 0.87.
+_MISSPELT_PLUGIN = 0.93
 
 
 def commanded_joints_have_a_position(context: CheckContext) -> Iterator[Finding]:
@@ -57,6 +59,20 @@ def components_offer_interfaces(context: CheckContext) -> Iterator[Finding]:
                 f'{where} takes commands, and nobody can read what it does',
                 fix='add <state_interface name="position"/> and <state_interface '
                 'name="velocity"/>',
+            )
+
+
+def plugins_are_spelt_right(context: CheckContext) -> Iterator[Finding]:
+    """No ``<plugin>`` has a misspelt name of one that is shipped."""
+    for hardware in context.hardware:
+        shipped = context.inputs.hardware_plugins
+        meant = closest_match(hardware.plugin, shipped, _MISSPELT_PLUGIN)
+        if meant and hardware.plugin not in shipped:
+            yield context.error(
+                hardware.line,
+                f'ros2_control {quote(hardware.name)}: there is no hardware plugin '
+                f'{quote(hardware.plugin)}',
+                fix=f'did you mean {quote(meant)}?',
             )
 
 

@@ -38,7 +38,6 @@ def lengths_are_in_metres(context: CheckContext) -> Iterator[Finding]:
                 yield context.warning(
                     part.line,
                     f'link {quote(link.name)}: the {name} of its {kind} is {text} m: millimetres?',
-                    expected='m',
                     fix=f'write {_in_metres(attributes)}',
                 )
                 break
@@ -48,7 +47,6 @@ def lengths_are_in_metres(context: CheckContext) -> Iterator[Finding]:
             yield context.warning(
                 joint.line,
                 f'joint {quote(joint.name)}: the xyz of its <origin> is {xyz} m: millimetres?',
-                expected='m',
                 fix=f'write {_in_metres({"xyz": xyz})}',
             )
 
@@ -63,7 +61,6 @@ def masses_are_in_kilograms(context: CheckContext) -> Iterator[Finding]:
                 link.inertial.line,
                 f'link {quote(link.name)}: a mass of {mass:g} kg in a shape of '
                 f'{_volume(link):.3g} m³: grams?',
-                expected='kg',
                 fix=f'write <mass value="{mass * 0.001:g}"/>',
             )
 

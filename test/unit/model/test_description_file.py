@@ -97,7 +97,27 @@ def test_find_looks_into_the_ament_index(tmp_path):
         ('\n<xacro:if value="maybe"/>', 'robot.urdf.xacro:2: .* is not a boolean expression'),
         ('<xacro:include filename="nowhere.xacro"/>', r'No such file or directory: \S+nowhere'),
         ('<xacro:include filename="robot.urdf.xacro"/>', 'does a macro or an include contain'),
-        ('\n<link>', 'robot.urdf.xacro:2: not well-formed XML: mismatched tag'),
+        (
+            '\n<link>',
+            'robot.urdf.xacro:2: not well-formed XML: </robot> stands where <link> of line 2 is '
+            'still open; write </link> before it, or <link …/>',
+        ),
+        (
+            '<xacro:property name="wheel_radius" value="1"/><link name="${weel_radius}"/>',
+            "name 'weel_radius' is not defined .*; did you mean wheel_radius",
+        ),
+        (
+            '<xacro:macro name="wheel" params="side"/><xacro:weel/>',
+            'unknown macro name: xacro:weel; did you mean xacro:wheel',
+        ),
+        (
+            '<xacro:macro name="wheel" params="side"/>\n<xacro:wheel/>',
+            r'robot.urdf.xacro:2: Undefined parameters \[side\]; give side="…" where the macro is',
+        ),
+        (
+            '<xacro:macro name="wheel" params="side"/>\n<xacro:wheel sid="a"/>',
+            'robot.urdf.xacro:2: Invalid parameter "sid"; did you mean side',
+        ),
         (
             "<!-- none -->\n<link>\n ${xacro.load_yaml('no.yaml')}</link>",
             r'robot.urdf.xacro:2: FileNotFoundError: .*no.yaml',
@@ -207,7 +227,7 @@ def test_findings_name_lines_of_the_files_that_a_person_edits(tmp_path):
     findings = [str(each) for each in check(located_text(main), str(main))]
     wheels = [each for each in findings if each.startswith(f'error: {parts}:6: joint "joint_')]
     assert len(wheels) == 2
-    assert all(each.endswith('(in macro "wheel")') for each in wheels)
+    assert all(each.endswith(f'(in macro "wheel", called at {main}:6)') for each in wheels)
     assert any(each.startswith(f'error: {main}:7: joint "arm"') for each in findings)
     assert not any('expanded' in each for each in findings)
     with pytest.raises(DescriptionError, match=f'^{parts}:6: joint "joint_left"'):
@@ -223,7 +243,7 @@ def test_origins_travel_with_the_text():
     assert origin_of(text, 3) is None
     origins = {
         1: Origin('r.xacro', 1),
-        2: Origin('a|b.xacro', 7, 'wheel'),
+        2: Origin('a|b.xacro', 7, 'wheel', ('c.xacro', 20)),
         3: Origin('r.xacro', 9),
     }
     located = with_origins(with_file(text, 'other'), origins)
@@ -232,7 +252,7 @@ def test_origins_travel_with_the_text():
     assert located.count('<!-- from') == 1
 
 
-@pytest.mark.parametrize('rows', ['1', '1:2:3:4', '::: 1', 'x'])
+@pytest.mark.parametrize('rows', ['1', '1:2:3:4:5:6', '::::: 1', 'x'])
 def test_a_comment_that_only_looks_like_it_is_none(rows):
     assert origin_of(f'<robot/>\n<!-- from: a.xacro | | {rows} -->\n', 1) is None
 
