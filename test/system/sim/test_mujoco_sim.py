@@ -262,7 +262,7 @@ def test_xacro_files_are_expanded_with_their_arguments(sim, node, tmp_path):
     assert state(node, 'two').state.pose.position.x == pytest.approx(2.0, abs=1e-3)
     result = spawn(node, uri=str(path)).result
     assert result.result == SpawnCode.NO_RESOURCE
-    assert f'{path}: Undefined substitution argument name' in result.error_message
+    assert f'{path}:1: Undefined substitution argument name' in result.error_message
     ended = run('create', '-topic', 'robot_description', 'name:=two')
     assert ended.returncode == 2
     assert 'name:=two is for a xacro file, and there is no -file' in ended.stderr
