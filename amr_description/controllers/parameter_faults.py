@@ -25,8 +25,7 @@ from amr_description.controllers.parameter_sections import (
     LocatedSection,
 )
 from amr_description.errors import ParameterError
-from amr_description.model.checks.context import SourceLocation
-from amr_description.model.findings import Finding, Severity
+from amr_description.model.findings import Finding, Severity, SourceLocation
 from amr_description.parameters import Spec, specs
 from amr_description.text import closest_match, quote, quote_all
 

@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from amr_description.errors import ParameterError
-from amr_description.model.checks.context import SourceLocation
+from amr_description.model.findings import SourceLocation
 from amr_description.parameter_files import (
     dotted,
     find_keys,

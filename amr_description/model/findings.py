@@ -12,9 +12,17 @@ both report the same.
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 from amr_description.errors import DescriptionError
 from amr_description.text import one_line
+
+
+class SourceLocation(NamedTuple):
+    """A line of a file."""
+
+    source: str
+    line: int
 
 
 class Severity(StrEnum):

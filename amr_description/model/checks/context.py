@@ -7,11 +7,11 @@ What the rules of the checker get: the description, and what it is checked again
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 from lxml import etree
 
-from amr_description.model.findings import Finding
+from amr_description.model.findings import Finding, SourceLocation
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import GazeboPlugin
 from amr_description.model.hardware_info import HardwareInfo
@@ -19,13 +19,6 @@ from amr_description.model.kinematics import link_poses
 from amr_description.model.mesh_uses import find_meshes, FindFile, MeshUse
 from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.wheels import find_wheels, Wheel
-
-
-class SourceLocation(NamedTuple):
-    """A line of a file."""
-
-    source: str
-    line: int
 
 
 @dataclass(frozen=True, slots=True)
