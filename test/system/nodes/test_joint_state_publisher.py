@@ -215,7 +215,7 @@ def test_what_cannot_be_set_is_refused(start, name, value, reason):
     ('arguments', 'words'),
     [
         (['/nowhere/arm.urdf'], '/nowhere/arm.urdf'),
-        ([str(GRIPPER), 'palm:=perhaps'], 'gripper.urdf.xacro: Xacro conditional'),
+        ([str(GRIPPER), 'palm:=perhaps'], 'gripper.urdf.xacro:17: Xacro conditional'),
         (['--ros-args', '-p', 'rate:=0'], "'rate' must be above 0"),
         (['--ros-args', '-p', 'source_list:=[/joint_states]'], 'publishes itself'),
     ],

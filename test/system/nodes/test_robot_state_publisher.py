@@ -279,7 +279,7 @@ def test_publish_frequency_can_be_changed_while_it_runs(start, listener):
         (['package://nowhere/amr.urdf'], "package 'nowhere' is not found"),
         (
             [str(GRIPPER), 'palm:=perhaps'],
-            'gripper.urdf.xacro: Xacro conditional "$(arg palm)" evaluated',
+            'gripper.urdf.xacro:17: Xacro conditional "$(arg palm)" evaluated',
         ),
         (['--ros-args', '-p', 'robot_description:=<robot/>'], 'Unable to initialize urdf::model'),
         ([str(AMR), '--ros-args', '-p', 'publish_frequency:=-1.0'], 'must be between 0.0'),
