@@ -143,6 +143,10 @@ def _finding(finding: findings.Finding) -> Finding:
     parts = [f'found {finding.found}'] if finding.found else []
     parts += [f'expected {finding.expected}'] if finding.expected else []
     text = f'{finding.what}: {", ".join(parts)}' if parts else finding.what
+    if finding.source != SOURCE:  # the line is one of the file that the text is from
+        text = f'{Path(finding.source).name}: {text}'
+    if finding.context:
+        text = f'{text} ({finding.context})'
     return Finding(
         level='error' if finding.severity is findings.Severity.ERROR else 'warning',
         line=finding.line or None,

@@ -13,6 +13,7 @@ from support.examples import examples
 from support.mesh_files import box, glb, gltf, write
 
 from amr_description.model.meshes import load_mesh
+from amr_description.model.origins import Origin, with_origins
 from amr_description.viewer.http import digest, StaticFiles
 from amr_description.viewer.ros.description import describe_robot
 
@@ -75,6 +76,17 @@ def test_findings_say_where_what_and_what_would_do():
     assert finding.line == 3
     assert finding.text == 'material "m" is not unique'
     assert finding.remedy == 'give every material a name of its own'
+
+
+def test_findings_name_the_file_that_the_text_is_from():
+    text = urdf('\n<material name="m"/>', '\n<material name="m"/>')
+    origins = {1: Origin('/r.xacro', 7), 3: Origin('/parts.xacro', 20, 'paint', ('/r.xacro', 9))}
+    found = describe_robot('/', with_origins(text, origins)).message.findings
+    (finding,) = [each for each in found if each.level == 'error']
+    assert finding.line == 20
+    assert finding.text == (
+        'parts.xacro: material "m" is not unique (in macro "paint", called at /r.xacro:9)'
+    )
 
 
 @pytest.mark.parametrize('text', ['', 'no xml', '<robot/>', '<a/>', '<robot name="r">'])
