@@ -12,7 +12,7 @@ import pytest
 from support.paths import ROOT
 
 from amr_description.errors import DescriptionError, UsageError
-from amr_description.model.checks import check
+from amr_description.model.checks import check, require_sound
 from amr_description.model.description_file import (
     description_at,
     description_text,
@@ -260,8 +260,11 @@ def test_a_comment_that_only_looks_like_it_is_none(rows):
 def test_descriptions_that_are_passed_on_name_their_file(tmp_path):
     path = tmp_path / 'r.urdf'
     path.write_text('<robot name="r">\n<link name="a"/>\n<link name="a"/>\n</robot>\n')
+    text = description_at(str(path), warn=print)
     with pytest.raises(DescriptionError, match=f'^{path}:3: link "a" is not unique'):
-        parse(description_at(str(path), warn=print), 'amr')
+        parse(text, 'amr')
+    with pytest.raises(DescriptionError, match=f'^{path}:3: link "a" is not unique'):
+        require_sound(text, 'amr')
 
 
 def run(*command):
