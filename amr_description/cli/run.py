@@ -87,8 +87,9 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     from amr_description.cli.not_offered import INSTEAD_OF_PACKAGES
 
     known = packages()
-    if package not in known and package in INSTEAD_OF_PACKAGES and (package, name) not in STAND_INS:
-        raise AmrError(f"Package '{package}' not found: {INSTEAD_OF_PACKAGES[package]}")
+    instead = INSTEAD_OF_PACKAGES.get(package)
+    if instead and package not in known and (package, name) not in STAND_INS:
+        raise AmrError(f"Package '{package}' not found: {instead}")
     others = sorted(other for owner, other in STAND_INS if owner == package)
     if package not in known and _OURS in known and others and name not in others:
         raise AmrError(f"Package '{package}' not found; of it there are here: {', '.join(others)}")
