@@ -17,8 +17,9 @@ mistakes in a YAML file                            test/unit/controllers/test_pa
 ``urdf:=`` without ``controllers:=``, a fleet      test/unit/bringup/test_bringup_*_files.py
 lines of a xacro                                   test/unit/model/test_description_file.py
 mm for m                                           test/unit/model/test_urdf_broken.py
-a robot that rears up; ``mock`` without a clock;   test/unit/sim/, test/system/control/,
-two simulators in a domain                         test/system/sim/
+a robot that rears up                              test/unit/sim/test_sim_tilt.py
+``mock`` without a clock                           test/ros/control/test_description_source.py
+two simulators in a domain                         test/ros/sim/test_other_clock.py
 lidar, camera                                      README, "What is not here"
 =================================================  ==============================================
 """
