@@ -9,7 +9,7 @@ YAML and the URDF are read where they are needed only: a stack of the shipped ro
 from pathlib import Path
 
 from amr_description.ament_index import parameter_path, path_of
-from amr_description.errors import ResourceError, UsageError
+from amr_description.errors import DescriptionError, ResourceError, UsageError
 from amr_description.text import quote_all
 
 SHIPPED = 'package://amr_description/config/controllers.yaml'
@@ -29,7 +29,6 @@ def controllers_file(controllers: str, urdf: str, description: str, *, is_shippe
 
     Raises:
         ResourceError: there is no such file.
-        DescriptionError: the description cannot be read.
         UsageError: it has to be given.
     """
     if controllers:
@@ -37,7 +36,10 @@ def controllers_file(controllers: str, urdf: str, description: str, *, is_shippe
     shipped = path_of(SHIPPED)
     if is_shipped:
         return shipped
-    named = _named_by(description)
+    try:
+        named = _named_by(description)
+    except DescriptionError:  # the node that reads it says where, and what would do
+        return shipped
     for written in named:
         try:
             path = parameter_path(written)

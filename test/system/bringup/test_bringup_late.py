@@ -57,6 +57,6 @@ def test_a_create_that_fails_stops_the_stack_and_is_named_with_its_reason(late, 
         assert 'spawner-4]: process started' not in bringup.output
         assert bringup.output.splitlines()[-1].startswith(
             '[ERROR] [launch]: stopped because create-3 ended with exit code 1 (never started: '
-            'spawner-4, spawner-5): Entity creation failed. amr: no link has mass'
+            'spawner-4, spawner-5): Entity creation failed. massless: no link has mass'
         )
         assert bringup.left() == []

@@ -72,7 +72,7 @@ def test_the_file_that_the_urdf_names_is_used(share, written):
     robot = urdf(share, written.format(share=share))
     assert controllers_of(stack(simulation, urdf=robot)) == str(share / 'config/cart.yaml')
     manager = stack(mock, urdf=robot).nodes[0]
-    assert manager.parameters == [share / 'config/cart.yaml']
+    assert manager.parameters[0] == share / 'config/cart.yaml'
 
 
 def test_what_is_given_prevails(share):
