@@ -298,7 +298,7 @@ def test_a_stop_during_the_spawning_ends_it_before_the_next(host, spawner):
 def test_an_interrupted_wait_is_not_a_success(host):
     with Program.module('spawner', JOINTS, '-c', 'nobody') as program:
         program.expect('waiting for service /nobody/list_controllers')
-        assert program.end(signal.SIGINT) == 128 + signal.SIGINT
+        assert program.end(signal.SIGINT) == 128 + signal.SIGINT, program.output
     assert program.lines[-1].endswith('KeyboardInterrupt received! Exiting....')
     assert 'Traceback' not in program.output
 
