@@ -10,7 +10,7 @@ from pathlib import Path
 
 from amr_description.ament_index import parameter_path, path_of
 from amr_description.errors import DescriptionError, ResourceError, UsageError
-from amr_description.text import quote_all
+from amr_description.text import one_line
 
 SHIPPED = 'package://amr_description/config/controllers.yaml'
 _MANAGER = 'controller_manager'
@@ -50,10 +50,14 @@ def controllers_file(controllers: str, urdf: str, description: str, *, is_shippe
     foreign = _foreign_wheels(description, shipped)
     if not foreign:
         return shipped
-    gone = f' ({quote_all(named)}, which it names in <parameters>, is not there)' if named else ''
+    if named:
+        raise UsageError(
+            f'urdf:={urdf}: the file that it names in <parameters> is not there: '
+            f'{", ".join(map(one_line, named))}; write its name, or give controllers:=FILE'
+        )
     raise UsageError(
         f'urdf:={urdf}: {shipped} has the controllers of amr, and this robot has no joint '
-        f'{foreign[0]}; give controllers:=FILE{gone}'
+        f'{foreign[0]}; give controllers:=FILE'
     )
 
 

@@ -154,13 +154,33 @@ def only_type_of(node: Node, topic: str) -> str:
     types = types_of(node, topic)
     if not types:
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
-        raise AmrError('Could not determine the type for the passed topic')
+        others = namesakes(node, topic, node.count_publishers)
+        there = f'; there is {", ".join(others)}' if others else ''
+        raise AmrError(f'Could not determine the type for the passed topic{there}')
     if len(types) > 1:
         raise AmrError(
             f"Cannot echo topic '{topic}', as it contains more than one type: "
             f'[{", ".join(types)}]; name one of them behind the topic'
         )
     return types[0]
+
+
+def namesakes(node: Node, topic: str, count: Callable[[str], int]) -> list[str]:
+    """
+    Return other topics with the same last word, and their types: ``/robot1/odom (TYPE)``.
+
+    Args:
+        node: of the verb.
+        topic: absolute.
+        count: returns how many publishers, or subscriptions, a topic has; those without are left
+            out.
+    """
+    last = topic.rpartition('/')[2]
+    return [
+        f'{name} ({", ".join(types)})'
+        for name, types in topics(node)
+        if name.rpartition('/')[2] == last and name != topic and count(name)
+    ]
 
 
 def wait_for_type(session: Session, topic: str) -> str:

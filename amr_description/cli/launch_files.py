@@ -6,6 +6,7 @@ import ast
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
+import sys
 
 from amr_description.ament_index import is_installed, package_prefix
 from amr_description.bringup.stacks import STACKS
@@ -62,6 +63,15 @@ def _of_package(package: str, file: str) -> str:
             f"file '{file}' was found more than once in the share directory of package "
             f"'{package}': [{paths}]"
         )
+    if found and package == _OURS and _is_foreign(found[0]):
+        with suppress(AmrError):
+            stack = _ready_made(file)
+            print(
+                f"[ros2launch]: launch files are not supported here: in place of '{found[0]}' the "
+                f"stack '{stack}' is started",
+                file=sys.stderr,
+            )
+            return stack
     if found:
         return _stack_file(found[0])
     if package == _OURS:
@@ -95,12 +105,17 @@ def _stack_file(path: Path) -> str:
     """Return the path if there is a file with a stack in it, as the bring-up reads it."""
     if not path.is_file():
         raise AmrError(f"there is no launch file '{path}'; {_known_stacks()}")
-    if path.suffix != '.py':
-        raise _foreign(path)
-    functions = _functions(path)
-    if path.stem not in functions and 'generate_launch_description' in functions:
+    if _is_foreign(path):
         raise _foreign(path)
     return str(path)
+
+
+def _is_foreign(path: Path) -> bool:
+    """Return whether it is a launch file of ROS, and no stack. Raises AmrError."""
+    if path.suffix != '.py':
+        return True
+    functions = _functions(path)
+    return path.stem not in functions and 'generate_launch_description' in functions
 
 
 def _functions(path: Path) -> set[str]:

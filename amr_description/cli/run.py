@@ -85,6 +85,7 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     """Return the path of an executable, and what to append to its words. Raises AmrError."""
     from amr_description.ament_index import executables_of, is_own, overlay, packages
     from amr_description.cli.not_offered import INSTEAD_OF_PACKAGES
+    from amr_description.text import did_you_mean
 
     known = packages()
     instead = INSTEAD_OF_PACKAGES.get(package)
@@ -93,6 +94,9 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     others = sorted(other for owner, other in STAND_INS if owner == package)
     if package not in known and _OURS in known and others and name not in others:
         raise AmrError(f"Package '{package}' not found; of it there are here: {', '.join(others)}")
+    if known and package not in known and (package, name) not in STAND_INS:
+        named = did_you_mean(package, [*known, *(owner for owner, _ in STAND_INS)])
+        raise AmrError(f"Package '{package}' not found{named}")
     if package in known or (package, name) not in STAND_INS or _OURS not in known:
         found = _only_one(executables_of(package), package, name)
         if package == _OURS and (first := overlay()) and is_own(found):

@@ -47,7 +47,7 @@ def _write(item: pytest.Item, report: pytest.TestReport, text: str) -> str:
     if not option:
         return ''
     xml = Path(os.path.expanduser(os.path.expandvars(option)))
-    name = re.sub(r'\W+', '.', report.nodeid.replace('.py::', '.')).strip('.')
+    name = re.sub(r'[^\w-]+', '.', report.nodeid.replace('.py::', '.')).strip('.')
     path = xml.with_name(f'{xml.stem}.{name}.log')
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

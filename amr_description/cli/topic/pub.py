@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 # even later, and until then messages of a publisher that ends are lost. (Fast DDS acknowledges
 # within 0.1 s, or with the next heartbeat after 3 s, although the message has arrived at once.)
 _DELIVERY_TIME = 0.5
+_HINT_AFTER = 3  # s of waiting for subscriptions
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -156,6 +157,7 @@ def _wait_for_subscriptions(
         return publisher.get_subscription_count() >= awaited
 
     left = float('inf') if timeout is None else timeout
+    waited = 0
     while not matched():
         print(f'Waiting for at least {awaited} matching subscription(s)...')
         if left <= 0.0:
@@ -165,7 +167,24 @@ def _wait_for_subscriptions(
             )
         session.spin(matched, min(left, 1.0))
         left -= 1.0
+        waited += 1
         others.report()
+        if waited == _HINT_AFTER and not publisher.get_subscription_count():
+            _print_hint(session, publisher)
+
+
+def _print_hint(session: 'Session', publisher: 'Publisher') -> None:
+    """Name the topics that could be meant, where nobody subscribes to the one that is given."""
+    from amr_description.cli import graph
+
+    node = session.node
+    found = graph.namesakes(node, publisher.topic_name, node.count_subscribers)
+    if found:
+        print(
+            f'WARNING: nobody subscribes to {publisher.topic_name}; somebody does to '
+            f'{", ".join(found)}',
+            file=sys.stderr,
+        )
 
 
 class _Loop:

@@ -52,12 +52,28 @@ def test_a_file_is_known_by_its_path(share, monkeypatch):
     assert find_launch_file('plain.py', None, []) == ('plain.py', [])
 
 
-def test_a_package_of_our_name_with_launch_files_of_its_own_is_heeded(share):
+def test_in_place_of_the_tutorials_launch_files_our_stacks_are_started(share, capsys):
     own = share.parents[1] / 'amr_description/launch/gazebo.launch.py'
     own.parent.mkdir(parents=True)
     own.write_text(FOREIGN)
+    found = find_launch_file('amr_description', 'gazebo.launch.py', ['rtf:=2.0'])
+    assert found == ('simulation', ['rtf:=2.0'])
+    assert capsys.readouterr().err == (
+        f"[ros2launch]: launch files are not supported here: in place of '{own}' the stack "
+        "'simulation' is started\n"
+    )
+
+
+@pytest.mark.parametrize('name', ['gazebo.launch.py', 'mine.launch.py'])
+def test_other_launch_files_of_a_package_of_our_name_are_heeded(share, name):
+    own = share.parents[1] / 'amr_description/launch' / name
+    own.parent.mkdir(parents=True)
+    own.write_text(FOREIGN)
+    given = ('amr_description', name) if name.startswith('mine') else (str(own), None)
     with pytest.raises(AmrError, match=f"'{own}': launch files .* are not supported here") as told:
-        find_launch_file('amr_description', 'gazebo.launch.py', [])
+        find_launch_file(*given, [])
+    if name.startswith('mine'):
+        return
     assert str(told.value).endswith(
         'use a stack (docs/write_your_own_stack.md), for the one of the tutorial: '
         'ros2 launch amr_description simulation'

@@ -38,6 +38,19 @@ def test_auto_stamps_every_message(fixture_node):
     fixture_node.expect(r"(command x=0.0 frame='' stamped=True\s+){3}", seen)
 
 
+def test_a_topic_of_that_last_word_is_named(fixture_node):
+    there = f'{COMMAND} ({STAMPED})'
+    with started('topic', 'pub', '--once', '/cmd_vel', STAMPED) as program:
+        program.expect(
+            re.escape(f'WARNING: nobody subscribes to /cmd_vel; somebody does to {there}\n')
+        )
+    result = ros2('topic', 'echo', '/robot1/odom')
+    assert result.stderr == (
+        'Could not determine the type for the passed topic; there is /odom '
+        '(nav_msgs/msg/Odometry)\n'
+    )
+
+
 def test_a_publisher_of_another_type_is_told(fixture_node):
     twist = 'geometry_msgs/msg/Twist'
     with started('topic', 'pub', '--once', COMMAND, twist, '{linear: {x: 1}}') as program:

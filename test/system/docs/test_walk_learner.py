@@ -109,12 +109,15 @@ def test_the_tutorials_own_package(home, tutorials_package):
             shell.run(line)
         assert '/parameter_events' in shell.run('ros2 topic list')
         assert shell.run('check_urdf').startswith('robot name is: hers\n')
-        refused = shell.run('ros2 launch amr_description gazebo', code=1)
+        shell.book = TUTORIAL + f'ros2 launch {tutorials_package}/src/amr_description/launch/gazebo'
+        shell.book += '.launch.py'
+        refused = shell.run(f'ros2 launch {tutorials_package}', code=1)
         assert 'launch files (*.launch.py, .xml, .yaml) are not supported here' in refused
         assert refused.endswith(
             'for the one of the tutorial: ros2 launch amr_description simulation\n'
         )
-        shell.start('ros2 launch amr_description mock')
+        shell.start('ros2 launch amr_description gazebo')
+        shell.see(r"in place of '.*/gazebo\.launch\.py' the stack 'simulation' is started")
         shell.see('overlays this one: its files come first')
         shell.see(r'ready in \d+\.\d s')
         with newcomer(SIMULATOR.text, home) as other:
