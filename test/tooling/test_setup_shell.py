@@ -81,6 +81,14 @@ def test_python_of_pyenv_is_found(bare, tmp_path):
     assert done.stdout.startswith('started by ')
 
 
+def test_python_of_a_pyenv_that_only_the_path_names_is_found(bare, tmp_path):
+    root = tmp_path / 'py env'
+    program(root / 'versions/3.12.1/bin/python3.12', f'exec {sys._base_executable} "$@"')
+    program(root / 'shims/python3.12', 'echo "pyenv: python3.12: command not found" >&2; exit 127')
+    done = set_up(bare, PATH=f'{bare[1]}:{root}/shims')
+    assert done.stdout.startswith('started by ')
+
+
 def test_python_of_uv_is_found(bare):
     program(
         bare[0] / '.local/bin/uv',

@@ -109,7 +109,9 @@ def test_the_tutorials_own_package(home, tutorials_package):
             shell.run(line)
         assert '/parameter_events' in shell.run('ros2 topic list')
         assert shell.run('check_urdf').startswith('robot name is: hers\n')
-        shell.book = TUTORIAL + f'ros2 launch {tutorials_package}/src/amr_description/launch/gazebo'
+        shell.book = (
+            TUTORIAL + f'ros2 launch {tutorials_package}/src/amr_description/launch/gazebo'
+        )
         shell.book += '.launch.py'
         refused = shell.run(f'ros2 launch {tutorials_package}', code=1)
         assert 'launch files (*.launch.py, .xml, .yaml) are not supported here' in refused
