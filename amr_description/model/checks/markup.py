@@ -17,7 +17,7 @@ from amr_description.errors import AmrError
 from amr_description.model.checks.context import CheckContext, FileExists
 from amr_description.model.findings import Finding
 from amr_description.model.xml_reader import line_of
-from amr_description.text import closest_match, quote, quote_all
+from amr_description.text import closest_match, one_line, quote, quote_all
 
 _SHARE = re.compile(r'/share/[^/]+/')
 _ABSOLUTE = re.compile(r'(?:file://)?/|file:/|~|[A-Za-z]:[\\/]')
@@ -276,7 +276,17 @@ def paths_hold_everywhere(context: CheckContext) -> Iterator[Finding]:
     if file_exists is None:
         return
     for file in _named_files(context):
-        if _ABSOLUTE.match(file.path) and not _is_of_a_package(file.path, file_exists):
+        if not _ABSOLUTE.match(file.path) or _is_of_a_package(file.path, file_exists):
+            continue
+        share = _SHARE.search(file.path)
+        if share and _is_of_a_package(f'{file.path[: share.end()]}package.xml', file_exists):
+            yield context.warning(
+                file.line,
+                f'{file.what} names a file that is not there',
+                found=f'"{one_line(file.path)}"',
+                fix='write the name of one that its package installs',
+            )
+        else:
             yield context.warning(
                 file.line,
                 f'{file.what} has a path of this machine only',

@@ -12,7 +12,7 @@ from amr_description.ament_index import path_of
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.description import nodes_of
 from amr_description.bringup.scheduler import Scheduler
-from amr_description.bringup.stacks.display import display
+from amr_description.bringup.stacks.display import display, how_to_move, movable_joint
 from amr_description.bringup.stacks.hardware import mock
 from amr_description.bringup.stacks.simulation import simulation, URDF
 from amr_description.model.origins import with_file
@@ -69,6 +69,22 @@ def test_display_shows_the_robot_and_moves_its_joints():
     assert stack.nodes[0].parameters == [
         {'robot_description': with_file(path.read_text(), str(path))}
     ]
+
+
+@pytest.mark.parametrize(
+    ('joints', 'name'),
+    [
+        ('<joint name="a" type="fixed"/><joint name="b" type="continuous"/>', 'b'),
+        ('<joint type="prismatic" name="c"><mimic joint="d"/></joint>', ''),
+        ('<joint name="e" type="revolute">', ''),
+    ],
+)
+def test_the_next_step_moves_a_joint_of_this_robot(joints, name):
+    assert movable_joint(f'<robot name="r">{joints}</robot>') == name
+    said = how_to_move(name)
+    assert (f'JointState "{{name: [{name}], position: [0.5]}}"\n' in said) == bool(name)
+    assert said.endswith('\nCtrl-C stops all.')
+    assert '[joint_wheel_front_left]' in made(display).next_steps
 
 
 def test_rviz_is_started_with_our_configuration_where_it_is_installed(prefix):

@@ -92,6 +92,15 @@ def test_a_path_that_xacro_found_is_no_path_of_one_machine():
     assert findings(text.format('/home/me/base.stl')) == [], 'nobody can look'
 
 
+def test_a_file_that_its_package_does_not_have_is_named_whole():
+    share = f'/home/me/{"a_long_name/" * 9}install/amr/share/amr/'
+    wrong = f'{share}config/controlers.yaml'
+    text = TUTORIAL.replace('/absolute/path/to/config/controllers.yaml', wrong)
+    beside = CheckInputs(file_exists=lambda uri: uri == f'{share}package.xml')
+    found = str(checks.examine(text, 'f', beside).findings[0])
+    assert f'<parameters> names a file that is not there: found "{wrong}"; write' in found
+
+
 def test_the_fix_of_the_axles_is_the_right_one():
     fixed = TUTORIAL.replace('<axis   xyz="0 0 1"/>', '<axis xyz="0 0 -1"/>')
     assert findings(fixed) == []
