@@ -12,20 +12,22 @@ from amr_description.ament_index import parameter_path, path_of
 from amr_description.errors import DescriptionError, ResourceError, UsageError
 from amr_description.text import one_line
 
-SHIPPED = 'package://amr_description/config/controllers.yaml'
+URDF = 'package://amr_description/urdf/amr.urdf'
+"""The robot of this package."""
+_SHIPPED = 'package://amr_description/config/controllers.yaml'
+"""The parameters of its controllers."""
 _MANAGER = 'controller_manager'
 
 
-def controllers_file(controllers: str, urdf: str, description: str, *, is_shipped: bool) -> Path:
+def controllers_file(controllers: str, urdf: str, description: str) -> Path:
     """
     Return the parameter file of the controllers of a stack.
 
     Args:
         controllers: as given; '': that which the URDF names for its ros2_control plugin, else the
             shipped one, if it is for this robot.
-        urdf: the description as given, for messages.
+        urdf: the description as given.
         description: its text.
-        is_shipped: whether it is the robot of this package.
 
     Raises:
         ResourceError: there is no such file.
@@ -33,8 +35,8 @@ def controllers_file(controllers: str, urdf: str, description: str, *, is_shippe
     """
     if controllers:
         return path_of(controllers, 'controllers')
-    shipped = path_of(SHIPPED)
-    if is_shipped:
+    shipped = path_of(_SHIPPED)
+    if urdf == URDF:
         return shipped
     try:
         named = _named_by(description)

@@ -18,6 +18,7 @@ from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.local_participants import count_local_participants
+from amr_description.ros.transport import reaches_other_hosts
 from amr_description.text import did_you_mean
 
 _QUIET = 0.4  # s without changes until discovery is complete; Fast DDS repeats after 0.28 s
@@ -82,26 +83,23 @@ def wait_for_discovery(
 
 def _lookup_timeout() -> float:
     """Return how long to wait for a given name, s."""
-    is_this_host = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE') in ('LOCALHOST', 'OFF')
-    if is_this_host and not os.environ.get('ROS_STATIC_PEERS'):
-        return _LOOKUP_TIMEOUT
-    return _LOOKUP_TIMEOUT_OF_HOSTS
+    return _LOOKUP_TIMEOUT_OF_HOSTS if reaches_other_hosts() else _LOOKUP_TIMEOUT
 
 
-def is_ready_within(session: Session, is_ready: Callable[[], bool], timeout: float | None) -> bool:
+def is_there_within(session: Session, is_there: Callable[[], bool], timeout: float | None) -> bool:
     """
-    Wait for a server; return whether it is there.
+    Wait for a node or a server; return whether it is there.
 
     Args:
         session: of the verb.
-        is_ready: returns whether the server is there.
+        is_there: returns whether it is.
         timeout: how long to wait, s; None: without limit. It is not over before the graph is
             complete: until then nobody knows.
     """
-    if session.spin(is_ready, timeout):
+    if session.spin(is_there, timeout):
         return True
     wait_for_discovery(session, 0.0)
-    return is_ready()
+    return is_there()
 
 
 def _snapshot(node: Node) -> object:
@@ -222,7 +220,7 @@ def find_node(session: Session, word: str, timeout: float) -> str:
     def known() -> list[str]:
         return [node.full_name for node in nodes(session.node, hidden=True)]
 
-    if not is_ready_within(session, lambda: name in known(), timeout):
+    if not is_there_within(session, lambda: name in known(), timeout):
         others = [node.full_name for node in nodes(session.node)]
         raise AmrError(f'Node not found{_other_nodes(name, others)}')
     return name

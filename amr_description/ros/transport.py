@@ -97,3 +97,13 @@ def _changes(localhost_only: str | None, discovery_range: str | None) -> dict[st
     if discovery_range == 'LOCALHOST':
         return {_RANGE: 'SUBNET' if os.environ.get(_PEERS) else 'SYSTEM_DEFAULT'}
     return {}
+
+
+def reaches_other_hosts() -> bool:
+    """Return whether participants of this environment look for others beyond this host."""
+    if os.environ.get(_LOCALHOST_ONLY) == '1':
+        return False
+    discovery_range = os.environ.get(_RANGE)
+    if discovery_range == 'OFF':
+        return False
+    return discovery_range != 'LOCALHOST' or bool(os.environ.get(_PEERS))

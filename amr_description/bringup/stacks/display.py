@@ -6,7 +6,7 @@ from typing import Annotated
 from xml.etree import ElementTree
 
 from amr_description.bringup import Node, notes_on, path_of, robot_description, Stack, started
-from amr_description.bringup.stacks.simulation import URDF
+from amr_description.bringup.controller_files import URDF
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page, rviz
 
 _MOVABLE = ('revolute', 'continuous', 'prismatic')

@@ -23,9 +23,9 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.controller_files import controllers_file, require_namespaces
+from amr_description.bringup.controller_files import controllers_file, require_namespaces, URDF
 from amr_description.bringup.environment import setup_command
-from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS, URDF
+from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 from amr_description.model.shapes import horizontal_reach
@@ -62,7 +62,7 @@ def fleet(
         f'spacing:={spacing}: the robots would touch; they need more than {needed:.2f} m',
     )
     positions = dict(_positions(robots, spacing or needed + _GAP))
-    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    file = controllers_file(controllers, urdf, description)
     require_namespaces(file, list(positions))
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(

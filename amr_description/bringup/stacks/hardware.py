@@ -26,9 +26,9 @@ from amr_description.bringup import (
     Stack,
 )
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.controller_files import controllers_file
+from amr_description.bringup.controller_files import controllers_file, URDF
 from amr_description.bringup.input_files import Note
-from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS, how_to_drive, URDF
+from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS, how_to_drive
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
 
@@ -58,7 +58,7 @@ def mock(
         'mock_components/GenericSystem',
         {'calculate_dynamics': 'true'},
     )
-    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    file = controllers_file(controllers, urdf, description)
     return _controlled(description, [path_of(urdf), file], viewer)
 
 
@@ -89,7 +89,7 @@ def serial(
         {'port': port, 'left_joints': left, 'right_joints': right}
         | (_SIMULATED_BOARD if is_simulated else {}),
     )
-    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    file = controllers_file(controllers, urdf, description)
     files = [path_of(urdf), file]
     return _controlled(description, files, viewer, boards, path_exists(port), timeout)
 

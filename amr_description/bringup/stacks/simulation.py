@@ -15,12 +15,11 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.controller_files import controllers_file
+from amr_description.bringup.controller_files import controllers_file, URDF
 from amr_description.bringup.environment import setup_command
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 
-URDF = 'package://amr_description/urdf/amr.urdf'
 _NO_NAME = re.compile(r'[^A-Za-z0-9_.-]')
 ABOUT_CONTROLLERS = (
     'parameters of the controllers; empty: the file that the URDF names, for amr the shipped one'
@@ -40,7 +39,7 @@ def simulation(
     if not rtf >= 0:
         raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
     description = robot_description(urdf, xacro_args)
-    file = controllers_file(controllers, urdf, description, is_shipped=urdf == URDF)
+    file = controllers_file(controllers, urdf, description)
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(

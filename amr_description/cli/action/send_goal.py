@@ -67,7 +67,7 @@ def main(args: Namespace) -> int:
     """Print goal, feedback and result; 0 if it succeeded."""
     from rclpy.action import ActionClient
 
-    from amr_description.cli.graph import is_ready_within
+    from amr_description.cli.graph import is_there_within
     from amr_description.cli.message_fields import set_fields
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
@@ -81,7 +81,7 @@ def main(args: Namespace) -> int:
         name = full_name(session.node, args.action_name, 'an action')
         client = ActionClient(session.node, action_class, name)
         print('Waiting for an action server to become available...')
-        if not is_ready_within(session, client.server_is_ready, args.timeout):
+        if not is_there_within(session, client.server_is_ready, args.timeout):
             raise AmrError(
                 f'Action server is not available after waiting {args.timeout:g} seconds.'
             )

@@ -115,7 +115,7 @@ def _wait_for_service(session: 'Session', client: 'Client', timeout: float | Non
         if session.spin(client.service_is_ready, left - _HINT_AFTER):
             return
         hint = ''
-    elif graph.is_ready_within(session, client.service_is_ready, 0.0):
+    elif graph.is_there_within(session, client.service_is_ready, 0.0):
         return
     raise AmrError(
         f"Service '{client.service_name}' did not become available within {timeout:g} s"

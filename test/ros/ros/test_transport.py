@@ -15,7 +15,13 @@ from support.running_programs import PATIENCE, Program
 
 from amr_description.ros.discovery import PROFILE
 from amr_description.ros.service_calls import wait_until
-from amr_description.ros.transport import UDP, UDP_LOCALHOST, UDP_LOOPBACK, udp_only
+from amr_description.ros.transport import (
+    reaches_other_hosts,
+    UDP,
+    UDP_LOCALHOST,
+    UDP_LOOPBACK,
+    udp_only,
+)
 
 VARIABLES = ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE')
 RANGE, LOCALHOST_ONLY = 'ROS_AUTOMATIC_DISCOVERY_RANGE', 'ROS_LOCALHOST_ONLY'
@@ -65,6 +71,23 @@ def test_the_profile_of_a_test_stays_on_this_host_alone(monkeypatch):
         with udp_only():
             assert os.environ[VARIABLES[0]] == str(profile)
             assert os.environ[RANGE] == passed_on
+
+
+@pytest.mark.parametrize(
+    ('variables', 'reaches'),
+    [
+        ({}, False),
+        ({PEERS: '10.0.0.1'}, True),
+        ({RANGE: 'SUBNET'}, True),
+        ({RANGE: ''}, True),
+        ({RANGE: 'OFF', PEERS: '10.0.0.1'}, False),
+        ({RANGE: 'SUBNET', LOCALHOST_ONLY: '1'}, False),
+    ],
+)
+def test_whether_others_may_be_beyond_this_host(monkeypatch, variables, reaches):
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    assert reaches_other_hosts() == reaches
 
 
 @pytest.mark.parametrize('discovery_range', ['SUBNET', 'OFF', 'SYSTEM_DEFAULT', None])

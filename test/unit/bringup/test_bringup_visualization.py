@@ -10,11 +10,12 @@ import yaml
 
 from amr_description.ament_index import path_of
 from amr_description.bringup.arguments import declared, resolve
+from amr_description.bringup.controller_files import URDF
 from amr_description.bringup.description import nodes_of
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.display import display, how_to_move, movable_joint
 from amr_description.bringup.stacks.hardware import mock
-from amr_description.bringup.stacks.simulation import simulation, URDF
+from amr_description.bringup.stacks.simulation import simulation
 from amr_description.model.origins import with_file
 
 PACKAGES = 'share/ament_index/resource_index/packages'
