@@ -106,7 +106,8 @@ def two_networks() -> Iterator[tuple[Machine, Machine]]:
         operator.cable_to(router, '192.168.8.2/24', '192.168.8.254/24')
         robot.do('ip', 'route', 'add', 'default', 'via', '192.168.7.254')
         operator.do('ip', 'route', 'add', 'default', 'via', '192.168.8.254')
-        router.do('sysctl', '-qw', 'net.ipv4.ip_forward=1')
+        # By the file: `sysctl` is in /usr/sbin, which not every user has on the PATH.
+        router.do('sh', '-c', 'echo 1 > /proc/sys/net/ipv4/ip_forward')
         yield robot, operator
 
 
