@@ -184,6 +184,8 @@ def find_keys(tree: yaml.Node, keys: tuple[Any, ...]) -> tuple[int, yaml.Node]:
 
 def _entry(tree: yaml.Node, key: Any) -> tuple[int, yaml.Node]:
     """Return the line of a key and the node below it; of what is merged in, that of the whole."""
+    if isinstance(tree, yaml.SequenceNode) and len(tree.value) == 1:
+        tree = tree.value[0]
     if isinstance(tree, yaml.MappingNode):
         for name, below in tree.value:
             if name.value == str(key):
@@ -194,8 +196,14 @@ def _entry(tree: yaml.Node, key: Any) -> tuple[int, yaml.Node]:
 def flatten(
     parameters: Mapping[Any, Any], above: tuple[Any, ...] = ()
 ) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """Yield (keys from outside to inside, value) of every parameter; see :func:`dotted`."""
+    """
+    Yield (keys from outside to inside, value) of every parameter; see :func:`dotted`.
+
+    A list of one table counts as the table, as rcl reads it: gpio_controllers are configured so.
+    """
     for key, value in parameters.items():
+        if isinstance(value, list) and len(value) == 1 and isinstance(value[0], Mapping):
+            value = value[0]
         if isinstance(value, Mapping):
             yield from flatten(value, (*above, key))
         else:

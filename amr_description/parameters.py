@@ -13,6 +13,14 @@ The table is a frozen dataclass whose fields are made by :func:`parameter`; a fi
 
 From it are made the declarations and descriptors of the ROS node, the check when a parameter is
 set, and the checked object for the component, which never reads from a node.
+
+A field made by :func:`keyed_group` holds one table for each element of a list parameter, by its
+name, as ``__map_…`` of generate_parameter_library does::
+
+    @dataclass(frozen=True)
+    class PidParameters:
+        dof_names: tuple[str, ...] = parameter((), 'Degrees of freedom')
+        gains: Mapping[str, Gains] = keyed_group('gains', 'dof_names', Gains)  # gains.<dof>.p
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -38,6 +46,7 @@ TYPE_NAMES: dict[Any, str] = {
 
 _ELEMENT_TYPES = {'string_array': str, 'double_array': float}
 _KEY = 'amr_description.parameter'
+_NO_VALUES: Mapping[str, Any] = {}
 _NUMBER = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?')
 
 
@@ -61,6 +70,7 @@ class Bounds:
     choices: tuple[str, ...] = ()
     length: int | None = None
     not_empty: bool = False
+    unique: bool = False
     nan: bool = False
 
     def complaint(self, value: Value) -> str:
@@ -69,6 +79,8 @@ class Bounds:
             return 'must not be empty'
         if self.length is not None and isinstance(value, tuple) and len(value) != self.length:
             return f'must have {self.length} elements'
+        if self.unique and isinstance(value, tuple) and len(set(value)) < len(value):
+            return 'must not hold anything twice'
         if self.choices and value not in self.choices:
             return f'must be one of {", ".join(self.choices)}'
         numbers = value if isinstance(value, tuple) else (value,)
@@ -115,6 +127,23 @@ class Spec:
     unit: str
     bounds: Bounds
     read_only: bool
+
+    def adopt(self, value: Any) -> Any:
+        """
+        Return a number, or a list of numbers, in the type of the table; all else as it is.
+
+        An integer for a double is what files have most often of a wrong type: ``wheel_radius: 1``.
+        """
+        match self.type, value:
+            case 'double', int() if not isinstance(value, bool):
+                return float(value)
+            case 'integer', float() if value.is_integer():
+                return int(value)
+            case 'double_array', Sequence() if not isinstance(value, str):
+                # rcl refuses a file with a list of both.
+                if value and all(type(item) is int for item in value):
+                    return [float(item) for item in value]
+        return value
 
     def check(self, value: Any) -> Value:
         """Return the value in the type of the table. Raises ParameterError."""
@@ -189,13 +218,34 @@ def group(prefix: str, table: Callable[[], Any]) -> Any:
     return dataclasses.field(default_factory=table, metadata={_KEY: prefix})
 
 
-def specs(table: type, prefix: str = '') -> Iterator[Spec]:
-    """Yield the rows of a table, groups flattened, in the order of its fields."""
+def keyed_group(prefix: str, keys: str, table: Callable[[], Any]) -> Any:
+    """
+    Make a field, a mapping, that holds another table for each element of a list parameter.
+
+    Args:
+        prefix: in front of the elements, ``gains`` for ``gains.<element>.p``; '': nothing.
+        keys: the field of the list, which stands above this one.
+        table: the dataclass of one element.
+    """
+    return dataclasses.field(default_factory=dict, metadata={_KEY: _Keys(prefix, keys, table)})
+
+
+def specs(table: type, prefix: str = '', values: Mapping[str, Any] = _NO_VALUES) -> Iterator[Spec]:
+    """
+    Yield the rows of a table, groups flattened, in the order of its fields.
+
+    ``values``: by dotted name; those of lists say which elements keyed groups have. They are read
+    no earlier than the rows below them are asked for.
+    """
     for _, row in _rows(table, prefix):
-        if isinstance(row, _Group):
-            yield from specs(row.table, row.prefix)
-        else:
-            yield row
+        match row:
+            case _Group():
+                yield from specs(row.table, row.prefix, values)
+            case _KeyedGroup():
+                for each in row.groups(values).values():
+                    yield from specs(each.table, each.prefix, values)
+            case _:
+                yield row
 
 
 def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = '') -> Table:
@@ -216,20 +266,50 @@ def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = ''
     """
     arguments: dict[str, Any] = {}
     for field, row in _rows(table, prefix):
-        if isinstance(row, _Group):
-            arguments[field] = build(row.table, values, row.prefix)
-        else:
-            arguments[field] = row.check(values.get(row.name, row.default))
+        match row:
+            case _Group():
+                arguments[field] = build(row.table, values, row.prefix)
+            case _KeyedGroup():
+                groups = row.groups(values)
+                arguments[field] = {
+                    key: build(each.table, values, each.prefix) for key, each in groups.items()
+                }
+            case _:
+                arguments[field] = row.check(values.get(row.name, row.default))
     return table(**arguments)
 
 
 @dataclass(frozen=True, slots=True)
 class _Group:
-    table: Callable[[], Any]
+    table: Any
     prefix: str
 
 
-def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group]]:
+@dataclass(frozen=True, slots=True)
+class _Keys:
+    """What :func:`keyed_group` was given."""
+
+    prefix: str
+    keys: str
+    table: Any
+
+
+@dataclass(frozen=True, slots=True)
+class _KeyedGroup:
+    table: Any
+    prefix: str
+    keys: str
+    """The full name of the list parameter."""
+
+    def groups(self, values: Mapping[str, Any]) -> dict[str, _Group]:
+        """Return the group of each element."""
+        keys = values.get(self.keys, ())
+        if isinstance(keys, str) or not isinstance(keys, Sequence):
+            return {}
+        return {str(key): _Group(self.table, f'{self.prefix}{key}.') for key in keys}
+
+
+def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group | _KeyedGroup]]:
     """Yield (field, row). Raises ParameterError for a type that no ROS parameter has."""
     types = get_type_hints(
         table
@@ -238,6 +318,9 @@ def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group]]:
         row, kind = field.metadata[_KEY], types[field.name]
         if isinstance(row, str):
             yield field.name, _Group(field.default_factory, f'{prefix}{row}.')
+        elif isinstance(row, _Keys):
+            inner = f'{prefix}{row.prefix}.' if row.prefix else prefix
+            yield field.name, _KeyedGroup(row.table, inner, prefix + row.keys)
         elif kind in TYPE_NAMES:
             spec = Spec(prefix + field.name, TYPE_NAMES[kind], field.default, **row)
             yield field.name, spec

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of a ROS node from a table of :mod:`amr_description.parameters`."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 import dataclasses
+from typing import Any
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
@@ -63,7 +64,7 @@ def declare_missing(
 
     What a node that allows it was told undeclared is described now, and keeps its type.
     """
-    for spec in specs(table, prefix):
+    for spec in specs(table, prefix, _PresentValues(node)):
         if node.has_parameter(spec.name):
             descriptor = _descriptor(spec)
             descriptor.type = node.get_parameter(spec.name).type_.value
@@ -71,6 +72,13 @@ def declare_missing(
         else:
             default = defaults.get(spec.name, spec.default)
             _declare(node, dataclasses.replace(spec, default=default))
+
+
+def declare_added(node: Node, table: type) -> None:
+    """Declare the rows of keyed groups that are new, as a list has got more elements since."""
+    for spec in specs(table, '', _PresentValues(node)):
+        if not node.has_parameter(spec.name):
+            _declare(node, spec)
 
 
 def declare_overrides(node: Node) -> None:
@@ -92,8 +100,31 @@ def values[Table](
 
     :raises ParameterError: A value is not of the table's type or out of its bounds.
     """
-    found = {spec.name: node.get_parameter(spec.name).value for spec in specs(table, prefix)}
+    present = _PresentValues(node)
+    found = {
+        spec.name: present[spec.name]
+        for spec in specs(table, prefix, present)
+        if spec.name in present
+    }
     return build(table, found | {each.name: each.value for each in changed}, prefix)
+
+
+class _PresentValues(Mapping[str, Any]):
+    """The values of a node's parameters, by name, as they are when they are asked for."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+
+    def __getitem__(self, name: str) -> Any:
+        if not self._node.has_parameter(name):
+            raise KeyError(name)
+        return self._node.get_parameter(name).value
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._node.get_parameters_by_prefix(''))
+
+    def __len__(self) -> int:
+        return len(self._node.get_parameters_by_prefix(''))
 
 
 def add_validation_callback(node: Node, *tables: type) -> None:

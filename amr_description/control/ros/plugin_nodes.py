@@ -39,6 +39,7 @@ from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
     add_validation_callback,
     declare,
+    declare_added,
     values,
 )
 
@@ -121,7 +122,13 @@ class ControllerNode:
             raise
 
     def parameters(self) -> Any:
-        """Read the node's parameters into the controller's table. Raises ParameterError."""
+        """
+        Read the node's parameters into the controller's table.
+
+        Those of keyed groups that are new since the last time are declared now. Raises
+        ParameterError.
+        """
+        declare_added(self.node, self._table)
         return values(self.node, self._table)
 
     def connect(self) -> None:

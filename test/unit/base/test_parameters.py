@@ -3,6 +3,7 @@
 """Tables of parameters: names, types, bounds, and the errors for wrong values."""
 
 from array import array
+from collections.abc import Mapping
 from dataclasses import dataclass
 import json
 import math
@@ -14,7 +15,7 @@ from support.deferred_annotations import DeferredTable
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
 from amr_description.errors import ParameterError
-from amr_description.parameters import build, group, parameter, specs
+from amr_description.parameters import build, group, keyed_group, parameter, specs
 
 
 @dataclass(frozen=True)
@@ -160,3 +161,53 @@ def test_a_field_of_a_type_that_ros_lacks_is_named():
 
     with pytest.raises(ParameterError, match=r"'shape' of Wrong is annotated as .*complex"):
         build(Wrong, {})
+
+
+@dataclass(frozen=True)
+class Gains:
+    p: float = parameter(0.0, 'Proportional')
+    inner: Inner = group('in', Inner)
+
+
+@dataclass(frozen=True)
+class Keyed:
+    dofs: tuple[str, ...] = parameter((), 'Degrees of freedom', unique=True)
+    gains: Mapping[str, Gains] = keyed_group('gains', 'dofs', Gains)
+    bare: Mapping[str, Inner] = keyed_group('', 'dofs', Inner)
+
+
+def test_a_keyed_group_has_a_table_for_each_element_of_its_list():
+    given = {'dofs': ['left', 'a/b'], 'gains.left.p': 2.0, 'gains.a/b.in.rate': 5.0}
+    assert [row.name for row in specs(Keyed, '', given)] == [
+        'dofs',
+        'gains.left.p', 'gains.left.in.rate', 'gains.left.in.mode',
+        'gains.a/b.p', 'gains.a/b.in.rate', 'gains.a/b.in.mode',
+        'left.rate', 'left.mode', 'a/b.rate', 'a/b.mode',
+    ]  # fmt: skip
+    table = build(Keyed, given | {'left.mode': 'fast', 'gains.other.p': 'not mine'})
+    assert table.gains == {'left': Gains(2.0), 'a/b': Gains(0.0, Inner(5.0))}
+    assert table.bare == {'left': Inner(mode='fast'), 'a/b': Inner()}
+    assert build(Keyed, {}).gains == {}
+    with pytest.raises(ParameterError, match=r"'gains\.left\.in\.rate' must be greater than 0"):
+        build(Keyed, given | {'gains.left.in.rate': 0.0})
+    with pytest.raises(ParameterError, match="'dofs' must not hold anything twice"):
+        build(Keyed, {'dofs': ['left', 'left']})
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'adopted'),
+    [
+        ('factor', 2, 2.0),
+        ('count', 2.0, 2),
+        ('variances', [0, 1], [0.0, 1.0]),
+        ('count', 2.5, 2.5),
+        ('factor', True, True),
+        ('factor', '2', '2'),
+        ('variances', [0, 1.0], [0, 1.0]),
+        ('wheels', 'a', 'a'),
+    ],
+)
+def test_numbers_of_the_other_type_are_adopted_and_nothing_else(name, value, adopted):
+    row = next(row for row in specs(Table) if row.name == name)
+    assert row.adopt(value) == adopted
+    assert type(row.adopt(value)) is type(adopted)
