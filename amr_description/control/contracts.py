@@ -7,7 +7,8 @@ What a component sees of a simulated world is in :mod:`amr_description.control.w
 
 Nothing here depends on ROS, MuJoCo or a clock. A single thread, **the control thread**, calls
 every method below except :meth:`Controller.configure`; data from other threads arrives through
-:class:`Input`. Times and periods are integer nanoseconds, all physical values SI.
+:class:`Input` and :class:`Action`. Times and periods are integer nanoseconds, all physical values
+SI.
 
 A transition or an update that fails raises (:mod:`amr_description.errors`); nothing returns a
 flag.
@@ -70,7 +71,7 @@ def null_log(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
     """Log nothing."""
 
 
-# --- Ports: the topics of a controller -----------------------------------------------------------
+# --- Ports: the topics, services and actions of a controller -------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +156,178 @@ class Output[Sample]:
         """Publish a sample at the end of this cycle, after the ``/clock`` of the same instant."""
         if self.sink is not None:
             self.sink(sample)
+
+
+@dataclass(frozen=True, slots=True)
+class ServicePort:
+    """
+    One service of a controller, declared instead of created.
+
+    ``name`` is resolved by the controller's node (``~/query_state``), ``service`` is the ROS type.
+    ``request`` and ``response`` say how these messages and their samples become each other: a type
+    of :mod:`amr_description.control.samples`, for which there is a converter already, or a
+    function, ``module:function``, as in :class:`Port`: ``(message) -> sample`` of a request,
+    ``(sample, message) -> None`` of a response.
+    """
+
+    name: str
+    service: str
+    request: type | str
+    response: type | str
+
+
+class Service[Request, Response]:
+    """
+    A service that the controller answers in every state from inactive on.
+
+    ``answer`` is called on the control thread, between two cycles, also while time stands: it must
+    not take long. If it raises, that is logged, and the client gets a response of defaults.
+    """
+
+    def __init__(self, port: ServicePort, answer: Callable[[Request], Response]) -> None:
+        self.port = port
+        self.answer = answer
+
+
+@dataclass(frozen=True, slots=True)
+class ActionPort:
+    """
+    One action of a controller, declared instead of created; see :class:`ServicePort`.
+
+    ``goal`` is read, ``feedback`` and ``result`` are written. ``rate``, Hz of the wall clock, is
+    how often results and the newest feedback are looked for.
+    """
+
+    name: str
+    action: str
+    goal: type | str
+    feedback: type | str
+    result: type | str
+    rate: float = 20.0
+
+
+class GoalStatus(enum.IntEnum):
+    """How a goal ended, with the numbers of ``action_msgs/msg/GoalStatus``."""
+
+    SUCCEEDED = 4
+    CANCELED = 5
+    ABORTED = 6
+
+
+class Goal[Request, Feedback, Result]:
+    """
+    An accepted goal of an action, which the control thread follows until it ends it.
+
+    Only attributes are written here, and the ROS thread looks at them: nothing blocks either one.
+    The first of the calls that end a goal counts.
+    """
+
+    __slots__ = ('request', 'is_cancel_requested', 'feedback', 'outcome')
+
+    def __init__(self, request: Request) -> None:
+        self.request = request
+        self.is_cancel_requested = False
+        """Set on the ROS thread. The controller ends the goal when it sees it, as it likes."""
+        self.feedback: Feedback | None = None
+        """The newest that has not been published yet."""
+        self.outcome: tuple[GoalStatus, Result | None] | None = None
+        """Set once; a result of None becomes a message of defaults."""
+
+    @property
+    def is_live(self) -> bool:
+        """False once it has ended."""
+        return self.outcome is None
+
+    def send_feedback(self, feedback: Feedback) -> None:
+        """Have the newest feedback published; what was not published yet is dropped."""
+        self.feedback = feedback
+
+    def succeed(self, result: Result | None) -> None:
+        """End: what was asked for is done."""
+        self._end(GoalStatus.SUCCEEDED, result)
+
+    def abort(self, result: Result | None) -> None:
+        """End: it cannot be done."""
+        self._end(GoalStatus.ABORTED, result)
+
+    def cancel(self, result: Result | None) -> None:
+        """End: the client, or a newer goal, wants something else."""
+        self._end(GoalStatus.CANCELED, result)
+
+    def _end(self, status: GoalStatus, result: Result | None) -> None:
+        if self.outcome is None:
+            self.outcome = (status, result)
+
+
+class Action[Request, Feedback, Result]:
+    """
+    An action that the controller serves: the ROS thread puts goals, the control thread takes them.
+
+    Like an :class:`Input` it is closed until the controller is activated, and again before it is
+    deactivated; goals that the controller then leaves without an end are aborted.
+    """
+
+    def __init__(
+        self,
+        port: ActionPort,
+        check: Callable[[Request, int], str],
+        capacity: int = 16,
+    ) -> None:
+        """
+        Declare it.
+
+        Args:
+            port: name and types.
+            check: ``(request, time in ns) -> why it is rejected``, '' to accept it. It is called
+                on the ROS thread, so it reads only what ``configure`` has set.
+            capacity: if more goals arrive between two updates, the oldest are canceled.
+        """
+        self.port = port
+        self.check = check
+        self.is_open = False
+        self._capacity = capacity
+        self._waiting: deque[Goal[Request, Feedback, Result]] = deque()
+        self._live: list[Goal[Request, Feedback, Result]] = []
+
+    def put(self, goal: Goal[Request, Feedback, Result]) -> bool:
+        """Queue an accepted goal; return False if the action is closed, which leaves it alone."""
+        if self.is_open:
+            self._waiting.append(goal)
+        return self.is_open  # again: what is put while it closes nobody may take any more
+
+    def drain(self) -> list[Goal[Request, Feedback, Result]]:
+        """
+        Return the goals that have arrived since the last call, oldest first.
+
+        A controller that follows one goal at a time takes the last, and cancels the others.
+        """
+        waiting = self._waiting
+        if not waiting:
+            return []
+        goals = [waiting.popleft() for _ in range(len(waiting))]
+        for goal in goals[: -self._capacity]:
+            goal.cancel(None)
+        goals = goals[-self._capacity :]
+        self._live = [goal for goal in self._live if goal.is_live] + goals
+        return goals
+
+    def open(self) -> None:
+        """Start to take goals; the manager calls it when the controller is activated."""
+        self._abort_all()
+        self.is_open = True
+
+    def close(self) -> None:
+        """Take no more goals; the manager calls it before the controller is deactivated."""
+        self.is_open = False
+
+    def end(self) -> None:
+        """Abort what has no end yet; the manager calls it when the controller is inactive."""
+        self._abort_all()
+
+    def _abort_all(self) -> None:
+        for goal in (*self._live, *self.drain()):
+            goal.abort(None)
+        self._live.clear()
 
 
 # --- Controller ----------------------------------------------------------------------------------
@@ -243,6 +416,14 @@ class Controller(ABC):
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return the topics to publish; called after ``configure``."""
+        return ()
+
+    def services(self) -> tuple[Service[Any, Any], ...]:
+        """Return the services to serve; called after ``configure``."""
+        return ()
+
+    def actions(self) -> tuple[Action[Any, Any, Any], ...]:
+        """Return the actions to serve; called after ``configure``, opened at activation."""
         return ()
 
     @abstractmethod

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from amr_description.control.chains import ChainInterfaces
-from amr_description.control.contracts import Controller, Input
+from amr_description.control.contracts import Action, Controller, Input
 from amr_description.control.interfaces import (
     Claim,
     CommandInterface,
@@ -73,6 +73,7 @@ class LoadedController:
         # Requested once, as are the inputs: a third-party controller may raise.
         self._command_request = self._state_request = NO_INTERFACES
         self._inputs: tuple[Input[Any], ...] = ()
+        self._actions: tuple[Action[Any, Any, Any], ...] = ()
         self._last_update: int | None = None
         self._ticks = 0
 
@@ -115,6 +116,7 @@ class LoadedController:
         self._command_request = controller.command_interfaces()
         self._state_request = controller.state_interfaces()
         self._inputs = tuple(controller.inputs())
+        self._actions = tuple(controller.actions())
         if controller.is_chainable:
             self.references = tuple(controller.references())
             self.exported_states = tuple(controller.exported_states())
@@ -186,6 +188,8 @@ class LoadedController:
         self.statistic.reset()
         for port in self._inputs:
             port.open()
+        for action in self._actions:
+            action.open()
         resources.add_exported(self.name, self.references, self.exported_states)
         self.state = LifecycleState.ACTIVE
 
@@ -215,9 +219,13 @@ class LoadedController:
     def _deactivate(self, resources: ResourceManager, time: int) -> None:
         for port in self._inputs:
             port.close()
+        for action in self._actions:
+            action.close()
         try:
             self.controller.deactivate(time)
         finally:
+            for action in self._actions:
+                action.end()
             resources.release(self.name)
             resources.remove_exported(self.name)
             self.state = LifecycleState.INACTIVE
@@ -246,6 +254,7 @@ class LoadedController:
         self.chain_interfaces = ChainInterfaces()
         self._command_request = self._state_request = NO_INTERFACES
         self._inputs = ()
+        self._actions = ()
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:

@@ -12,6 +12,8 @@ import ctypes
 from functools import cache
 from typing import Any
 
+from rclpy.action import ActionServer
+from rclpy.action.server import GoalEvent, ServerGoalHandle
 from rclpy.executors import Executor
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -21,8 +23,10 @@ from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
 __all__ = [
+    'begin_goal',
     'cancel_tasks',
     'destroy_type_description_service',
+    'end_goal',
     'NodeNameNonExistentError',
     'parameter_overrides',
     'RCLError',
@@ -83,6 +87,43 @@ def take_message(subscription: Subscription) -> Any | None:
     with handle:
         taken = handle.take_message(subscription.msg_type, subscription.raw)
     return None if taken is None else taken[0]
+
+
+def begin_goal(handle: ServerGoalHandle) -> None:
+    """
+    Set an accepted goal executing, or leave it canceling, without a coroutine that waits for it.
+
+    rclpy polls such a coroutine at every turn of the executor until the goal has ended.
+    """
+    if not handle.is_cancel_requested:
+        handle._update_state(GoalEvent.EXECUTE)
+
+
+def end_goal(
+    server: ActionServer, handle: ServerGoalHandle, event: GoalEvent, result: Any
+) -> None:
+    """
+    End a goal, publish its status, and answer those who ask for its result.
+
+    Args:
+        server: of the action.
+        handle: of the goal, begun by :func:`begin_goal`.
+        event: SUCCEED, ABORT or CANCELED. The server may cancel what no client asked to be, which
+            rcl allows only by way of CANCEL_GOAL.
+        result: the message.
+
+    Raises:
+        RCLError: rcl refuses.
+    """
+    if event is GoalEvent.CANCELED and not handle.is_cancel_requested:
+        handle._update_state(GoalEvent.CANCEL_GOAL)
+    handle._update_state(event)
+    response = server.action_type.Impl.GetResultService.Response()
+    response.status = handle.status
+    response.result = result
+    future = server._result_futures[bytes(handle.goal_id.uuid)]
+    future._set_executor(None)  # sent now: at the executor's next turn the server may be gone
+    future.set_result(response)
 
 
 def destroy_type_description_service(node: Node) -> None:

@@ -17,6 +17,7 @@ node serves its callbacks, and submits to the control thread what concerns a man
 ``robot_description.py``       the topic from which it has its robot
 ``parameters.py``              its parameters, and those that it keeps for a controller
 ``plugin_nodes.py``            the nodes of controllers and hardware components
+``port_servers.py``            their services and actions
 ``converters.py``              samples of controllers ↔ messages
 ``services.py``                its services: requests in, responses out
 ``requests.py``                what they do

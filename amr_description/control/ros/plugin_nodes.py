@@ -9,7 +9,7 @@ removes everything here; the control thread calls :meth:`LoopPublisher.send`, by
 and :class:`TransitionEvents`.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 import re
 from typing import Any
 
@@ -32,8 +32,13 @@ from amr_description.control.interfaces import LifecycleState
 from amr_description.control.manager_parameters import CommonParameters
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
+from amr_description.control.ros.port_servers import (
+    GoalServer,
+    reader_of,
+    ServiceServer,
+    writer_of,
+)
 from amr_description.model.robot import Robot
-from amr_description.registry import resolve
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
@@ -101,7 +106,9 @@ class ControllerNode:
             Exception: Whatever the constructor of a third party's controller raises.
         """
         self._publisher = context.publisher
+        self._context = context
         self._endpoints: list[Publisher | Subscription] = []
+        self._servers: list[ServiceServer | GoalServer] = []
         self.node: Node = context.publisher.make_node(name, namespace, arguments)
         try:
             self._table = controller_class.parameters_type
@@ -132,13 +139,23 @@ class ControllerNode:
         return values(self.node, self._table)
 
     def connect(self) -> None:
-        """Make the topics that the configured controller declares, in place of earlier ones."""
+        """
+        Make the topics, services and actions that the configured controller declares, in place of
+        earlier ones.
+        """
         self.disconnect()
         self._endpoints += map(self._subscribe, self.controller.inputs())
         self._endpoints += map(self._advertise, self.controller.outputs())
+        for service in self.controller.services():
+            self._servers.append(ServiceServer(self.node, service, self._context))
+        for action in self.controller.actions():
+            self._servers.append(GoalServer(self.node, action))
 
     def disconnect(self) -> None:
-        """Remove the topics; the control thread must have cleaned the controller up before."""
+        """Remove them; the control thread must have cleaned the controller up before."""
+        for server in self._servers:
+            server.close()
+        self._servers.clear()
         for endpoint in self._endpoints:
             if isinstance(endpoint, Publisher):
                 self.node.destroy_publisher(endpoint)
@@ -168,7 +185,7 @@ class ControllerNode:
     # --- ports --------------------------------------------------------------------------------
 
     def _subscribe(self, port: Input[Any]) -> Subscription:
-        convert = _reader_of(port.port)
+        convert = reader_of(port.port)
 
         def receive(message: Any, info: Any) -> None:
             try:
@@ -194,7 +211,7 @@ class ControllerNode:
         return subscription
 
     def _advertise(self, port: Output[Any]) -> Publisher:
-        fill = _writer_of(port.port)
+        fill = writer_of(port.port)
         message_class = _message_type(port.port)
         message = message_class()
         publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
@@ -297,21 +314,3 @@ def qos(wanted: Qos) -> QoSProfile:
 def _message_type(port: Port) -> Any:
     """Return the message class of a port. Raises AmrError."""
     return message_type(port.message, f"The message type of the port '{port.name}'")
-
-
-def _reader_of(port: Port) -> Callable[[Any], Any]:
-    """Return ``(message) -> sample``. Raises whatever finding it raises."""
-    if port.convert:
-        return resolve(port.convert)
-    from amr_description.control.ros import converters  # its message types are slow to import
-
-    return converters.reader_of(port)
-
-
-def _writer_of(port: Port) -> Callable[[Any, Any], None]:
-    """Return ``(sample, message) -> None``. Raises whatever finding it raises."""
-    if port.convert:
-        return resolve(port.convert)
-    from amr_description.control.ros import converters
-
-    return converters.writer_of(port)

@@ -6,8 +6,12 @@ The private members of rclpy that are used, each by what it is used for.
 All is written for rclpy 7.1.6: a failure here, after an update, is of another rclpy.
 """
 
+from action_msgs.msg import GoalStatus
+from control_msgs.action import GripperCommand
 import pytest
 import rclpy
+from rclpy.action import ActionClient, ActionServer
+from rclpy.action.server import GoalEvent
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -104,3 +108,27 @@ def test_a_message_is_taken_without_an_executor(node, raw):
     node.destroy_subscription(subscription)
     with pytest.raises(InvalidHandle):
         rclpy_internals.take_message(subscription)
+
+
+def test_a_goal_ends_by_itself_and_as_canceled_too(node):
+    events, futures = (GoalEvent.SUCCEED, GoalEvent.ABORT, GoalEvent.CANCELED), []
+    handles = []
+    server = ActionServer(
+        node, GripperCommand, 'grip', len, handle_accepted_callback=handles.append
+    )
+    client = ActionClient(node, GripperCommand, 'grip')
+    wait_until(node, lambda: client.server_is_ready() or None, timeout=PATIENCE)
+    for event in events:
+        sending = client.send_goal_async(GripperCommand.Goal())
+        accepted = wait_until(node, sending.result, timeout=PATIENCE)
+        rclpy_internals.begin_goal(handles[-1])
+        rclpy_internals.end_goal(server, handles[-1], event, GripperCommand.Result())
+        futures.append(accepted.get_result_async())
+        wait_until(node, futures[-1].result, timeout=PATIENCE)
+    assert [each.result().status for each in futures] == [
+        GoalStatus.STATUS_SUCCEEDED,
+        GoalStatus.STATUS_ABORTED,
+        GoalStatus.STATUS_CANCELED,
+    ], BROKEN
+    client.destroy()
+    server.destroy()
