@@ -17,6 +17,7 @@ import re
 from amr_description.ament_index import package_prefix, prefixes
 from amr_description.bringup.description import Level
 from amr_description.errors import ResourceError
+from amr_description.model.xacro_markup import is_xacro
 
 type Note = tuple[Level, str]
 """(level, text) of a message in the log."""
@@ -38,7 +39,7 @@ def notes_on(files: Sequence[Path]) -> list[Note]:
         saved = datetime.fromtimestamp(file.stat().st_mtime)
         text = f'{file}{_target(file)} ({_hash(file)}, saved {saved:%Y-%m-%d %H:%M:%S})'
         notes.append(('INFO', f'using {text}'))
-        compared = _family(file) if file.suffix == '.xacro' else [file]
+        compared = _family(file) if is_xacro(file) else [file]
         notes += [('WARNING', text) for each in compared for text in _differences(each)]
     return notes
 

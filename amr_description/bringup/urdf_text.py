@@ -14,6 +14,7 @@ from amr_description.entry import python_command
 from amr_description.errors import BringupError, UsageError
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.origins import with_file
+from amr_description.model.xacro_markup import is_xacro
 
 _PROCESSOR_TIME = 60  # s; large robots take one or two
 _MEMORY = 4 * 2**30  # bytes of address space
@@ -41,11 +42,11 @@ def robot_description(urdf: str, xacro_args: str = '') -> str:
         UsageError: ``xacro_args`` cannot be split, or the file is no xacro file.
     """
     path = path_of(urdf, 'urdf')
-    if path.suffix == '.xacro':
+    if is_xacro(path):
         text = _expanded([str(path), *_words(xacro_args)])
         return with_absolute_paths(text, path.parent)
     if xacro_args.strip():
-        raise UsageError(f"xacro_args:='{xacro_args}': {path} is no xacro file (*.xacro)")
+        raise UsageError(f"xacro_args:='{xacro_args}': {path} is no xacro file: it holds no xacro")
     try:
         return with_absolute_paths(with_file(path.read_text('utf-8'), str(path)), path.parent)
     except (OSError, UnicodeDecodeError) as error:

@@ -12,6 +12,7 @@ module                   what it holds
 ``hardware_info.py``     HardwareInfo and its interfaces: the result of reading ``<ros2_control>``
 
 ``description_file.py``  file -> URDF text, xacro expanded
+``xacro_markup.py``      … whether it is xacro, by what is in it
 ``xacro_lines.py``       … the lines that its elements come from
 ``origins.py``           … how these travel with the text, and findings name them
 ``urdf.py``              URDF -> Robot: ``parse(text, source)``, ``load(path)``

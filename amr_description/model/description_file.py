@@ -3,9 +3,10 @@
 """
 The URDF text of a robot description file; xacro files are expanded.
 
-A file whose name ends in ``.xacro`` goes through the xacro library, which evaluates its includes,
-properties, macros and conditions; ``$(find package)`` uses the ament index. Its expressions are
-Python: a description must be trusted like a program. An endless one can be stopped by Ctrl-C.
+A file that holds xacro, whatever its name (``xacro_markup.py``), goes through the xacro library,
+which evaluates its includes, properties, macros and conditions; ``$(find package)`` uses the ament
+index. Its expressions are Python: a description must be trusted like a program. An endless one can
+be stopped by Ctrl-C.
 
 ``python -m amr_description.model.description_file FILE [NAME:=VALUE …]`` prints the text, or one
 line on stderr that says why there is none, for programs that expand a file in another process.
@@ -26,20 +27,15 @@ from amr_description.errors import AmrError, DescriptionError, UsageError
 from amr_description.model.findings import Finding
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.origins import Origin, with_file, with_origins
+from amr_description.model.xacro_markup import has_xacro_elements, is_named_xacro, is_xacro
 from amr_description.model.xml_reader import parse_xml, read_file
 from amr_description.text import closest_match, did_you_mean, one_line, quote, quote_all, unwrap
 
-SUFFIX = '.xacro'
 _NO_MAPPINGS: Mapping[str, str] = {}
 # xacro prefixes its messages with the class of the exception that it caught.
 _CLASS = re.compile(r"^<class '[^']*'>: ")
 _SHOWN_STEPS = 6
 _NOT_WELL_FORMED = 'not well-formed XML: '
-
-
-def is_xacro(path: str | Path) -> bool:
-    """Return whether a file is expanded: ``robot.urdf.xacro``, ``robot.xacro``."""
-    return str(path).endswith(SUFFIX)
 
 
 def mappings_of(words: Sequence[str]) -> dict[str, str]:
@@ -71,14 +67,7 @@ def description_text(
         DescriptionError: the file cannot be read or expanded; says the file, the reason, and in
             which macro xacro was.
     """
-    if is_xacro(path):
-        return _expanded(str(path), mappings, warn)[0]
-    if mappings:
-        raise DescriptionError(
-            f'{path}: takes no arguments ({", ".join(mappings)}:=…), its name does not end in '
-            f'{SUFFIX}'
-        )
-    return read_file(path)
+    return _read(path, mappings, warn)[0]
 
 
 def located_text(
@@ -88,9 +77,8 @@ def located_text(
     warn: Callable[[str], object] = lambda _line: None,
 ) -> str:
     """Return :func:`description_text`; where it is expanded, with the origins of its lines."""
-    if is_xacro(path):
-        return with_origins(*_expanded(str(path), mappings, warn))
-    return description_text(path, mappings, warn=warn)
+    text, origins = _read(path, mappings, warn)
+    return text if origins is None else with_origins(text, origins)
 
 
 def description_at(
@@ -109,14 +97,49 @@ def description_at(
         ResourceError: the package or the scheme of the URI is not known.
         DescriptionError: as :func:`description_text`.
     """
-    file, _, query = uri.partition('?')
-    if not is_xacro(file):
-        file, query = uri, ''
+    path, query = _split(uri)
     given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
-    path = resolve_uri(file)
-    text = located_text(path, given, warn=warn)
-    text = text if is_xacro(path) else with_file(text, str(path))
+    text, origins = _read(path, given, warn)
+    text = with_file(text, str(path)) if origins is None else with_origins(text, origins)
     return with_absolute_paths(text, path.parent)
+
+
+def takes_arguments(uri: str) -> bool:
+    """Return whether a URI, as :func:`description_at` takes it, is that of a xacro file."""
+    try:
+        return is_xacro(_split(uri)[0])
+    except AmrError:  # whoever reads it says why
+        return False
+
+
+def _split(uri: str) -> tuple[Path, str]:
+    """Return the file of a URI, and the arguments of a xacro file behind ``?``."""
+    file, mark, query = uri.partition('?')
+    path = resolve_uri(file)
+    if mark and not is_xacro(path):  # it is part of the name
+        return resolve_uri(uri), ''
+    return path, query
+
+
+def _read(
+    path: str | Path, mappings: Mapping[str, str], warn: Callable[[str], object]
+) -> tuple[str, dict[int, Origin] | None]:
+    """Return the URDF of a file, and the origins of its lines; None: it is as it stands."""
+    text = read_file(path)
+    if not is_xacro(path, text):
+        if mappings:
+            raise DescriptionError(
+                f'{path}: takes no arguments ({", ".join(mappings)}:=…), it holds no xacro'
+            )
+        return text, None
+    try:
+        return _expanded(str(path), mappings, warn)
+    except DescriptionError as error:
+        # Such as <parameters>$(find package)/…: a URDF all the same, without that package too.
+        if mappings or is_named_xacro(path) or has_xacro_elements(text):
+            raise
+        warn(f'{error}; what it stands in is left as it is')
+        return text, None
 
 
 class _Arguments(dict[str, str]):
@@ -141,8 +164,6 @@ def _expanded(
     """Return the text that a file expands to, and where its elements come from."""
     from amr_description.model.xacro_lines import expanded
 
-    # Read and dropped: a file that is missing, too large or not text gets our message.
-    read_file(path)
     arguments = _Arguments(mappings)
     try:
         text, origins = expanded(path, arguments)
@@ -270,7 +291,8 @@ def main(arguments: Sequence[str]) -> int:
         if not arguments:
             raise UsageError('usage: FILE [NAME:=VALUE ...]')
         path, *words = arguments
-        text = located_text(path, mappings_of(words), warn=_print_warning)
+        text, origins = _read(path, mappings_of(words), _print_warning)
+        text = with_file(text, path) if origins is None else with_origins(text, origins)
         sys.stdout.buffer.write(text.encode('utf-8', 'xmlcharrefreplace'))
     except AmrError as error:
         print(error, file=sys.stderr)

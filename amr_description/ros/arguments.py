@@ -17,8 +17,8 @@ import sys
 
 from amr_description.model.description_file import (
     description_at,
-    is_xacro,
     mappings_of,
+    takes_arguments,
 )
 from amr_description.model.urdf import parse
 
@@ -109,7 +109,7 @@ def split_arguments(args: Sequence[str] | None) -> tuple[list[str], list[str]]:
     given = list(sys.argv[1:] if args is None else args)
     words = other_arguments(given)
     files = [word for word in words if ':=' not in word]
-    if files and is_xacro(files[0]):
+    if files and takes_arguments(files[0]):
         words.remove(files[0])
         return [files[0], *words], ['--ros-args', *ros_arguments(given)]
     return files[:1], given

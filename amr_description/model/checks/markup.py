@@ -157,7 +157,7 @@ def xacro_is_expanded(context: CheckContext) -> Iterator[Finding]:
             min(map(line_of, left)),
             'this is a xacro file, not yet a URDF',
             found=f'<xacro:{etree.QName((making or left)[0]).localname}>',
-            fix='run  xacro FILE > robot.urdf  first, or call the file .urdf.xacro',
+            fix='run  xacro FILE > robot.urdf  first, or give the file in the place of its text',
         )
 
 

@@ -15,6 +15,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform
 from amr_description.model.kinematics import joint_transform
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
+from amr_description.model.xacro_markup import has_xacro_elements
 
 # ns; stamps of one publisher do not go back by more, unless it was restarted
 _RESTART_GAP = NANOSECONDS
@@ -150,7 +151,7 @@ def _mimics_in_order(moving: Mapping[str, Joint]) -> Iterator[tuple[str, Mimic]]
 
 def _warnings(robot: Robot, joints: Iterable[Joint]) -> Iterator[str]:
     """Yield warnings, with the texts of the original if it has them: users search for them."""
-    if '<xacro:' in robot.text:
+    if has_xacro_elements(robot.text):
         yield (
             'the description holds <xacro:…> elements, which are left out; expand them: name the '
             'xacro file instead of its text, or run xacro FILE > robot.urdf'

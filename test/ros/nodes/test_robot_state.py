@@ -197,6 +197,8 @@ def test_xacro_that_nobody_has_expanded_is_told():
     (warning,) = RobotState(parse(text)).warnings
     assert 'holds <xacro:…> elements, which are left out' in warning
     assert RobotState(parse(description_text(ROBOTS[2]))).warnings == ()
+    comment = text.replace('<xacro', '<!-- <xacro').replace('/></robot>', '/> --></robot>')
+    assert RobotState(parse(comment)).warnings == ()
 
 
 @pytest.mark.parametrize(

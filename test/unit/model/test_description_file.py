@@ -18,15 +18,21 @@ from amr_description.model.description_file import (
     description_text,
     located_text,
     mappings_of,
+    takes_arguments,
 )
 from amr_description.model.origins import Origin, origin_of, with_file, with_origins
 from amr_description.model.urdf import load, parse
+from amr_description.model.xacro_markup import is_xacro
 
 GRIPPER = ROOT / 'test/fixtures/urdf/gripper.urdf.xacro'
 
 
 def robot(*words):
     return parse(description_text(GRIPPER, mappings_of(words)))
+
+
+def load_robot(path):
+    return parse(description_text(path))
 
 
 def text_of(folder, body, name='robot.urdf.xacro', **mappings):
@@ -40,6 +46,55 @@ def text_of(folder, body, name='robot.urdf.xacro', **mappings):
 def test_a_urdf_is_read_as_it_stands():
     path = ROOT / 'urdf/amr.urdf'
     assert description_text(path) == path.read_text() == load(path).text
+
+
+@pytest.mark.parametrize(
+    ('inside', 'expected'),
+    [
+        ('', False),
+        ('<link name="a"/>', False),
+        ('<!-- <xacro:wheel/> $(find a) -->', False),
+        ('<a b="$(var x) $(find-pkg-share y) $x"/>', False),
+        ('<xacro:wheel xmlns:xacro="x"/>', True),
+        ('<link name="$(arg prefix)a"/>', True),
+        ('<parameters>$(find amr_description)/config/x.yaml</parameters>', True),
+    ],
+)
+def test_what_is_in_a_file_says_whether_it_is_xacro(tmp_path, inside, expected):
+    path = tmp_path / 'robot.urdf'
+    path.write_text(f'<robot name="r">{inside}</robot>')
+    assert is_xacro(path) is expected
+    path.write_text(f'<robot name="r"\nxmlns:xacro="http://ros.org/wiki/xacro">{inside}</robot>')
+    assert is_xacro(path)
+    assert not is_xacro(tmp_path / 'nowhere.urdf')
+
+
+def test_xacro_in_a_file_called_urdf_is_expanded(tmp_path):
+    body = '<xacro:arg name="a" default="1"/><link name="link$(arg a)"/>'
+    assert 'link2' in text_of(tmp_path, body, 'robot.urdf', a='2')
+    uri = f'{tmp_path / "robot.urdf"}?a=3'
+    assert 'link3' in description_at(uri, warn=pytest.fail)
+    assert takes_arguments(uri)
+    assert not takes_arguments(str(ROOT / 'urdf/amr.urdf'))
+    assert not takes_arguments('package://no_such_package/a.urdf')
+
+
+def test_a_plain_urdf_may_be_called_xacro(tmp_path):
+    path = tmp_path / 'robot.xacro'
+    path.write_text((ROOT / 'urdf/amr.urdf').read_text())
+    found, plain = load_robot(path), load(ROOT / 'urdf/amr.urdf')
+    assert [link.name for link in found.links] == [link.name for link in plain.links]
+    assert [joint.origin for joint in found.joints] == [joint.origin for joint in plain.joints]
+
+
+def test_a_package_that_is_not_there_is_left_to_who_needs_it(tmp_path):
+    path = tmp_path / 'robot.urdf'
+    path.write_text('<robot name="r"><gazebo>$(find no_such_package)/a</gazebo></robot>')
+    said = []
+    assert description_text(path, warn=said.append) == path.read_text()
+    assert len(said) == 1
+    assert "package 'no_such_package' not found" in said[0]
+    assert said[0].endswith('; what it stands in is left as it is')
 
 
 def test_includes_macros_properties_and_defaults_are_expanded():
