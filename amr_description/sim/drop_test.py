@@ -25,6 +25,7 @@ from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import Wheel
+from amr_description.sim.actuators import speed_limit
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.world import MujocoWorld
 from amr_description.text import quote, quote_all
@@ -34,7 +35,10 @@ DROP_HEIGHT = 0.2
 PUSH_SHARE, PUSH_TIME = 0.5, 0.1
 """A push to the left: as a share of the robot's weight, and its duration, s."""
 ROLL_SPEED, ROLL_TIME, TURN_TIME = 0.3, 0.5, 1.0
-"""Speed of the wheels' rims, m/s; duration of rolling forward and of turning, s."""
+"""
+Speed of the wheels' rims, m/s, unless their velocity limits are lower; duration of rolling forward
+and of turning, s.
+"""
 
 _PERIOD = 0.01
 _EFFORT_RESPONSE = 0.05
@@ -83,7 +87,7 @@ class DropReport:
     push_tilt: float | None = None
     """The greatest tilt during the push and until it is at rest again."""
     ahead: float | None = None
-    """Distance along the robot's x axis in half a second at ROLL_SPEED."""
+    """Distance along the robot's x axis in half a second of rolling."""
     aside: float | None = None
     """Distance along its y axis, meanwhile."""
     veer: float | None = None
@@ -277,7 +281,7 @@ class _DropTest:
         moved, veer = self._drive(ROLL_TIME, lambda wheel: 1.0)
         ahead, aside, _ = moved.translation
         self._measured |= {'ahead': ahead, 'aside': aside, 'veer': veer}
-        asked = ROLL_SPEED * ROLL_TIME
+        asked = self._roll_speed() * ROLL_TIME
         # On its arc, the middle of the wheels moves along the heading that is half the yaw.
         x, y, _ = map(float.__sub__, moved.apply(middle), middle)
         sideways = y * math.cos(veer / 2.0) - x * math.sin(veer / 2.0)
@@ -313,7 +317,7 @@ class _DropTest:
             return
         _, turn = self._drive(TURN_TIME, lambda wheel: math.copysign(1.0, -y[wheel.joint]))
         self._measured['turn'] = turn
-        asked = ROLL_SPEED * TURN_TIME / (math.fsum(map(abs, y.values())) / len(y))
+        asked = self._roll_speed() * TURN_TIME / (math.fsum(map(abs, y.values())) / len(y))
         if self._failures:  # it does not drive as it should, for a reason that is told
             return
         if turn <= -_MIN_TURN * asked:
@@ -326,6 +330,11 @@ class _DropTest:
                 'it does not turn: with the right wheels forward and the left ones back it yaws '
                 f'by {math.degrees(turn):.1f}°, of {math.degrees(asked):.0f}° that they roll'
             )
+
+    def _roll_speed(self) -> float:
+        """Return the speed of the wheels' rims, m/s, which no velocity limit is below."""
+        joint = self._view.description.joint
+        return min([ROLL_SPEED, *(speed_limit(joint(w.joint)) * w.radius for w in self._wheels)])
 
     def _middle_of_wheels(self) -> Vector:
         """Return the mean of the hubs in the frame of the root."""
@@ -358,9 +367,9 @@ class _DropTest:
         return ''.join(f'; {quote_all(names)}: {words}' for words, names in groups.items())
 
     def _drive(self, seconds: float, sign: Callable[[Wheel], float]) -> tuple[Transform, float]:
-        """Turn the wheels at ROLL_SPEED; return the motion of the root in its frame, and yaw."""
-        start = self._pose()
-        speeds = [(w, sign(w) * ROLL_SPEED / w.radius) for w in self._wheels]
+        """Turn the wheels; return the motion of the root in its frame, and yaw."""
+        start, rim = self._pose(), self._roll_speed()
+        speeds = [(w, sign(w) * rim / w.radius) for w in self._wheels]
         self._view.joints([w.joint for w, _ in speeds if w.joint not in self._by_effort]).command(
             VELOCITY, [speed for w, speed in speeds if w.joint not in self._by_effort]
         )

@@ -50,6 +50,16 @@ def test_wheels_driven_by_effort_are_driven_too():
     assert report.turn > 0.2
 
 
+def test_slow_wheels_are_rolled_as_fast_as_they_may():
+    limit = '<limit effort="10" velocity="0.5"/>'
+    wheel = r'<joint name="joint_wheel_\w+" type="continuous">'
+    text = re.sub(wheel, lambda found: found[0] + limit, AMR)
+    assert text.count(limit) == 4
+    report = dropped(text)
+    assert report.failures == report.left_out == ()
+    assert 0.8 < report.ahead / (0.5 * 0.1 * ROLL_TIME) < 1.0
+
+
 def test_axles_that_point_to_the_right_drive_backwards():
     report = dropped(AMR.replace('<axis xyz="0 0 -1"/>', '<axis xyz="0 0 1"/>'))
     (failure,) = report.failures
