@@ -11,6 +11,7 @@ in every run.
 """
 
 from collections.abc import Callable, Mapping
+import copy
 from typing import Any
 
 from builtin_interfaces.msg import Time
@@ -145,9 +146,9 @@ class LockStep:
         """
         Publish messages to controllers and wait until all are acknowledged.
 
-        A header without a stamp gets the present simulated time. A message that is lost, as best
-        effort allows, is published again. Nobody else may publish on these topics:
-        acknowledgements do not name the publisher.
+        A header without a stamp gets the present simulated time, in a copy: the message may be
+        sent again, later. A message that is lost, as best effort allows, is published again.
+        Nobody else may publish on these topics: acknowledgements do not name the publisher.
 
         Args:
             messages: Topic → message.
@@ -156,8 +157,7 @@ class LockStep:
             SimulationError: No controller accepts a message, or a second robot hears it.
         """
         waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
-        for topic, message in waiting.items():
-            self._prepare(topic, message)
+        waiting = {topic: self._prepared(topic, message) for topic, message in waiting.items()}
 
         def has_arrived() -> bool | None:
             # Wait for the last one: none may arrive after time has gone on, or back.
@@ -188,20 +188,22 @@ class LockStep:
             self._acknowledged.pop(topic, None)
             self._checked.pop(topic, None)
 
-    def _prepare(self, topic: str, message: Any) -> None:
-        """Stamp a message, and wait until its topic has a subscriber."""
+    def _prepared(self, topic: str, message: Any) -> Any:
+        """Return a message with its stamp, once its topic has a subscriber."""
         publisher = self._publishers.get(topic)
         if publisher is None:
             publisher = self.node.create_publisher(type(message), topic, QoSProfile(depth=10))
             self._publishers[topic] = publisher
             self._published[topic] = 0
         if hasattr(message, 'header') and message.header.stamp == Time():
+            message = copy.deepcopy(message)
             fill_stamp(self.time, message.header.stamp)
         self.wait(
             publisher.get_subscription_count,
             f"a subscriber of '{topic}' ({type(message).__name__})",
         )
         self._require_one_robot(topic)
+        return message
 
     def _require_one_robot(self, topic: str) -> None:
         """

@@ -116,6 +116,16 @@ def test_of_many_commands_at_an_instant_the_last_counts(sim):
     assert sim.truth.linear[0] == pytest.approx(0.1, rel=0.01)
 
 
+def test_one_message_may_be_sent_again_and_again(sim):
+    """Longer than the timeout of a command: each time it is a new one."""
+    message = command(0.3)
+    for _ in range(10):
+        sim.send(CMD_VEL, message)
+        sim.run(0.1)
+    assert message == command(0.3)
+    assert sim.truth.linear[0] == pytest.approx(0.3, rel=0.02)
+
+
 def test_a_command_is_sent_to_somebody_who_takes_it(sim, monkeypatch):
     monkeypatch.setattr('amr_description.testing.lock_step.TIMEOUT', 0.5)
     with pytest.raises(SimulationError, match='waited 0.5 s for a subscriber of .* in vain'):
