@@ -24,5 +24,7 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 
 ``recorded_drive.py``   a controller that drives a course and records every state
 ``determinism.py``      two runs of it, compared byte by byte
+
+``trial/``              robots that others wrote, tried one by one: ``scripts/try_robots``
 ======================  ==========================================================================
 """

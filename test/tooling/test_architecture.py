@@ -48,7 +48,8 @@ ARROWS = {
     'viewer/ros': {'viewer', 'ros', 'model'},
     'bringup': {'model'},
     'cli': {'bringup', 'control/ros', 'controllers', 'hardware', 'ros', 'sim', 'model'},
-    'testing': {'bringup', 'control/ros', 'nodes', 'ros', 'control', 'model'},  # starts mujoco_sim
+    # It starts mujoco_sim and check_urdf.
+    'testing': {'bringup', 'cli', 'control/ros', 'nodes', 'ros', 'control', 'model'},
 }
 # For nodes and tests of users, under their names in ROS.
 FOR_USERS = {'message_filters', 'sensor_msgs_py', 'ament_copyright'}

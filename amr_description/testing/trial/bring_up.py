@@ -1,0 +1,181 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The controllers of a robot's parameters, each brought as far as it goes.
+
+Parameter files often list controllers that cannot be active together: one for trajectories and one
+for plain commands of the same joints. So all are configured, then activated in rounds until none
+comes any further (a chained controller waits for the one that it commands); and those that are
+left get their turn in place of the ones that hold their interfaces.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+import re
+
+from controller_manager_msgs.msg import ControllerState
+from controller_manager_msgs.srv import ListControllers
+
+from amr_description.control.ros.client import ManagerClient
+from amr_description.control.ros.spawner import Spawner
+from amr_description.control.ros.spawner_arguments import parse
+from amr_description.errors import AmrError
+from amr_description.testing.simulation import Simulation
+from amr_description.testing.trial.findings import ControllerFinding
+
+SERVICE = 'controller_manager_msgs/srv/ListControllers'
+_TIMEOUT = 30.0
+"""s of the wall clock for the manager to come."""
+_GRACE = 3.0
+"""s of the wall clock for a manager that nobody promised."""
+_LOG_LINE = re.compile(r'^\[(WARN|ERROR|FATAL)\] (?:\[[^]]*\] ?)*:? ?(.*)', re.MULTILINE)
+
+
+def logged(log: str) -> list[str]:
+    """Return the texts of the WARN, ERROR and FATAL lines of a log, each once, in order."""
+    lines = [f'{severity}: {text.strip()}' for severity, text in _LOG_LINE.findall(log)]
+    return list(dict.fromkeys(lines))
+
+
+@dataclass(frozen=True)
+class Active:
+    """An active controller and what it holds."""
+
+    name: str
+    type: str
+    namespace: str
+    claimed: tuple[str, ...]
+    """Command interfaces: ``joint/velocity``."""
+    is_chained: bool
+
+
+def find_manager(sim: Simulation, *, is_promised: bool) -> ManagerClient | None:
+    """
+    Return a client of the robot's controller manager, whatever its name; None: it has none.
+
+    ``is_promised``: whether the description has ``<ros2_control>``; then its absence is an error.
+    """
+
+    def names() -> list[str]:
+        services = sim.node.get_service_names_and_types()
+        return [name for name, types in services if SERVICE in types]
+
+    try:
+        found = sim.wait(names, 'a controller manager', _TIMEOUT if is_promised else _GRACE)
+    except AmrError:
+        if is_promised or not sim.is_alive:
+            raise
+        return None
+    return ManagerClient(sim.node, found[0].rpartition('/')[0], timeout=_TIMEOUT, silent=5.0)
+
+
+class BringUp:
+    """The controllers of one manager."""
+
+    def __init__(
+        self, sim: Simulation, manager: ManagerClient, self_typed: Mapping[str, Path]
+    ) -> None:
+        """``self_typed``: controllers that the manager does not know, with their files."""
+        self._sim = sim
+        self._manager = manager
+        self._self_typed = self_typed
+        self.findings: list[ControllerFinding] = []
+
+    def run(self) -> None:
+        """Load, configure and activate all that the manager has a type for, and all it runs."""
+        before = self._manager.states()
+        typed = self._manager.typed_controllers()
+        for name in dict.fromkeys([*before, *typed, *self._self_typed]):
+            finding = ControllerFinding(name, '', 'not loaded')
+            self.findings.append(finding)
+            if before.get(name) not in ('active', 'inactive'):
+                self._prepare(finding, is_known=name in before or name in typed)
+        self._take_over()
+        waiting = [each for each in self.findings if each.state == 'inactive']
+        while waiting:
+            left = [each for each in waiting if not self._activate(each)]
+            if len(left) == len(waiting):
+                break
+            waiting = left
+        self._take_over()
+
+    def active(self) -> list[Active]:
+        """Return the controllers that are active now."""
+        return [_active(each, self._manager) for each in self._listed() if each.state == 'active']
+
+    def turns(self) -> Iterator[Active]:
+        """Activate each that is left in place of those that stand in its way; yield it then."""
+        for finding in [each for each in self.findings if each.state == 'inactive']:
+            listed = self._listed()
+            me = next((each for each in listed if each.name == finding.name), None)
+            if me is None:
+                continue
+            wanted = set(me.required_command_interfaces)
+            in_the_way = _in_the_way(wanted, listed)
+            reason = finding.reason
+            if not in_the_way or not self._activate(finding, in_the_way):
+                continue
+            finding.reason = f'in place of {", ".join(in_the_way)} ({reason})'
+            finding.state = 'active'
+            for each in self._listed():
+                if each.name == finding.name:
+                    yield _active(each, self._manager)
+
+    # --- steps ---------------------------------------------------------------------------------
+
+    def _prepare(self, finding: ControllerFinding, *, is_known: bool) -> None:
+        """Load and configure a controller; keep why not."""
+        words = [finding.name, '--inactive']
+        if not is_known:
+            words += ['--param-file', str(self._self_typed[finding.name])]
+        try:
+            Spawner(self._sim.node, self._manager, parse(words)).spawn()
+        except AmrError as error:
+            finding.reason = str(error)
+
+    def _activate(self, finding: ControllerFinding, instead: Sequence[str] = ()) -> bool:
+        refusal = self._manager.switch(activate=[finding.name], deactivate=instead)
+        if refusal is not None:
+            finding.reason = refusal
+            return False
+        finding.state, finding.reason = 'active', ''
+        return True
+
+    def _take_over(self) -> None:
+        """Take type and state of each from the manager."""
+        listed = {each.name: each for each in self._listed()}
+        for finding in self.findings:
+            if each := listed.get(finding.name):
+                finding.type, finding.state = each.type, each.state
+
+    def _listed(self) -> list[ControllerState]:
+        return list(self._manager.query(ListControllers).controller)
+
+
+def _in_the_way(wanted: set[str], listed: Sequence[ControllerState]) -> list[str]:
+    """Return the active controllers that hold what is wanted, and those that command these."""
+    names = [
+        each.name
+        for each in listed
+        if each.state == 'active' and wanted & set(each.required_command_interfaces)
+    ]
+    for name in names:  # it grows meanwhile
+        names += [
+            each.name
+            for each in listed
+            if each.state == 'active'
+            and each.name not in names
+            and any(i.startswith(f'{name}/') for i in each.required_command_interfaces)
+        ]
+    return names
+
+
+def _active(each: ControllerState, manager: ManagerClient) -> Active:
+    return Active(
+        each.name,
+        each.type,
+        manager.namespace,
+        tuple(each.claimed_interfaces) or tuple(each.required_command_interfaces),
+        bool(each.is_chained),
+    )

@@ -1,0 +1,104 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The command ``try_robots``: its options, the robots side by side, the table, the exit code."""
+
+import argparse
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+import os
+from pathlib import Path
+import sys
+
+from amr_description.errors import AmrError
+from amr_description.testing.trial.findings import Findings, table, to_json
+from amr_description.testing.trial.inputs import descriptions, prefixes, robot_names
+from amr_description.testing.trial.one_robot import Job
+from amr_description.testing.trial.robot_process import try_robot
+
+_PREFIX_PATH = 'AMENT_PREFIX_PATH'
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Try robots; return 0 if all are fine, 1 if one is not, 2 for what cannot be tried."""
+    options = _parser().parse_args(arguments)
+    try:
+        replacements = tuple(map(_replacement, options.replace))
+        files = descriptions(options.paths)
+    except (AmrError, ValueError) as error:
+        print(f'try_robots: {error}', file=sys.stderr)
+        return 2
+    own = [*prefixes(options.paths), *(path.resolve() for path in options.prefix)]
+    before = os.environ.get(_PREFIX_PATH, '')
+    os.environ[_PREFIX_PATH] = os.pathsep.join([*map(str, own), *([before] if before else [])])
+    jobs = [
+        Job(name, str(file.absolute()), tuple(options.controllers), replacements)
+        for name, file in zip(robot_names(files), files, strict=True)
+        if not options.only or any(word in name for word in options.only)
+    ]
+    found = _try_all(jobs, options.jobs, options.timeout)
+    text = table(found, details=not options.brief)
+    print(text, flush=True)
+    if options.json:
+        options.json.write_text(to_json(found) + '\n', encoding='utf-8')
+    return 0 if all(each.is_fine for each in found) else 1
+
+
+def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[Findings]:
+    """Try robots, ``count`` of them side by side; say on stderr how far it is."""
+
+    def one(job: Job) -> Findings:
+        found = try_robot(job, timeout)
+        word = 'fine' if found.is_fine else found.faults[0]
+        print(f'{job.robot}: {word} ({found.seconds:.0f} s)', file=sys.stderr, flush=True)
+        return found
+
+    if count == 1:
+        return [one(job) for job in jobs]
+    with ThreadPoolExecutor(count) as pool:
+        return list(pool.map(one, jobs))
+
+
+def _replacement(text: str) -> tuple[str, str]:
+    old, separator, new = text.partition('=')
+    if not (old and separator):
+        raise ValueError(f"--replace '{text}' is no OLD=NEW")
+    return old, new
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='try_robots',
+        description='Try robots as they are: check, spawn, rest, controllers, motions.',
+        epilog='Exit code: 0 all are fine; 1 one is not; 2 nothing can be tried.',
+    )
+    add = parser.add_argument
+    add('paths', nargs='+', type=Path, metavar='FOLDER|FILE', help='descriptions, or their folder')
+    add(
+        '--controllers',
+        action='append',
+        default=[],
+        metavar='[ROBOT=]FILE',
+        help='the parameter file of all robots, or of one; may be given more than once',
+    )
+    add(
+        '--replace',
+        action='append',
+        default=[],
+        metavar='OLD=NEW',
+        help='replace a text in a copy of each description; may be given more than once',
+    )
+    add(
+        '--prefix',
+        action='append',
+        default=[],
+        type=Path,
+        metavar='FOLDER',
+        help='an install prefix whose packages the descriptions name; a FOLDER of descriptions '
+        'that is one is taken by itself',
+    )
+    add('--only', action='append', default=[], metavar='TEXT', help='robots whose name holds it')
+    add('--jobs', type=int, default=1, metavar='N', help='robots side by side (1)')
+    add('--timeout', type=float, default=180.0, metavar='S', help='s for each robot (180)')
+    add('--json', type=Path, metavar='FILE', help='write everything that was found into it')
+    add('--brief', action='store_true', help='the table without faults and warnings')
+    return parser

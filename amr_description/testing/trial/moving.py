@@ -1,0 +1,178 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Joints, moved a little way by a trajectory, or by position or velocity commands, and read again.
+
+What is asked of a joint: 0.3 rad or 5 cm, a fifth of its range at most, to the side with more
+room.
+"""
+
+from collections.abc import Mapping, Sequence
+import math
+
+from builtin_interfaces.msg import Duration
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from amr_description.errors import AmrError
+from amr_description.model.robot import Joint, JointType
+from amr_description.testing.lock_step import LatestMessage
+from amr_description.testing.readings import Joint as State, joints_of
+from amr_description.testing.simulation import Simulation
+from amr_description.testing.trial.bring_up import Active
+from amr_description.testing.trial.findings import Motion
+
+_ANGLE, _LENGTH = 0.3, 0.05
+"""rad and m."""
+_SHARE = 0.2
+"""Of the range of a joint."""
+_SECONDS, _SETTLING = 2.0, 1.5
+"""s: a trajectory's duration, and the time after it."""
+_TOLERANCE = 0.1
+"""Of what is asked of a joint."""
+_BROADCASTER = 'JointStateBroadcaster'
+_TRAJECTORIES = 'JointTrajectoryController'
+_GROUPS = ('ForwardCommandController', 'JointGroup')
+
+
+def is_moved(controller: Active) -> bool:
+    """Return whether a controller is one that is tried here."""
+    return any(word in controller.type for word in (_TRAJECTORIES, *_GROUPS))
+
+
+def offset_of(joint: Joint | None, position: float) -> float:
+    """Return how far a joint is to move from a position, with its sign: rad or m."""
+    if joint is None:
+        return _ANGLE
+    far = _LENGTH if joint.type is JointType.PRISMATIC else _ANGLE
+    if joint.limit is None or joint.type is JointType.CONTINUOUS:
+        return far
+    above, below = joint.limit.upper - position, position - joint.limit.lower
+    far = min(far, _SHARE * (joint.limit.upper - joint.limit.lower))
+    return far if above >= below else -far
+
+
+class JointStates:
+    """The joint states of the active joint_state_broadcaster."""
+
+    def __init__(self, sim: Simulation, active: Sequence[Active]) -> None:
+        """Subscribe. Raises LookupError: there is no broadcaster."""
+        names = [each for each in active if each.type.endswith(_BROADCASTER)]
+        if not names:
+            raise LookupError('no joint_state_broadcaster is active that tells of joints')
+        self._sim, self._inside = sim, names[0].namespace
+        topic = f'{self._inside.rstrip("/")}/joint_states'
+        self._latest = LatestMessage(sim.node, JointState, topic)
+
+    def read(self) -> Mapping[str, State]:
+        """Return the states. Raises SimulationError: none come."""
+
+        def newest() -> JointState | None:
+            self._sim.step(10)
+            return self._latest.take()
+
+        return joints_of(self._sim.wait(newest, 'joint states', 5.0))
+
+    def close(self) -> None:
+        """Stop listening."""
+        self._latest.close()
+
+
+class Mover:
+    """Moves the joints of one controller."""
+
+    def __init__(
+        self,
+        sim: Simulation,
+        controller: Active,
+        joints: Mapping[str, Joint],
+        states: JointStates,
+    ) -> None:
+        self._sim = sim
+        self._controller = controller
+        self._joints = joints
+        self._states = states
+        pairs = [each.rsplit('/', 1) for each in controller.claimed]
+        self._names = list(dict.fromkeys(joint for joint, _ in pairs))
+        self._interfaces = {interface for _, interface in pairs}
+
+    def move(self) -> Motion:
+        """Move all joints of the controller at once; the worst of them is told."""
+        what = 'trajectory' if _TRAJECTORIES in self._controller.type else 'command'
+        try:
+            if what == 'trajectory':
+                return self._by_trajectory()
+            if self._interfaces == {'position'}:
+                return self._by_position()
+            if self._interfaces == {'velocity'}:
+                return self._by_velocity()
+        except (AmrError, KeyError) as error:
+            return Motion(self._controller.name, what, 0.0, None, None, False, str(error))
+        kinds = ', '.join(sorted(self._interfaces)) or 'no'
+        note = f'{kinds} commands are not tried'
+        return Motion(self._controller.name, what, 0.0, None, None, True, note)
+
+    def _targets(self) -> dict[str, tuple[float, float]]:
+        """Return (start, target) of each joint."""
+        states = self._states.read()
+        starts = {name: states[name].position for name in self._names}
+        return {
+            name: (start, start + offset_of(self._joints.get(name), start))
+            for name, start in starts.items()
+        }
+
+    def _by_trajectory(self) -> Motion:
+        targets = self._targets()
+        point = JointTrajectoryPoint(
+            positions=[target for _, target in targets.values()],
+            time_from_start=Duration(sec=int(_SECONDS)),
+        )
+        message = JointTrajectory(joint_names=list(targets), points=[point])
+        self._sim.send(self._topic('joint_trajectory'), message)
+        return self._judge('trajectory', targets)
+
+    def _by_position(self) -> Motion:
+        targets = self._targets()
+        data = [target for _, target in targets.values()]
+        self._sim.send(self._topic('commands'), Float64MultiArray(data=data))
+        return self._judge('position', targets)
+
+    def _judge(self, what: str, targets: Mapping[str, tuple[float, float]]) -> Motion:
+        self._sim.run(_SECONDS + _SETTLING)
+        states = self._states.read()
+        reached = {
+            name: (target - start, states[name].position - start)
+            for name, (start, target) in targets.items()
+        }
+        return self._worst(what, reached)
+
+    def _by_velocity(self) -> Motion:
+        speeds = dict.fromkeys(self._names, _ANGLE)
+        for name in self._names:
+            limit = joint.limit if (joint := self._joints.get(name)) else None
+            if limit is not None and limit.velocity > 0.0:
+                speeds[name] = min(_ANGLE, 0.5 * limit.velocity)
+        topic = self._topic('commands')
+        self._sim.send(topic, Float64MultiArray(data=list(speeds.values())))
+        self._sim.run(1.0)
+        states = self._states.read()
+        self._sim.send(topic, Float64MultiArray(data=[0.0] * len(speeds)))
+        self._sim.run(0.5)
+        return self._worst('velocity', {n: (v, states[n].velocity) for n, v in speeds.items()})
+
+    def _worst(self, what: str, reached: Mapping[str, tuple[float, float]]) -> Motion:
+        """Return the motion of the joint with the greatest error: name → (asked, found)."""
+
+        def error(name: str) -> float:
+            asked, found = reached[name]
+            return abs(found - asked) / abs(asked) if math.isfinite(found) and asked else math.inf
+
+        name = max(reached, key=error)
+        asked, found = reached[name]
+        note = f'{len(reached)} joints, worst {name}'
+        is_fine = error(name) <= _TOLERANCE
+        return Motion(self._controller.name, what, asked, found, None, is_fine, note)
+
+    def _topic(self, name: str) -> str:
+        return f'{self._controller.namespace.rstrip("/")}/{self._controller.name}/{name}'
