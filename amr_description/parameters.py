@@ -56,6 +56,7 @@ class Bounds:
     The constraints on a value.
 
     Numbers must be finite unless ``nan`` is true; NaN then satisfies every bound on size.
+    ``length``, ``fewer_than`` and ``unique`` are about the elements of an array.
 
     ``magnitude`` holds the smallest and the greatest absolute value of a number other than 0 that
     a robot can have. Beyond it computations overflow. It is not in the descriptor of the
@@ -69,6 +70,7 @@ class Bounds:
     not_zero: bool = False
     choices: tuple[str, ...] = ()
     length: int | None = None
+    fewer_than: int | None = None
     not_empty: bool = False
     unique: bool = False
     nan: bool = False
@@ -79,7 +81,10 @@ class Bounds:
             return 'must not be empty'
         if self.length is not None and isinstance(value, tuple) and len(value) != self.length:
             return f'must have {self.length} elements'
-        if self.unique and isinstance(value, tuple) and len(set(value)) < len(value):
+        elements = value if isinstance(value, tuple) else ()
+        if self.fewer_than is not None and len(elements) >= self.fewer_than:
+            return f'must have fewer than {self.fewer_than} elements'
+        if self.unique and len(set(elements)) < len(elements):
             return 'must not hold anything twice'
         if self.choices and value not in self.choices:
             return f'must be one of {", ".join(self.choices)}'

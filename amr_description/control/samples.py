@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class TwistSample:
-    """A planar velocity command: the part of a TwistStamped that a differential drive uses."""
+    """A planar velocity command: the part of a TwistStamped that a wheeled robot uses."""
 
     stamp: int
     linear: float
@@ -19,6 +19,8 @@ class TwistSample:
     angular: float
     """rad/s about z of the base."""
     frame_id: str = ''
+    lateral: float = 0.0
+    """m/s along y of the base: to the left."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +49,8 @@ class OdometrySample:
     angular: float
     """rad/s about z."""
     frames: Frames
+    lateral: float = 0.0
+    """m/s along y of the child frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,3 +121,33 @@ class ImuSample:
     linear_acceleration: tuple[float, ...]
     """m/s²."""
     constants: ImuConstants
+
+
+@dataclass(frozen=True, slots=True)
+class MecanumStateSample:
+    """A control_msgs/MecanumDriveControllerState."""
+
+    stamp: int
+    frame_id: str
+    wheels: tuple[float, ...]
+    """rad/s: front left, front right, rear right, rear left."""
+    reference: tuple[float, ...]
+    """m/s along x and y, rad/s about z; NaN: none."""
+
+
+@dataclass(frozen=True, slots=True)
+class SteeringStateSample:
+    """A control_msgs/SteeringControllerStatus; right before left."""
+
+    stamp: int
+    frame_id: str
+    traction_positions: tuple[float, ...]
+    """rad; empty unless odometry is from positions."""
+    traction_velocities: tuple[float, ...]
+    """rad/s; empty unless odometry is from velocities."""
+    steering_positions: tuple[float, ...]
+    """rad."""
+    traction_commands: tuple[float, ...]
+    """rad/s."""
+    steering_commands: tuple[float, ...]
+    """rad."""

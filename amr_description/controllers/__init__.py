@@ -12,6 +12,10 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``command_reception.py``          … which velocity command is in force
 ``rate_limiter.py``               … limits of velocity, acceleration and jerk
 ``odometry.py``                   … wheel speeds ↔ velocity of the base; the pose
+``mecanum_drive_controller.py``   a twist → four mecanum wheels; wheel states → odometry
+``mecanum_drive_parameters.py``   … its parameters
+``reference_ports.py``            … topics that it shares with the steering controllers
+``holonomic_odometry.py``         … the pose of a robot that can go sideways
 ``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
 ``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
@@ -47,6 +51,9 @@ CONTROLLERS = Registry(
         ),
         'joint_state_broadcaster/JointStateBroadcaster': (
             'amr_description.controllers.joint_state_broadcaster:JointStateBroadcaster'
+        ),
+        'mecanum_drive_controller/MecanumDriveController': (
+            'amr_description.controllers.mecanum_drive_controller:MecanumDriveController'
         ),
         'position_controllers/JointGroupPositionController': (
             'amr_description.controllers.forward_command_controller:JointGroupPositionController'

@@ -50,7 +50,7 @@ from amr_description.control.interfaces import (
     VELOCITY,
 )
 from amr_description.control.samples import Frames, OdometrySample, TwistSample
-from amr_description.controllers.command_reception import CommandReception
+from amr_description.controllers.command_reception import CommandReception, ignore_commands
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters, SpeedLimits
 from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelSide
 from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
@@ -186,7 +186,7 @@ class DiffDriveController(Controller):
     def _update_references(self, time: int, period: int) -> None:
         """Take the command of the topics; in chained mode the preceding controller sets it."""
         if self.is_chained:
-            self._ignore_topics()
+            ignore_commands(self.inputs(), self.log)
             return
         # Queued messages were sent after the previous update: the sender's clock showed its time.
         now = time - period
@@ -195,16 +195,6 @@ class DiffDriveController(Controller):
         twist = self._reception.in_force(time)
         if twist is not None:
             self._set_references(*twist)
-
-    def _ignore_topics(self) -> None:
-        for port in self.inputs():
-            if port.drain():
-                self.log(
-                    Severity.WARN,
-                    f"Ignoring commands on '{port.port.name}': in chained mode the preceding "
-                    'controller commands',
-                    throttle=1.0,
-                )
 
     def _set_references(self, linear: float, angular: float) -> None:
         self._references[0].value = linear

@@ -10,7 +10,7 @@ from amr_description.controllers.rate_limiter import RateLimiter
 from amr_description.parameters import group, parameter
 
 _NO_LIMIT: dict[str, Any] = {'nan': True}
-_LENGTH = (1e-3, 100.0)
+LENGTH = (1e-3, 100.0)
 """m: from a toy to a mining truck, with room."""
 _FACTOR = (0.01, 100.0)
 _DEPRECATED = 'Deprecated: set the limits themselves to .nan instead'
@@ -89,10 +89,10 @@ class DiffDriveParameters:
         'Shortest distance between the left and the right wheels',
         unit='m',
         above=0.0,
-        magnitude=_LENGTH,
+        magnitude=LENGTH,
     )
     wheel_radius: float = parameter(
-        0.0, 'Radius of a wheel', unit='m', above=0.0, magnitude=_LENGTH
+        0.0, 'Radius of a wheel', unit='m', above=0.0, magnitude=LENGTH
     )
     wheel_separation_multiplier: float = parameter(
         1.0,
@@ -152,11 +152,22 @@ class DiffDriveParameters:
         """
         Return the ids of the odometry and the base frame, with their prefix.
 
-        The prefix is ``tf_frame_prefix`` or, if that is empty, the namespace of the node; it ends
-        with one slash and begins with none.
+        The prefix is ``tf_frame_prefix`` or, if that is empty, the namespace of the node.
         """
-        prefix = ''
-        if self.tf_frame_prefix_enable:
-            prefix = self.tf_frame_prefix or namespace
-            prefix = (prefix if prefix.endswith('/') else f'{prefix}/').removeprefix('/')
+        prefix = tf_prefix(self.tf_frame_prefix_enable, self.tf_frame_prefix, namespace)
         return prefix + self.odom_frame_id, prefix + self.base_frame_id
+
+
+def tf_prefix(is_enabled: bool, prefix: str, namespace: str) -> str:
+    """
+    Return what to put before frame ids: it ends with one slash and begins with none.
+
+    Args:
+        is_enabled: False: nothing.
+        prefix: as written, where ``~`` stands for the namespace; empty: the namespace.
+        namespace: of the controller's node.
+    """
+    if not is_enabled:
+        return ''
+    prefix = prefix.replace('~', namespace.strip('/')) or namespace
+    return (prefix if prefix.endswith('/') else f'{prefix}/').removeprefix('/')

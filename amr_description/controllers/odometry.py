@@ -1,7 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Planar odometry of a differential drive, from its wheels or from commands.
+Planar odometry of a drive that cannot go sideways, from its wheels or from commands.
+
+:class:`PlanarOdometry` integrates distance and turn; :class:`Odometry` takes them from the travel
+of the two sides of a differential drive.
 
 :class:`DeadReckoning` has three sources of motion: wheel positions (the difference to the previous
 update), wheel velocities (times the period) and, in open loop, the limited command. It feeds
@@ -27,22 +30,11 @@ _LEAST_STEP = 100_000
 _GREATEST = sys.float_info.max
 
 
-class Odometry:
-    """
-    Integrates the pose (x, y in m, heading in rad, not wrapped), and estimates the twist.
+class PlanarOdometry:
+    """Integrates the pose (x, y in m, heading in rad, not wrapped), and estimates the twist."""
 
-    The pose is that of the point midway between the wheels, in the frame where it started.
-    """
-
-    def __init__(self, wheel_separation: float, window: int) -> None:
-        """
-        Start at the origin.
-
-        Args:
-            wheel_separation: effective, m.
-            window: number of samples in the rolling mean of the twist.
-        """
-        self._separation = wheel_separation
+    def __init__(self, window: int) -> None:
+        """Start at the origin; ``window``: number of samples in the rolling mean of the twist."""
         self._linears: deque[float] = deque(maxlen=window)
         self._angulars: deque[float] = deque(maxlen=window)
         self.reset()
@@ -54,15 +46,12 @@ class Odometry:
         self._linears.clear()
         self._angulars.clear()
 
-    def update_from_travel(self, left: float, right: float, dt: float) -> None:
+    def update(self, distance: float, turn: float, dt: float) -> None:
         """
-        Integrate the travel of both sides (m) in ``dt`` (s, positive).
+        Integrate a motion (m, rad) in ``dt`` (s, positive).
 
-        distance = (left + right) / 2, turn = (right − left) / separation; the twist is the rolling
-        mean of both divided by ``dt``.
+        The twist is the rolling mean of both divided by ``dt``.
         """
-        distance = (left + right) * 0.5
-        turn = (right - left) / self._separation
         self._integrate(distance, turn)
         self._linears.append(distance / dt)
         self._angulars.append(turn / dt)
@@ -86,6 +75,33 @@ class Odometry:
             radius = distance / turn
             self.x += radius * (math.sin(self.heading) - math.sin(before))
             self.y -= radius * (math.cos(self.heading) - math.cos(before))
+
+
+class Odometry(PlanarOdometry):
+    """
+    That of a differential drive.
+
+    The pose is that of the point midway between the wheels, in the frame where it started.
+    """
+
+    def __init__(self, wheel_separation: float, window: int) -> None:
+        """
+        Start at the origin.
+
+        Args:
+            wheel_separation: effective, m.
+            window: number of samples in the rolling mean of the twist.
+        """
+        self._separation = wheel_separation
+        super().__init__(window)
+
+    def update_from_travel(self, left: float, right: float, dt: float) -> None:
+        """
+        Integrate the travel of both sides (m) in ``dt`` (s, positive).
+
+        distance = (left + right) / 2, turn = (right − left) / separation.
+        """
+        self.update((left + right) * 0.5, (right - left) / self._separation, dt)
 
 
 class WheelSide:

@@ -122,6 +122,25 @@ class RateLimiter:
             object.__setattr__(self, name, value)
 
 
+class AxisLimiter:
+    """Limits the commands of one axis, one after the other."""
+
+    def __init__(self, limiter: RateLimiter) -> None:
+        """Start at rest."""
+        self._limiter = limiter
+        self.forget()
+
+    def forget(self) -> None:
+        """Start at rest, without previous commands."""
+        self._last = self._before_last = 0.0
+
+    def limit(self, value: float, dt: float) -> float:
+        """Return the limited command; ``dt``: since the previous one, s."""
+        limited = self._limiter.limit(value, self._last, self._before_last, dt)
+        self._last, self._before_last = limited, self._last
+        return limited
+
+
 class TwistLimiter:
     """Limits one twist after the other."""
 

@@ -11,7 +11,12 @@ from collections.abc import Callable, Mapping
 import math
 from typing import Any
 
-from control_msgs.msg import DynamicJointState, InterfaceValue
+from control_msgs.msg import (
+    DynamicJointState,
+    InterfaceValue,
+    MecanumDriveControllerState,
+    SteeringControllerStatus,
+)
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
@@ -27,7 +32,9 @@ from amr_description.control.samples import (
     ImuConstants,
     ImuSample,
     JointStateSample,
+    MecanumStateSample,
     OdometrySample,
+    SteeringStateSample,
     TwistSample,
 )
 from amr_description.errors import ControllerError
@@ -41,6 +48,7 @@ def twist_sample(message: TwistStamped) -> TwistSample:
         linear=message.twist.linear.x,
         angular=message.twist.angular.z,
         frame_id=message.header.frame_id,
+        lateral=message.twist.linear.y,
     )
 
 
@@ -54,6 +62,7 @@ def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
     fill_stamp(sample.stamp, message.header.stamp)
     message.header.frame_id = sample.frame_id
     message.twist.linear.x = sample.linear
+    message.twist.linear.y = sample.lateral
     message.twist.angular.z = sample.angular
 
 
@@ -69,6 +78,7 @@ def fill_odometry(sample: OdometrySample, message: Odometry) -> None:
     pose.orientation.w = math.cos(sample.heading * 0.5)
     twist = message.twist.twist
     twist.linear.x = sample.linear
+    twist.linear.y = sample.lateral
     twist.angular.z = sample.angular
 
 
@@ -85,6 +95,31 @@ def fill_odometry_transform(sample: OdometrySample, message: TFMessage) -> None:
     transform.translation.y = sample.y
     transform.rotation.z = math.sin(sample.heading * 0.5)
     transform.rotation.w = math.cos(sample.heading * 0.5)
+
+
+def fill_mecanum_state(sample: MecanumStateSample, message: MecanumDriveControllerState) -> None:
+    """Write the wheels and the reference."""
+    fill_stamp(sample.stamp, message.header.stamp)
+    message.header.frame_id = sample.frame_id
+    (
+        message.front_left_wheel_velocity,
+        message.front_right_wheel_velocity,
+        message.back_right_wheel_velocity,
+        message.back_left_wheel_velocity,
+    ) = sample.wheels
+    twist = message.reference_velocity
+    twist.linear.x, twist.linear.y, twist.angular.z = sample.reference
+
+
+def fill_steering_state(sample: SteeringStateSample, message: SteeringControllerStatus) -> None:
+    """Write the arrays."""
+    fill_stamp(sample.stamp, message.header.stamp)
+    message.header.frame_id = sample.frame_id
+    message.traction_wheels_position = array('d', sample.traction_positions)
+    message.traction_wheels_velocity = array('d', sample.traction_velocities)
+    message.steer_positions = array('d', sample.steering_positions)
+    message.linear_velocity_command = array('d', sample.traction_commands)
+    message.steering_angle_command = array('d', sample.steering_commands)
 
 
 def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
@@ -162,8 +197,10 @@ _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
     (DynamicJointStateSample, 'control_msgs/msg/DynamicJointState'): fill_dynamic_joint_state,
     (ImuSample, 'sensor_msgs/msg/Imu'): fill_imu,
     (JointStateSample, 'sensor_msgs/msg/JointState'): fill_joint_state,
+    (MecanumStateSample, 'control_msgs/msg/MecanumDriveControllerState'): fill_mecanum_state,
     (OdometrySample, 'nav_msgs/msg/Odometry'): fill_odometry,
     (OdometrySample, 'tf2_msgs/msg/TFMessage'): fill_odometry_transform,
+    (SteeringStateSample, 'control_msgs/msg/SteeringControllerStatus'): fill_steering_state,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): fill_twist,
 }
 

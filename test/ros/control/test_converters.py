@@ -4,8 +4,9 @@
 
 import math
 
-from control_msgs.msg import DynamicJointState
-from geometry_msgs.msg import Twist
+from control_msgs.msg import DynamicJointState, MecanumDriveControllerState
+from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Imu, JointState
@@ -18,9 +19,12 @@ from amr_description.control.samples import (
     CommandsSample,
     DynamicJointStateSample,
     DynamicLayout,
+    Frames,
     ImuConstants,
     ImuSample,
     JointStateSample,
+    MecanumStateSample,
+    OdometrySample,
     TwistSample,
 )
 from amr_description.controllers import CONTROLLERS
@@ -130,6 +134,34 @@ def test_an_imu_message_arrives_as_it_was():
     assert [tuple(covariance) for covariance in found] == covariances
 
 
+def test_a_twist_and_odometry_have_their_part_to_the_left():
+    message = TwistStamped()
+    message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = 1.0, 2.0, 3.0
+    sample = converters.twist_sample(sent(message))
+    assert sample == TwistSample(0, 1.0, 3.0, '', 2.0)
+    again = TwistStamped()
+    converters.fill_twist(sample, again)
+    assert again == message
+    frames = Frames('odom', 'base', (0.0,) * 6, (0.0,) * 6)
+    odometry = Odometry()
+    converters.fill_odometry(OdometrySample(0, 1, 2, 0, 3.0, 4.0, frames, 5.0), odometry)
+    assert sent(odometry).twist.twist.linear.y == 5.0
+
+
+def test_the_state_of_mecanum_wheels_names_each_wheel():
+    message = MecanumDriveControllerState()
+    sample = MecanumStateSample(STAMP, 'odom', (1.0, 2.0, 3.0, 4.0), (0.1, 0.2, 0.3))
+    converters.fill_mecanum_state(sample, message)
+    arrived = sent(message)
+    assert (arrived.header.stamp.sec, arrived.header.frame_id) == (3, 'odom')
+    assert arrived.front_left_wheel_velocity == 1.0
+    assert arrived.front_right_wheel_velocity == 2.0
+    assert arrived.back_right_wheel_velocity == 3.0
+    assert arrived.back_left_wheel_velocity == 4.0
+    twist = arrived.reference_velocity
+    assert (twist.linear.x, twist.linear.y, twist.angular.z) == (0.1, 0.2, 0.3)
+
+
 @pytest.mark.parametrize(
     ('controller', 'values'),
     [
@@ -141,6 +173,17 @@ def test_an_imu_message_arrives_as_it_was():
         (
             'imu_sensor_broadcaster/IMUSensorBroadcaster',
             {'sensor_name': 'imu', 'frame_id': 'imu_link'},
+        ),
+        (
+            'mecanum_drive_controller/MecanumDriveController',
+            {
+                **{
+                    f'{corner}_wheel_command_joint_name': corner
+                    for corner in ('front_left', 'front_right', 'rear_right', 'rear_left')
+                },
+                'kinematics.wheels_radius': 0.1,
+                'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5,
+            },
         ),
     ],
 )

@@ -36,6 +36,25 @@ class Table:
     inner: Inner = group('in.ner', Inner)
 
 
+@dataclass(frozen=True)
+class Names:
+    few: tuple[str, ...] = parameter((), 'Up to two', fewer_than=3)
+    each: tuple[str, ...] = parameter((), 'Each once', unique=True)
+
+
+@pytest.mark.parametrize(
+    ('values', 'complaint'),
+    [
+        ({'few': ['a', 'b', 'c']}, "'few' must have fewer than 3 elements"),
+        ({'each': ['a', 'b', 'a']}, "'each' must not hold anything twice"),
+    ],
+)
+def test_arrays_may_be_short_and_without_duplicates(values, complaint):
+    assert build(Names, {'few': ['a', 'a'], 'each': ['a', 'b', 'c']}).few == ('a', 'a')
+    with pytest.raises(ParameterError, match=complaint):
+        build(Names, values)
+
+
 def test_a_missing_value_keeps_its_default():
     table = build(Table, {})
     assert (table.name, table.wheels, table.factor, table.count) == ('', ('a',), 1.0, 3)

@@ -228,7 +228,7 @@ def test_an_ordinary_file_in_a_namespace_is_told_what_to_write(tmp_path):
     'kind',
     [
         'joint_trajectory_controller/JointTrajectoryController',
-        'mecanum_drive_controller/MecanumDriveController',
+        'swerve_drive_controller/SwerveDriveController',
         'my_diff_drive_controller/DiffDriveController',
         'my_package.drive/DiffDriveController',
         'effort_controllers/GripperActionController',

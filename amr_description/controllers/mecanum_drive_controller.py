@@ -1,0 +1,280 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+mecanum_drive_controller/MecanumDriveController: a twist to four mecanum wheels, and odometry.
+
+Wheels seen from above have their rollers along an X, so that those of opposite corners are
+parallel. With the sum l of the distances of a wheel from the centre along x and along y::
+
+    front left  = (vx − vy − l·ω) / r        front right = (vx + vy + l·ω) / r
+    rear left   = (vx + vy − l·ω) / r        rear right  = (vx − vy + l·ω) / r        rad/s
+
+for the centre of the wheels, which ``base_frame_offset`` places in the base.
+
+Differences from mecanum_drive_controller 4.x:
+
+- a command that times out brakes with the deceleration of the limits, if there are any;
+- a command that is not finite, instead of only NaN, is no command;
+- when deactivated the wheels are commanded 0, where the original commands NaN: nothing;
+- with ``reference_timeout`` 0, the default, each command counts for a single update; this is
+  warned of.
+
+Addition: ``tf_odometry_topic``, where the transform is published; ``/tf`` has the effect that one
+expects. A remapping ``~/tf_odometry:=/tf`` works as well.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from amr_description.clock import NANOSECONDS
+from amr_description.control.contracts import (
+    Controller,
+    ControllerContext,
+    Input,
+    Output,
+    Port,
+)
+from amr_description.control.interfaces import (
+    CommandInterface,
+    InterfaceRequest,
+    StateInterface,
+    VELOCITY,
+)
+from amr_description.control.samples import (
+    Frames,
+    MecanumStateSample,
+    OdometrySample,
+    TwistSample,
+)
+from amr_description.controllers.command_reception import (
+    HOLONOMIC,
+    ignore_commands,
+    ReferenceReception,
+)
+from amr_description.controllers.holonomic_odometry import HolonomicOdometry
+from amr_description.controllers.mecanum_drive_parameters import (
+    MecanumDriveParameters,
+    MecanumKinematicsParameters,
+)
+from amr_description.controllers.rate_limiter import AxisLimiter
+from amr_description.controllers.reference_ports import (
+    LEAST_PERIOD,
+    odometry_outputs,
+    reference_input,
+    warn_of_one_shot_reference,
+)
+
+type Twist = tuple[float, float, float]
+"""m/s along x and y, rad/s about z."""
+
+_AT_REST = (0.0, 0.0, 0.0)
+_NONE = (math.nan, math.nan, math.nan)
+
+
+@dataclass(frozen=True, slots=True)
+class MecanumKinematics:
+    """
+    Wheel speeds ↔ the twist of the base.
+
+    The order of the wheels is front left, front right, rear right, rear left. ``offset_x``,
+    ``offset_y`` (m) and ``offset_angle`` (rad) are ``base_frame_offset``.
+    """
+
+    radius: float
+    """m."""
+    reach: float
+    """m: the distance of a wheel from the centre along x, plus that along y."""
+    offset_x: float = 0.0
+    offset_y: float = 0.0
+    offset_angle: float = 0.0
+
+    @classmethod
+    def of(cls, parameters: MecanumKinematicsParameters) -> 'MecanumKinematics':
+        """Return the kinematics of the group ``kinematics``."""
+        offset = parameters.base_frame_offset
+        return cls(
+            parameters.wheels_radius,
+            parameters.sum_of_robot_center_projection_on_X_Y_axis,
+            offset.x,
+            offset.y,
+            offset.theta,
+        )
+
+    def wheels(self, twist: Twist) -> tuple[float, float, float, float]:
+        """Return the speeds of the wheels, rad/s, for a twist of the base."""
+        linear, lateral, angular = twist
+        cosine, sine = math.cos(self.offset_angle), math.sin(self.offset_angle)
+        x = cosine * linear - sine * lateral + self.offset_y * angular
+        y = sine * linear + cosine * lateral - self.offset_x * angular
+        turn = self.reach * angular
+        return (
+            (x - y - turn) / self.radius,
+            (x + y + turn) / self.radius,
+            (x - y + turn) / self.radius,
+            (x + y - turn) / self.radius,
+        )
+
+    def twist(self, wheels: Sequence[float]) -> Twist:
+        """Return the twist of the base for speeds of the wheels, rad/s, by least squares."""
+        front_left, front_right, rear_right, rear_left = wheels
+        quarter = 0.25 * self.radius
+        x = quarter * (front_left + rear_left + rear_right + front_right)
+        y = quarter * (-front_left + rear_left - rear_right + front_right)
+        angular = quarter / self.reach * (-front_left - rear_left + rear_right + front_right)
+        x -= self.offset_y * angular
+        y += self.offset_x * angular
+        cosine, sine = math.cos(self.offset_angle), math.sin(self.offset_angle)
+        return cosine * x + sine * y, -sine * x + cosine * y, angular
+
+
+class MecanumDriveController(Controller):
+    """Drives four mecanum wheels; see the module."""
+
+    parameters_type = MecanumDriveParameters
+    is_chainable = True
+
+    def __init__(self, context: ControllerContext) -> None:
+        super().__init__(context)
+        axes = ('linear/x', 'linear/y', 'angular/z')
+        self._references = tuple(
+            CommandInterface(context.name, f'{axis}/{VELOCITY}') for axis in axes
+        )
+        self._wheels: Sequence[CommandInterface] = ()
+        self._states: Sequence[StateInterface] = ()
+
+    # --- transitions -------------------------------------------------------------------------
+
+    def configure(self, parameters: MecanumDriveParameters) -> None:
+        """Set the pose to the origin."""
+        self._parameters = parameters
+        self._kinematics = MecanumKinematics.of(parameters.kinematics)
+        self._odometry = HolonomicOdometry()
+        self._limiters = tuple(
+            AxisLimiter(limits.limiter())
+            for limits in (parameters.linear_x, parameters.linear_y, parameters.angular)
+        )
+        timeout = round(parameters.reference_timeout * NANOSECONDS)
+        self._reception = ReferenceReception(timeout, self.log, HOLONOMIC, stops_at_outdated=True)
+        warn_of_one_shot_reference(self, timeout)
+        self._make_ports(parameters)
+
+    def command_interfaces(self) -> InterfaceRequest:
+        """Return the velocity commands: front left, front right, rear right, rear left."""
+        names = self._parameters.command_joints
+        return InterfaceRequest.individual(f'{name}/{VELOCITY}' for name in names)
+
+    def state_interfaces(self) -> InterfaceRequest:
+        """Return the measured velocities, in the same order."""
+        names = self._parameters.state_joints
+        return InterfaceRequest.individual(f'{name}/{VELOCITY}' for name in names)
+
+    def references(self) -> tuple[CommandInterface, ...]:
+        """Return ``linear/x``, ``linear/y`` (m/s) and ``angular/z`` (rad/s), all ``/velocity``."""
+        return self._references
+
+    def inputs(self) -> tuple[Input[TwistSample], ...]:
+        """Return ``~/reference``."""
+        return (self._command,)
+
+    def outputs(self) -> tuple[Output[Any], ...]:
+        """Return ``~/odometry``, ``~/tf_odometry`` and ``~/controller_state``."""
+        return self._odom, self._transform, self._state
+
+    def activate(
+        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
+    ) -> None:
+        """Take the wheels, without a command."""
+        self._wheels, self._states = commands, states
+        self._reception.forget(time)
+        self._forget_limits()
+        self._set_references(_NONE)
+
+    def deactivate(self, time: int) -> None:
+        """Stop every wheel; the pose stays."""
+        self._drive((0.0,) * 4)
+        self._reception.forget(time)
+        self._wheels = self._states = ()
+
+    def reset(self, time: int) -> None:
+        """Start over at the origin."""
+        self._odometry.reset()
+        self._forget_limits()
+        self.set_clock(time)
+
+    def set_clock(self, time: int) -> None:
+        """Keep the pose; there is no command."""
+        self._command.drain()
+        self._reception.forget(time)
+        self._set_references(_NONE)
+
+    # --- the cycle ---------------------------------------------------------------------------
+
+    def update(self, time: int, period: int) -> None:
+        """Receive a command, update odometry, drive the wheels, publish."""
+        if self.is_chained:
+            ignore_commands(self.inputs(), self.log)
+        else:
+            self._reception.receive(self._command.drain(), time - period)
+            self._set_references(self._reception.in_force(time) or _NONE)
+        states = tuple(state.value for state in self._states)
+        if period >= LEAST_PERIOD and all(map(math.isfinite, states)):
+            twist = self._kinematics.twist(states)
+            self._odometry.update_after_turn(twist, period / NANOSECONDS)
+        reference = tuple(each.value for each in self._references)
+        self._drive(self._kinematics.wheels(self._limited(reference, period / NANOSECONDS)))
+        self._publish(time, states, reference)
+        self._set_references(_NONE)
+
+    def _limited(self, reference: tuple[float, ...], dt: float) -> Twist:
+        wanted = reference if all(map(math.isfinite, reference)) else _AT_REST
+        linear, lateral, angular = (
+            limiter.limit(value, dt) for limiter, value in zip(self._limiters, wanted, strict=True)
+        )
+        return linear, lateral, angular
+
+    def _drive(self, speeds: tuple[float, ...]) -> None:
+        for wheel, speed in zip(self._wheels, speeds, strict=False):
+            wheel.value = speed
+
+    def _set_references(self, values: tuple[float, ...]) -> None:
+        for reference, value in zip(self._references, values, strict=True):
+            reference.value = value
+
+    def _forget_limits(self) -> None:
+        for limiter in self._limiters:
+            limiter.forget()
+
+    def _publish(self, time: int, wheels: tuple[float, ...], reference: tuple[float, ...]) -> None:
+        odometry = self._odometry
+        sample = OdometrySample(
+            stamp=time,
+            x=odometry.x,
+            y=odometry.y,
+            heading=odometry.heading,
+            linear=odometry.linear,
+            angular=odometry.angular,
+            frames=self._frames,
+            lateral=odometry.lateral,
+        )
+        self._odom.send(sample)
+        if self._parameters.enable_odom_tf:
+            self._transform.send(sample)
+        self._state.send(MecanumStateSample(time, self._frames.frame_id, wheels, reference))
+
+    def _make_ports(self, parameters: MecanumDriveParameters) -> None:
+        self._frames = Frames(
+            *parameters.frame_ids(self.context.namespace),
+            parameters.pose_covariance_diagonal,
+            parameters.twist_covariance_diagonal,
+        )
+        self._command = reference_input()
+        self._odom, self._transform = odometry_outputs(parameters.tf_odometry_topic)
+        self._state: Output[MecanumStateSample] = Output(
+            Port(
+                '~/controller_state',
+                'control_msgs/msg/MecanumDriveControllerState',
+                sample=MecanumStateSample,
+            )
+        )
