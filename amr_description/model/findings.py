@@ -10,7 +10,7 @@ both report the same.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -40,7 +40,8 @@ class Finding:
     ``what`` names the part and its fault, ``found`` and ``expected`` are optional, ``fix`` says
     what to do. ``urdfdom`` is the message of urdfdom if that library refuses the file for this
     fault, and empty otherwise. ``context`` is what more there is to say of the
-    place, such as the macro that it is in.
+    place, such as the macro that it is in. ``taken`` is what the simulator makes of an error that
+    it can live with, such as ``it is left out``.
     """
 
     severity: Severity
@@ -52,10 +53,11 @@ class Finding:
     fix: str = ''
     urdfdom: str = ''
     context: str = ''
+    taken: str = ''
 
     @classmethod
     def error(cls, source: str, line: int, what: str, **details: str) -> 'Finding':
-        """Return an error; ``details`` are found, expected, fix, urdfdom."""
+        """Return an error; ``details`` are found, expected, fix, urdfdom, taken."""
         return cls(severity=Severity.ERROR, source=source, line=line, what=what, **details)
 
     @classmethod
@@ -72,6 +74,10 @@ class Finding:
         fix = f'; {self.fix}' if self.fix else ''
         context = f' ({self.context})' if self.context else ''
         return one_line(f'{self.source}:{self.line}: {self.what}{details}{fix}{context}')
+
+    def as_taken(self) -> 'Finding':
+        """Return the warning that says what the simulator makes of this error."""
+        return replace(self, severity=Severity.WARNING, fix=self.taken, taken='')
 
     def __str__(self) -> str:
         return f'{self.severity}: {self.text}'

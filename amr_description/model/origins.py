@@ -127,9 +127,18 @@ def place_in(text: str, source: str, line: int) -> str:
     return f'{origin.file}:{origin.line}'
 
 
-def raise_error_of(text: str) -> Report:
-    """Return :func:`raise_error` for findings in a text, which names where they come from."""
-    return lambda finding: raise_error(relocated(finding, text))
+def raise_error_of(text: str, strict: bool = True) -> Report:
+    """
+    Return :func:`raise_error` for findings in a text, which names where they come from.
+
+    ``strict``: raise errors too that the simulator can live with (``Finding.taken``).
+    """
+
+    def report(finding: Finding) -> None:
+        if strict or not finding.taken:
+            raise_error(relocated(finding, text))
+
+    return report
 
 
 def _files_of(origin: Origin) -> list[str]:

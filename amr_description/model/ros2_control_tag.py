@@ -3,10 +3,13 @@
 """
 ``<ros2_control>`` blocks -> :class:`~amr_description.model.hardware_info.HardwareInfo`.
 
-Errors begin with the text of ros2_control where it has one (``Joint 'x' not found in URDF``).
+Errors begin with the text of ros2_control where it has one (``Joint 'x' not found in URDF``). What
+ros2_control refuses and the simulator can live with says so (``Finding.taken``); what ros2_control
+reads over (a ``min`` that is no number, an unknown element in a joint) is a warning.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 import math
 
 from lxml import etree
@@ -41,18 +44,26 @@ _COMPONENT_CHILDREN = {
     ComponentType.SENSOR: ('state_interface', 'param'),
     ComponentType.GPIO: (*_INTERFACE_TAGS, 'param'),
 }
-_NUMERIC_PARAMETERS = ('min', 'max', 'initial_value')
 _TRUTH_VALUES = {'true': 1.0, 'false': 0.0}
 _CHILDREN = ('hardware', 'properties', 'joint', 'sensor', 'gpio', 'transmission')
+_LEFT_OUT = 'it is left out'
+_FIRST_COUNTS = 'the first one counts'
+_SIMULATED = 'its joints and sensors are simulated'
 
 
-def hardware_of(robot: Robot) -> tuple[HardwareInfo, ...]:
+def hardware_of(robot: Robot, strict: bool = False) -> tuple[HardwareInfo, ...]:
     """
     Return the hardware components of a robot in the order of the file; () if it has none.
 
-    Raises DescriptionError (``file:line: …``) at the first fault of a block.
+    Args:
+        robot: the robot.
+        strict: refuse all that ros2_control refuses, as real hardware has to; False: only what the
+            simulator can make nothing of.
+
+    Raises:
+        DescriptionError: (``file:line: …``) the first fault of a block.
     """
-    report = raise_error_of(robot.text)
+    report = raise_error_of(robot.text, strict)
     xml = parse_xml(robot.text, robot.source, report)
     return () if xml is None else read_hardware(xml, robot, report)
 
@@ -69,6 +80,7 @@ def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[Ha
                 f'Hardware name {info.name} is duplicated',
                 found=f'the first on line {found[info.name].line}',
                 fix="provide a unique 'name' in the URDF",
+                taken=_FIRST_COUNTS,
             )
         found.setdefault(info.name, info)
     return tuple(found.values())
@@ -79,7 +91,8 @@ def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) ->
     reader = reader.of(f'ros2_control {quote(name)}')
     if not name:
         reader.error(element, '<ros2_control> has no attribute "name"')
-    _refuse_unknown_children(element, _CHILDREN, reader)
+    for child in _unknown_children(element, _CHILDREN):
+        reader.error(child, **_invalid(child, _CHILDREN), taken=_LEFT_OUT)
     kind = _read_type(element, reader)
     hardware = _read_hardware_element(element, reader)
     joints = tuple(_read_joints(element, robot, reader))
@@ -87,7 +100,7 @@ def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) ->
     return HardwareInfo(
         name=name,
         type=kind,
-        plugin='' if hardware is None else _read_text(hardware, 'plugin', reader),
+        plugin='' if hardware is None else _read_plugin(hardware, reader),
         group='' if hardware is None else hardware.findtext('group', '').strip(),
         parameters={} if hardware is None else _read_parameters(hardware, reader),
         rw_rate=_read_rate(element, reader),
@@ -124,10 +137,16 @@ def _read_hardware_element(
             element,
             'no <hardware>',
             fix='add <hardware><plugin>amr_description/MujocoSystem</plugin></hardware>',
+            taken=_SIMULATED,
         )
         return None
-    _refuse_unknown_children(hardware, ('plugin', 'group', 'param'), reader)
+    _warn_of_unknown_children(hardware, ('plugin', 'group', 'param'), reader)
     return hardware
+
+
+def _read_plugin(hardware: etree._Element, reader: ElementReader) -> str:
+    """Return the name of the plugin; '' after a report."""
+    return _read_text(hardware, 'plugin', reader, taken=_SIMULATED)
 
 
 def _read_rate(element: etree._Element, reader: ElementReader) -> int:
@@ -150,10 +169,15 @@ def _read_joints(
     for child in element.iterchildren('joint'):
         name = child.get('name', '')
         if name in seen:
-            reader.error(child, f"Joint '{name}' is listed twice", fix='list it once')
+            reader.error(
+                child, f"Joint '{name}' is listed twice", fix='list it once', taken=_FIRST_COUNTS
+            )
             continue
         seen.add(name)
-        if name and not robot.has_joint(name):
+        joint = robot.joint(name) if robot.has_joint(name) else None
+        if not name:
+            reader.required(child, 'name')
+        elif joint is None:
             moving = [joint.name for joint in robot.joints if joint.has_position]
             meant = closest_match(name, moving)
             reader.error(
@@ -161,41 +185,70 @@ def _read_joints(
                 f"Joint '{name}' not found in URDF",
                 expected=f'one of {quote_all(moving)}',
                 fix=f'write name="{meant}"' if meant else '',
+                taken=_LEFT_OUT,
             )
-        joint = robot.joint(name) if robot.has_joint(name) else None
-        if joint is not None and joint.type is JointType.FIXED:
+        elif joint.type is JointType.FIXED:
             reader.error(
                 child,
                 f"Joint '{name}' is of type 'fixed'",
                 expected='a joint that moves: fixed joints do not make sense in ros2_control',
+                taken=_LEFT_OUT,
             )
-        yield _read_component(
-            child, ComponentType.JOINT, reader, _read_mimic(child, joint, reader)
-        )
+        else:
+            yield _read_joint(child, joint, robot, reader)
 
 
-def _read_mimic(
-    element: etree._Element, joint: Joint | None, reader: ElementReader
-) -> Mimic | None:
-    """Return how the URDF makes the joint follow another; None if the tag switches it off."""
-    mimic = None if joint is None else joint.mimic
+def _read_joint(
+    element: etree._Element, joint: Joint, robot: Robot, reader: ElementReader
+) -> ComponentInfo:
+    """Return a ``<joint>``; one that follows another has no command interfaces."""
+    component = _read_component(element, ComponentType.JOINT, reader)
+    mimic = joint.mimic
+    if mimic is None and not component.command_interfaces:
+        mimic = _mimic_of_parameters(element, component.parameters, robot, reader)
     if not reader.flag(element, 'mimic', mimic is not None):
-        return None
-    name = element.get('name', '')
-    if mimic is None and joint is not None:
+        return component
+    if mimic is None:
         reader.error(
             element,
-            f'Joint \'{name}\' has mimic="true", but no <mimic> in the URDF',
+            f'Joint \'{joint.name}\' has mimic="true", but no <mimic> in the URDF',
             fix='add <mimic joint="…"/> to the <joint>, or remove the attribute',
+            taken='it moves by itself',
         )
-    if mimic is not None and element.find('command_interface') is not None:
+    elif component.command_interfaces:
         reader.error(
             element,
-            f"Joint '{name}' has mimic attribute not set to false: activated mimic joints cannot "
-            'have command interfaces',
+            f"Joint '{joint.name}' has mimic attribute not set to false: activated mimic joints "
+            'cannot have command interfaces',
             fix='remove its command interfaces or write mimic="false"',
+            taken='its command interfaces are left out',
         )
-    return mimic
+        component = replace(component, command_interfaces=())
+    return replace(component, mimic=mimic)
+
+
+def _mimic_of_parameters(
+    element: etree._Element, parameters: Mapping[str, str], robot: Robot, reader: ElementReader
+) -> Mimic | None:
+    """Return how ``<param name="mimic">`` makes a joint follow another, as Humble has it."""
+    source = parameters.get('mimic', '')
+    if not source:
+        return None
+    numbers = {
+        name: parse_number(parameters[name])
+        for name in ('multiplier', 'offset')
+        if name in parameters
+    }
+    if robot.has_joint(source) and all(map(math.isfinite, numbers.values())):
+        return Mimic(source, **numbers)
+    found = ', '.join(f'{name} {quote(parameters[name])}' for name in ('mimic', *numbers))
+    reader.warning(
+        element,
+        'it does not follow another joint',
+        found=found,
+        expected='the name of a joint, and numbers',
+    )
+    return None
 
 
 def _check_mimicked(
@@ -209,6 +262,7 @@ def _check_mimicked(
                 f"Joint '{joint.name}' mimics a joint that is not in this tag",
                 found=quote(joint.mimic.joint),
                 expected=f'one of {quote_all(names)}',
+                taken='it follows that joint all the same',
             )
 
 
@@ -219,15 +273,12 @@ def _read_components(
 
 
 def _read_component(
-    element: etree._Element,
-    kind: ComponentType,
-    reader: ElementReader,
-    mimic: Mimic | None = None,
+    element: etree._Element, kind: ComponentType, reader: ElementReader
 ) -> ComponentInfo:
     """Return a ``<joint>``, ``<sensor>`` or ``<gpio>`` of a ``<ros2_control>`` block."""
     name = reader.required(element, 'name')
     reader = reader.of(f'{reader.label}, {kind} {quote(name)}')
-    _refuse_unknown_children(element, _COMPONENT_CHILDREN[kind], reader)
+    _warn_of_unknown_children(element, _COMPONENT_CHILDREN[kind], reader)
     limited = _limits_enabled(element, reader)
     commands, states = (_read_interfaces(element, tag, limited, reader) for tag in _INTERFACE_TAGS)
     return ComponentInfo(
@@ -236,7 +287,6 @@ def _read_component(
         command_interfaces=commands,
         state_interfaces=states,
         parameters=_read_parameters(element, reader),
-        mimic=mimic,
         line=line_of(element),
     )
 
@@ -253,7 +303,12 @@ def _read_interfaces(
     for child in element.iterchildren(tag):
         interface = _read_interface(child, limited, reader)
         if interface.name in interfaces:
-            reader.error(child, f'{tag} {quote(interface.name)} is there twice', fix='remove one')
+            reader.error(
+                child,
+                f'{tag} {quote(interface.name)} is there twice',
+                fix='remove one',
+                taken=_FIRST_COUNTS,
+            )
         interfaces.setdefault(interface.name, interface)
     return tuple(interfaces.values())
 
@@ -262,7 +317,7 @@ def _read_interface(
     element: etree._Element, limited: bool, reader: ElementReader
 ) -> InterfaceInfo:
     name = reader.required(element, 'name')
-    _refuse_unknown_children(element, ('param', 'limits'), reader)
+    _warn_of_unknown_children(element, ('param', 'limits'), reader)
     data_type = element.get('data_type', 'double')
     if data_type not in _DATA_TYPES:
         reader.error(
@@ -272,34 +327,73 @@ def _read_interface(
             expected=f'one of {", ".join(_DATA_TYPES)}',
         )
     parameters = _read_parameters(element, reader)
-    numbers = {
-        key: _parameter_number(element, key, parameters.pop(key), reader)
-        for key in _NUMERIC_PARAMETERS
-        if key in parameters
-    }
-    _check_range(element, numbers, reader)
-    _check_initial(element, data_type, numbers.get('initial_value'), reader)
+    low, high = _read_bounds(element, parameters, reader)
+    initial = _read_initial(element, parameters.pop('initial_value', ''), reader)
+    _check_initial(element, data_type, initial, reader)
     return InterfaceInfo(
         name=name,
         data_type=data_type,
         size=_read_size(element, reader),
+        min=low,
+        max=high,
+        initial_value=initial,
         limits_enabled=limited and _limits_enabled(element, reader),
         parameters=parameters,
-        **numbers,
     )
 
 
-def _check_range(
-    element: etree._Element, numbers: dict[str, float | None], reader: ElementReader
-) -> None:
-    low, high = numbers.get('min'), numbers.get('max')
+def _read_bounds(
+    element: etree._Element, parameters: dict[str, str], reader: ElementReader
+) -> tuple[float | None, float | None]:
+    """
+    Take ``min`` and ``max`` out of the parameters; None where there is none.
+
+    ros2_control skips both if one cannot be read. It does not compare them, and a ``min`` above
+    the ``max`` leaves no command at all.
+    """
+    texts = {key: parameters.pop(key) for key in ('min', 'max') if parameters.get(key)}
+    bounds = {key: _number(text) for key, text in texts.items()}
+    for key, value in bounds.items():
+        if not math.isfinite(value):
+            reader.warning(
+                element,
+                f'parameter {quote(key)}',
+                found=quote(texts[key]),
+                expected='a finite number',
+                fix='its bounds are skipped',
+            )
+            return None, None
+    low, high = bounds.get('min'), bounds.get('max')
     if low is not None and high is not None and low > high:
-        reader.error(
+        reader.warning(
             element,
             'parameters "min" and "max"',
             found=f'{low:g} and {high:g}',
             expected='a "min" that is not above "max"',
+            fix='its bounds are skipped',
         )
+        return None, None
+    return low, high
+
+
+def _read_initial(element: etree._Element, text: str, reader: ElementReader) -> float | None:
+    """Return ``initial_value``; None without one."""
+    value = _number(text)
+    if not text or math.isfinite(value):
+        return value if text else None
+    reader.error(
+        element,
+        'parameter "initial_value"',
+        found=quote(text),
+        expected='a finite number',
+        taken='it is left out',
+    )
+    return None
+
+
+def _number(text: str) -> float:
+    """Return the number that the text of a parameter stands for; NaN if it is none."""
+    return _TRUTH_VALUES.get(text.lower(), parse_number(text))
 
 
 def _check_initial(
@@ -330,23 +424,11 @@ def _read_size(element: etree._Element, reader: ElementReader) -> int:
     return int(size) if size >= 1 else 1
 
 
-def _parameter_number(
-    element: etree._Element, name: str, text: str, reader: ElementReader
-) -> float | None:
-    value = _TRUTH_VALUES.get(text.lower(), parse_number(text))
-    if math.isfinite(value):
-        return value
-    reader.error(
-        element, f'parameter {quote(name)}', found=quote(text), expected='a finite number'
-    )
-    return None
-
-
 def _read_transmission(element: etree._Element, reader: ElementReader) -> TransmissionInfo:
     """Return a ``<transmission>``."""
     name = reader.required(element, 'name')
     reader = reader.of(f'{reader.label}, transmission {quote(name)}')
-    _refuse_unknown_children(element, ('plugin', 'joint', 'actuator', 'param'), reader)
+    _warn_of_unknown_children(element, ('plugin', 'joint', 'actuator', 'param'), reader)
     joints, actuators = (
         tuple(_read_end(child, reader) for child in element.iterchildren(tag))
         for tag in ('joint', 'actuator')
@@ -368,21 +450,32 @@ def _read_end(element: etree._Element, reader: ElementReader) -> TransmissionEnd
     )
 
 
-def _refuse_unknown_children(
+def _unknown_children(element: etree._Element, known: tuple[str, ...]) -> Iterator[etree._Element]:
+    """Yield every child element whose tag is not in ``known``."""
+    return (child for child in element.iterchildren(etree.Element) if child.tag not in known)
+
+
+def _warn_of_unknown_children(
     element: etree._Element, known: tuple[str, ...], reader: ElementReader
 ) -> None:
-    """Report every child element whose tag is not in ``known``."""
-    for child in element.iterchildren(etree.Element):
-        if child.tag not in known:
-            expected = ', '.join(f'<{tag}>' for tag in known)
-            reader.error(child, f'invalid tag name {quote(child.tag)}', expected=expected)
+    """Report every child element that ros2_control does not look for."""
+    for child in _unknown_children(element, known):
+        reader.warning(child, **_invalid(child, known), fix='it has no effect')
 
 
-def _read_text(element: etree._Element, tag: str, reader: ElementReader) -> str:
+def _invalid(child: etree._Element, known: tuple[str, ...]) -> dict[str, str]:
+    """Return the words of a finding about an element that has no place here."""
+    expected = ', '.join(f'<{tag}>' for tag in known)
+    return {'what': f'invalid tag name {quote(child.tag)}', 'expected': expected}
+
+
+def _read_text(element: etree._Element, tag: str, reader: ElementReader, taken: str = '') -> str:
     """Return the text of a child that must be there; '' after a report."""
     text = (element.findtext(tag) or '').strip()
     if not text:
-        reader.error(element, f'no {tag} in <{element.tag}>', fix=f'add <{tag}>…</{tag}>')
+        reader.error(
+            element, f'no {tag} in <{element.tag}>', fix=f'add <{tag}>…</{tag}>', taken=taken
+        )
     return text
 
 
@@ -392,6 +485,8 @@ def _read_parameters(element: etree._Element, reader: ElementReader) -> dict[str
     for child in element.iterchildren('param'):
         name = reader.required(child, 'name')
         if name in parameters:
-            reader.error(child, f'parameter {quote(name)} is set twice', fix='set it once')
-        parameters.setdefault(name, (child.text or '').strip())
+            reader.warning(
+                child, f'parameter {quote(name)} is set twice', fix='the last one counts'
+            )
+        parameters[name] = (child.text or '').strip()
     return parameters

@@ -79,7 +79,7 @@ def checked_pose(pose: Transform) -> Transform:
     return Transform(pose.translation, rotation)
 
 
-def read_description(text: str, source: str, log: Log = null_log) -> Robot:
+def read_description(text: str, source: str, log: Log = null_log, strict: bool = False) -> Robot:
     """
     Read and check the URDF of a robot.
 
@@ -87,6 +87,7 @@ def read_description(text: str, source: str, log: Log = null_log) -> Robot:
         text: The URDF.
         source: What messages call the text, such as its path.
         log: Gets the checker's warnings.
+        strict: Refuse also what a simulator can make something of.
 
     Raises:
         SpawnError: The text is empty, has another format, or has an error by the checker.
@@ -101,7 +102,7 @@ def read_description(text: str, source: str, log: Log = null_log) -> Robot:
                 SpawnCode.UNSUPPORTED_FORMAT,
             )
     try:
-        robot, warnings = require_sound(text, source)
+        robot, warnings = require_sound(text, source, strict)
     except DescriptionError as cause:
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
     for warning in warnings:

@@ -88,7 +88,7 @@ class DescriptionSource:
         self._log(Severity.INFO, 'Received robot description from topic.')
         try:
             robot = parse(text, TOPIC)
-            hardware = hardware_of(robot)
+            hardware = hardware_of(robot, strict=True)
             if not hardware:
                 raise DescriptionError(
                     f"{TOPIC}: the robot '{robot.name}' has no <ros2_control> block, so there is "

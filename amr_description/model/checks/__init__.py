@@ -211,16 +211,26 @@ def check(text: str, source: str = '<string>') -> list[Finding]:
     return list(examine(text, source).findings)
 
 
-def require_sound(text: str, source: str = '<string>') -> tuple[Robot, tuple[Finding, ...]]:
+def require_sound(
+    text: str, source: str = '<string>', strict: bool = True
+) -> tuple[Robot, tuple[Finding, ...]]:
     """
     Return the robot of a URDF without errors, and the warnings about it.
+
+    Args:
+        text: the URDF.
+        source: names the file in messages.
+        strict: False: errors that the simulator can live with become warnings, which say what it
+            makes of them.
 
     Raises:
         DescriptionError: there are errors: the first one, and how many more.
     """
     examination = examine(text, source)
-    if examination.robot is None or examination.errors:
-        first, *rest = examination.errors
+    errors = [each for each in examination.errors if strict or not each.taken]
+    if examination.robot is None or errors:
+        first, *rest = errors
         more = f' (and {len(rest)} more; check_urdf lists them)' if rest else ''
         raise DescriptionError(first.text + more)
-    return examination.robot, examination.warnings
+    taken = tuple(each.as_taken() for each in examination.errors)
+    return examination.robot, (*taken, *examination.warnings)

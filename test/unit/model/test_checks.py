@@ -384,6 +384,20 @@ def test_require_sound_raises_the_first_error_and_counts_the_rest():
         checks.require_sound(text, 'f')
 
 
+def test_require_sound_takes_what_the_simulator_can_live_with():
+    text = AMR.replace(
+        '</ros2_control>', '<joint name="lidar_tilt"/></ros2_control>'
+    )  # a joint of another variant of the robot
+    with pytest.raises(DescriptionError, match="Joint 'lidar_tilt' not found in URDF: exp"):
+        checks.require_sound(text, 'f')
+    _, (warning,) = checks.require_sound(text, 'f', strict=False)
+    assert warning.severity == 'warning'
+    assert re.search(r"^f:\d+: .*Joint 'lidar_tilt' not found .*; it is left out$", warning.text)
+    broken = text.replace('<mass value="0.5"/>', '<mass value="-1"/>')
+    with pytest.raises(DescriptionError, match=r'mass: .*\(and 3 more; check_urdf lists them\)$'):
+        checks.require_sound(broken, 'f', strict=False)
+
+
 def test_rules_are_documented_functions():
     rules = (*checks.RULES, *checks.RULES_OF_THE_WHOLE)
     assert len(set(rules)) == len(rules)

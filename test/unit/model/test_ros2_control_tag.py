@@ -7,6 +7,7 @@ from support.paths import ROOT
 
 from amr_description.errors import DescriptionError
 from amr_description.model import urdf
+from amr_description.model.checks import check
 from amr_description.model.gazebo import gazebo_plugins_of, GazeboPlugin
 from amr_description.model.hardware_info import HardwareType, TransmissionEnd
 from amr_description.model.robot import Mimic
@@ -132,11 +133,6 @@ REFUSED = {
         "^f:3: .*Hardware name s is duplicated: found the first on line 2; provide",
     ),
     'tag': (block(f'{PLUGIN}<joints/>'), 'invalid tag name "joints": expected <hardware>'),
-    'inner tag': (joint('<command name="x"/>'), 'joint "j": invalid tag name "command": expected'),
-    'hardware tag': (
-        block('<hardware><plugin>p</plugin><params/></hardware>'),
-        'invalid tag name "params": expected <plugin>, <group>, <param>',
-    ),
     'unknown joint': (
         joint(STATE, 'name="wheel"'),
         'Joint \'wheel\' not found in URDF: expected one of "j", "m"$',
@@ -180,19 +176,6 @@ REFUSED = {
     ),
     'size': (joint('<state_interface name="x" size="1.5"/>'), 'found "1.5", expected an integer'),
     'size word': (joint('<state_interface name="x" size="x"/>'), 'found "x", expected a number'),
-    'min': (
-        joint('<command_interface name="x"><param name="min">low</param></command_interface>'),
-        'parameter "min": found "low", expected a finite number',
-    ),
-    'infinite': (
-        joint('<command_interface name="x"><param name="max">inf</param></command_interface>'),
-        'parameter "max": found "inf", expected a finite number',
-    ),
-    'min above max': (
-        joint('<command_interface name="x"><param name="min">2</param><param name="max">1</param>'
-              '</command_interface>'),
-        'parameters "min" and "max": found 2 and 1, expected a "min" that is not above "max"',
-    ),
     'too large': (
         joint('<state_interface name="x" data_type="uint8"><param name="initial_value">256</param>'
               '</state_interface>'),
@@ -208,17 +191,6 @@ REFUSED = {
               '</param></state_interface>'),
         'found 1.5, expected an integer from',
     ),
-    'parameter twice': (
-        block(
-            '<hardware><plugin>p</plugin><param name="a">1</param><param name="a">2</param>'
-            '</hardware>'
-        ),
-        'parameter "a" is set twice',
-    ),
-    'sensor commanded': (
-        block(f'{PLUGIN}<sensor name="s"><command_interface name="x"/></sensor>'),
-        'sensor "s": invalid tag name "command_interface": expected <state_interface>, <param>',
-    ),
     'transmission': (
         block(f'{PLUGIN}<transmission name="t"><plugin>p</plugin><joint name="j">'
               '<mechanical_reduction>much</mechanical_reduction></joint></transmission>'),
@@ -231,8 +203,139 @@ REFUSED = {
 def test_refuses(blocks, message):
     robot = robot_of(blocks)
     with pytest.raises(DescriptionError, match=message) as caught:
-        hardware_of(robot)
+        hardware_of(robot, strict=True)
     assert str(caught.value).startswith(('f:2: ros2_control "', 'f:3: Hardware name'))
+
+
+VELOCITY = '<command_interface name="velocity"/>'
+TAKEN = {
+    'no hardware': ('', lambda info: info.plugin == ''),
+    'no plugin': ('<hardware/>', lambda info: info.plugin == ''),
+    'tag': (f'{PLUGIN}<joints/><joint name="j"/>', lambda info: [*names(info)] == ['j']),
+    'unknown joint': (
+        f'{PLUGIN}<joint name="wheel"/><joint name="j"/>',
+        lambda info: [*names(info)] == ['j'],
+    ),
+    'fixed': (
+        f'{PLUGIN}<joint name="f"/><joint name="j"/>',
+        lambda info: [*names(info)] == ['j'],
+    ),
+    'joint twice': (
+        f'{PLUGIN}<joint name="j">{STATE}</joint><joint name="j"/>',
+        lambda info: len(info.joints) == len(info.joints[0].state_interfaces) == 1,
+    ),
+    'interface twice': (
+        f'{PLUGIN}<joint name="j">{STATE * 2}</joint>',
+        lambda info: len(info.joints[0].state_interfaces) == 1,
+    ),
+    'mimic commanded': (
+        f'{PLUGIN}<joint name="m">{VELOCITY}{STATE}</joint>',
+        lambda info: info.joints[0].mimic and not info.joints[0].command_interfaces,
+    ),
+    'mimicked absent': (
+        f'{PLUGIN}<joint name="m">{STATE}</joint>',
+        lambda info: info.joints[0].mimic == Mimic('j', 2.0, 1.0),
+    ),
+    'mimic of nothing': (
+        f'{PLUGIN}<joint name="j" mimic="true">{VELOCITY}</joint>',
+        lambda info: info.joints[0].mimic is None and info.joints[0].command_interfaces,
+    ),
+    'initial value': (
+        f'{PLUGIN}<joint name="j"><state_interface name="position"><param name="initial_value">'
+        'home</param></state_interface></joint>',
+        lambda info: info.joints[0].state_interfaces[0].initial_value is None,
+    ),
+}
+
+
+def names(info):
+    return (joint.name for joint in info.joints)
+
+
+@pytest.mark.parametrize(('inside', 'holds'), TAKEN.values(), ids=TAKEN)
+def test_the_simulator_takes_what_real_hardware_cannot(inside, holds):
+    robot = robot_of(block(inside))
+    (info,) = hardware_of(robot)
+    assert holds(info)
+    with pytest.raises(DescriptionError):
+        hardware_of(robot, strict=True)
+
+
+def test_of_two_blocks_of_one_name_the_simulator_takes_the_first():
+    (info,) = hardware_of(robot_of(block(PLUGIN) + block(PLUGIN.replace('p/P', 'q/Q'))))
+    assert info.plugin == 'p/P'
+
+
+def bounded(low, high):
+    texts = f'<param name="min">{low}</param><param name="max">{high}</param>'
+    return joint(f'<command_interface name="x">{texts}</command_interface>')
+
+
+WARNED = {
+    'min': (
+        bounded("'-3.14'", '1'),
+        'parameter "min": found "\'-3.14\'", expected a finite number; its bounds are skipped',
+    ),
+    'infinite': (bounded('-1', 'inf'), 'parameter "max": found "inf", expected a finite number; '),
+    'min above max': (
+        bounded('2', '1'),
+        'parameters "min" and "max": found 2 and 1, expected a "min" that is not above "max"',
+    ),
+    'parameter twice': (
+        block(
+            '<hardware><plugin>p</plugin><param name="a">1</param><param name="a">2</param>'
+            '</hardware>'
+        ),
+        'parameter "a" is set twice; the last one counts',
+    ),
+    'inner tag': (
+        joint('<command name="x"/>'),
+        'joint "j": invalid tag name "command": expected <command_interface>, <state_interface>, ',
+    ),
+    'hardware tag': (
+        block('<hardware><plugin>p</plugin><params/></hardware>'),
+        'invalid tag name "params": expected <plugin>, <group>, <param>; it has no effect',
+    ),
+    'sensor commanded': (
+        block(f'{PLUGIN}<sensor name="s"><command_interface name="x"/></sensor>'),
+        'sensor "s": invalid tag name "command_interface": expected <state_interface>, <param>',
+    ),
+    'mimic parameter': (
+        joint('<param name="mimic">j</param><param name="multiplier">-</param>'),
+        '"s": it does not follow another joint: found mimic "j", multiplier "-", expected the ',
+    ),
+}
+
+
+@pytest.mark.parametrize(('blocks', 'message'), WARNED.values(), ids=WARNED)
+def test_what_ros2_control_reads_over_is_warned_of(blocks, message):
+    robot = robot_of(blocks)
+    (info,) = hardware_of(robot, strict=True)
+    assert not any(interface.min or interface.max for interface in interfaces(info))
+    assert info.parameters.get('a', '2') == '2'
+    assert any(message in str(finding) for finding in check(robot.text, 'f'))
+    assert not any(f.severity == 'error' and 'ros2_control' in f.what for f in check(robot.text))
+
+
+def interfaces(info):
+    return (each for part in info.components for each in part.command_interfaces)
+
+
+def test_a_joint_follows_another_by_parameters_as_in_humble():
+    follow = '<param name="mimic">m</param><param name="multiplier">-1</param>'
+    (info,) = hardware_of(robot_of(joint(f'{follow}{STATE}')))
+    assert info.joints[0].mimic == Mimic('m', -1.0)
+    commanded, switched_off = (
+        hardware_of(robot_of(joint(f'{follow}{VELOCITY}'))),
+        hardware_of(robot_of(joint(follow, 'name="j" mimic="false"'))),
+    )
+    assert commanded[0].joints[0].mimic is switched_off[0].joints[0].mimic is None
+
+
+def test_an_empty_initial_value_is_none():
+    state = STATE.replace('/>', '><param name="initial_value"/></state_interface>')
+    (info,) = hardware_of(robot_of(joint(state)), strict=True)
+    assert info.joints[0].state_interfaces[0].initial_value is None
 
 
 def test_gazebo_plugin_of_the_tutorial():
