@@ -14,8 +14,11 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``odometry.py``                   … wheel speeds ↔ velocity of the base; the pose
 ``mecanum_drive_controller.py``   a twist → four mecanum wheels; wheel states → odometry
 ``mecanum_drive_parameters.py``   … its parameters
-``reference_ports.py``            … topics that it shares with the steering controllers
 ``holonomic_odometry.py``         … the pose of a robot that can go sideways
+``steering_controllers.py``       a twist → driven and steered wheels; their states → odometry
+``steering_parameters.py``        … their parameters
+``steering_kinematics.py``        … bicycle, tricycle, Ackermann steering
+``reference_ports.py``            … topics shared with the mecanum drive controller
 ``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
 ``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
@@ -33,6 +36,12 @@ from amr_description.registry import Registry
 CONTROLLERS = Registry(
     'controller type',
     {
+        'ackermann_steering_controller/AckermannSteeringController': (
+            'amr_description.controllers.steering_controllers:AckermannSteeringController'
+        ),
+        'bicycle_steering_controller/BicycleSteeringController': (
+            'amr_description.controllers.steering_controllers:BicycleSteeringController'
+        ),
         'diff_drive_controller/DiffDriveController': (
             'amr_description.controllers.diff_drive_controller:DiffDriveController'
         ),
@@ -57,6 +66,9 @@ CONTROLLERS = Registry(
         ),
         'position_controllers/JointGroupPositionController': (
             'amr_description.controllers.forward_command_controller:JointGroupPositionController'
+        ),
+        'tricycle_steering_controller/TricycleSteeringController': (
+            'amr_description.controllers.steering_controllers:TricycleSteeringController'
         ),
         'velocity_controllers/JointGroupVelocityController': (
             'amr_description.controllers.forward_command_controller:JointGroupVelocityController'

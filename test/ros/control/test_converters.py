@@ -4,7 +4,11 @@
 
 import math
 
-from control_msgs.msg import DynamicJointState, MecanumDriveControllerState
+from control_msgs.msg import (
+    DynamicJointState,
+    MecanumDriveControllerState,
+    SteeringControllerStatus,
+)
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 import pytest
@@ -25,6 +29,7 @@ from amr_description.control.samples import (
     JointStateSample,
     MecanumStateSample,
     OdometrySample,
+    SteeringStateSample,
     TwistSample,
 )
 from amr_description.controllers import CONTROLLERS
@@ -162,6 +167,19 @@ def test_the_state_of_mecanum_wheels_names_each_wheel():
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == (0.1, 0.2, 0.3)
 
 
+def test_the_state_of_steered_wheels_arrives_as_it_was():
+    message = SteeringControllerStatus()
+    sample = SteeringStateSample(STAMP, 'odom', (), (1.0, 2.0), (0.1, 0.2), (3.0, 4.0), (0.3, 0.4))
+    converters.fill_steering_state(sample, message)
+    arrived = sent(message)
+    assert (arrived.header.stamp.nanosec, arrived.header.frame_id) == (7, 'odom')
+    assert list(arrived.traction_wheels_position) == []
+    assert list(arrived.traction_wheels_velocity) == [1.0, 2.0]
+    assert list(arrived.steer_positions) == [0.1, 0.2]
+    assert list(arrived.linear_velocity_command) == [3.0, 4.0]
+    assert list(arrived.steering_angle_command) == [0.3, 0.4]
+
+
 @pytest.mark.parametrize(
     ('controller', 'values'),
     [
@@ -183,6 +201,15 @@ def test_the_state_of_mecanum_wheels_names_each_wheel():
                 },
                 'kinematics.wheels_radius': 0.1,
                 'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5,
+            },
+        ),
+        (
+            'bicycle_steering_controller/BicycleSteeringController',
+            {
+                'traction_joints_names': ['a'],
+                'steering_joints_names': ['b'],
+                'wheelbase': 1.0,
+                'traction_wheel_radius': 0.1,
             },
         ),
     ],
