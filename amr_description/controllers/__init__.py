@@ -19,6 +19,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``steering_parameters.py``        … their parameters
 ``steering_kinematics.py``        … bicycle, tricycle, Ackermann steering
 ``reference_ports.py``            … topics shared with the mecanum drive controller
+``pid.py``                        control_toolbox's PID, with its anti-windup strategies
 ``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
 ``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
