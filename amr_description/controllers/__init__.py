@@ -22,7 +22,16 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``pid.py``                        control_toolbox's PID, with its anti-windup strategies
 ``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
+``sensor_broadcaster.py``         what the broadcasters below have in common
 ``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
+``force_torque_sensor_broadcaster.py`` … a wrench → ``~/wrench``
+``pose_broadcaster.py``           … a pose → ``~/pose``, ``/tf``
+``range_sensor_broadcaster.py``   … a distance → ``~/range``
+``gps_sensor_broadcaster.py``     … a satellite fix → ``~/gps/fix``
+``magnetometer_broadcaster.py``   … a magnetic field → ``~/magnetic_field``
+``battery_state_broadcaster.py``  … batteries → ``~/battery_state``
+``state_interfaces_broadcaster.py`` … any states, as numbers
+``gpio_command_controller.py``    GPIOs: commands from a topic, states on one
 
 ``parameter_sections.py``         the sections of parameter files, with their lines
 ``parameter_faults.py``           what is wrong in them, by its cause: misspelt names, types
@@ -40,6 +49,9 @@ CONTROLLERS = Registry(
         'ackermann_steering_controller/AckermannSteeringController': (
             'amr_description.controllers.steering_controllers:AckermannSteeringController'
         ),
+        'battery_state_broadcaster/BatteryStateBroadcaster': (
+            'amr_description.controllers.battery_state_broadcaster:BatteryStateBroadcaster'
+        ),
         'bicycle_steering_controller/BicycleSteeringController': (
             'amr_description.controllers.steering_controllers:BicycleSteeringController'
         ),
@@ -49,6 +61,10 @@ CONTROLLERS = Registry(
         'effort_controllers/JointGroupEffortController': (
             'amr_description.controllers.forward_command_controller:JointGroupEffortController'
         ),
+        'force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster': (
+            'amr_description.controllers.force_torque_sensor_broadcaster:'
+            'ForceTorqueSensorBroadcaster'
+        ),
         'forward_command_controller/ForwardCommandController': (
             'amr_description.controllers.forward_command_controller:ForwardCommandController'
         ),
@@ -56,17 +72,35 @@ CONTROLLERS = Registry(
             'amr_description.controllers.forward_command_controller:'
             'MultiInterfaceForwardCommandController'
         ),
+        'gpio_controllers/GpioCommandController': (
+            'amr_description.controllers.gpio_command_controller:GpioCommandController'
+        ),
+        'gps_sensor_broadcaster/GPSSensorBroadcaster': (
+            'amr_description.controllers.gps_sensor_broadcaster:GPSSensorBroadcaster'
+        ),
         'imu_sensor_broadcaster/IMUSensorBroadcaster': (
             'amr_description.controllers.imu_sensor_broadcaster:IMUSensorBroadcaster'
         ),
         'joint_state_broadcaster/JointStateBroadcaster': (
             'amr_description.controllers.joint_state_broadcaster:JointStateBroadcaster'
         ),
+        'magnetometer_broadcaster/MagnetometerBroadcaster': (
+            'amr_description.controllers.magnetometer_broadcaster:MagnetometerBroadcaster'
+        ),
         'mecanum_drive_controller/MecanumDriveController': (
             'amr_description.controllers.mecanum_drive_controller:MecanumDriveController'
         ),
+        'pose_broadcaster/PoseBroadcaster': (
+            'amr_description.controllers.pose_broadcaster:PoseBroadcaster'
+        ),
         'position_controllers/JointGroupPositionController': (
             'amr_description.controllers.forward_command_controller:JointGroupPositionController'
+        ),
+        'range_sensor_broadcaster/RangeSensorBroadcaster': (
+            'amr_description.controllers.range_sensor_broadcaster:RangeSensorBroadcaster'
+        ),
+        'state_interfaces_broadcaster/StateInterfacesBroadcaster': (
+            'amr_description.controllers.state_interfaces_broadcaster:StateInterfacesBroadcaster'
         ),
         'tricycle_steering_controller/TricycleSteeringController': (
             'amr_description.controllers.steering_controllers:TricycleSteeringController'

@@ -7,18 +7,12 @@ The sensor is one of the ``<ros2_control>`` block, with the ten state interfaces
 :data:`~amr_description.control.interfaces.IMU_INTERFACES`. Covariances are parameters.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from amr_description.control.contracts import Controller, Output, Port
-from amr_description.control.interfaces import (
-    CommandInterface,
-    IMU_INTERFACES,
-    InterfaceRequest,
-    StateInterface,
-)
+from amr_description.control.contracts import Output, Port
+from amr_description.control.interfaces import IMU_INTERFACES
 from amr_description.control.samples import ImuConstants, ImuSample
-from amr_description.errors import ControllerError
+from amr_description.controllers.sensor_broadcaster import below, SensorBroadcaster
 from amr_description.parameters import parameter
 
 _ZEROS = (0.0,) * 9
@@ -41,16 +35,13 @@ class ImuParameters:
     )
 
 
-class IMUSensorBroadcaster(Controller):
+class IMUSensorBroadcaster(SensorBroadcaster):
     """Publishes the states of the sensor at every update."""
 
     parameters_type = ImuParameters
 
     def configure(self, parameters: ImuParameters) -> None:
         """Take over the names and the covariances."""
-        self._request = InterfaceRequest.individual(
-            f'{parameters.sensor_name}/{interface}' for interface in IMU_INTERFACES
-        )
         self._constants = ImuConstants(
             parameters.frame_id,
             parameters.static_covariance_orientation,
@@ -60,30 +51,9 @@ class IMUSensorBroadcaster(Controller):
         self._imu: Output[ImuSample] = Output(
             Port('~/imu', 'sensor_msgs/msg/Imu', sample=ImuSample)
         )
-
-    def state_interfaces(self) -> InterfaceRequest:
-        """Return the ten of the sensor."""
-        return self._request
-
-    def outputs(self) -> tuple[Output[ImuSample], ...]:
-        """Return ``~/imu``."""
-        return (self._imu,)
-
-    def activate(
-        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
-    ) -> None:
-        """Take the interfaces. Raises ControllerError: some are missing."""
-        if len(states) != len(IMU_INTERFACES):
-            raise ControllerError(
-                f'Expected {len(IMU_INTERFACES)} state interfaces, got {len(states)}'
-            )
-        self._states = tuple(states)
+        self._read_from(below(parameters.sensor_name, *IMU_INTERFACES), self._imu)
 
     def update(self, time: int, period: int) -> None:
         """Publish the present states."""
-        values = tuple([state.value for state in self._states])
+        values = self._values()
         self._imu.send(ImuSample(time, values[:4], values[4:7], values[7:], self._constants))
-
-    def deactivate(self, time: int) -> None:
-        """Drop the interfaces."""
-        self._states = ()

@@ -24,6 +24,7 @@ from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control.contracts import Port
+from amr_description.control.ros import sensor_converters
 from amr_description.control.samples import (
     CommandsSample,
     DynamicJointStateSample,
@@ -192,6 +193,7 @@ _READERS: dict[_Key, Callable[[Any], Any]] = {
     (CommandsSample, 'std_msgs/msg/Float64MultiArray'): commands_sample,
     (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
+    **sensor_converters.READERS,
 }
 _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
     (DynamicJointStateSample, 'control_msgs/msg/DynamicJointState'): fill_dynamic_joint_state,
@@ -202,6 +204,7 @@ _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
     (OdometrySample, 'tf2_msgs/msg/TFMessage'): fill_odometry_transform,
     (SteeringStateSample, 'control_msgs/msg/SteeringControllerStatus'): fill_steering_state,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): fill_twist,
+    **sensor_converters.WRITERS,
 }
 
 
