@@ -151,3 +151,18 @@ class SteeringStateSample:
     """rad/s."""
     steering_commands: tuple[float, ...]
     """rad."""
+
+
+@dataclass(frozen=True, slots=True)
+class AckermannSample:
+    """An ackermann_msgs/AckermannDrive as the tricycle_controller publishes it."""
+
+    speed: float
+    """rad/s, of the wheel; the message means m/s."""
+    steering_angle: float
+    """rad."""
+
+
+@dataclass(frozen=True, slots=True)
+class EmptySample:
+    """Request and response of a std_srvs/Empty."""

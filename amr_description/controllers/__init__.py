@@ -14,12 +14,15 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``odometry.py``                   … wheel speeds ↔ velocity of the base; the pose
 ``mecanum_drive_controller.py``   a twist → four mecanum wheels; wheel states → odometry
 ``mecanum_drive_parameters.py``   … its parameters
+``omni_wheel_drive_controller.py`` a twist → three or more omni wheels; wheel states → odometry
 ``holonomic_odometry.py``         … the pose of a robot that can go sideways
 ``steering_controllers.py``       a twist → driven and steered wheels; their states → odometry
 ``steering_parameters.py``        … their parameters
 ``steering_kinematics.py``        … bicycle, tricycle, Ackermann steering
 ``reference_ports.py``            … topics shared with the mecanum drive controller
 ``pid.py``                        control_toolbox's PID, with its anti-windup strategies
+``tricycle_controller.py``        a twist → one wheel that is driven and steered; odometry
+``tricycle_limiters.py``          … its limits
 ``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
 ``joint_state_broadcaster.py``    joint states → ``/joint_states``
 ``sensor_broadcaster.py``         what the broadcasters below have in common
@@ -90,6 +93,9 @@ CONTROLLERS = Registry(
         'mecanum_drive_controller/MecanumDriveController': (
             'amr_description.controllers.mecanum_drive_controller:MecanumDriveController'
         ),
+        'omni_wheel_drive_controller/OmniWheelDriveController': (
+            'amr_description.controllers.omni_wheel_drive_controller:OmniWheelDriveController'
+        ),
         'pose_broadcaster/PoseBroadcaster': (
             'amr_description.controllers.pose_broadcaster:PoseBroadcaster'
         ),
@@ -101,6 +107,9 @@ CONTROLLERS = Registry(
         ),
         'state_interfaces_broadcaster/StateInterfacesBroadcaster': (
             'amr_description.controllers.state_interfaces_broadcaster:StateInterfacesBroadcaster'
+        ),
+        'tricycle_controller/TricycleController': (
+            'amr_description.controllers.tricycle_controller:TricycleController'
         ),
         'tricycle_steering_controller/TricycleSteeringController': (
             'amr_description.controllers.steering_controllers:TricycleSteeringController'

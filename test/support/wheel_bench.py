@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A bench for controllers of wheeled robots: interfaces without hardware, and their samples."""
 
+import math
+
 from support.control_fakes import collect, FakeLog, MS
 
 from amr_description.control.contracts import ControllerContext
@@ -58,11 +60,13 @@ class WheelBench:
         """Let the joints move as commanded."""
         for name, state in self.states.items():
             joint, interface = name.split('/')
-            velocity = self.commands.get(f'{joint}/velocity')
-            if name in self.commands:
-                state.value = self.commands[name].value
-            elif velocity is not None and interface == 'position':
-                state.value += velocity.value * period * 1e-9
+            command = self.commands.get(name) or self.commands[f'{joint}/velocity']
+            if math.isnan(command.value):
+                continue
+            if command.interface == interface:
+                state.value = command.value
+            else:
+                state.value += command.value * period * 1e-9
 
     def drive(self, linear=0.0, lateral=0.0, angular=0.0, seconds=0.01):
         """Command a twist all the time, and return what is commanded then."""

@@ -26,9 +26,11 @@ from tf2_msgs.msg import TFMessage
 from amr_description.control.contracts import Port
 from amr_description.control.ros import sensor_converters
 from amr_description.control.samples import (
+    AckermannSample,
     CommandsSample,
     DynamicJointStateSample,
     DynamicLayout,
+    EmptySample,
     Frames,
     ImuConstants,
     ImuSample,
@@ -123,6 +125,21 @@ def fill_steering_state(sample: SteeringStateSample, message: SteeringController
     message.steering_angle_command = array('d', sample.steering_commands)
 
 
+def fill_ackermann(sample: AckermannSample, message: Any) -> None:
+    """Write an ackermann_msgs/AckermannDrive."""
+    message.speed = sample.speed
+    message.steering_angle = sample.steering_angle
+
+
+def empty_sample(request: Any) -> EmptySample:
+    """Return a request without fields."""
+    return EmptySample()
+
+
+def fill_nothing(sample: EmptySample, response: Any) -> None:
+    """Leave a response without fields as it is."""
+
+
 def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
     """Write the arrays of numbers and, when they have changed, the names."""
     fill_stamp(sample.stamp, message.header.stamp)
@@ -191,12 +208,15 @@ type _Key = tuple[type | None, str]
 
 _READERS: dict[_Key, Callable[[Any], Any]] = {
     (CommandsSample, 'std_msgs/msg/Float64MultiArray'): commands_sample,
+    (EmptySample, 'std_srvs/srv/Empty_Request'): empty_sample,
     (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
     **sensor_converters.READERS,
 }
 _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
+    (AckermannSample, 'ackermann_msgs/msg/AckermannDrive'): fill_ackermann,
     (DynamicJointStateSample, 'control_msgs/msg/DynamicJointState'): fill_dynamic_joint_state,
+    (EmptySample, 'std_srvs/srv/Empty_Response'): fill_nothing,
     (ImuSample, 'sensor_msgs/msg/Imu'): fill_imu,
     (JointStateSample, 'sensor_msgs/msg/JointState'): fill_joint_state,
     (MecanumStateSample, 'control_msgs/msg/MecanumDriveControllerState'): fill_mecanum_state,

@@ -204,6 +204,15 @@ def test_the_state_of_steered_wheels_arrives_as_it_was():
             },
         ),
         (
+            'tricycle_controller/TricycleController',
+            {
+                'traction_joint_name': 'a',
+                'steering_joint_name': 'b',
+                'wheelbase': 1.0,
+                'wheel_radius': 0.1,
+            },
+        ),
+        (
             'bicycle_steering_controller/BicycleSteeringController',
             {
                 'traction_joints_names': ['a'],

@@ -1,0 +1,280 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+tricycle_controller/TricycleController: a twist to one wheel that is driven and steered.
+
+The wheel is L ahead of the axle of two passive ones, in the middle of which the base is::
+
+    angle = atan(ω L / v)        wheel = v / (r cos angle)        rad, rad/s
+
+At v = 0 the wheel is turned by a right angle, and the base turns on the spot. The speed is reduced
+while the measured angle is off by more than 30 degrees, then both are limited.
+
+Differences from tricycle_controller 4.x: ``cmd_vel_timeout`` 0 means never; a command that is not
+finite is warned of, and is none; the warnings of stamps are those of the diff_drive_controller.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from amr_description.clock import NANOSECONDS
+from amr_description.control.contracts import (
+    Controller,
+    Input,
+    Output,
+    Port,
+    Service,
+    ServicePort,
+    Severity,
+)
+from amr_description.control.interfaces import (
+    CommandInterface,
+    InterfaceRequest,
+    POSITION,
+    StateInterface,
+    VELOCITY,
+)
+from amr_description.control.samples import (
+    AckermannSample,
+    EmptySample,
+    Frames,
+    OdometrySample,
+    TwistSample,
+)
+from amr_description.controllers.command_reception import CommandReception
+from amr_description.controllers.diff_drive_parameters import LENGTH
+from amr_description.controllers.odometry import PlanarOdometry
+from amr_description.controllers.reference_ports import LEAST_PERIOD
+from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
+from amr_description.errors import ControllerError
+from amr_description.parameters import group, parameter
+
+_MILLISECOND = 1_000_000
+"""ns."""
+_SIX_ZEROS = (0.0,) * 6
+_AT_REST = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class TricycleParameters:
+    """The table of tricycle_controller/TricycleController."""
+
+    traction_joint_name: str = parameter('', 'Joint that is driven', not_empty=True)
+    steering_joint_name: str = parameter('', 'Joint that is steered', not_empty=True)
+    wheelbase: float = parameter(
+        0.0,
+        'Shortest distance between the wheel and the other axle',
+        unit='m',
+        above=0.0,
+        magnitude=LENGTH,
+    )
+    wheel_radius: float = parameter(
+        0.0, 'Radius of the wheel', unit='m', above=0.0, magnitude=LENGTH
+    )
+    odom_frame_id: str = parameter('odom', 'Frame in which the pose is given')
+    base_frame_id: str = parameter('base_link', 'Frame whose pose is given')
+    pose_covariance_diagonal: tuple[float, ...] = parameter(
+        _SIX_ZEROS, 'Variances of x, y, z, roll, pitch, yaw', unit='m², rad²', length=6
+    )
+    twist_covariance_diagonal: tuple[float, ...] = parameter(
+        _SIX_ZEROS, 'Variances of the twist, in the same order', unit='m²/s², rad²/s²', length=6
+    )
+    open_loop: bool = parameter(False, 'Odometry from the commands, not from the wheel')
+    enable_odom_tf: bool = parameter(False, 'Publish the transform from odom to base on /tf')
+    odom_only_twist: bool = parameter(
+        False, 'Publish odometry without a pose, which another node integrates'
+    )
+    cmd_vel_timeout: int = parameter(
+        500, 'Age at which a command ends and the robot brakes; 0: never', unit='ms', minimum=0
+    )
+    publish_ackermann_command: bool = parameter(
+        False, 'Publish the limited commands, ~/cmd_ackermann'
+    )
+    velocity_rolling_window_size: int = parameter(
+        10, 'Samples in the mean of the estimated twist', minimum=1, magnitude=(1, 100_000)
+    )
+    traction: TractionLimits = group('traction', TractionLimits)
+    steering: SteeringLimits = group('steering', SteeringLimits)
+
+
+class TricycleController(Controller):
+    """Drives and steers one wheel; see the module."""
+
+    parameters_type = TricycleParameters
+
+    # --- transitions -------------------------------------------------------------------------
+
+    def configure(self, parameters: TricycleParameters) -> None:
+        """Check the limits, and set the pose to the origin."""
+        parameters.traction.check()
+        parameters.steering.check()
+        self._parameters = parameters
+        self._odometry = PlanarOdometry(parameters.velocity_rolling_window_size)
+        self._reception = CommandReception(parameters.cmd_vel_timeout * _MILLISECOND, self.log)
+        self._commands: Sequence[CommandInterface] = ()
+        self._states: Sequence[StateInterface] = ()
+        self._last = self._before_last = _AT_REST
+        self._make_ports(parameters)
+
+    def command_interfaces(self) -> InterfaceRequest:
+        """Return the velocity of the driven joint, and the position of the steered one."""
+        return self._interfaces()
+
+    def state_interfaces(self) -> InterfaceRequest:
+        """Return the same."""
+        return self._interfaces()
+
+    def inputs(self) -> tuple[Input[TwistSample], ...]:
+        """Return ``~/cmd_vel``."""
+        return (self._command,)
+
+    def outputs(self) -> tuple[Output[Any], ...]:
+        """Return ``~/odom`` and, if enabled, ``/tf`` and ``~/cmd_ackermann``."""
+        transform = (self._transform,) if self._parameters.enable_odom_tf else ()
+        command = (self._command_out,) if self._parameters.publish_ackermann_command else ()
+        return (self._odom, *transform, *command)
+
+    def services(self) -> tuple[Service[Any, Any], ...]:
+        """Return ``~/reset_odometry``."""
+        return (self._reset_odometry,)
+
+    def activate(
+        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
+    ) -> None:
+        """Take the joints, which are commanded 0 until the first command."""
+        self._commands, self._states = commands, states
+        self._reception.forget(time)
+
+    def deactivate(self, time: int) -> None:
+        """Stop the wheel, and steer straight; the pose stays."""
+        self._reception.forget(time)
+        self._last = self._before_last = _AT_REST
+        self._drive(0.0, 0.0)
+        self._commands = self._states = ()
+
+    def reset(self, time: int) -> None:
+        """Start over at the origin."""
+        self._odometry.reset()
+        self._last = self._before_last = _AT_REST
+        self.set_clock(time)
+
+    def set_clock(self, time: int) -> None:
+        """Keep the pose; the timeout starts now."""
+        self._command.drain()
+        self._reception.forget(time)
+
+    # --- the cycle ---------------------------------------------------------------------------
+
+    def update(self, time: int, period: int) -> None:
+        """Receive a command, update odometry, publish, drive and steer."""
+        self._reception.receive(self._command.drain(), time - period)
+        linear, angular = self._reception.in_force(time) or _AT_REST
+        speed, angle = (state.value for state in self._states)
+        dt = period / NANOSECONDS
+        if period >= LEAST_PERIOD:
+            self._update_odometry((linear, angular), speed, angle, dt)
+        self._publish(time)
+        wanted_speed, wanted_angle = self.wheel(linear, angular)
+        wanted_speed *= _speed_scale(abs(wanted_angle - angle))
+        traction, steering = self._parameters.traction, self._parameters.steering
+        limited = (
+            traction.limit(wanted_speed, self._last[0], self._before_last[0], dt),
+            steering.limit(wanted_angle, self._last[1], self._before_last[1], dt),
+        )
+        self._last, self._before_last = limited, self._last
+        if self._parameters.publish_ackermann_command:
+            self._command_out.send(AckermannSample(*limited))
+        self._drive(*limited)
+
+    def wheel(self, linear: float, angular: float) -> tuple[float, float]:
+        """Return speed (rad/s) and angle (rad) of the wheel for a twist, m/s and rad/s."""
+        base, radius = self._parameters.wheelbase, self._parameters.wheel_radius
+        if linear == 0.0:
+            angle = math.copysign(math.pi / 2.0, angular) if angular else 0.0
+            return abs(angular) * base / radius, angle
+        angle = math.atan(angular * base / linear)
+        return linear / (radius * math.cos(angle)), angle
+
+    def _update_odometry(
+        self, twist: tuple[float, float], speed: float, angle: float, dt: float
+    ) -> None:
+        if self._parameters.open_loop:
+            self._odometry.update_open_loop(*twist, dt)
+            return
+        if not (math.isfinite(speed) and math.isfinite(angle)):
+            found = ', '.join(f'{state.name} is {state.value}' for state in self._states)
+            raise ControllerError(f'Could not read feedback value: {found}')
+        rim = speed * self._parameters.wheel_radius
+        turn = rim * math.sin(angle) / self._parameters.wheelbase
+        self._odometry.update(rim * math.cos(angle) * dt, turn * dt, dt)
+
+    def _drive(self, speed: float, angle: float) -> None:
+        for command, value in zip(self._commands, (speed, angle), strict=True):
+            command.value = value
+
+    def _publish(self, time: int) -> None:
+        odometry = self._odometry
+        sample = OdometrySample(
+            stamp=time,
+            x=odometry.x,
+            y=odometry.y,
+            heading=odometry.heading,
+            linear=odometry.linear,
+            angular=odometry.angular,
+            frames=self._frames,
+        )
+        if self._parameters.enable_odom_tf:
+            self._transform.send(sample)
+        if self._parameters.odom_only_twist:
+            sample = OdometrySample(
+                time, 0.0, 0.0, 0.0, odometry.linear, odometry.angular, self._frames
+            )
+        self._odom.send(sample)
+
+    # --- made at configure -------------------------------------------------------------------
+
+    def _interfaces(self) -> InterfaceRequest:
+        return InterfaceRequest.individual(
+            (
+                f'{self._parameters.traction_joint_name}/{VELOCITY}',
+                f'{self._parameters.steering_joint_name}/{POSITION}',
+            )
+        )
+
+    def _reset(self, request: EmptySample) -> EmptySample:
+        self.log(Severity.INFO, 'Odometry reset requested')
+        self._odometry.reset()
+        return request
+
+    def _make_ports(self, parameters: TricycleParameters) -> None:
+        self._frames = Frames(
+            parameters.odom_frame_id,
+            parameters.base_frame_id,
+            parameters.pose_covariance_diagonal,
+            parameters.twist_covariance_diagonal,
+        )
+        self._command: Input[TwistSample] = Input(
+            Port('~/cmd_vel', 'geometry_msgs/msg/TwistStamped', sample=TwistSample)
+        )
+        self._odom: Output[OdometrySample] = Output(
+            Port('~/odom', 'nav_msgs/msg/Odometry', sample=OdometrySample)
+        )
+        self._transform: Output[OdometrySample] = Output(
+            Port('/tf', 'tf2_msgs/msg/TFMessage', sample=OdometrySample)
+        )
+        self._command_out: Output[AckermannSample] = Output(
+            Port('~/cmd_ackermann', 'ackermann_msgs/msg/AckermannDrive', sample=AckermannSample)
+        )
+        self._reset_odometry: Service[EmptySample, EmptySample] = Service(
+            ServicePort('~/reset_odometry', 'std_srvs/srv/Empty', EmptySample, EmptySample),
+            self._reset,
+        )
+
+
+def _speed_scale(error: float) -> float:
+    """Return the factor on the speed while the steering angle is off by ``error`` (rad)."""
+    if error < math.pi / 6.0:
+        return 1.0
+    return 0.01 if error > math.pi / 2.0 else math.cos(error)
