@@ -140,5 +140,6 @@ def _as_dict(finding: Finding) -> dict[str, object]:
         'what': finding.what,
         'found': finding.found,
         'expected': finding.expected,
+        'taken': finding.taken,
         'fix': finding.fix,
     }

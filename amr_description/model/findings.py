@@ -17,6 +17,9 @@ from typing import NamedTuple
 from amr_description.errors import DescriptionError
 from amr_description.text import one_line
 
+NO_SHAPE = 'no shape is taken'
+"""What the simulator makes of a visual or a collision without one, or one without a volume."""
+
 
 class SourceLocation(NamedTuple):
     """A line of a file."""
@@ -40,8 +43,9 @@ class Finding:
     ``what`` names the part and its fault, ``found`` and ``expected`` are optional, ``fix`` says
     what to do. ``urdfdom`` is the message of urdfdom if that library refuses the file for this
     fault, and empty otherwise. ``context`` is what more there is to say of the
-    place, such as the macro that it is in. ``taken`` is what the simulator makes of an error that
-    it can live with, such as ``it is left out``.
+    place, such as the macro that it is in. ``taken`` is what the simulator makes of a fault that
+    it can live with, such as ``it is left out``; a strict one refuses it, whether it is an error
+    for others or a warning.
     """
 
     severity: Severity
@@ -62,18 +66,30 @@ class Finding:
 
     @classmethod
     def warning(cls, source: str, line: int, what: str, **details: str) -> 'Finding':
-        """Return a warning; ``details`` are found, expected, fix."""
+        """Return a warning; ``details`` are found, expected, taken, fix."""
         return cls(severity=Severity.WARNING, source=source, line=line, what=what, **details)
 
     @property
     def text(self) -> str:
-        """``file:line: what: found …, expected …; fix (context)``, in one line."""
+        """
+        ``file:line: what: found …, expected …; taken; fix (context)``, in one line.
+
+        What the simulator makes of an error is left out: :meth:`as_taken` says it.
+        """
         parts = [f'found {self.found}'] if self.found else []
         parts += [f'expected {self.expected}'] if self.expected else []
         details = f': {", ".join(parts)}' if parts else ''
-        fix = f'; {self.fix}' if self.fix else ''
+        is_taken = self.taken and self.severity is Severity.WARNING
+        fix = f'; {self.taken}' if is_taken else ''
+        fix += f'; {self.fix}' if self.fix else ''
         context = f' ({self.context})' if self.context else ''
         return one_line(f'{self.source}:{self.line}: {self.what}{details}{fix}{context}')
+
+    def is_refused(self, *, strict: bool) -> bool:
+        """Return whether the simulator refuses a description for it."""
+        if self.taken:
+            return strict
+        return self.severity is Severity.ERROR
 
     def as_taken(self) -> 'Finding':
         """Return the warning that says what the simulator makes of this error."""

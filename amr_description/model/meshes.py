@@ -50,6 +50,8 @@ MAX_CORNERS = 30_000_000
 
 _Y_UP_TO_Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 _UP_AXIS = re.compile(rb'<up_axis>\s*([XYZ]_UP)\s*</up_axis>')
+_STL_HEAD = 84
+_STL_RECORD = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('count', '<u2')])
 _NO_SCALE: Vector = (1.0, 1.0, 1.0)
 
 
@@ -153,9 +155,7 @@ def stl_bytes(mesh: TriangleMesh) -> bytes:
     corners = mesh.vertices[mesh.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    records = np.zeros(
-        len(corners), dtype=[('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('count', '<u2')]
-    )
+    records = np.zeros(len(corners), _STL_RECORD)
     records['normal'] = np.divide(normals, lengths, out=normals, where=lengths > 0.0)
     records['corners'] = corners
     return bytes(80) + struct.pack('<I', len(records)) + records.tobytes()
@@ -165,7 +165,14 @@ type _Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 def _read_stl(data: bytes, path: Path) -> _Arrays:
-    return _triangles(data, 'stl')
+    """Most are binary and whole, and need not wait for trimesh."""
+    (count,) = struct.unpack_from('<I', data, _STL_HEAD - 4) if len(data) >= _STL_HEAD else (0,)
+    if not count or len(data) != _STL_HEAD + _STL_RECORD.itemsize * count:
+        return _triangles(data, 'stl')
+    if 3 * count > MAX_CORNERS:
+        raise ValueError(f'it has more than {MAX_CORNERS // 3} triangles')
+    corners = np.frombuffer(data, _STL_RECORD, count, _STL_HEAD)['corners']
+    return corners.reshape(-1, 3).astype(float), np.arange(3 * count).reshape(-1, 3)
 
 
 def _read_obj(data: bytes, path: Path) -> _Arrays:

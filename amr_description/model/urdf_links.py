@@ -6,6 +6,7 @@ import math
 
 from lxml import etree
 
+from amr_description.model.findings import NO_SHAPE
 from amr_description.model.frames import Transform
 from amr_description.model.robot import (
     Box,
@@ -100,17 +101,24 @@ def read_origin(element: etree._Element, reader: ElementReader) -> Transform:
 
 
 def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial:
+    """Return mass and inertia; NaN stands for what is not given."""
     mass, inertia = element.find('mass'), element.find('inertia')
     if mass is None:
-        reader.error(element, '<inertial> has no <mass>', fix='add <mass value="…"/> in kg')
+        reader.warning(
+            element,
+            '<inertial> has no <mass>',
+            taken='it has none',
+            fix='add <mass value="…"/> in kg',
+        )
     if inertia is None:
-        reader.error(
+        reader.warning(
             element,
             '<inertial> has no <inertia>',
+            taken='it has those of a small ball',
             fix='add <inertia ixx="…" ixy="0" ixz="0" iyy="…" iyz="0" izz="…"/> in kg·m²',
         )
     moments = (
-        math.nan if inertia is None else reader.number(inertia, key)
+        math.nan if inertia is None else _read_moment(inertia, key, reader)
         for key in ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
     )
     return Inertial(
@@ -121,13 +129,30 @@ def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial:
     )
 
 
+def _read_moment(inertia: etree._Element, key: str, reader: ElementReader) -> float:
+    """Return a moment; one beside the diagonal that is not given is 0, another NaN."""
+    if inertia.get(key) is not None:
+        return reader.number(inertia, key)
+    is_beside = key[1] != key[2]
+    reader.warning(
+        inertia,
+        f'<inertia> has no attribute "{key}"',
+        expected='a number',
+        taken='it is 0' if is_beside else 'they are those of a small ball',
+    )
+    return 0.0 if is_beside else math.nan
+
+
 def _read_geometry(element: etree._Element, reader: ElementReader) -> Geometry | None:
     geometry = element.find('geometry')
     shape = None if geometry is None else next(geometry.iterchildren(etree.Element), None)
     expected = ', '.join(f'<{name}>' for name in _GEOMETRIES)
     if shape is None:
-        reader.error(
-            element, f'<{element.tag}> has no shape', expected=f'<geometry> with one of {expected}'
+        reader.warning(
+            element,
+            f'<{element.tag}> has no shape',
+            expected=f'<geometry> with one of {expected}',
+            taken=NO_SHAPE,
         )
         return None
     match shape.tag:
@@ -140,7 +165,9 @@ def _read_geometry(element: etree._Element, reader: ElementReader) -> Geometry |
         case 'mesh':
             scale = reader.numbers(shape, 'scale', 3, (1.0, 1.0, 1.0))
             return Mesh(reader.required(shape, 'filename'), scale)
-    reader.error(shape, 'unknown geometry', found=f'<{shape.tag}>', expected=expected)
+    reader.warning(
+        shape, 'unknown geometry', found=f'<{shape.tag}>', expected=expected, taken=NO_SHAPE
+    )
     return None
 
 

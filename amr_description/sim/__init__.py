@@ -14,6 +14,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 
 ``spawning.py``         checks of a request to spawn; the codes of simulation_interfaces
 ``robot_spec.py``       URDF to MuJoCo spec: bodies, wheels, initial joint states
+``prepared_xml.py``     the URDF as MuJoCo's reader needs it
 ``meshes.py``           the mesh files of a URDF
 ``overlap.py``          rejects a robot that is spawned inside something else
 

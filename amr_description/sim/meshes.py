@@ -1,20 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The mesh files of a URDF: found and judged before MuJoCo reads them, or read for it.
+The mesh files of a URDF: found, read, and put into the spec as triangles.
 
-MuJoCo reads ``.msh``, ``.obj`` and binary ``.stl`` of up to 200,000 triangles. The other files
-that :mod:`amr_description.model.meshes` reads (``.dae``, ``.gltf``, ``.glb``, STL as text or
-larger) are put into the spec as triangles, without a file in between.
+All files that :mod:`amr_description.model.meshes` reads go this way, so that a shape is the same
+whatever its format; only ``.msh`` is left to MuJoCo. A mesh that cannot be had is left out of the
+visuals; a collision takes the shape of its link's visual instead, or is left out too. A collision
+mesh without thickness gets :data:`THICKNESS`, as its convex hull must have a volume.
 """
 
+from copy import deepcopy
 from functools import lru_cache
 from pathlib import Path
-import struct
 
 from lxml import etree
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from amr_description.ament_index import resolve_uri
 from amr_description.control.contracts import Log, Severity
@@ -26,40 +28,62 @@ from amr_description.sim.spawning import SpawnCode
 type Meshes = dict[str, TriangleMesh]
 """Triangles by what stands in the spec for a file name."""
 
+THICKNESS = 0.001
+"""m, of a collision mesh whose corners are in one plane, on one line or at one point."""
+
+_FLAT = 1e-6
+"""m, and the share of the length: a mesh that is thinner has no thickness."""
+_SMALLEST_AREA = 1e-12
+"""m²; MuJoCo refuses a mesh without any."""
 _ONLY_MUJOCO = '.msh'
-_MOST_TRIANGLES, _FEWEST_VERTICES = 200_000, 4
-_HEADER, _RECORD = 84, 50
+_FEWEST_VERTICES = 4
 _SEEN, _TOUCHED = '#seen', '#touched'
+_CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+_SIDES = np.array(
+    [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6),
+     (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+)  # fmt: skip
+"""A box, its outside outside."""
+_SIZES = {'box': ('size',), 'cylinder': ('radius', 'length'), 'sphere': ('radius',)}
 
 
-def resolve_meshes(urdf: etree._Element, source: str, log: Log) -> Meshes:
+def resolve_meshes(urdf: etree._Element, source: str, log: Log, *, strict: bool = False) -> Meshes:
     """
-    Write the true path of every mesh into ``urdf``.
+    Read every mesh of ``urdf``, and write into it the name of what was read.
 
-    Physics needs the shapes of collisions: SpawnError if one cannot be had. A ``<visual>`` whose
-    mesh cannot be had is left out, which the log is told.
+    Args:
+        urdf: The ``<robot>`` element; edited. Shapes without a volume are left out.
+        source: Its file, beside which relative paths are looked for; begins messages.
+        log: Gets what is left out or replaced.
+        strict: Refuse a mesh of a collision that cannot be had.
 
     Returns:
-        The meshes that MuJoCo does not read itself, scaled, by the name that is written instead;
-        for :func:`insert_meshes`.
+        The meshes, scaled, by the name that is written instead; for :func:`insert_meshes`.
+
+    Raises:
+        SpawnError: As ``strict`` says.
     """
     meshes: Meshes = {}
     for part in (*urdf.iterfind('link/collision'), *urdf.iterfind('link/visual')):
-        mesh = part.find('geometry/mesh')
-        if mesh is None:
-            continue
-        place = f'{source}:{mesh.sourceline}: mesh of a {part.tag} of link "{_link(part)}"'
-        try:
-            path = _mesh_file(mesh.get('filename', ''), source, place)
-            if _is_for_mujoco(path):
-                mesh.set('filename', str(path))
-            else:
-                _replace(mesh, path, place, meshes)
-        except SpawnError as error:
-            if part.tag == 'collision':
-                raise
-            log(Severity.WARN, f'{error}; it is not drawn')
+        if _is_without_size(part):
             part.getparent().remove(part)
+    for part in urdf.findall('link/collision'):
+        try:
+            _resolve(part, source, meshes)
+        except SpawnError as error:
+            if strict:
+                raise
+            log(Severity.WARN, f'{error}; {_replace_collision(part, source, meshes)}')
+    unseen: list[SpawnError] = []
+    for part in urdf.findall('link/visual'):
+        try:
+            _resolve(part, source, meshes)
+        except SpawnError as error:
+            unseen.append(error)
+            part.getparent().remove(part)
+    if unseen:
+        others = f', nor are {len(unseen) - 1} others' if len(unseen) > 1 else ''
+        log(Severity.WARN, f'{unseen[0]}; it is not drawn in the simulation{others}')
     return meshes
 
 
@@ -69,18 +93,118 @@ def insert_meshes(spec: mujoco.MjSpec, meshes: Meshes) -> None:
         triangles = meshes.get(mesh.file)
         if triangles is None:
             continue
-        if f'/{_SEEN},' in mesh.file:
-            # It weighs nothing; a flat one, without a volume, is fine so.
-            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        if f'/{_TOUCHED},' in mesh.file:
+            triangles = thickened(triangles)
+        # It weighs nothing, and needs no volume so.
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         mesh.file = ''
-        vertices = triangles.vertices.astype(np.float32)
+        vertices, faces = _shared_corners(triangles)
         lacking = max(0, _FEWEST_VERTICES - len(vertices))
         mesh.uservert = np.vstack((vertices, *vertices[:1].repeat(lacking, axis=0))).reshape(-1)
-        mesh.userface = triangles.faces.astype(np.int32).reshape(-1)
+        mesh.userface = faces.astype(np.int32).reshape(-1)
 
 
-def _link(part: etree._Element) -> str:
-    return part.getparent().get('name', '')
+def thickened(mesh: TriangleMesh) -> TriangleMesh:
+    """
+    Return a mesh whose convex hull has a volume, itself if it has one.
+
+    A flat one is doubled, :data:`THICKNESS` apart; for one that is a line or a point there is the
+    box about it.
+    """
+    used = mesh.vertices[np.unique(mesh.faces)]
+    middle = used.mean(axis=0)
+    _, _, axes = np.linalg.svd(used - middle, full_matrices=len(used) < len(middle))
+    along = (used - middle) @ axes.T
+    extents = np.ptp(along, axis=0)
+    is_thin = extents < max(_FLAT, _FLAT * float(extents.max()))
+    if not is_thin.any():
+        return mesh
+    half = axes[is_thin] * (THICKNESS / 2.0)
+    if len(half) == 1:
+        faces = np.vstack((mesh.faces, mesh.faces + len(mesh.vertices)))
+        return TriangleMesh(np.vstack((mesh.vertices - half, mesh.vertices + half)), faces)
+    low, high = along.min(axis=0), along.max(axis=0)
+    low, high = low - is_thin * THICKNESS / 2.0, high + is_thin * THICKNESS / 2.0
+    return TriangleMesh((low + _CORNERS * (high - low)) @ axes + middle, _SIDES)
+
+
+def _shared_corners(mesh: TriangleMesh) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Return vertices and faces; STL has each corner as often as it has triangles there."""
+    vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float32)
+    if len(vertices) < 3 * len(mesh.faces):
+        return vertices, mesh.faces
+    rows = vertices.view([('x', 'f4'), ('y', 'f4'), ('z', 'f4')]).reshape(-1)
+    _, first, corner = np.unique(rows, return_index=True, return_inverse=True)
+    return vertices[first], corner[mesh.faces]
+
+
+def _is_without_size(part: etree._Element) -> bool:
+    """Whether a part has no shape that is known and has a volume, which the checker has said."""
+    shape = next(part.iterfind('geometry/*'), None)
+    if shape is None or shape.tag not in ('mesh', *_SIZES):
+        return True
+    if shape.tag == 'mesh':
+        return 0.0 in _scale(shape)
+    words = ' '.join(shape.get(name, '') for name in _SIZES[shape.tag]).split()
+    return any(float(word) == 0.0 for word in words)
+
+
+def _replace_collision(part: etree._Element, source: str, meshes: Meshes) -> str:
+    """Give a collision the shape of a visual of its link, or leave it out; return which."""
+    link = part.getparent()
+    for visual in link.iterfind('visual'):
+        other = deepcopy(visual)
+        other.tag = 'collision'
+        other.tail = None
+        part.addnext(other)
+        try:
+            _resolve(other, source, meshes)
+        except SpawnError:
+            link.remove(other)
+            continue
+        link.remove(part)
+        return 'the shape of its visual is taken'
+    link.remove(part)
+    return 'it is left out'
+
+
+def _resolve(part: etree._Element, source: str, meshes: Meshes) -> None:
+    """Let the ``<mesh>`` of a part, if it has one, name triangles, not a file. SpawnError."""
+    mesh = part.find('geometry/mesh')
+    if mesh is None:
+        return
+    link = part.getparent().get('name', '')
+    place = f'{source}:{mesh.sourceline}: mesh of a {part.tag} of link "{link}"'
+    path = _mesh_file(mesh.get('filename', ''), source, place)
+    if path.suffix.lower() == _ONLY_MUJOCO:
+        mesh.set('filename', str(path))
+        return
+    scale = _scale(mesh)
+    try:
+        status = path.stat()
+        triangles = _load(path, scale, (status.st_mtime_ns, status.st_size))
+        if part.tag == 'visual' and _area(triangles) < _SMALLEST_AREA:
+            raise MeshError(f'{path}: its triangles have no area')
+    except (MeshError, OSError) as cause:
+        raise SpawnError(f'{place}: {cause}', SpawnCode.UNSUPPORTED_ASSETS) from cause
+    mesh.attrib.pop('scale', None)
+    kind = _SEEN if part.tag == 'visual' else _TOUCHED
+    x, y, z = scale
+    # MuJoCo names the mesh after the file, without folder and type.
+    name = f'{path.parent}/{kind},{x!r},{y!r},{z!r}/{path.name}'
+    meshes[name] = triangles
+    mesh.set('filename', name)
+
+
+def _scale(mesh: etree._Element) -> Vector:
+    x, y, z = (float(word) for word in mesh.get('scale', '1 1 1').split())
+    return (x, y, z)
+
+
+def _area(mesh: TriangleMesh) -> float:
+    corners = mesh.vertices[mesh.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return float(np.linalg.norm(normals, axis=1).sum()) / 2.0
 
 
 def _mesh_file(uri: str, source: str, place: str) -> Path:
@@ -99,38 +223,6 @@ def _mesh_file(uri: str, source: str, place: str) -> Path:
             SpawnCode.UNSUPPORTED_ASSETS,
         )
     return path.resolve()
-
-
-def _is_for_mujoco(path: Path) -> bool:
-    """Tell whether MuJoCo reads a file: of STL, by its length and the count in its header."""
-    suffix = path.suffix.lower()
-    if suffix != '.stl':
-        return suffix in ('.obj', _ONLY_MUJOCO)
-    try:
-        with path.open('rb') as stream:
-            header = stream.read(_HEADER)
-        size = path.stat().st_size
-    except OSError:  # said when it is read
-        return False
-    if len(header) < _HEADER:
-        return False
-    (count,) = struct.unpack_from('<I', header, _HEADER - 4)
-    return 0 < count <= _MOST_TRIANGLES and size == _HEADER + _RECORD * count
-
-
-def _replace(mesh: etree._Element, path: Path, place: str, meshes: Meshes) -> None:
-    """Let ``<mesh>`` name triangles instead of a file; their scale is theirs. SpawnError."""
-    x, y, z = (float(word) for word in mesh.attrib.pop('scale', '1 1 1').split())
-    try:
-        status = path.stat()
-        triangles = _load(path, (x, y, z), (status.st_mtime_ns, status.st_size))
-    except (MeshError, OSError) as cause:
-        raise SpawnError(f'{place}: {cause}', SpawnCode.UNSUPPORTED_ASSETS) from cause
-    kind = _SEEN if mesh.getparent().getparent().tag == 'visual' else _TOUCHED
-    # MuJoCo names the mesh after the file, without folder and type.
-    name = f'{path.parent}/{kind},{x!r},{y!r},{z!r}/{path.name}'
-    meshes[name] = triangles
-    mesh.set('filename', name)
 
 
 @lru_cache(maxsize=32)  # the robots of a fleet have the same

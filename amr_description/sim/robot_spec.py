@@ -3,28 +3,23 @@
 """
 The MuJoCo spec of one robot, from its URDF: bodies, actuators, wheels, initial joint states.
 
-MuJoCo's own URDF reader does most of it. With its defaults it welds the robot to the world, fuses
-links without a joint into it (most of the mass is lost then) and looks for meshes by their bare
-names. Its settings are therefore written into the XML before it reads it; the rest is edited in
-the spec.
+MuJoCo's own URDF reader does most of it, from the XML of :mod:`amr_description.sim.prepared_xml`;
+the rest is edited in the spec.
 """
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
-from lxml import etree
 import mujoco
 
 from amr_description.control.contracts import Log
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SpawnError
-from amr_description.model.findings import raise_error
 from amr_description.model.hardware_info import ComponentInfo
-from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
+from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
-from amr_description.model.xml_reader import parse_xml
 from amr_description.sim.actuators import add_actuators, command_bounds
 from amr_description.sim.engine import compiler_message, compiler_warnings
 from amr_description.sim.friction import (
@@ -33,19 +28,16 @@ from amr_description.sim.friction import (
     WHEEL_FRICTION,
     WHEEL_PRIORITY,
 )
-from amr_description.sim.meshes import insert_meshes, Meshes, resolve_meshes
+from amr_description.sim.meshes import insert_meshes
+from amr_description.sim.prepared_xml import prepared_xml
 from amr_description.sim.spawning import SpawnCode
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """Of the equality constraint of a mimic joint: nearly rigid, as gears are."""
 
-MIN_RANGE = 2e-6
-"""rad or m; the range of a joint whose limits are equal."""
-
+_ROUND = (mujoco.mjtGeom.mjGEOM_CYLINDER, mujoco.mjtGeom.mjGEOM_SPHERE)
 _DRIVING_INTERFACES = {VELOCITY, EFFORT}
 """The command interfaces by which a wheel is driven."""
-
-_COMPILER = {'fusestatic': 'false', 'discardvisual': 'false', 'strippath': 'false'}
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,18 +78,21 @@ def wheel_geom_name(link: str) -> str:
     return f'{link}/wheel'
 
 
-def build_robot(robot: Robot, log: Log) -> RobotSpec:
+def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
     """
     Build the spec of a robot.
 
     Args:
         robot: A robot that the checker has found sound.
-        log: Gets what is left out, and the warnings of MuJoCo's compiler.
+        log: Gets what is left out or taken as something else, and the warnings of MuJoCo's
+            compiler.
+        strict: Refuse a robot without mass, and a collision whose mesh cannot be read.
 
     Raises:
-        SpawnError: MuJoCo rejects the model, or a mesh of a collision cannot be read.
+        SpawnError: MuJoCo rejects the model, or as ``strict`` says.
     """
-    if robot.root.name != WORLD_LINK and not any(link.inertial for link in robot.links):
+    is_massless = not any(link.inertial for link in robot.links)
+    if strict and is_massless and robot.root.name != WORLD_LINK:
         raise SpawnError(
             f'{robot.source}: no link has mass, so nothing can move the robot; add <inertial> '
             'with <mass value="…"/> (kg) and <inertia …/> (kg·m²)',
@@ -110,7 +105,7 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
         names = tuple(interface.name for interface in joint.command_interfaces)
         commands[joint.name] = commands.get(joint.name, ()) + names
     try:
-        xml, meshes = _prepared_xml(robot, log)
+        xml, meshes = prepared_xml(robot, log, strict=strict)
         spec = mujoco.MjSpec.from_string(xml)
         insert_meshes(spec, meshes)
         _replace_floating_joints(spec, robot)
@@ -140,41 +135,6 @@ def build_robot(robot: Robot, log: Log) -> RobotSpec:
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     initial = initial_states(robot, controlled)
     return RobotSpec(spec, wheels, casters, commands, initial, free)
-
-
-def _prepared_xml(robot: Robot, log: Log) -> tuple[str, Meshes]:
-    """
-    Return the URDF with MuJoCo's compiler settings and resolved mesh paths, and the meshes that
-    MuJoCo does not read itself.
-    """
-    root = parse_xml(robot.text, robot.source, raise_error)
-    assert root is not None, 'raise_error does not return from an error'
-    extension = root.find('mujoco')
-    if extension is None:
-        extension = etree.SubElement(root, 'mujoco')
-    compiler = extension.find('compiler')
-    if compiler is None:
-        compiler = etree.SubElement(extension, 'compiler')
-    for key, value in _COMPILER.items():
-        compiler.set(key, value)
-    for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
-        # MuJoCo names its geoms by it, and rejects a name that a visual and a collision share.
-        shape.attrib.pop('name', None)
-    for joint in robot.joints:
-        if joint.limit is not None and joint.limit.lower == joint.limit.upper:
-            _keep_limit(root, joint)
-    meshes = resolve_meshes(root, robot.source, log)
-    return etree.tostring(root, encoding='unicode'), meshes
-
-
-def _keep_limit(root: etree._Element, joint: Joint) -> None:
-    """Widen a range of 0, which MuJoCo ignores: the joint would move freely."""
-    assert joint.limit is not None
-    for element in root.iterfind('joint'):
-        if element.get('name') == joint.name:
-            limit = element.find('limit')
-            limit.set('lower', repr(joint.limit.lower - MIN_RANGE / 2.0))
-            limit.set('upper', repr(joint.limit.upper + MIN_RANGE / 2.0))
 
 
 def _replace_floating_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
@@ -216,8 +176,15 @@ def _make_wheel_geom(spec: mujoco.MjSpec, wheel: Wheel) -> None:
     An ellipsoid touches flat ground in one point; the edge of a cylinder gives contacts that come
     and go as the wheel turns.
     """
-    shapes = [g for g in spec.body(wheel.link).geoms if g.contype or g.conaffinity]
-    geom = shapes[wheel.collision]
+    # By its radius: a collision before it may have been left out.
+    geom = min(
+        (
+            each
+            for each in spec.body(wheel.link).geoms
+            if each.type in _ROUND and (each.contype or each.conaffinity)
+        ),
+        key=lambda each: abs(each.size[0] - wheel.radius),
+    )
     geom.name = wheel_geom_name(wheel.link)
     geom.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
     geom.size = [wheel.radius, wheel.radius, wheel.half_width]

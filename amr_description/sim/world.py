@@ -57,6 +57,7 @@ class MujocoWorld:
         timestep: int | None = None,
         contact: ContactSettings = WHEEL_CONTACT,
         seed: int = 0,
+        strict: bool = False,
         log: Log = null_log,
     ) -> None:
         """
@@ -68,6 +69,7 @@ class MujocoWorld:
             timestep: Physics step, ns; by default the longest that settings and file allow.
             contact: The contact of wheels with static surfaces.
             seed: Not negative; seeds the noise of all sensors.
+            strict: Refuse a description that would have to be taken as something else.
             log: Gets warnings and faults.
 
         Raises:
@@ -87,6 +89,7 @@ class MujocoWorld:
         self._surfaces = static_surfaces(spec)
         self._contact = contact
         self._seed = seed
+        self._strict = strict
         self._contacts: dict[str, Contacts] = {}
         # MuJoCo keeps every spec that was ever attached, 0.1 MB each: so there is one for each
         # description, and it is copied into the world for each robot of it.
@@ -159,8 +162,8 @@ class MujocoWorld:
         check_name(name, self.names)
         pose = checked_pose(pose)
         if isinstance(description, str):
-            description = read_description(description, name, self._log)
-        model = build_robot(description, self._log)
+            description = read_description(description, name, self._log, strict=self._strict)
+        model = build_robot(description, self._log, strict=self._strict)
         contacts = self._contacts_of(description, model)
         spec = self._specs.setdefault(description.text, model.spec)
         self._attach(name, spec, pose, contacts)

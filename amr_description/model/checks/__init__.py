@@ -39,7 +39,7 @@ from amr_description.model.checks import (
     units,
 )
 from amr_description.model.checks.context import CheckContext, CheckInputs, DriveSettings, Rule
-from amr_description.model.findings import Finding, Report, Severity
+from amr_description.model.findings import Finding, NO_SHAPE, Report, Severity
 from amr_description.model.gazebo import read_gazebo_plugins
 from amr_description.model.origins import raise_error_of, relocated
 from amr_description.model.robot import Robot
@@ -109,8 +109,8 @@ RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
     inertia.mass_is_supported,
     *_RULES_OF_WHOLE_DRIVES,
 )
-"""The rules on the whole robot; checked only without errors and wrong units: one fault would cause
-many."""
+"""The rules on the whole robot; checked only without errors, missing shapes and wrong units: one
+fault would cause many."""
 
 NO_INPUTS = CheckInputs()
 
@@ -168,8 +168,10 @@ def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS
     if context is None:
         return Examination(_relocated(findings, text, source), None)
     findings += _apply(context, RULES)
-    is_sound = not any(each.severity is Severity.ERROR for each in findings)
-    if is_sound and not units.are_doubtful(context):
+    is_whole = not any(
+        each.severity is Severity.ERROR or each.taken == NO_SHAPE for each in findings
+    )
+    if is_whole and not units.are_doubtful(context):
         findings += _apply(context, RULES_OF_THE_WHOLE)
     return Examination(_relocated(findings, text, source), context.robot)
 
@@ -220,16 +222,16 @@ def require_sound(
     Args:
         text: the URDF.
         source: names the file in messages.
-        strict: False: errors that the simulator can live with become warnings, which say what it
-            makes of them.
+        strict: False: faults that the simulator can live with become warnings, which say what it
+            makes of them; True: they are refused, too.
 
     Raises:
         DescriptionError: there are errors: the first one, and how many more.
     """
     examination = examine(text, source)
-    errors = [each for each in examination.errors if strict or not each.taken]
-    if examination.robot is None or errors:
-        first, *rest = errors
+    refused = [each for each in examination.findings if each.is_refused(strict=strict)]
+    if examination.robot is None or refused:
+        first, *rest = refused
         more = f' (and {len(rest)} more; check_urdf lists them)' if rest else ''
         raise DescriptionError(first.text + more)
     taken = tuple(each.as_taken() for each in examination.errors)

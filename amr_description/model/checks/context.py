@@ -16,6 +16,7 @@ from amr_description.model.frames import Transform
 from amr_description.model.gazebo import GazeboPlugin
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.kinematics import link_poses
+from amr_description.model.mended_inertials import bodies_of, mended_inertials, MendedInertial
 from amr_description.model.mesh_uses import find_meshes, FindFile, MeshUse
 from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.wheels import find_wheels, Wheel
@@ -101,10 +102,12 @@ class CheckContext:
     @cached_property
     def bodies(self) -> dict[str, str]:
         """The topmost link of each link's rigid body: links joined by fixed joints are one."""
-        top = {root.name: root.name for root in self.robot.roots}
-        for _, joint in self.robot.walk():
-            top[joint.child] = joint.child if joint.is_moving else top[joint.parent]
-        return top
+        return bodies_of(self.robot)
+
+    @cached_property
+    def mended_inertials(self) -> dict[str, MendedInertial]:
+        """What the simulator gives links instead of their ``<inertial>``, by link."""
+        return mended_inertials(self.robot)
 
     @cached_property
     def fixed_links(self) -> frozenset[str]:

@@ -17,7 +17,14 @@ from amr_description.model.checks.context import CheckContext
 from amr_description.model.checks.units import is_in_grams, is_in_millimetres
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform, Vector
-from amr_description.model.robot import Box, Cylinder, Inertia, Inertial, Link, Mesh, Sphere
+from amr_description.model.mended_inertials import (
+    is_finite,
+    LIGHTEST,
+    principal_moments,
+    ROUNDING,
+    SMALLEST_MOMENT,
+)
+from amr_description.model.robot import Box, Cylinder, Inertial, Link, Mesh, Sphere
 from amr_description.model.shapes import (
     farthest,
     half_sizes,
@@ -43,12 +50,8 @@ type _Point = tuple[float, float]
 _FACTOR = 3.0
 # Moments that agree this closely after two axes are exchanged, and not before, were swapped.
 _SWAPPED, _NOT_SWAPPED = 1.1, 1.5
-# By this share moments may violate the triangle inequality, as the file rounds its numbers.
-_ROUNDING = 0.01
 # kg and kg·m²; solvers fail beyond.
 _HEAVIEST, _LARGEST_MOMENT = 1e9, 1e12
-# kg and kg·m²; ten times the least that MuJoCo accepts.
-_LIGHTEST, _SMALLEST_MOMENT = 1e-14, 1e-14
 _FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²)'
 
 
@@ -63,17 +66,19 @@ def inertial_is_present(context: CheckContext) -> Iterator[Finding]:
         joint = robot.parent_joint(link.name)
         if link.collisions:
             # A part fixed to one with mass moves with it, but its own mass is missing.
-            is_carried = context.bodies.get(link.name) in massive
-            report = context.warning if is_carried else context.error
-            yield report(
+            yield context.warning(
                 link.line,
                 f'link {quote(link.name)} has a collision shape and no <inertial>',
+                taken=''
+                if context.bodies.get(link.name) in massive
+                else _taken(context, link.name) or 'it is a part without mass',
                 fix=_FIX,
             )
         elif joint is not None and joint.is_moving and link.name not in massive:
-            yield context.error(
+            yield context.warning(
                 link.line,
                 f'link {quote(link.name)} moves with {quote(joint.name)} and has no <inertial>',
+                taken=_taken(context, link.name),
                 fix=_FIX,
             )
 
@@ -85,10 +90,11 @@ def base_has_mass(context: CheckContext) -> Iterator[Finding]:
     if not any(joint.is_moving for joint in robot.joints):
         return
     for root in robot.roots[:1]:
-        if root.name not in massive and root.name not in static:
-            yield context.error(
+        if root.name not in massive and root.name not in static and not root.collisions:
+            yield context.warning(
                 root.line,
                 f'nothing that is rigidly joined to the root {quote(root.name)} has mass',
+                taken=_taken(context, root.name),
                 fix=f'{_FIX} to a link fixed to it; for a robot bolted down, a root link "world"',
             )
 
@@ -96,15 +102,18 @@ def base_has_mass(context: CheckContext) -> Iterator[Finding]:
 def mass_is_positive(context: CheckContext) -> Iterator[Finding]:
     """Mass is above 0 and within what a solver can handle."""
     for link in context.robot.links:
-        if link.inertial is None or _LIGHTEST < link.inertial.mass < _HEAVIEST:
+        if link.inertial is None or LIGHTEST < link.inertial.mass < _HEAVIEST:
             continue
         if not math.isnan(link.inertial.mass):
-            least = _LIGHTEST if 0.0 < link.inertial.mass < _HEAVIEST else 0.0
-            yield context.error(
+            least = LIGHTEST if 0.0 < link.inertial.mass < _HEAVIEST else 0.0
+            taken = _taken(context, link.name)
+            report = context.warning if taken else context.error
+            yield report(
                 link.inertial.line,
                 f'link {quote(link.name)}: mass',
                 found=f'{link.inertial.mass:g} kg',
                 expected=f'more than {least:g} and less than {_HEAVIEST:g}',
+                taken=taken,
             )
 
 
@@ -113,35 +122,37 @@ def inertia_is_possible(context: CheckContext) -> Iterator[Finding]:
     The inertia is that of some distribution of mass.
 
     Its principal moments are positive, and none exceeds the sum of the two others (their sum
-    minus the third is twice the second moment of the mass along the third axis).
+    minus the third is twice the second moment of the mass along the third axis). Of a link that
+    never moves, or whose mass is wrong, it is not looked at.
     """
     for link in context.robot.links:
-        if link.inertial is None or not _is_finite(link.inertial.inertia):
+        taken = _taken(context, link.name)
+        if link.inertial is None or not is_finite(link.inertial.inertia):
+            continue
+        if not link.inertial.mass > LIGHTEST or link.name in context.fixed_links:
             continue
         low, middle, high = principal_moments(link.inertial.inertia)
         found = f'principal moments {low:.4g}, {middle:.4g}, {high:.4g} kg·m²'
-        if low <= 0.0:
-            yield context.error(
+        what, expected = '', ''
+        if high > _LARGEST_MOMENT:
+            what, expected = 'no body has this inertia', f'less than {_LARGEST_MOMENT:g}'
+            taken = ''
+        elif low <= 0.0:
+            what, expected = 'the inertia is not positive definite', 'each above 0'
+        elif low < SMALLEST_MOMENT:
+            what = 'the inertia is too small for any solver'
+            expected = f'each above {SMALLEST_MOMENT:g}'
+        elif high > (low + middle) * (1.0 + ROUNDING):
+            what = 'no body has this inertia'
+            expected = 'none above the sum of the two others (triangle inequality)'
+        if what:
+            report = context.warning if taken else context.error
+            yield report(
                 link.inertial.line,
-                f'link {quote(link.name)}: the inertia is not positive definite',
+                f'link {quote(link.name)}: {what}',
                 found=found,
-                expected='each above 0',
-            )
-        elif low < _SMALLEST_MOMENT:
-            yield context.error(
-                link.inertial.line,
-                f'link {quote(link.name)}: the inertia is too small for any solver',
-                found=found,
-                expected=f'each above {_SMALLEST_MOMENT:g}',
-            )
-        elif high > (low + middle) * (1.0 + _ROUNDING) or high > _LARGEST_MOMENT:
-            yield context.error(
-                link.inertial.line,
-                f'link {quote(link.name)}: no body has this inertia',
-                found=found,
-                expected='none above the sum of the two others (triangle inequality)'
-                if high < _LARGEST_MOMENT
-                else f'less than {_LARGEST_MOMENT:g}',
+                expected=expected,
+                taken=taken,
             )
 
 
@@ -278,19 +289,6 @@ def _lowest_points(context: CheckContext) -> list[tuple[float, Link, Solid]]:
     ]
 
 
-def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
-    """Return the eigenvalues of the inertia matrix, ascending (kg·m²)."""
-    import numpy as np  # not at import: a description without <inertial> needs no numpy
-
-    matrix = [
-        [inertia.ixx, inertia.ixy, inertia.ixz],
-        [inertia.ixy, inertia.iyy, inertia.iyz],
-        [inertia.ixz, inertia.iyz, inertia.izz],
-    ]
-    low, middle, high = np.linalg.eigvalsh(matrix).tolist()
-    return low, middle, high
-
-
 def convex_hull(points: Sequence[_Point]) -> list[_Point]:
     """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
     ordered = sorted(set(points))
@@ -299,15 +297,20 @@ def convex_hull(points: Sequence[_Point]) -> list[_Point]:
     return _half_hull(ordered)[:-1] + _half_hull(ordered[::-1])[:-1]
 
 
+def _taken(context: CheckContext, link: str) -> str:
+    """Return what the simulator takes the ``<inertial>`` of a link as; '' for what stands."""
+    mended = context.mended_inertials.get(link)
+    return '' if mended is None else mended.taken
+
+
 def _bodies_with_inertial(context: CheckContext) -> set[str]:
-    """Return the topmost links of the rigid bodies in which some link has an ``<inertial>``."""
-    links = (link.name for link in context.robot.links if link.inertial is not None)
+    """Return the topmost links of the rigid bodies in which some link has a mass, or no number."""
+    links = (
+        link.name
+        for link in context.robot.links
+        if link.inertial is not None and not link.inertial.mass <= LIGHTEST
+    )
     return {context.bodies.get(link, '') for link in links}
-
-
-def _is_finite(inertia: Inertia) -> bool:
-    moments = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
-    return all(map(math.isfinite, moments))
 
 
 def _solid_moments(link: Link) -> Vector | None:

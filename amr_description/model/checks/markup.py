@@ -25,6 +25,8 @@ _XACRO = ('http://www.ros.org/wiki/xacro', 'http://ros.org/wiki/xacro')
 # Elements that only set values; some expanded files keep a few.
 _MAKES_NOTHING = ('arg', 'property')
 _EXPRESSION = re.compile(r'=\s*["\'][^"\'<]*\$[{(]')
+TOUCHES_NOTHING = "the shape of the link's visual is taken, or none"
+"""What the simulator makes of a collision whose mesh cannot be had."""
 # Elements whose unknown children are refused where they are read.
 _READ_STRICTLY = ('ros2_control', 'geometry')
 _ODD = re.compile(r'\A/|\s')
@@ -238,7 +240,7 @@ def gazebo_refers_to_something(context: CheckContext) -> Iterator[Finding]:
 
 
 def files_are_there(context: CheckContext) -> Iterator[Finding]:
-    """Meshes and textures exist; a missing collision mesh is an error, as simulators refuse it."""
+    """Meshes and textures exist."""
     file_exists = context.inputs.file_exists
     if file_exists is None:
         return
@@ -256,12 +258,12 @@ def files_are_there(context: CheckContext) -> Iterator[Finding]:
                 fix=str(error),
             )
             continue
-        report = context.error if file.touches else context.warning
-        yield report(
+        yield context.warning(
             file.line,
             f'{file.what} is not there',
             found=quote(file.path),
             expected='package://<package>/<path>, or a path from the folder of this file',
+            taken=TOUCHES_NOTHING if file.touches else '',
         )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import math
 
 from amr_description.model.checks.context import CheckContext
+from amr_description.model.checks.markup import TOUCHES_NOTHING
 from amr_description.model.findings import Finding
 from amr_description.model.mesh_uses import MeshUse
 from amr_description.model.robot import Collision, Mesh, Visual
@@ -25,11 +26,15 @@ _LARGEST_HULL = 2.0
 
 
 def meshes_can_be_read(context: CheckContext) -> Iterator[Finding]:
-    """No mesh is empty or broken; without that of a collision no simulator takes the robot."""
+    """No mesh is empty or broken."""
     for use in context.meshes:
         if use.error:
-            report = context.error if use.touches else context.warning
-            yield report(use.part.line, f'{_name(use)} cannot be used', found=use.error)
+            yield context.warning(
+                use.part.line,
+                f'{_name(use)} cannot be used',
+                found=use.error,
+                taken=TOUCHES_NOTHING if use.touches else '',
+            )
 
 
 def meshes_are_in_metres(context: CheckContext) -> Iterator[Finding]:

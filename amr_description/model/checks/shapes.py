@@ -5,7 +5,7 @@
 from collections.abc import Iterator
 
 from amr_description.model.checks.context import CheckContext
-from amr_description.model.findings import Finding
+from amr_description.model.findings import Finding, NO_SHAPE
 from amr_description.model.robot import Collision, Geometry, Link, Mesh, Visual
 from amr_description.model.shapes import overlap, reach, sizes, Solid, solids_of
 from amr_description.model.xml_reader import line_of
@@ -18,7 +18,11 @@ _MOST_PAIRS = 20_000
 
 
 def sizes_are_positive(context: CheckContext) -> Iterator[Finding]:
-    """Every side, radius, length and scale of a shape is above 0; a mesh may be mirrored."""
+    """
+    Every side, radius, length and scale of a shape is above 0; a mesh may be mirrored.
+
+    One of size 0 is left out by the simulator; a negative one means nothing.
+    """
     for link in context.robot.links:
         parts: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
         for part in parts:
@@ -26,11 +30,14 @@ def sizes_are_positive(context: CheckContext) -> Iterator[Finding]:
             if wrong:
                 kind = 'visual' if isinstance(part, Visual) else 'collision'
                 shape = type(part.geometry).__name__.lower()
-                yield context.error(
+                is_negative = any(size < 0.0 for size in wrong)
+                report = context.error if is_negative else context.warning
+                yield report(
                     part.line,
                     f'link {quote(link.name)}: the {shape} of its {kind} has no volume',
                     found=' '.join(f'{size:g}' for size in _sizes(part.geometry)),
                     expected='sizes above 0, in m',
+                    taken='' if is_negative else NO_SHAPE,
                 )
 
 

@@ -23,7 +23,7 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.control.contracts import Severity
+from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
@@ -64,6 +64,12 @@ class SimulationParameters:
         '',
         'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
         'names, else that of this package',
+        read_only=True,
+    )
+    strict: bool = parameter(
+        False,
+        'Refuse a description that would have to be taken as something else, such as a link that '
+        'moves and has no mass; else that is said, and it is spawned',
         read_only=True,
     )
     on_fault: str = parameter(
@@ -131,12 +137,7 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             publisher = ClockedLoopPublisher(node)
             publisher.adopt(node)
-            self.world = MujocoWorld(
-                parameters.world,
-                settings=parameters.physics,
-                seed=parameters.seed,
-                log=self.log,
-            )
+            self.world = _world_of(parameters, self.log)
             ground_truth = GroundTruth(node, publisher, self.world, parameters.ground_truth_rate)
             calls = CallQueue(PAUSED_CLOCK_PERIOD)
             self._pacer = WallPacer(parameters.real_time_factor, calls)
@@ -261,3 +262,13 @@ class Simulation:
                 'paused, as on_fault says; ~/set_simulation_state lets time go on, '
                 '~/reset_simulation begins anew',
             )
+
+
+def _world_of(parameters: SimulationParameters, log: Log) -> MujocoWorld:
+    return MujocoWorld(
+        parameters.world,
+        settings=parameters.physics,
+        seed=parameters.seed,
+        strict=parameters.strict,
+        log=log,
+    )

@@ -131,7 +131,8 @@ class SpawnServices:
 
     async def _spawn(self, request: SpawnEntity.Request, text: str, source: str) -> str:
         """Spawn an entity; return its name. Raises SpawnError, or whatever a component raises."""
-        robot = read_description(text, source, self._simulation.log)
+        strict = self._simulation.parameters.strict
+        robot = read_description(text, source, self._simulation.log, strict=strict)
         _check_frame(request.initial_pose)
         namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
         name = await self._simulation.entities.spawn(

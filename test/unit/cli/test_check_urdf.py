@@ -209,9 +209,6 @@ def test_refuses_in_the_words_of_urdfdom(run, case):
 
 
 UNUSABLE = {
-    'no inertial': (
-        joint_text('continuous'), 1, 'error: <stdin>:2: link "b" moves with "j1" and has no <iner'
-    ),
     'circle': (
         '<robot name="r">\n<link name="r"/><link name="a"/><link name="b"/>'
         f'<joint name="j" type="fixed">{ENDS}</joint>'
@@ -237,12 +234,21 @@ UNUSABLE = {
 
 @pytest.mark.parametrize(('text', 'children', 'message'), UNUSABLE.values(), ids=UNUSABLE)
 def test_what_urdfdom_passes_and_cannot_be_used_exits_1(run, text, children, message):
-    """The tutorial's lesson: a model without mass passes the original, and then explodes."""
     code, out, err = run(stdin=text)
     assert code == 1
     assert out.count('    child(') == children
     assert message in err
     assert 'ERROR' not in err
+
+
+def test_a_model_without_mass_is_told_and_passes_unless_strict(run):
+    """As urdfdom; the simulator says what it takes it as, and with strict it refuses it."""
+    code, out, err = run(stdin=joint_text('continuous'))
+    assert (code, out.count('    child(')) == (0, 1)
+    assert (
+        'warning: <stdin>:2: link "b" moves with "j1" and has no <inertial>; it is given 0.' in err
+    )
+    assert run('--strict', stdin=joint_text('continuous'))[0] == 1
 
 
 @pytest.mark.parametrize(
@@ -334,7 +340,7 @@ def test_drop_that_fails_exits_1(run):
 
 
 def test_a_broken_robot_is_not_dropped(run):
-    text = joint_text('continuous')
+    text = UNUSABLE['circle'][0]
     code, out, err = run(stdin=text)
     assert code == 1
     file_code, file_out, file_err = run('--drop', stdin=text)

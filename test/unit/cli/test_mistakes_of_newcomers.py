@@ -92,19 +92,19 @@ MISTAKES = {
     ),
     'no inertial': Mistake(
         ROBOT, WHEEL_INERTIAL, '',
-        'error: urdf/rover.urdf.xacro:51: ',
+        'warning: urdf/rover.urdf.xacro:51: ',
         'link "left_wheel" has a collision shape and no <inertial>',
         'add <inertial> with <mass value="…"/>',
     ),
     'a mass of 0': Mistake(
         ROBOT, 'mass="4.0"', 'mass="0"',
-        'error: urdf/inertials.xacro:5: ',
+        'warning: urdf/inertials.xacro:5: ',
         'link "base_link": mass: found 0 kg',
         'expected more than 0',
     ),
     'an inertia that no body has': Mistake(
         INERTIALS, '"${mass / 12 * (x * x + y * y)}"', '"${mass * (x * x + y * y)}"',
-        'error: urdf/inertials.xacro:5: ',
+        'warning: urdf/inertials.xacro:5: ',
         'link "base_link": no body has this inertia',
         'expected none above the sum of the two others (triangle inequality)',
     ),

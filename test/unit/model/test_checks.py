@@ -12,7 +12,8 @@ from support.paths import ROOT
 from amr_description.errors import DescriptionError
 from amr_description.model import checks
 from amr_description.model.checks.context import CheckInputs
-from amr_description.model.checks.inertia import principal_moments
+from amr_description.model.findings import NO_SHAPE
+from amr_description.model.mended_inertials import principal_moments
 from amr_description.model.robot import Inertia
 
 AMR = (ROOT / 'urdf/amr.urdf').read_text()
@@ -149,11 +150,12 @@ def test_broken_block_is_found_together_with_the_rest():
 MASS = {
     'collision': (
         f'<link name="a"><collision>{BALL}</collision></link>',
-        'f:2: link "a" has a collision shape and no <inertial>; add <inertial> with <mass',
+        'f:2: link "a" has a collision shape and no <inertial>; it is given 0.001 kg with '
+        'moments of 4e-08 kg·m²; add <inertial> with <mass',
     ),
     'moving': (
         f'<link name="a">{SOLID}</link>\n<link name="b"/>' + joint_text('a', 'b'),
-        'f:3: link "b" moves with "a_b" and has no <inertial>; add <inertial>',
+        'f:3: link "b" moves with "a_b" and has no <inertial>; it is .*; add <inertial>',
     ),
     'moving chain': (
         f'<link name="a">{SOLID}</link>\n<link name="b"/>\n<link name="c">{SOLID}</link>'
@@ -168,10 +170,6 @@ MASS = {
     'zero': (
         f'<link name="a">\n{SOLID.replace('value="1"', 'value="0"')}</link>',
         'f:3: link "a": mass: found 0 kg, expected more than 0 and',
-    ),
-    'negative': (
-        f'<link name="a">\n{SOLID.replace('value="1"', 'value="-2.5"')}</link>',
-        'f:3: link "a": mass: found -2.5 kg, expected more than 0',
     ),
     'indefinite': (
         f'<link name="a">\n{SOLID.replace('ixy="0"', 'ixy="0.2"')}</link>',
@@ -197,9 +195,45 @@ MASS = {
 
 
 @pytest.mark.parametrize(('body', 'message'), MASS.values(), ids=MASS)
-def test_mass_and_inertia(body, message):
-    (error,) = errors(robot_text(body))
-    assert re.match(f'error: {message}', error)
+def test_mass_and_inertia_that_the_simulator_takes_as_others(body, message):
+    text = robot_text(body)
+    (found,) = (each for each in checks.examine(text, 'f').findings if each.taken)
+    assert re.match(f'warning: {message}', str(found))
+    assert errors(text) == []
+    with pytest.raises(DescriptionError, match=message):
+        checks.require_sound(text, 'f', strict=True)
+
+
+NO_SHAPES = {
+    'no geometry': (
+        '<collision/>',
+        'f:3: link "a": <collision> has no shape: expected <geometry>',
+    ),
+    'empty geometry': ('<visual><geometry/></visual>', 'f:3: link "a": <visual> has no shape'),
+    'unknown': (
+        '<visual><geometry><cone/></geometry></visual>',
+        'f:3: link "a": unknown geometry: found <cone>, expected <box>, <cylinder>, <sphere>',
+    ),
+    'flat': (
+        '<collision><geometry><cylinder radius="0.1" length="0"/></geometry></collision>',
+        'f:3: link "a": the cylinder of its collision has no volume: found 0.1 0',
+    ),
+}
+
+
+@pytest.mark.parametrize(('part', 'message'), NO_SHAPES.values(), ids=NO_SHAPES)
+def test_a_shape_that_is_none_is_left_out(part, message):
+    text = robot_text(f'<link name="a">{SOLID}\n{part}</link>')
+    (found,) = (each for each in checks.examine(text, 'f').findings if each.taken)
+    assert str(found).startswith(f'warning: {message}') and found.taken == NO_SHAPE
+    assert errors(text) == []
+
+
+@pytest.mark.parametrize('mass', ['-2.5', '1e10'])
+def test_a_mass_that_means_nothing_is_an_error(mass):
+    heavy = SOLID.replace('value="1"', f'value="{mass}"')
+    (error,) = errors(robot_text(f'<link name="a">\n{heavy}</link>'))
+    assert error.startswith(f'error: f:3: link "a": mass: found {float(mass):g} kg, expected')
 
 
 WITHOUT_MASS_AND_RIGHT = {
@@ -240,7 +274,8 @@ def test_a_bolted_part_without_mass_is_a_warning():
     text = robot_text(f'<link name="a">{SOLID}</link>{camera}' + joint_text('a', 'b', 'fixed'))
     assert errors(text) == []
     assert any('"b" has a collision shape and no <inertial>' in line for line in findings(text))
-    assert errors(text.replace('"fixed"', '"continuous"'))
+    moving = checks.examine(text.replace('"fixed"', '"continuous"'))
+    assert any(each.is_refused(strict=True) for each in moving.findings)
 
 
 XACRO = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{}<link name="{}"/></robot>'

@@ -59,7 +59,7 @@ def test_collada_has_its_unit_applied_and_its_up_axis_not(tmp_path, meter, up):
     [('.stl', ascii_stl(BOX)), ('.stl', binary_stl(BOX)), ('.STL', binary_stl(BOX)),
      ('.obj', obj(BOX)), ('.obj', 'mtllib gone.mtl\nusemtl red\n' + obj(BOX))],
 )  # fmt: skip
-def test_formats_without_unit_and_axis_are_taken_as_they_are(tmp_path, suffix, content):
+def test_formats_without_unit_and_axis_are_taken_they_are(tmp_path, suffix, content):
     path = write(tmp_path / f'box{suffix}', content)
     mesh = load_mesh(path)
     assert mesh.size == pytest.approx(SIZE, rel=1e-6)

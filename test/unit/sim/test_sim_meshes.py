@@ -12,7 +12,7 @@ from support.mesh_files import ascii_stl, binary_stl, box, dae, FACES, glb, gltf
 from amr_description.cli import check_urdf
 from amr_description.model.frames import Transform
 from amr_description.sim import meshes as sim_meshes
-from amr_description.sim.meshes import insert_meshes, resolve_meshes
+from amr_description.sim.meshes import insert_meshes, resolve_meshes, THICKNESS
 from amr_description.sim.spawning import read_description
 from amr_description.sim.world import MujocoWorld
 
@@ -110,14 +110,40 @@ def test_equal_files_give_equal_bytes_and_one_mesh_each(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ['a.dae', 'crate.urdf']
 
 
-def test_what_mujoco_reads_itself_is_left_to_it(tmp_path):
-    for name in ('a.obj', 'binary.stl'):
+def test_a_shape_is_the_same_whatever_its_format(tmp_path):
+    for name in ('a.obj', 'binary.stl', 'text.stl', 'metres.dae'):
         write(tmp_path / name, CRATES[name])
-    spec, found = prepared(tmp_path, urdf('a.obj', 'binary.stl'))
-    assert found == {}
-    assert {mesh.file for mesh in spec.meshes} == {
-        str(tmp_path / 'a.obj'), str(tmp_path / 'binary.stl')
-    }  # fmt: skip
+    for name in ('a.obj', 'text.stl', 'metres.dae'):
+        spec, _ = prepared(tmp_path, urdf(name, 'binary.stl'))
+        one, other = spec.meshes
+        corners = [np.reshape(mesh.uservert, (-1, 3)).tolist() for mesh in (one, other)]
+        assert sorted(corners[0]) == sorted(corners[1])
+        assert len(corners[0]) == 8  # STL has each corner six times
+
+
+FLAT = {
+    'square': [(-0.5, -0.5, 0.0), (0.5, -0.5, 0.0), (0.5, 0.5, 0.0), (-0.5, 0.5, 0.0)],
+    'line': [(-0.5, 0.0, 0.0), (0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (0.5, 0.0, 0.0)],
+    'point': [(0.0, 0.0, 0.0)] * 4,
+}
+
+
+@pytest.mark.parametrize('name', FLAT)
+def test_a_collision_mesh_without_thickness_is_given_some(tmp_path, name):
+    write(tmp_path / 'flat.stl', binary_stl(FLAT[name], [(0, 1, 2), (0, 2, 3)]))
+    write(tmp_path / 'a.stl', binary_stl(BOX))
+    world = spawned(tmp_path, urdf('flat.stl', 'a.stl'))
+    world.step(1000)
+    height = world.robot('crate').pose('base_link').translation[2]
+    assert height == pytest.approx(THICKNESS / 2.0, abs=1e-3)
+
+
+def test_a_visual_without_area_is_left_out(tmp_path):
+    write(tmp_path / 'line.stl', binary_stl(FLAT['line'], [(0, 1, 2)]))
+    write(tmp_path / 'a.stl', binary_stl(BOX))
+    log = Lines()
+    spawned(tmp_path, urdf('a.stl', 'line.stl'), log)
+    assert 'line.stl: its triangles have no area; it is not drawn' in log.text
 
 
 def test_an_stl_with_more_triangles_than_mujoco_reads(tmp_path):

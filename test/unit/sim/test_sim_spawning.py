@@ -3,9 +3,11 @@
 """What may be spawned; every refusal has simulation_interfaces' code and one clear line."""
 
 import math
+import re
 import struct
 
 from fixtures.sim.driving import AMR, Lines, ROOT
+import mujoco
 import pytest
 
 from amr_description.errors import SpawnError
@@ -19,7 +21,7 @@ BOX = '<geometry><box size="0.5 0.3 0.1"/></geometry>'
 
 @pytest.fixture
 def world():
-    world = MujocoWorld('empty', log=Lines())
+    world = MujocoWorld('empty', strict=True, log=Lines())
     world.spawn('first', AMR)
     return world
 
@@ -93,7 +95,7 @@ def test_free_name():
     assert free_name('amr', ('amr', 'amr_1', 'amr_3')) == 'amr_2'
 
 
-def test_quaternion_of_any_length_is_taken_as_a_direction():
+def test_quaternion_of_any_length_is_taken_a_direction():
     pose = checked_pose(Transform((1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 2.0)))
     assert pose == Transform((1.0, 2.0, 3.0))
 
@@ -172,9 +174,9 @@ def test_mesh_beside_the_description(package):
         ('package://my_robot/meshes/chassis.fbx', 108, r'reads .stl, .*, .msh, not .fbx'),
     ],
 )
-def test_mesh_that_cannot_be_had(package, uri, code, text):
+def test_mesh_that_cannot_be_had_is_refused_when_strict(package, uri, code, text):
     log = Lines()
-    world = MujocoWorld('empty', log=log)
+    world = MujocoWorld('empty', strict=True, log=log)
     good = 'package://my_robot/meshes/chassis.stl'
     with pytest.raises(SpawnError, match=text) as refusal:
         world.spawn('amr', with_meshes(good, uri))
@@ -183,6 +185,70 @@ def test_mesh_that_cannot_be_had(package, uri, code, text):
     # Physics can do without a visual.
     world.spawn('amr', with_meshes(uri, good))
     assert 'visual of link "base_link"' in log.text and 'it is not drawn' in log.text
+
+
+def collision_geoms(world):
+    """The geoms of the chassis that touch, by their type."""
+    body = world.engine.spec.body('amr/base_link')
+    return [geom.type for geom in body.geoms if geom.contype]
+
+
+def test_a_collision_whose_mesh_is_missing_takes_the_shape_of_its_visual(package):
+    log = Lines()
+    world = MujocoWorld('empty', log=log)
+    good = 'package://my_robot/meshes/chassis.stl'
+    world.spawn('amr', with_meshes(good, 'package://my_robot/meshes/gone.stl'))
+    assert collision_geoms(world) == [mujoco.mjtGeom.mjGEOM_MESH]
+    (line,) = log.text.splitlines()
+    assert 'mesh of a collision of link "base_link": there is no file' in line
+    assert line.endswith('; the shape of its visual is taken')
+
+
+def test_a_collision_without_any_mesh_is_left_out_and_the_visuals_are_told_in_one_line(package):
+    log = Lines()
+    world = MujocoWorld('empty', log=log)
+    gone = 'package://my_robot/meshes/gone.stl'
+    visual = f'<visual><geometry><mesh filename="{gone}"/></geometry></visual>'
+    world.spawn('amr', with_meshes(gone, gone).replace('<visual>', f'{visual}<visual>', 1))
+    assert collision_geoms(world) == []
+    collision, visuals = log.text.splitlines()
+    assert 'collision of link "base_link"' in collision and collision.endswith('; it is left out')
+    assert 'visual of link "base_link"' in visuals
+    assert visuals.endswith('; it is not drawn in the simulation, nor are 1 others')
+
+
+def test_of_two_meshes_in_one_geometry_the_first_counts(package):
+    mesh = '<mesh filename="package://my_robot/meshes/chassis.stl"/>'
+    world = MujocoWorld('empty')
+    both = f'<geometry>{mesh}{mesh.replace("chassis", "gone")}</geometry>'
+    world.spawn('amr', AMR.replace(BOX, both))
+    assert collision_geoms(world) == [mujoco.mjtGeom.mjGEOM_MESH]
+
+
+def test_shapes_without_a_volume_are_left_out():
+    world = MujocoWorld('empty')
+    world.spawn('amr', AMR.replace(BOX, '<geometry><box size="0.5 0 0.1"/></geometry>'))
+    assert collision_geoms(world) == []
+
+
+def test_a_robot_without_any_mass_is_spawned_and_each_link_is_told():
+    log = Lines()
+    world = MujocoWorld('empty', log=log)
+    cart = re.sub('(?s)<inertial>.*?</inertial>', '', AMR)
+    world.spawn('amr', cart, Transform((0.0, 0.0, 0.05)))
+    world.step(1000)
+    assert world.robot('amr').pose('base_link').translation[2] == pytest.approx(0.1, abs=2e-3)
+    assert log.text.count('; it is given 0.001 kg') == 5
+
+
+def test_what_has_no_inertial_weighs_nothing_beside_what_has():
+    """MuJoCo would take the mass of water in the collision shape."""
+    start, end = AMR.index('<inertial>'), AMR.index('</inertial>') + len('</inertial>')
+    own = f'<link name="weight">{AMR[start:end]}</link><joint name="w" type="fixed">'
+    own += '<parent link="base_link"/><child link="weight"/></joint></robot>'
+    world = MujocoWorld('empty')
+    world.spawn('amr', (AMR[:start] + AMR[end:]).replace('</robot>', own))
+    assert world.engine.model.body_mass.sum() == pytest.approx(7.0)
 
 
 def test_codes_are_those_of_simulation_interfaces():

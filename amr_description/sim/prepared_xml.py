@@ -1,0 +1,104 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The URDF of a robot as MuJoCo's own reader needs it.
+
+With its defaults that reader welds the robot to the world, fuses links without a joint into it
+(most of the mass is lost then), gives a link without ``<inertial>`` the mass of water in its
+collision shapes, and looks for meshes by their bare names. Its settings are therefore written into
+the XML before it reads it, and with them what a robot is taken as that is not quite sound.
+"""
+
+from lxml import etree
+
+from amr_description.control.contracts import Log
+from amr_description.model.findings import raise_error
+from amr_description.model.mended_inertials import mended_inertials
+from amr_description.model.robot import Inertial, Joint, Robot
+from amr_description.model.xml_reader import parse_xml
+from amr_description.sim.meshes import Meshes, resolve_meshes
+
+MIN_RANGE = 2e-6
+"""rad or m; the range of a joint whose limits are equal."""
+
+_COMPILER = {
+    'fusestatic': 'false',
+    'discardvisual': 'false',
+    'strippath': 'false',
+    'inertiafromgeom': 'false',
+}
+_MOMENTS = ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
+
+
+def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
+    """
+    Return the URDF with MuJoCo's compiler settings and resolved mesh paths, and the meshes that
+    MuJoCo does not read itself.
+
+    Args:
+        robot: A robot that the checker has found sound.
+        log: Gets what is left out, or taken as something else.
+        strict: Refuse a collision whose mesh cannot be had.
+
+    Raises:
+        SpawnError: As ``strict`` says.
+    """
+    root = parse_xml(robot.text, robot.source, raise_error)
+    assert root is not None, 'raise_error does not return from an error'
+    compiler = _child(_child(root, 'mujoco'), 'compiler')
+    for key, value in _COMPILER.items():
+        compiler.set(key, value)
+    for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
+        # MuJoCo names its geoms by it, and rejects a name that a visual and a collision share.
+        shape.attrib.pop('name', None)
+        # The first counts, as in urdfdom; the checker has named the others.
+        for geometry in shape.iterfind('geometry'):
+            for other in tuple(geometry.iterchildren(etree.Element))[1:]:
+                geometry.remove(other)
+    _set_inertials(root, robot)
+    for joint in robot.joints:
+        if joint.limit is not None and joint.limit.lower == joint.limit.upper:
+            _keep_limit(root, joint)
+    meshes = resolve_meshes(root, robot.source, log, strict=strict)
+    return etree.tostring(root, encoding='unicode'), meshes
+
+
+def _child(parent: etree._Element, tag: str) -> etree._Element:
+    found = parent.find(tag)
+    return etree.SubElement(parent, tag) if found is None else found
+
+
+def _set_inertials(root: etree._Element, robot: Robot) -> None:
+    """Write what the simulator takes for an ``<inertial>`` that no solver does."""
+    mended = mended_inertials(robot)
+    for link in root.iterfind('link'):
+        name = link.get('name', '')
+        if name not in mended:
+            continue
+        old = link.find('inertial')
+        origin = None if old is None else old.find('origin')
+        for inertial in link.findall('inertial'):
+            link.remove(inertial)
+        new = mended[name].inertial
+        if new is not None:
+            link.append(_inertial_element(new, origin))
+
+
+def _inertial_element(inertial: Inertial, origin: etree._Element | None) -> etree._Element:
+    element = etree.Element('inertial')
+    if origin is not None:
+        element.append(origin)
+    etree.SubElement(element, 'mass', value=repr(inertial.mass))
+    moments = {key: repr(getattr(inertial.inertia, key)) for key in _MOMENTS}
+    etree.SubElement(element, 'inertia', moments)
+    return element
+
+
+def _keep_limit(root: etree._Element, joint: Joint) -> None:
+    """Widen a range of 0, which MuJoCo ignores: the joint would move freely."""
+    assert joint.limit is not None
+    for element in root.iterfind('joint'):
+        if element.get('name') == joint.name:
+            limit = element.find('limit')
+            limit.set('lower', repr(joint.limit.lower - MIN_RANGE / 2.0))
+            limit.set('upper', repr(joint.limit.upper + MIN_RANGE / 2.0))
