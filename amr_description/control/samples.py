@@ -8,6 +8,8 @@ Stamps are integer nanoseconds; quaternions are (x, y, z, w), as everywhere in R
 
 from dataclasses import dataclass
 
+from amr_description.model.frames import Transform, Vector
+
 
 @dataclass(frozen=True, slots=True)
 class TwistSample:
@@ -51,6 +53,20 @@ class OdometrySample:
     frames: Frames
     lateral: float = 0.0
     """m/s along y of the child frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class BodyOdometrySample:
+    """A nav_msgs/Odometry of a body in space."""
+
+    stamp: int
+    pose: Transform
+    """Of the child frame in the frame."""
+    linear: Vector
+    """m/s."""
+    angular: Vector
+    """rad/s."""
+    frames: Frames
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,6 +93,19 @@ class World(Protocol):
         Return the linear (m/s) and angular (rad/s) velocity of a link's origin, in its own axes.
         """
 
+    def move_base(self, x: float, y: float, yaw: float) -> None:
+        """
+        Move the root link over the ground, in its own axes, until the next call.
+
+        Args:
+            x: m/s, forward.
+            y: m/s, to the left.
+            yaw: rad/s, to the left.
+
+        Raises:
+            SimulationError: no hardware component of the robot moves its base.
+        """
+
     def imu(self, link: str, mount_pose: 'Transform') -> ImuReading:
         """
         Return the measurement of an inertial measurement unit.

@@ -35,6 +35,9 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``battery_state_broadcaster.py``  … batteries → ``~/battery_state``
 ``state_interfaces_broadcaster.py`` … any states, as numbers
 ``gpio_command_controller.py``    GPIOs: commands from a topic, states on one
+``gazebo_diff_drive.py``          a differential drive as Gazebo's plugins drive one
+``gazebo_planar_move.py``         a body that moves as commanded, whatever its wheels do
+``gazebo_odometry_publisher.py``  the true pose of a link as odometry
 
 ``parameter_sections.py``         the sections of parameter files, with their lines
 ``parameter_faults.py``           what is wrong in them, by its cause: misspelt names, types
@@ -57,6 +60,15 @@ CONTROLLERS = Registry(
         ),
         'bicycle_steering_controller/BicycleSteeringController': (
             'amr_description.controllers.steering_controllers:BicycleSteeringController'
+        ),
+        'amr_description/GazeboDiffDrive': (
+            'amr_description.controllers.gazebo_diff_drive:GazeboDiffDrive'
+        ),
+        'amr_description/GazeboOdometryPublisher': (
+            'amr_description.controllers.gazebo_odometry_publisher:GazeboOdometryPublisher'
+        ),
+        'amr_description/GazeboPlanarMove': (
+            'amr_description.controllers.gazebo_planar_move:GazeboPlanarMove'
         ),
         'diff_drive_controller/DiffDriveController': (
             'amr_description.controllers.diff_drive_controller:DiffDriveController'

@@ -12,6 +12,7 @@ is used.
 ``mujoco_system.py``         the joints and sensors of a simulated robot
 ``simulated_imu.py``         … its inertial measurement units
 ``mock_system.py``           states follow commands at once, without physics
+``simulated_base.py``        the body of a simulated robot: moved as a whole, and its truth
 ``serial_base_system.py``    a wheeled robot with a motor board on a serial port
 ``serial_link.py``           … the connection to the board: parameters, conversation, thread, port
 ``serial_protocol.py``       … the messages, for both ends
@@ -24,6 +25,7 @@ from amr_description.registry import Registry
 
 _MUJOCO_SYSTEM = 'amr_description.hardware.mujoco_system:MujocoSystem'
 _MOCK_SYSTEM = 'amr_description.hardware.mock_system:MockSystem'
+_SIMULATED_BASE = 'amr_description.hardware.simulated_base:SimulatedBase'
 _SERIAL_BASE_SYSTEM = 'amr_description.hardware.serial_base_system:SerialBaseSystem'
 
 HARDWARE = Registry(
@@ -35,6 +37,7 @@ HARDWARE = Registry(
         'mujoco_ros2_control/MujocoSystemInterface': _MUJOCO_SYSTEM,
         'mock_components/GenericSystem': _MOCK_SYSTEM,
         'amr_description/SerialBaseSystem': _SERIAL_BASE_SYSTEM,
+        'amr_description/SimulatedBase': _SIMULATED_BASE,
     },
     HardwareError,
 )

@@ -20,6 +20,11 @@ module                   what it holds
 ``urdf_joints.py``       its ``<joint>`` elements
 ``ros2_control_tag.py``  ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
 ``gazebo.py``            ``<gazebo>`` plugins and sensors
+``gazebo_plugins.py``    … the plugins that drive a robot without ros2_control, and what they say
+``gazebo_drives.py``     … what each kind of them becomes
+``gazebo_builder.py``    … collects it: hardware, controllers, lines to say
+``gazebo_translation.py``  … of a robot: ``translate(robot)``
+``base_interfaces.py``   the interfaces of a simulated robot's body as a whole
 ``findings.py``          Finding: severity, line, what, found, expected, fix
 ``xml_reader.py``        XML of unknown origin, and attributes with true line numbers
 

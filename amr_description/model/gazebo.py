@@ -24,6 +24,12 @@ _ROS2_CONTROL_PLUGINS = (
     'gz_ros2_control::GazeboSimROS2ControlPlugin',
     'ign_ros2_control::IgnitionROS2ControlPlugin',
 )
+_ROS2_CONTROL_LIBRARIES = (
+    'gz_ros2_control-system',
+    'ign_ros2_control-system',
+    'gazebo_ros2_control',
+)
+"""New Gazebo's, Ignition's and Classic's, without ``lib`` and ``.so``."""
 GAZEBO_POSITION_GAIN = 0.1
 """1/period: the default gain of Gazebo's position servo."""
 
@@ -63,7 +69,8 @@ class GazeboPlugin:
     @property
     def hosts_ros2_control(self) -> bool:
         """Whether this plugin starts a controller manager."""
-        return self.name in _ROS2_CONTROL_PLUGINS
+        library = self.filename.rpartition('/')[2].removeprefix('lib').removesuffix('.so')
+        return self.name in _ROS2_CONTROL_PLUGINS or library in _ROS2_CONTROL_LIBRARIES
 
 
 def gazebo_plugins_of(robot: Robot) -> tuple[GazeboPlugin, ...]:

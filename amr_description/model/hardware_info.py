@@ -12,8 +12,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from amr_description.model.robot import Mimic
-
 
 class HardwareType(StrEnum):
     """The kinds of hardware component; each equals its text."""
@@ -49,6 +47,15 @@ class InterfaceInfo:
     initial_value: float | None = None
     limits_enabled: bool = True
     parameters: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Mimic:
+    """position = ``multiplier`` · position of ``joint`` + ``offset``."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from enum import StrEnum
 
 from amr_description.errors import DescriptionError
 from amr_description.model.frames import Transform, Vector
+from amr_description.model.hardware_info import HardwareInfo, Mimic as Mimic
 from amr_description.text import quote, quote_all
 
 WORLD_LINK = 'world'
@@ -151,15 +152,6 @@ class SafetyController:
 
 
 @dataclass(frozen=True, slots=True)
-class Mimic:
-    """position = ``multiplier`` · position of ``joint`` + ``offset``."""
-
-    joint: str
-    multiplier: float = 1.0
-    offset: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
 class Dynamics:
     """Viscous ``damping`` (N·m·s/rad or N·s/m) and Coulomb ``friction`` (N·m or N) of a joint."""
 
@@ -218,6 +210,8 @@ class Robot:
     materials: tuple[Material, ...]
     source: str
     text: str = field(repr=False)
+    plugin_hardware: tuple[HardwareInfo, ...] = field(default=(), repr=False)
+    """What stands for plugins of Gazebo, beside the ``<ros2_control>`` blocks of ``text``."""
     roots: tuple[Link, ...] = field(init=False, repr=False, compare=False)
     """The links that are not the child of a joint: exactly one in a sound tree."""
     _links: dict[str, Link] = field(init=False, repr=False, compare=False)

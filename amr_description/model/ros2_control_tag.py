@@ -55,6 +55,8 @@ def hardware_of(robot: Robot, strict: bool = False) -> tuple[HardwareInfo, ...]:
     """
     Return the hardware components of a robot in the order of the file; () if it has none.
 
+    Those that stand for plugins of Gazebo come last.
+
     Args:
         robot: the robot.
         strict: refuse all that ros2_control refuses, as real hardware has to; False: only what the
@@ -65,7 +67,7 @@ def hardware_of(robot: Robot, strict: bool = False) -> tuple[HardwareInfo, ...]:
     """
     report = raise_error_of(robot.text, strict)
     xml = parse_xml(robot.text, robot.source, report)
-    return () if xml is None else read_hardware(xml, robot, report)
+    return () if xml is None else (*read_hardware(xml, robot, report), *robot.plugin_hardware)
 
 
 def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[HardwareInfo, ...]:

@@ -19,6 +19,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``overlap.py``          rejects a robot that is spawned inside something else
 
 ``actuators.py``        command interface to MuJoCo actuators
+``base_servo.py``       moves the body of a robot over the ground
 ``actuator_modes.py``   which of a joint's actuators are active, and the force they exert
 
 ``wheel_contact.py``    the contact of a wheel with the ground: the measured settings

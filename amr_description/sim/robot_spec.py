@@ -16,11 +16,13 @@ import mujoco
 from amr_description.control.contracts import Log
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SpawnError
+from amr_description.model.base_interfaces import BASE
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds
+from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
 from amr_description.sim.friction import (
     apply_link_frictions,
@@ -98,12 +100,9 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
             'with <mass value="…"/> (kg) and <inertia …/> (kg·m²)',
             SpawnCode.RESOURCE_PARSE_ERROR,
         )
-    controlled = [joint for hardware in hardware_of(robot) for joint in hardware.joints]
-    commands: dict[str, tuple[str, ...]] = {}
-    for joint in controlled:
-        # Two blocks may share a joint.
-        names = tuple(interface.name for interface in joint.command_interfaces)
-        commands[joint.name] = commands.get(joint.name, ()) + names
+    hardware = hardware_of(robot)
+    controlled = [joint for info in hardware for joint in info.joints]
+    commands = _commands_of(controlled)
     try:
         xml, meshes = prepared_xml(robot, log, strict=strict)
         spec = mujoco.MjSpec.from_string(xml)
@@ -124,6 +123,8 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
         casters = _name_casters(spec) if wheels else ()
         apply_link_frictions(spec, link_frictions(robot, log))
         _exclude_self_collision(spec, robot)
+        if any(gpio.name == BASE for info in hardware for gpio in info.gpios):
+            add_base_servo(spec, root_joint(robot))
         # Compiled alone first: a robot that MuJoCo rejects never gets into the world.
         with compiler_warnings(log, robot.source):
             spec.copy().compile()
@@ -135,6 +136,15 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     initial = initial_states(robot, controlled)
     return RobotSpec(spec, wheels, casters, commands, initial, free)
+
+
+def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ...]]:
+    """Return the command interfaces of each joint, which two blocks may share."""
+    commands: dict[str, tuple[str, ...]] = {}
+    for joint in controlled:
+        names = tuple(interface.name for interface in joint.command_interfaces)
+        commands[joint.name] = commands.get(joint.name, ()) + names
+    return commands
 
 
 def _replace_floating_joints(spec: mujoco.MjSpec, robot: Robot) -> None:

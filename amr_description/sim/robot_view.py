@@ -21,6 +21,7 @@ from amr_description.model.frames import (
 )
 from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.sim.actuator_modes import RobotActuators
+from amr_description.sim.base_servo import command_base_servo
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
 from amr_description.sim.robot_spec import RobotSpec, root_joint
@@ -119,6 +120,15 @@ class RobotView:
         )
         wx, wy, wz, vx, vy, vz = result.tolist()
         return (vx, vy, vz), (wx, wy, wz)
+
+    def move_base(self, x: float, y: float, yaw: float) -> None:
+        """Move the root link over the ground, in its own axes: m/s, m/s, rad/s."""
+        try:
+            command_base_servo(self._engine.model, self._engine.data, self.name, (x, y, yaw))
+        except (KeyError, ValueError) as cause:
+            raise SimulationError(
+                f"robot '{self.name}': its base cannot be moved: {cause}"
+            ) from cause
 
     def imu(self, link: str, mount_pose: Transform) -> ImuReading:
         """

@@ -16,6 +16,7 @@ from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import DescriptionError, SpawnError
 from amr_description.model.checks import require_sound
 from amr_description.model.frames import Quaternion, Transform
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
 
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
@@ -81,7 +82,7 @@ def checked_pose(pose: Transform) -> Transform:
 
 def read_description(text: str, source: str, log: Log = null_log, strict: bool = False) -> Robot:
     """
-    Read and check the URDF of a robot.
+    Read and check the URDF of a robot; plugins of Gazebo that move it become hardware.
 
     Args:
         text: The URDF.
@@ -107,4 +108,4 @@ def read_description(text: str, source: str, log: Log = null_log, strict: bool =
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
     for warning in warnings:
         log(Severity.WARN, warning.text)
-    return robot
+    return translate(robot).robot

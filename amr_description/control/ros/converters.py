@@ -27,6 +27,7 @@ from amr_description.control.contracts import Port
 from amr_description.control.ros import sensor_converters
 from amr_description.control.samples import (
     AckermannSample,
+    BodyOdometrySample,
     CommandsSample,
     DynamicJointStateSample,
     DynamicLayout,
@@ -41,7 +42,7 @@ from amr_description.control.samples import (
     TwistSample,
 )
 from amr_description.errors import ControllerError
-from amr_description.ros.messages import fill_stamp, nanoseconds
+from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity, nanoseconds
 
 
 def twist_sample(message: TwistStamped) -> TwistSample:
@@ -57,7 +58,9 @@ def twist_sample(message: TwistStamped) -> TwistSample:
 
 def unstamped_twist_sample(message: Twist) -> TwistSample:
     """Keep the planar part; there is no stamp."""
-    return TwistSample(stamp=0, linear=message.linear.x, angular=message.angular.z)
+    return TwistSample(
+        stamp=0, linear=message.linear.x, angular=message.angular.z, lateral=message.linear.y
+    )
 
 
 def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
@@ -140,6 +143,28 @@ def fill_nothing(sample: EmptySample, response: Any) -> None:
     """Leave a response without fields as it is."""
 
 
+def fill_body_odometry(sample: BodyOdometrySample, message: Odometry) -> None:
+    """Write pose, twist and, the first time, frames and covariances."""
+    if message.child_frame_id != sample.frames.child_frame_id:
+        _fill_constants(sample.frames, message)
+    fill_stamp(sample.stamp, message.header.stamp)
+    fill_pose(sample.pose, message.pose.pose)
+    fill_velocity(sample.linear, sample.angular, message.twist.twist)
+
+
+def fill_body_transform(sample: BodyOdometrySample, message: TFMessage) -> None:
+    """Write the transform from the body to the odometry frame."""
+    if not message.transforms:
+        message.transforms = [TransformStamped()]
+    stamped = message.transforms[0]
+    fill_stamp(sample.stamp, stamped.header.stamp)
+    stamped.header.frame_id = sample.frames.frame_id
+    stamped.child_frame_id = sample.frames.child_frame_id
+    place, turn = stamped.transform.translation, stamped.transform.rotation
+    place.x, place.y, place.z = sample.pose.translation
+    turn.x, turn.y, turn.z, turn.w = sample.pose.rotation
+
+
 def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
     """Write the arrays of numbers and, when they have changed, the names."""
     fill_stamp(sample.stamp, message.header.stamp)
@@ -215,6 +240,8 @@ _READERS: dict[_Key, Callable[[Any], Any]] = {
 }
 _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
     (AckermannSample, 'ackermann_msgs/msg/AckermannDrive'): fill_ackermann,
+    (BodyOdometrySample, 'nav_msgs/msg/Odometry'): fill_body_odometry,
+    (BodyOdometrySample, 'tf2_msgs/msg/TFMessage'): fill_body_transform,
     (DynamicJointStateSample, 'control_msgs/msg/DynamicJointState'): fill_dynamic_joint_state,
     (EmptySample, 'std_srvs/srv/Empty_Response'): fill_nothing,
     (ImuSample, 'sensor_msgs/msg/Imu'): fill_imu,

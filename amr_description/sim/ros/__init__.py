@@ -6,6 +6,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ===========================  =====================================================================
 ``simulation.py``            the simulation in a process: world, robots, control thread, ``/clock``
 ``entities.py``              robots are spawned and removed, each with its controller manager
+``plugin_controllers.py``     starts the controllers that stand for Gazebo's plugins
 ``other_clock.py``           ends, or warns, where another simulator publishes ``/clock``
 ``loop_timing.py``           warns when real time is not kept, with the slow stage of the loop
 

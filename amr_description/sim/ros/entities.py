@@ -30,6 +30,8 @@ from amr_description.controllers.drive_files import drive_warnings
 from amr_description.errors import RequestError, SpawnError
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import gazebo_plugins_of, ros2_control_host_of
+from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
@@ -38,6 +40,11 @@ from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_
 from amr_description.sim.engine import physics_stepping, steps_in
 from amr_description.sim.robot_spec import WORLD_LINK
 from amr_description.sim.ros.ground_truth import GroundTruth
+from amr_description.sim.ros.plugin_controllers import (
+    log_translation,
+    run_in,
+    start_controllers,
+)
 from amr_description.sim.spawning import check_name, free_name, SpawnCode
 from amr_description.sim.world import MujocoWorld
 
@@ -156,7 +163,8 @@ class EntityManager:
                 constructor of a third-party component raises; nothing is left of the robot then.
         """
         hardware = hardware_of(robot)
-        prepared = self._prepare(robot, hardware, namespace) if hardware else None
+        translation = translate(robot)
+        prepared = self._prepare(robot, hardware, namespace, translation) if hardware else None
 
         def insert() -> tuple[str, ControllerManager | None]:
             given = free_name(name, self._world.names) if allow_renaming else name
@@ -170,8 +178,11 @@ class EntityManager:
                 prepared.destroy()
             raise
         running = thread = None
+        log_translation(given, translation, namespace, self._log)
         if prepared is not None:
             running, thread = self._serve(prepared, manager, given)
+            starting = start_controllers(running, translation.controllers, self._log)
+            await run_in(thread.executor, starting, self._executor)
         self._ground_truth.add(given, namespace)
         self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
         return given
@@ -291,11 +302,19 @@ class EntityManager:
     # --- the manager's node -------------------------------------------------------------------
 
     def _prepare(
-        self, robot: Robot, hardware: Sequence[HardwareInfo], namespace: str
+        self,
+        robot: Robot,
+        hardware: Sequence[HardwareInfo],
+        namespace: str,
+        translation: GazeboTranslation,
     ) -> PreparedManager:
         host = ros2_control_host_of(robot)
         rules = [word for rule in host.remappings for word in ('-r', rule)]
-        arguments = [*self._ros_args, *rules, *self._parameter_files(robot)]
+        arguments = [*self._ros_args, *rules]
+        if len(hardware) > len(robot.plugin_hardware):
+            arguments += self._parameter_files(robot)
+        else:  # Gazebo's plugins are all that it has
+            arguments += ['-p', f'update_rate:={translation.update_rate}']
         with argument_errors():
             node = ControllerManagerNode(
                 self._context,

@@ -1,0 +1,288 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the plugins of one robot become: joints, sensors, the body; controllers; lines to say."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+import math
+import re
+from typing import Any
+
+from amr_description.model.base_interfaces import BASE, COMMAND_AXES, TRUTH, truth_prefix
+from amr_description.model.gazebo_plugins import PluginElement
+from amr_description.model.hardware_info import (
+    ComponentInfo,
+    ComponentType,
+    HardwareInfo,
+    HardwareType,
+    InterfaceInfo,
+)
+from amr_description.model.robot import Limit, Robot, WORLD_LINK
+from amr_description.text import quote, quote_all
+
+JOINTS = 'gazebo_plugins'
+"""The name of the hardware component of joints and sensors."""
+BROADCASTER = 'joint_state_broadcaster/JointStateBroadcaster'
+LEAST_RATE, HIGHEST_RATE = 100, 200
+"""Hz, of the controller manager; it is raised for sensors that are faster."""
+
+_IMU_STATES = (
+    *(f'orientation.{axis}' for axis in 'xyzw'),
+    *(f'angular_velocity.{axis}' for axis in 'xyz'),
+    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
+)
+_STATES = ('position', 'velocity', 'effort')
+_NO_NAME = re.compile(r'\W', re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class PluginController:
+    """
+    A controller that stands for a plugin.
+
+    Attributes:
+        name: of the controller and its node: that of the plugin, if it can be one.
+        type: of the controller.
+        parameters: of its node; numbers, truth values, texts, lists of these.
+        topics: what it calls its topics → what the plugin calls them.
+        namespace: of these, if the robot is spawned without one.
+        origin: the plugin or sensor, for messages.
+    """
+
+    name: str
+    type: str
+    parameters: Mapping[str, Any]
+    topics: Mapping[str, str]
+    namespace: str
+    origin: str
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboTranslation:
+    """
+    What stands for the plugins of a robot.
+
+    Attributes:
+        robot: the robot with that hardware, and with the wheels' torques limited as a plugin says.
+        controllers: to be active as soon as the robot is spawned, as plugins are.
+        update_rate: that the controllers need, Hz.
+        notes: what is to be said, one line each.
+        not_simulated: one line that names what is declared and not simulated; '' if nothing is.
+    """
+
+    robot: Robot
+    controllers: tuple[PluginController, ...] = ()
+    update_rate: int = LEAST_RATE
+    notes: tuple[str, ...] = ()
+    not_simulated: str = ''
+
+
+class Builder:
+    """Collects what the plugins of one robot become."""
+
+    def __init__(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
+        self.robot = robot
+        self.is_controlled = bool(hardware)
+        self.controlled = {joint.name for info in hardware for joint in info.joints}
+        self.sensors = {sensor.name for info in hardware for sensor in info.sensors}
+        self.notes: list[str] = []
+        self.lacking: list[tuple[str, str, str]] = []
+        """What is not simulated: sensor or plugin, its name, its type or library."""
+        self.controllers: list[PluginController] = []
+        self.imus: list[str] = []
+        self._commands: dict[str, tuple[str, ...]] = {}
+        self._truths: list[str] = []
+        self._moves_base = False
+        self._torques: dict[str, float] = {}
+        self._rates = [float(LEAST_RATE)]
+
+    def can_drive(self, plugin: PluginElement, joints: Sequence[str]) -> bool:
+        """Return whether a plugin may command joints; note why it may not."""
+        movable = [each.name for each in self.robot.joints if each.has_position]
+        lacking = [name for name in joints if name not in movable]
+        theirs = [name for name in joints if name in self.controlled | self._commands.keys()]
+        if lacking or not joints:
+            plugin.note(
+                f'it cannot work: there is no joint {quote_all(lacking)} that moves; there are: '
+                f'{quote_all(movable) or "none"}'
+                if lacking
+                else 'it cannot work: it names no joints'
+            )
+        elif theirs:
+            owner = '<ros2_control>' if theirs[0] in self.controlled else 'another plugin'
+            plugin.note(f'it is left out: {owner} has the joints {quote_all(theirs)}')
+        return not lacking and not theirs and bool(joints)
+
+    def command(self, joints: Sequence[str], interface: str, torque: float = math.inf) -> None:
+        """Give joints a command interface, and a largest torque, N·m."""
+        for joint in joints:
+            self._commands[joint] = (interface,)
+            if 0.0 < torque < math.inf:
+                self._torques[joint] = torque
+
+    def move_base(self, plugin: PluginElement) -> bool:
+        """Have the body as a whole commanded; return False, and note it, if it cannot be."""
+        if self.robot.root.name == WORLD_LINK:
+            plugin.note(f'it cannot work: the robot is fixed by its link "{WORLD_LINK}"')
+        elif self._moves_base:
+            plugin.note('it is left out: another plugin moves the body')
+        else:
+            self._moves_base = True
+            return True
+        return False
+
+    def truth(self, link: str) -> None:
+        """Have the true motion of a link as state interfaces."""
+        if link not in self._truths:
+            self._truths.append(link)
+
+    def add(
+        self,
+        kind: str,
+        parameters: Mapping[str, Any],
+        topics: Mapping[str, str],
+        *,
+        name: str,
+        origin: str,
+        namespace: str = '',
+    ) -> None:
+        """Add a controller; ``kind`` is its type."""
+        rate = parameters.get('update_rate')
+        if rate is not None:
+            self._rates.append(rate)
+        taken = {each.name for each in self.controllers} | {JOINTS, BASE, 'controller_manager'}
+        free, number = name, 1
+        while free in taken:
+            number += 1
+            free = f'{name}_{number}'
+        self.controllers.append(
+            PluginController(free, kind, parameters, topics, namespace, origin)
+        )
+
+    def broadcast(
+        self,
+        plugin: PluginElement | None = None,
+        joints: Sequence[str] = (),
+        topic: str = 'joint_states',
+        rate: float = 0.0,
+    ) -> None:
+        """Add the broadcaster; without a plugin, for the transforms of the wheels."""
+        if self.is_controlled:
+            return
+        parameters: dict[str, Any] = {
+            'publish_dynamic_joint_states': False,
+            'frame_id': self.robot.root.name,
+        }
+        if joints:
+            parameters |= {'joints': list(joints), 'interfaces': list(_STATES)}
+        if rate > 0.0:
+            parameters['update_rate'] = max(1, round(rate))
+        self.add(
+            BROADCASTER,
+            parameters,
+            {'joint_states': topic},
+            name='joint_state_broadcaster'
+            if plugin is None
+            else node_name(plugin.name, 'joint_state_publisher'),
+            origin='no plugin, but the transforms of moving links need it'
+            if plugin is None
+            else origin_of(plugin),
+            namespace='' if plugin is None else plugin.namespace,
+        )
+
+    def build(self) -> GazeboTranslation:
+        """Return the whole."""
+        if self._commands and not any(each.type == BROADCASTER for each in self.controllers):
+            self.broadcast()
+        hardware = self._joint_hardware() + self._base_hardware()
+        joints = [self._limited(joint.name) for joint in self.robot.joints]
+        robot = self.robot
+        if hardware:
+            robot = replace(robot, joints=tuple(joints), plugin_hardware=hardware)
+        rate = min(HIGHEST_RATE, math.ceil(max(self._rates)))
+        return GazeboTranslation(
+            robot,
+            tuple(self.controllers),
+            rate,
+            (*self.notes, *self._lone_joints()),
+            _names_of(self.lacking),
+        )
+
+    def _lone_joints(self) -> Sequence[str]:
+        """Return a line about joints that nothing moves, if that is all of them."""
+        free = [joint.name for joint in self.robot.joints if joint.has_position]
+        if self.is_controlled or self._commands or self._moves_base or not free:
+            return ()
+        return (
+            f'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its '
+            f'{len(free)} joints are free, as there',
+        )
+
+    def _joint_hardware(self) -> tuple[HardwareInfo, ...]:
+        joints = tuple(
+            ComponentInfo(
+                joint.name,
+                ComponentType.JOINT,
+                tuple(InterfaceInfo(each) for each in self._commands.get(joint.name, ())),
+                tuple(InterfaceInfo(each) for each in _STATES),
+                mimic=joint.mimic,
+            )
+            for joint in self.robot.joints
+            if joint.has_position and (joint.name in self._commands or not self.is_controlled)
+        )
+        measured = tuple(InterfaceInfo(each) for each in _IMU_STATES)
+        sensors = tuple(
+            ComponentInfo(name, ComponentType.SENSOR, state_interfaces=measured)
+            for name in self.imus
+        )
+        if not self.controllers or not (joints or sensors):
+            return ()
+        plugin = 'amr_description/MujocoSystem'
+        return (HardwareInfo(JOINTS, HardwareType.SYSTEM, plugin, joints=joints, sensors=sensors),)
+
+    def _base_hardware(self) -> tuple[HardwareInfo, ...]:
+        states = tuple(InterfaceInfo(each) for each in TRUTH)
+        sensors = tuple(
+            ComponentInfo(truth_prefix(link), ComponentType.SENSOR, state_interfaces=states)
+            for link in self._truths
+        )
+        commands = tuple(InterfaceInfo(each) for each in COMMAND_AXES)
+        gpios = (ComponentInfo(BASE, ComponentType.GPIO, commands),) if self._moves_base else ()
+        if not sensors and not gpios:
+            return ()
+        plugin = 'amr_description/SimulatedBase'
+        return (HardwareInfo(BASE, HardwareType.SYSTEM, plugin, sensors=sensors, gpios=gpios),)
+
+    def _limited(self, name: str) -> Any:
+        """Return a joint, its torque limited as a plugin says."""
+        joint = self.robot.joint(name)
+        if name not in self._torques:
+            return joint
+        limit = joint.limit or Limit(-math.inf, math.inf, 0.0, 0.0)
+        return replace(joint, limit=replace(limit, effort=self._torques[name]))
+
+
+def _names_of(lacking: Sequence[tuple[str, str, str]]) -> str:
+    """Return one line that names sensors by their type, and plugins by their library."""
+    parts = []
+    for what in ('sensor', 'plugin'):
+        kinds: dict[str, list[str]] = {}
+        for each, name, kind in lacking:
+            if each == what:
+                kinds.setdefault(kind or 'without a type', []).append(name or 'without a name')
+        if kinds:
+            named = ', '.join(f'{kind} ({", ".join(names)})' for kind, names in kinds.items())
+            count = sum(map(len, kinds.values()))
+            parts.append(f'{what}{"s" if count > 1 else ""} {named}')
+    return f'declared for Gazebo and not simulated: {"; ".join(parts)}' if parts else ''
+
+
+def node_name(name: str, default: str) -> str:
+    """Return a plugin's name as that of a node; the default if it has blanks, colons or none."""
+    if _NO_NAME.search(name) or not name or name[0].isdigit():
+        return default
+    return name
+
+
+def origin_of(plugin: PluginElement) -> str:
+    return f'plugin {quote(plugin.name or plugin.filename)}'

@@ -1,0 +1,403 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What each kind of Gazebo's plugins becomes: :data:`TRANSLATORS`, and :func:`add_imu` for sensors.
+"""
+
+from collections.abc import Callable, Mapping
+import math
+import re
+from typing import Any
+
+from lxml import etree
+
+from amr_description.model.gazebo import gazebo_sensors_of
+from amr_description.model.gazebo_builder import (
+    Builder,
+    HIGHEST_RATE,
+    LEAST_RATE,
+    node_name,
+    origin_of,
+)
+from amr_description.model.gazebo_plugins import PluginElement
+from amr_description.model.robot import Robot
+from amr_description.model.xml_reader import parse_number
+from amr_description.text import quote, quote_all
+
+_DRIVE = 'amr_description/GazeboDiffDrive'
+_MOVE = 'amr_description/GazeboPlanarMove'
+_ODOMETRY = 'amr_description/GazeboOdometryPublisher'
+_UNKNOWN_VARIANCE = 1e12
+_WORLD_FRAMES = ('', 'world', '/world', 'map', '/map')
+_MODEL = re.compile(r'/?model/[^/]+/')
+
+
+def _diff_drive(builder: Builder, plugin: PluginElement) -> None:
+    left, right = _wheel_names(plugin)
+    if len(left) != len(right):
+        plugin.note(
+            f'it cannot work: {len(left)} joints are on the left and {len(right)} on the right'
+        )
+        return
+    if not builder.can_drive(plugin, left + right):
+        return
+    classic = plugin.is_classic
+    separations = plugin.numbers('wheel_separation', 'wheelSeparation') or [
+        0.34 if classic else 1.0
+    ]
+    if classic:
+        radii = [d / 2.0 for d in plugin.numbers('wheel_diameter', 'wheelDiameter') or [0.15]]
+    else:
+        radii = plugin.numbers('wheel_radius') or [0.2]
+    for what, values in (('separations', separations), ('radii', radii)):
+        if any(value != values[0] for value in values):
+            plugin.note(f'its pairs of wheels have different {what}; that of the first counts')
+    if not (separations[0] > 0.0 and radii[0] > 0.0):
+        plugin.note('it cannot work: the separation and the size of the wheels must be above 0')
+        return
+    torque = math.inf
+    if classic:
+        torque = plugin.number('max_wheel_torque', 'wheelTorque', 'torque', default=5.0)
+    builder.command(left + right, 'velocity', torque)
+    parameters: dict[str, Any] = {
+        'left_wheel_names': left,
+        'right_wheel_names': right,
+        'wheel_separation': separations[0],
+        'wheel_radius': radii[0],
+    }
+    name = 'gazebo_diff_drive'
+    if classic:
+        acceleration = plugin.number('max_wheel_acceleration', 'wheelAcceleration', default=0.0)
+        if acceleration > 0.0:
+            parameters['max_wheel_acceleration'] = acceleration
+        _classic_drive(builder, plugin, parameters, _DRIVE, name)
+    else:
+        parameters |= _limits(plugin)
+        _gz_drive(builder, plugin, parameters, _DRIVE, 'diff_drive')
+
+
+def _wheel_names(plugin: PluginElement) -> tuple[list[str], list[str]]:
+    left = plugin.texts('left_joint', 'leftJoint')
+    right = plugin.texts('right_joint', 'rightJoint')
+    if not left:
+        left = plugin.texts('leftFrontJoint') + plugin.texts('leftRearJoint')
+        right = plugin.texts('rightFrontJoint') + plugin.texts('rightRearJoint')
+    return left, right
+
+
+def _planar_move(builder: Builder, plugin: PluginElement) -> None:
+    """The odometry of Classic's is the true pose in the world; new Gazebo's has none."""
+    if not builder.move_base(plugin):
+        return
+    if not plugin.is_classic:
+        topics = {'~/cmd_vel': _gz_topic(plugin, 'topic', 'cmd_vel')}
+        builder.add(_MOVE, {}, topics, name='velocity_control', origin=origin_of(plugin))
+        return
+    name = node_name(plugin.name, 'gazebo_planar_move')
+    topics = {'~/cmd_vel': plugin.topic('cmd_vel', 'commandTopic')}
+    builder.add(_MOVE, {}, topics, name=name, origin=origin_of(plugin), namespace=plugin.namespace)
+    rate = plugin.number('publish_rate', 'odometryRate', default=20.0)
+    publishes = plugin.flag('publish_odom', default=True)
+    transforms = plugin.flag('publish_odom_tf', default=True)
+    _classic_truth(builder, plugin, name, rate, publishes=publishes, transforms=transforms)
+
+
+def _joint_states(builder: Builder, plugin: PluginElement) -> None:
+    if builder.is_controlled:
+        plugin.note(
+            'it is left out: the robot has <ros2_control>, whose joint_state_broadcaster '
+            'publishes its joint states'
+        )
+        return
+    asked = plugin.texts('joint_name')
+    joints = [name for name in asked if builder.robot.has_joint(name)]
+    if lacking := [name for name in asked if name not in joints]:
+        plugin.note(f'there is no joint {quote_all(lacking)}; it publishes the others')
+    rate = plugin.number('update_rate', default=float(LEAST_RATE)) if plugin.is_classic else 0.0
+    if plugin.is_classic:
+        topic = plugin.topic('joint_states')
+    else:
+        topic = _gz_topic(plugin, 'topic', 'joint_states')
+        topic = 'joint_states' if topic.endswith('joint_state') else topic
+    builder.broadcast(plugin, joints, topic, rate)
+
+
+def _odometry_publisher(builder: Builder, plugin: PluginElement) -> None:
+    """New Gazebo's: the true pose; on /tf only if no drive publishes it, or by its own wish."""
+    drives = any(each.type in (_DRIVE, _MOVE) for each in builder.controllers)
+    robot = builder.robot
+    rate = plugin.number('odom_publish_frequency', default=50.0)
+    transforms, frame = _gz_transform(plugin, default='' if drives else '/tf')
+    builder.truth(robot.root.name)
+    parameters: dict[str, Any] = {
+        'link': robot.root.name,
+        'odom_frame_id': plugin.text('odom_frame', default='odom'),
+        'base_frame_id': plugin.text('robot_base_frame', default=_base(robot)),
+        'publish_rate': rate if rate > 0.0 else 1000.0,
+        'enable_odom_tf': transforms,
+        'dimensions': 3 if plugin.number('dimensions', default=2.0) == 3.0 else 2,
+        'offset.xyz': list(plugin.vector('xyz_offset')),
+        'offset.rpy': list(plugin.vector('rpy_offset')),
+    }
+    _note_noise(plugin)
+    has_odom = any('odom' in each.topics.values() for each in builder.controllers)
+    topic = _gz_topic(plugin, 'odom_topic', 'odometry' if has_odom else 'odom')
+    topics = {'~/odom': topic, '/tf': frame}
+    name = 'odometry_publisher'
+    builder.add(_ODOMETRY, parameters, topics, name=name, origin=origin_of(plugin))
+
+
+def _p3d(builder: Builder, plugin: PluginElement) -> None:
+    """Classic's pose of a link in the world, as odometry; its twist is along the world's axes."""
+    link = plugin.text('body_name', 'bodyName')
+    if not builder.robot.has_link(link):
+        links = quote_all([each.name for each in builder.robot.links])
+        plugin.note(f'it cannot work: there is no link {quote(link)}; there are: {links}')
+        return
+    frame = plugin.text('frame_name', 'frameName', default='world')
+    if frame not in _WORLD_FRAMES and builder.robot.has_link(frame):
+        plugin.note(f'the pose is that in the world, not in the link {quote(frame)}')
+    rate = plugin.number('update_rate', 'updateRate', default=0.0)
+    _note_noise(plugin)
+    builder.truth(link)
+    parameters: dict[str, Any] = {
+        'link': link,
+        'odom_frame_id': frame,
+        'base_frame_id': link,
+        'publish_rate': rate if rate > 0.0 else 1000.0,
+        'enable_odom_tf': False,
+        'dimensions': 3,
+        'twist_in_world': True,
+        'offset.in_world': True,
+        'offset.xyz': list(plugin.vector('xyz_offset', 'xyz_offsets', 'xyzOffsets')),
+        'offset.rpy': list(plugin.vector('rpy_offset', 'rpy_offsets', 'rpyOffsets')),
+    }
+    topics = {'~/odom': plugin.topic('odom', 'topicName'), '/tf': '/tf'}
+    name = node_name(plugin.name, 'gazebo_p3d')
+    builder.add(
+        _ODOMETRY,
+        parameters,
+        topics,
+        name=name,
+        origin=origin_of(plugin),
+        namespace=plugin.namespace,
+    )
+
+
+def add_imu(builder: Builder, sensor: etree._Element, link: str) -> bool:
+    """Add the broadcaster of a unit; return False if it is no sound one."""
+    name = sensor.get('name', '')
+    if name in builder.imus or not builder.robot.has_link(link):
+        return False
+    builder.imus.append(name)
+    inside = sensor.find('plugin')
+    plugin = PluginElement(inside if inside is not None else sensor, builder.notes)
+    if inside is not None and plugin.is_classic:
+        topic = plugin.topic('~/out', 'topicName')
+        frame = plugin.text('frame_name', 'frameName')
+        node = node_name(plugin.name, node_name(name, 'imu'))
+    else:
+        topic, node = _gz_topic(PluginElement(sensor), 'topic', 'imu'), node_name(name, 'imu')
+        frame = PluginElement(sensor).text('gz_frame_id', 'ignition_frame_id')
+        topic = 'imu' if topic == '__default_topic__' else topic
+    rate = parse_number((sensor.findtext('update_rate') or '').strip())
+    parameters: dict[str, Any] = {
+        'sensor_name': name,
+        'frame_id': frame or link,
+        **_imu_covariances(builder.robot, name),
+    }
+    if rate > 0.0:
+        parameters['update_rate'] = max(1, round(min(rate, HIGHEST_RATE)))
+    if rate > HIGHEST_RATE:
+        builder.notes.append(f'sensor {quote(name)}: {HIGHEST_RATE} Hz for the {rate:g} Hz asked')
+    builder.add(
+        'imu_sensor_broadcaster/IMUSensorBroadcaster',
+        parameters,
+        {'~/imu': topic},
+        name=node,
+        origin=f'sensor {quote(name)}',
+        namespace=plugin.namespace if inside is not None else '',
+    )
+    return True
+
+
+def _imu_covariances(robot: Robot, name: str) -> dict[str, list[float]]:
+    """Return the variances of a unit's noise, as Gazebo's plugins fill them in."""
+    noises = next((dict(each.noise) for each in gazebo_sensors_of(robot) if each.name == name), {})
+    found = {}
+    for quantity in ('angular_velocity', 'linear_acceleration'):
+        axes = [noises.get(f'{quantity}.{axis}') for axis in 'xyz']
+        deviations = [0.0 if noise is None else noise.stddev for noise in axes]
+        if any(deviations):
+            matrix = [0.0] * 9
+            matrix[0], matrix[4], matrix[8] = (value * value for value in deviations)
+            found[f'static_covariance_{quantity}'] = matrix
+    return found
+
+
+# --- what drives have in common ------------------------------------------------------------------
+
+
+def _classic_drive(
+    builder: Builder, plugin: PluginElement, parameters: dict[str, Any], kind: str, name: str
+) -> None:
+    """Add a wheeled drive of Classic, with odometry from its wheels or from the world."""
+    is_ros1 = bool(plugin.texts('leftJoint', 'leftFrontJoint', 'commandTopic'))
+    name = node_name(plugin.name, name)
+    publishes = plugin.flag('publish_odom', 'publishOdom', default=is_ros1)
+    transforms = plugin.flag('publish_odom_tf', 'publishOdomTF', 'broadcastTF', default=is_ros1)
+    rate = plugin.number('update_rate', 'updateRate' if is_ros1 else 'update_rate', default=100.0)
+    rate = rate if rate > 0.0 else 1000.0
+    source = plugin.text('odometry_source', 'odometrySource', default='1')
+    from_wheels = source.lower() in ('0', 'encoder')
+    parameters |= {
+        'odom_frame_id': plugin.text('odometry_frame', 'odometryFrame', default='odom'),
+        'base_frame_id': plugin.text(
+            'robot_base_frame', 'robotBaseFrame', default='base_footprint'
+        ),
+        'publish_rate': rate,
+        'publish_odom': publishes and from_wheels,
+        'enable_odom_tf': transforms and from_wheels,
+        **_classic_covariances(plugin),
+    }
+    topics = {'~/cmd_vel': plugin.topic('cmd_vel', 'commandTopic'), '/tf': '/tf'}
+    if from_wheels:
+        topics['~/odom'] = plugin.topic('odom', 'odometryTopic')
+    builder.add(
+        kind, parameters, topics, name=name, origin=origin_of(plugin), namespace=plugin.namespace
+    )
+    if not from_wheels:
+        _classic_truth(builder, plugin, name, rate, publishes=publishes, transforms=transforms)
+
+
+def _classic_truth(
+    builder: Builder,
+    plugin: PluginElement,
+    drive: str,
+    rate: float,
+    *,
+    publishes: bool,
+    transforms: bool,
+) -> None:
+    """Add the odometry that Classic's drives take from the world."""
+    if not publishes and not transforms:
+        return
+    root = builder.robot.root.name
+    builder.truth(root)
+    parameters: dict[str, Any] = {
+        'link': root,
+        'odom_frame_id': plugin.text('odometry_frame', 'odometryFrame', default='odom'),
+        'base_frame_id': plugin.text(
+            'robot_base_frame', 'robotBaseFrame', default='base_footprint'
+        ),
+        'publish_rate': rate if rate > 0.0 else 1000.0,
+        'publish_odom': publishes,
+        'enable_odom_tf': transforms,
+        'dimensions': 3,
+        **_classic_covariances(plugin),
+    }
+    topics = {'~/odom': plugin.topic('odom', 'odometryTopic'), '/tf': '/tf'}
+    builder.add(
+        _ODOMETRY,
+        parameters,
+        topics,
+        name=f'{drive}_odometry',
+        origin=origin_of(plugin),
+        namespace=plugin.namespace,
+    )
+
+
+def _classic_covariances(plugin: PluginElement) -> dict[str, list[float]]:
+    x, y = (plugin.number(f'covariance_{axis}', default=1e-5) for axis in 'xy')
+    yaw = plugin.number('covariance_yaw', default=1e-3)
+    diagonal = [x, y, _UNKNOWN_VARIANCE, _UNKNOWN_VARIANCE, _UNKNOWN_VARIANCE, yaw]
+    return {'pose_covariance_diagonal': diagonal, 'twist_covariance_diagonal': diagonal}
+
+
+def _gz_drive(
+    builder: Builder, plugin: PluginElement, parameters: dict[str, Any], kind: str, name: str
+) -> None:
+    """Add a wheeled drive of new Gazebo, with odometry from its wheels."""
+    rate = plugin.number('odom_publish_frequency', default=50.0)
+    transforms, frame = _gz_transform(plugin, default='/tf')
+    parameters |= {
+        'odom_frame_id': plugin.text('frame_id', default='odom'),
+        'base_frame_id': plugin.text('child_frame_id', default=_base(builder.robot)),
+        'publish_rate': rate if rate > 0.0 else 1000.0,
+        'enable_odom_tf': transforms,
+    }
+    topics = {
+        '~/cmd_vel': _gz_topic(plugin, 'topic', 'cmd_vel'),
+        '~/odom': _gz_topic(plugin, 'odom_topic', 'odom'),
+        '/tf': frame,
+    }
+    builder.add(kind, parameters, topics, name=name, origin=origin_of(plugin))
+
+
+def _gz_topic(plugin: PluginElement, element: str, default: str) -> str:
+    """Return a topic of new Gazebo as it is usually bridged to ROS."""
+    given = _MODEL.sub('', plugin.text(element), count=1)
+    return 'odom' if given == 'odometry' and default == 'odom' else given or default
+
+
+def _gz_transform(plugin: PluginElement, default: str) -> tuple[bool, str]:
+    """Return whether and where the transform is published: /tf, or a topic that is not bridged."""
+    given = plugin.text('tf_topic')
+    if not given:
+        return bool(default), default or '/tf'
+    return True, '/tf' if given.rpartition('/')[2] in ('tf', 'pose') else given
+
+
+def _limits(plugin: PluginElement) -> dict[str, float]:
+    """
+    Return new Gazebo's limits as those of a rate limiter.
+
+    Gazebo limits a change of speed to ``[min dt, max dt]``, whether the robot speeds up or brakes.
+    """
+    found: dict[str, float] = {}
+    for axis, kind in (('linear.x', 'linear'), ('angular.z', 'angular')):
+        for quantity, names in (
+            ('velocity', (('max_velocity',), ('min_velocity',))),
+            (
+                'acceleration',
+                (
+                    ('max_acceleration', 'max_deceleration_reverse'),
+                    ('max_deceleration', 'max_acceleration_reverse'),
+                ),
+            ),
+            ('jerk', (('max_jerk',), ('min_jerk',))),
+        ):
+            for bound, targets in zip(('max', 'min'), names, strict=True):
+                value = plugin.number(
+                    f'{bound}_{kind}_{quantity}', f'{bound}_{quantity}', default=math.nan
+                )
+                has_sign = value >= 0.0 if bound == 'max' else value <= 0.0
+                if math.isfinite(value) and has_sign:
+                    found |= {f'{axis}.{target}': value for target in targets}
+    return found
+
+
+def _note_noise(plugin: PluginElement) -> None:
+    if plugin.number('gaussian_noise', 'gaussianNoise', default=0.0) != 0.0:
+        plugin.note('its odometry is the truth, without <gaussian_noise>')
+
+
+def _base(robot: Robot) -> str:
+    return robot.root.name
+
+
+TRANSLATORS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
+    'diff-drive': _diff_drive,
+    'gazebo-ros-diff-drive': _diff_drive,
+    'gazebo-ros-skid-steer-drive': _diff_drive,
+    'gazebo-ros-planar-move': _planar_move,
+    'velocity-control': _planar_move,
+    'gazebo-ros-joint-state-publisher': _joint_states,
+    'joint-state-publisher': _joint_states,
+    'odometry-publisher': _odometry_publisher,
+    'gazebo-ros-p3d': _p3d,
+}
+"""Kind of a plugin → what adds its controllers."""
+
+FIRST = ('diff-drive', 'velocity-control')
+"""Kinds that are translated before others, which look whether there is a drive."""

@@ -1,0 +1,56 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Robots that are moved by Gazebo's own plugins, not by ros2_control: their plugins as hardware and
+controllers of ours.
+
+============================================ ====================================================
+plugin, Gazebo Classic (ROS 2, ROS 1) or new controller
+============================================ ====================================================
+diff drive, skid steer                       ``amr_description/GazeboDiffDrive``
+planar move, VelocityControl                 ``amr_description/GazeboPlanarMove``, on the base
+p3d, OdometryPublisher, odometry of a drive  ``amr_description/GazeboOdometryPublisher``: the truth
+that has the world as its source
+joint state publisher                        ``joint_state_broadcaster/JointStateBroadcaster``
+``<sensor type="imu">``                      ``imu_sensor_broadcaster/IMUSensorBroadcaster``
+============================================ ====================================================
+
+Parameters that are not given have Gazebo's defaults. Topics are those of the plugin: Classic's
+with its ``<remapping>`` rules, new Gazebo's as they are usually bridged: ``<topic>`` without a
+leading ``/model/NAME``, else ``cmd_vel``, ``odom``, ``/tf`` and ``joint_states``. New Gazebo's
+frames are ``odom`` and the root link, where it would put the name of the model before them.
+
+What the ``<ros2_control>`` blocks have stays theirs: joints, and sensors by their names.
+"""
+
+from amr_description.model.gazebo_builder import Builder, GazeboTranslation
+from amr_description.model.gazebo_drives import add_imu, FIRST, TRANSLATORS
+from amr_description.model.gazebo_plugins import plugins_of, sensors_of
+from amr_description.model.origins import raise_error_of
+from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import read_hardware
+from amr_description.model.xml_reader import parse_xml
+
+
+def translate(robot: Robot) -> GazeboTranslation:
+    """
+    Return what stands for the plugins of a robot, which may be the robot alone.
+
+    Raises DescriptionError: a ``<ros2_control>`` or ``<gazebo>`` block is invalid.
+    """
+    report = raise_error_of(robot.text, strict=False)
+    xml = parse_xml(robot.text, robot.source, report)
+    if xml is None:
+        return GazeboTranslation(robot)
+    builder = Builder(robot, read_hardware(xml, robot, report))
+    for plugin in sorted(plugins_of(xml, builder.notes), key=lambda each: each.kind not in FIRST):
+        if plugin.kind in TRANSLATORS:
+            TRANSLATORS[plugin.kind](builder, plugin)
+        elif not plugin.is_world_matter:
+            builder.lacking.append(('plugin', plugin.name or plugin.filename, plugin.library))
+    for sensor, link in sensors_of(xml):
+        if sensor.get('name', '') in builder.sensors:
+            continue  # ros2_control's, which says itself what it cannot do
+        if sensor.get('type') != 'imu' or not add_imu(builder, sensor, link):
+            builder.lacking.append(('sensor', sensor.get('name', ''), sensor.get('type', '')))
+    return builder.build()

@@ -1,0 +1,127 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Starts the controllers that stand for Gazebo's plugins, as soon as their robot is spawned.
+
+Gazebo's plugins work from the first moment on, without a spawner; so do these. For
+``ros2 control`` they are controllers as all others: they can be listed, switched off and unloaded.
+"""
+
+from collections.abc import Coroutine, Sequence
+import json
+from typing import Any
+
+from rclpy.executors import Executor
+from rclpy.parameter import Parameter
+from rclpy.task import Future
+
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.ros.controller_manager_node import RunningManager
+from amr_description.control.switching import Strictness
+from amr_description.errors import AmrError
+from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
+
+_SWITCH_TIMEOUT = 5_000_000_000
+"""ns."""
+
+
+async def start_controllers(
+    running: RunningManager, controllers: Sequence[PluginController], log: Log
+) -> None:
+    """
+    Load, configure and activate controllers, in this order, on the thread of their manager.
+
+    One that cannot be started is logged; the robot and the others work without it, as in Gazebo.
+    """
+    requests, node = running.requests, running.node
+    for each in controllers:
+        node.set_parameters(
+            [
+                Parameter(f'{each.name}.type', value=each.type),
+                Parameter(
+                    f'{each.name}.node_options_args',
+                    value=node_arguments(each, node.get_namespace(), requests.manager.update_rate),
+                ),
+            ]
+        )
+        try:
+            await requests.load(each.name)
+            await requests.configure(each.name)
+            await requests.switch([each.name], [], Strictness.STRICT, _SWITCH_TIMEOUT)
+        except AmrError as error:
+            log(Severity.ERROR, f'{each.origin}: its controller cannot be started: {error}')
+
+
+def node_arguments(controller: PluginController, namespace: str, update_rate: int) -> list[str]:
+    """
+    Return the ROS arguments of a controller's node: its parameters and its topics.
+
+    Args:
+        controller: Its parameters and topics.
+        namespace: Of its node. The robot's own counts before that of the plugin, as with
+            Gazebo's spawner.
+        update_rate: Of the manager, Hz; no controller can be faster.
+    """
+    arguments = []
+    for name, value in controller.parameters.items():
+        limited = min(value, update_rate) if name == 'update_rate' else value
+        arguments += ['-p', f'{name}:={json.dumps(limited)}']
+    for before, after in topics_of(controller, namespace).items():
+        if before != after:
+            arguments += ['-r', f'{before}:={after}']
+    return arguments
+
+
+def topics_of(controller: PluginController, namespace: str) -> dict[str, str]:
+    """Return what a controller calls its topics → their names, absolute or for its node."""
+    prefix = f'/{controller.namespace}/' if controller.namespace and namespace == '/' else ''
+    return {
+        before: after if after.startswith(('/', '~')) else f'{prefix}{after}'
+        for before, after in controller.topics.items()
+    }
+
+
+def log_translation(robot: str, translation: GazeboTranslation, namespace: str, log: Log) -> None:
+    """Log what was made of a robot's plugins: a line each, and one of what is not simulated."""
+    for each in translation.controllers:
+        root = namespace.rstrip('/')
+        topics = ', '.join(
+            dict.fromkeys(
+                topic if topic.startswith('/') else f'{root}/{topic.replace("~", each.name)}'
+                for topic in topics_of(each, namespace).values()
+            )
+        )
+        log(
+            Severity.INFO,
+            f"'{robot}': {each.origin} is simulated by the controller {each.name} ({each.type}): "
+            f'{topics}',
+        )
+    for note in translation.notes:
+        log(Severity.WARN, f"'{robot}': {note}")
+    if translation.not_simulated:
+        log(Severity.WARN, f"'{robot}': {translation.not_simulated}")
+
+
+def run_in(executor: Executor, work: Coroutine[Any, Any, None], waiting: Executor) -> Future:
+    """
+    Run a coroutine in one executor; return what a coroutine of another one can await.
+
+    Args:
+        executor: Of the node that the coroutine is about; its thread runs.
+        work: The coroutine.
+        waiting: The executor of the one that awaits.
+    """
+    done = Future(executor=waiting)
+
+    async def run() -> None:
+        try:
+            await work
+        except BaseException as error:
+            done.set_exception(error)
+            waiting.wake()
+            raise
+        done.set_result(None)
+        waiting.wake()  # a task that awaits is looked at only when the executor wakes
+
+    executor.create_task(run())
+    return done

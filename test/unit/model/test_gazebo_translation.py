@@ -1,0 +1,290 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Gazebo's plugins as hardware and controllers: names, defaults, topics, and what is left out."""
+
+from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plugin
+import pytest
+
+from amr_description.controllers import CONTROLLERS
+from amr_description.model.gazebo_plugins import kind_of
+from amr_description.model.gazebo_translation import translate
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.urdf import parse
+from amr_description.parameters import build
+
+REAL = 1e12
+
+
+def translated(*plugins, reference=''):
+    return translate(parse(cart(*plugins, reference=reference), 'cart.urdf'))
+
+
+def only(*plugins, reference=''):
+    """The controllers by name, each of which must take its parameters."""
+    found = {each.name: each for each in translated(*plugins, reference=reference).controllers}
+    for each in found.values():
+        table = CONTROLLERS.find(each.type).parameters_type
+        build(table, {k: v for k, v in each.parameters.items() if k != 'update_rate'})
+    return found
+
+
+@pytest.mark.parametrize(
+    'filename, name, kind',
+    [
+        ('libgazebo_ros_diff_drive.so', 'my drive', 'gazebo-ros-diff-drive'),
+        ('/opt/lib/libgazebo_ros_p3d.so', '', 'gazebo-ros-p3d'),
+        ('gz-sim-diff-drive-system', 'gz::sim::systems::DiffDrive', 'diff-drive'),
+        ('', 'gz::sim::systems::DiffDrive', 'diff-drive'),
+        ('libgz-sim8-diff-drive-system.so', 'x', 'diff-drive'),
+        ('libignition-gazebo-diff-drive-system.so', 'x', 'diff-drive'),
+        ('x', 'ignition::gazebo::systems::JointStatePublisher', 'joint-state-publisher'),
+        ('x', 'gz::sim::v8::systems::VelocityControl', 'velocity-control'),
+        ('libmaker_diff_drive.so', 'maker::DiffDrive', ''),
+    ],
+)
+def test_kinds(filename, name, kind):
+    assert kind_of(filename, name) == kind
+
+
+def test_a_drive_of_new_gazebo():
+    drive = only(
+        gz_drive("""<topic>/model/cart/cmd_vel</topic><odom_topic>wheel/odom</odom_topic>
+        <max_linear_acceleration>2</max_linear_acceleration>
+        <min_linear_acceleration>-3</min_linear_acceleration>
+        <max_velocity>0.7</max_velocity><odom_publish_frequency>20</odom_publish_frequency>""")
+    )['diff_drive']
+    assert drive.type == 'amr_description/GazeboDiffDrive'
+    assert drive.topics == {'~/cmd_vel': 'cmd_vel', '~/odom': 'wheel/odom', '/tf': '/tf'}
+    assert drive.parameters == {
+        'left_wheel_names': ['left_joint'],
+        'right_wheel_names': ['right_joint'],
+        'wheel_separation': 0.3,
+        'wheel_radius': 0.05,
+        'linear.x.max_velocity': 0.7,
+        'linear.x.max_acceleration': 2.0,
+        'linear.x.max_deceleration_reverse': 2.0,
+        'linear.x.max_deceleration': -3.0,
+        'linear.x.max_acceleration_reverse': -3.0,
+        'angular.z.max_velocity': 0.7,
+        'odom_frame_id': 'odom',
+        'base_frame_id': 'base_link',
+        'publish_rate': 20.0,
+        'enable_odom_tf': True,
+    }
+
+
+def test_defaults_of_new_gazebo():
+    found = only(plugin('gz-sim-diff-drive-system', 'gz::sim::systems::DiffDrive', JOINTS))
+    assert found['diff_drive'].topics == {'~/cmd_vel': 'cmd_vel', '~/odom': 'odom', '/tf': '/tf'}
+    parameters = found['diff_drive'].parameters
+    assert (parameters['wheel_separation'], parameters['wheel_radius']) == (1.0, 0.2)
+    assert parameters['publish_rate'] == 50.0
+
+
+def test_defaults_of_classic_publish_nothing():
+    found = only(plugin('libgazebo_ros_diff_drive.so', 'drive', JOINTS))
+    drive = found['drive']
+    assert list(found) == ['drive', 'joint_state_broadcaster']
+    parameters = drive.parameters
+    assert (parameters['wheel_separation'], parameters['wheel_radius']) == (0.34, 0.075)
+    assert parameters['publish_rate'] == 100.0
+    assert not parameters['publish_odom'] and not parameters['enable_odom_tf']
+    assert 'max_wheel_acceleration' not in parameters
+
+
+def test_odometry_of_classic_is_that_of_the_world_or_of_the_wheels():
+    wanted = '<publish_odom>true</publish_odom><publish_odom_tf>true</publish_odom_tf>'
+    rules = '<ros><namespace>/r1</namespace><remapping>odom:=wheel/odom</remapping></ros>'
+    found = only(classic_drive(wanted + rules + '<robot_base_frame>base_link</robot_base_frame>'))
+    truth = found['drive_odometry']
+    assert truth.type == 'amr_description/GazeboOdometryPublisher'
+    assert truth.topics['~/odom'] == 'wheel/odom'
+    assert truth.namespace == 'r1'
+    assert truth.parameters['link'] == truth.parameters['base_frame_id'] == 'base_link'
+    assert truth.parameters['pose_covariance_diagonal'] == [1e-5, 1e-5, REAL, REAL, REAL, 1e-3]
+    assert not found['drive'].parameters['publish_odom']
+    found = only(classic_drive(f'{wanted}<odometry_source>0</odometry_source>'))
+    assert found['drive'].parameters['publish_odom'] and 'drive_odometry' not in found
+    assert found['drive'].topics['~/odom'] == 'odom'
+
+
+def test_names_of_ros_1():
+    found = only(
+        plugin(
+            'libgazebo_ros_skid_steer_drive.so',
+            'skid',
+            """<leftFrontJoint>left_joint</leftFrontJoint>
+            <rightFrontJoint>right_joint</rightFrontJoint>
+            <wheelSeparation>0.3</wheelSeparation><wheelDiameter>0.1</wheelDiameter>
+            <commandTopic>drive/cmd_vel</commandTopic><odometrySource>encoder</odometrySource>""",
+        )
+    )
+    skid = found['skid']
+    assert skid.topics == {'~/cmd_vel': 'drive/cmd_vel', '~/odom': 'odom', '/tf': '/tf'}
+    assert skid.parameters['publish_odom'] and skid.parameters['wheel_radius'] == 0.05
+
+
+def test_the_torque_of_the_wheels_is_limited():
+    robot = translated(classic_drive('<max_wheel_torque>20</max_wheel_torque>')).robot
+    assert [robot.joint(f'{side}_joint').limit.effort for side in ('left', 'right')] == [20, 20]
+    assert translated(classic_drive()).robot.joint('left_joint').limit.effort == 5.0
+    assert translated(gz_drive()).robot.joint('left_joint').limit is None
+
+
+def test_the_hardware_has_all_joints():
+    robot = translated(gz_drive()).robot
+    (info,) = hardware_of(robot)
+    assert [each.name for each in info.joints] == ['left_joint', 'right_joint']
+    assert [each.name for each in info.joints[0].command_interfaces] == ['velocity']
+    assert translate(robot).robot == robot
+
+
+def test_a_body_that_is_moved():
+    found = translated(plugin('libgazebo_ros_planar_move.so', 'planar'))
+    base = found.robot.plugin_hardware[-1]
+    assert base.plugin == 'amr_description/SimulatedBase'
+    assert [each.name for each in base.sensors] == ['base_link/ground_truth']
+    move, odometry = found.controllers
+    assert move.type == 'amr_description/GazeboPlanarMove'
+    assert odometry.name == 'planar_odometry'
+    assert odometry.parameters['publish_rate'] == 20.0
+    found = only(plugin('', 'gz::sim::systems::VelocityControl'))
+    assert list(found) == ['velocity_control']
+
+
+def test_joint_state_publishers():
+    one = '<joint_name>left_joint</joint_name><joint_name>arm</joint_name>'
+    found = translated(plugin('libgazebo_ros_joint_state_publisher.so', 'states', one))
+    (states,) = found.controllers
+    assert states.parameters['joints'] == ['left_joint']
+    assert states.parameters['update_rate'] == 100
+    assert found.notes[0] == ('plugin "states": there is no joint "arm"; it publishes the others')
+    (states,) = translated(plugin('', 'gz::sim::systems::JointStatePublisher')).controllers
+    assert (states.name, states.topics) == (
+        'joint_state_publisher',
+        {'joint_states': 'joint_states'},
+    )
+    assert 'joints' not in states.parameters
+
+
+def test_true_odometry():
+    body = '<body_name>left_wheel</body_name><xyz_offset>1 2 3</xyz_offset>'
+    p3d = only(plugin('libgazebo_ros_p3d.so', 'p3d', body))['p3d'].parameters
+    assert p3d['link'] == 'left_wheel' and p3d['odom_frame_id'] == 'world'
+    assert p3d['offset.xyz'] == [1, 2, 3] and p3d['twist_in_world'] and not p3d['enable_odom_tf']
+    publisher = plugin('', 'gz::sim::systems::OdometryPublisher')
+    alone = only(publisher)['odometry_publisher']
+    assert alone.topics == {'~/odom': 'odom', '/tf': '/tf'} and alone.parameters['enable_odom_tf']
+    beside = only(publisher, gz_drive())['odometry_publisher']
+    assert beside.topics['~/odom'] == 'odometry' and not beside.parameters['enable_odom_tf']
+    asked = publisher.replace('></', '><tf_topic>/model/cart/pose</tf_topic></')
+    assert only(gz_drive(), asked)['odometry_publisher'].parameters['enable_odom_tf']
+
+
+@pytest.mark.parametrize(
+    'inside, name, topic, frame',
+    [
+        ('', 'imu_0', 'imu', 'base_link'),
+        ('<topic>imu/raw</topic><gz_frame_id>f</gz_frame_id>', 'imu_0', 'imu/raw', 'f'),
+        (plugin('libgazebo_ros_imu_sensor.so', 'unit'), 'unit', '~/out', 'base_link'),
+        (
+            plugin(
+                'libgazebo_ros_imu_sensor.so',
+                'unit',
+                '<ros><remapping>~/out:=imu</remapping></ros><frame_name>f</frame_name>',
+            ),
+            'unit',
+            'imu',
+            'f',
+        ),
+    ],
+)
+def test_inertial_measurement_units(inside, name, topic, frame):
+    sensor = f'<sensor name="imu_0" type="imu"><update_rate>50</update_rate>{inside}</sensor>'
+    found = translated(reference=sensor)
+    (unit,) = found.controllers
+    assert unit.name == name and unit.topics == {'~/imu': topic}
+    assert unit.parameters == {'sensor_name': 'imu_0', 'frame_id': frame, 'update_rate': 50}
+    assert found.robot.plugin_hardware[0].sensors[0].name == 'imu_0'
+    assert not found.not_simulated
+
+
+def test_what_is_not_simulated_is_named_once():
+    sensors = """<sensor name="eye" type="camera"/><sensor name="laser" type="gpu_lidar"/>
+    <sensor name="rear" type="camera">
+      <plugin filename="libgazebo_ros_camera.so" name="c"/></sensor>
+    <sensor name="unit" type="imu"/>"""
+    found = translated(
+        gz_drive(),
+        plugin('gz-sim-sensors-system', 'gz::sim::systems::Sensors'),
+        plugin('gz-sim-imu-system', 'gz::sim::systems::Imu'),
+        plugin('gz_ros2_control-system', 'gz_ros2_control::GazeboSimROS2ControlPlugin'),
+        plugin('libmaker_suspension.so', 'maker::Suspension'),
+        reference=sensors,
+    )
+    assert found.not_simulated == (
+        'declared for Gazebo and not simulated: sensors camera (eye, rear), gpu_lidar (laser); '
+        'plugin libmaker_suspension.so (maker::Suspension)'
+    )
+    assert not translated(gz_drive()).not_simulated
+
+
+def test_a_robot_that_says_nothing_is_noted():
+    assert translated().notes == (
+        'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its 2 '
+        'joints are free, as there',
+    )
+    assert not translated(gz_drive()).notes
+
+
+@pytest.mark.parametrize(
+    'one, note',
+    [
+        (
+            classic_drive().replace('>left_joint', '>left'),
+            'plugin "drive": it cannot work: there is no joint "left" that moves; there are: '
+            '"left_joint", "right_joint"',
+        ),
+        (
+            classic_drive('<left_joint>left_joint</left_joint>'),
+            'plugin "drive": it cannot work: 2 joints are on the left and 1 on the right',
+        ),
+        (
+            gz_drive().replace('0.05', '0'),
+            'plugin "gz::sim::systems::DiffDrive": it cannot work: the separation and the size of '
+            'the wheels must be above 0',
+        ),
+        (
+            classic_drive('<update_rate>fast</update_rate>'),
+            'plugin "drive": <update_rate> is "fast", which is no number; its default is taken',
+        ),
+        (
+            plugin('libgazebo_ros_p3d.so', 'p', '<body_name>b</body_name>'),
+            'plugin "p": it cannot work: there is no link "b"; there are: "base_link", '
+            '"left_wheel", "right_wheel"',
+        ),
+    ],
+)
+def test_what_cannot_work_is_noted(one, note):
+    assert translated(one).notes[0] == note
+
+
+def test_what_ros2_control_has_stays_its_own():
+    block = """<ros2_control name="own" type="system">
+      <hardware><plugin>amr_description/MujocoSystem</plugin></hardware>
+      <joint name="left_joint"><command_interface name="velocity"/></joint>
+      <sensor name="unit"><state_interface name="orientation.x"/></sensor></ros2_control>"""
+    text = cart(
+        classic_drive(),
+        plugin('', 'gz::sim::systems::JointStatePublisher'),
+        reference='<sensor name="unit" type="imu"/><sensor name="other" type="imu"/>',
+    )
+    found = translate(parse(text.replace('</robot>', f'{block}</robot>')))
+    assert [each.name for each in found.controllers] == ['other']
+    assert found.notes == (
+        'plugin "drive": it is left out: <ros2_control> has the joints "left_joint"',
+        'plugin "gz::sim::systems::JointStatePublisher": it is left out: the robot has '
+        '<ros2_control>, whose joint_state_broadcaster publishes its joint states',
+    )
+    (info,) = found.robot.plugin_hardware
+    assert not info.joints and [each.name for each in info.sensors] == ['other']
