@@ -14,6 +14,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``http.py``         plain HTTP: the files of the page, meshes, security headers
 ``access.py``       which requests are answered: Host, Origin, token
 ``graph.py``        names and types of a ROS graph -> robots and simulators
+``joint_groups.py`` the joints that controllers let a page move, and to where
 ``client.py``       a page without a browser, for measurements and tests
 ``ros/``            the backend for the ROS graph
 ==================  ============================================================================

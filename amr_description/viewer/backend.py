@@ -34,11 +34,16 @@ class Backend(Protocol):
     def robots(self) -> Sequence[str]:
         """Return the robots that take velocity commands."""
 
-    def drive(self, robot: str, linear: float, angular: float) -> None:
-        """Publish one command now, m/s and rad/s. Raises ViewerError."""
+    def drive(self, robot: str, linear: float, angular: float, sideways: float = 0.0) -> None:
+        """Publish one command now, m/s, rad/s and m/s to the left. Raises ViewerError."""
 
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
-        """Move joints that joint_state_publisher publishes, rad or m. Raises ViewerError."""
+        """
+        Move joints, rad or m: by joint_state_publisher, else by controllers. Raises ViewerError.
+        """
+
+    def hold_joints(self, robot: str | None) -> None:
+        """Stop the joints of a robot, None: of all, that pages have moved by controllers."""
 
     async def handle(self, request: Request) -> str:
         """Carry out a request; return one line about what was done. Raises ViewerError."""

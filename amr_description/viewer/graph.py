@@ -10,6 +10,7 @@ name belongs to the robot with the longest namespace that contains it.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
+from amr_description.viewer.joint_groups import is_joint_command, POSITIONS, TRAJECTORY
 from amr_description.viewer.protocol import Command
 
 STRING = 'std_msgs/msg/String'
@@ -58,6 +59,8 @@ class FoundRobot:
     activity: str | None
     introspection: str | None
     """``…/introspection_data`` of its controller manager, with ``/names`` and ``/values``."""
+    joint_commands: tuple[Command, ...]
+    """Topics by which controllers may move joints."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +149,12 @@ def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None
         introspection=introspection
         if names.if_published(f'{introspection}/values', STATISTICS_VALUES)
         else None,
+        joint_commands=tuple(
+            Command(topic, message)
+            for message in (TRAJECTORY, POSITIONS)
+            for topic in sorted(own(names.subscribed, message))
+            if is_joint_command(topic, message)
+        ),
     )
 
 

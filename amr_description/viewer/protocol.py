@@ -182,12 +182,17 @@ class TimeReset:
 
 @dataclass(frozen=True, slots=True)
 class ControllerInfo:
-    """A controller and the command interfaces that it has claimed."""
+    """
+    A controller and the command interfaces that it has claimed.
+
+    ``moves``: the joints that pages can move by it, with ``set_joints``.
+    """
 
     name: str
     kind: str
     state: str
     claims: tuple[str, ...]
+    moves: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ what is wrong with it. ``web/src/protocol.ts`` documents each message.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, MISSING
 import json
 import math
 from typing import Any, ClassVar
@@ -25,12 +25,13 @@ type Speed = float
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """Move a robot: m/s ahead, rad/s to the left."""
+    """Move a robot: m/s ahead, rad/s to the left, and m/s to the left if its wheels can."""
 
     types: ClassVar[tuple[str, ...]] = ('drive',)
     robot: str
     linear: Speed
     angular: Speed
+    sideways: Speed = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +44,7 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class SetJoints:
-    """Move joints that joint_state_publisher publishes, rad or m."""
+    """Move joints by joint_state_publisher, or by active controllers, rad or m."""
 
     types: ClassVar[tuple[str, ...]] = ('set_joints',)
     robot: str
@@ -147,6 +148,7 @@ def decode(frame: str) -> ClientMessage:
     values = {
         field.name: _value(found, field.name, _READERS[field.type], kind)
         for field in fields(message)
+        if field.name in found or field.default is MISSING
     }
     return message(**values)
 

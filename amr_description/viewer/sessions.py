@@ -179,7 +179,8 @@ class MessageRouter:
             self._notice(page, reason)
             return
         if not self._attempt(
-            page, lambda: self._backend.drive(robot, message.linear, message.angular)
+            page,
+            lambda: self._backend.drive(robot, message.linear, message.angular, message.sideways),
         ):
             self._lock.stop(robot, page.name, now)
         if (driver := self._lock.holder(robot)) != before:
@@ -188,6 +189,7 @@ class MessageRouter:
 
     def _on_stop(self, page: Page, robot: str | None) -> None:
         """Stop a robot, None for all, whoever drives it."""
+        self._backend.hold_joints(robot)
         known = {*self._backend.robots(), *self._lock.robots()}
         if robot is None or robot in known:
             for each in known if robot is None else [robot]:

@@ -124,7 +124,8 @@ export interface TimeReset {
 export interface Controllers {
   type: 'controllers';
   robot: string;
-  controllers: { name: string; kind: string; state: string; claims: string[] }[];
+  // moves: the joints that `set_joints` can move by it
+  controllers: { name: string; kind: string; state: string; claims: string[]; moves: string[] }[];
   hardware: { name: string; kind: string; state: string }[];
 }
 
@@ -174,15 +175,22 @@ export interface Drive {
   robot: string;
   linear: number; // m/s ahead; more than 100 either way is refused
   angular: number; // rad/s to the left, of the same bounds
+  sideways?: number; // m/s to the left, of robots whose wheels can; 0 when left out
 }
 
-/** Stop a robot, whichever page drives it. Null: all robots. */
+/**
+ * Stop a robot, whichever page drives it. Null: all robots. Joints that pages have moved by
+ * controllers stay where they are.
+ */
 export interface Stop {
   type: 'stop';
   robot: string | null;
 }
 
-/** Move joints that joint_state_publisher publishes. */
+/**
+ * Move joints: by joint_state_publisher where there is one, else by the active controllers whose
+ * `moves` have them; a trajectory takes the time that the joints' limits of velocity ask for.
+ */
 export interface SetJoints {
   type: 'set_joints';
   robot: string;

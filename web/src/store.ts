@@ -104,6 +104,20 @@ export class Store {
     return found === undefined || found.state === 'active' ? null : found;
   }
 
+  /** Whether an active controller of the robot can take it sideways, by its type. */
+  get goesSideways(): boolean {
+    const here = this.robot === null ? undefined : this.controllers.get(this.robot.id);
+    const active = here?.controllers.filter(({ state }) => state === 'active') ?? [];
+    return active.some(({ kind }) => /mecanum|omni|planar/i.test(kind));
+  }
+
+  /** The joints that pages can move by active controllers, each with its controller. */
+  get movedJoints(): ReadonlyMap<string, string> {
+    const here = this.robot === null ? undefined : this.controllers.get(this.robot.id);
+    const pairs = here?.controllers.flatMap(({ name, moves }) => moves.map((joint) => [joint, name]));
+    return new Map(pairs as [string, string][] | undefined);
+  }
+
   choose(robot: string): void {
     this.chosen = robot;
     this.tell('robot');

@@ -29,9 +29,22 @@ test('opposite keys cancel', () => {
 });
 
 test('other keys do not drive', () => {
-  assert.equal(isDriveKey('KeyQ'), false);
-  assert.equal(isDriveKey('KeyW'), true);
-  assert.deepEqual(fromKeys(['KeyQ', 'Tab']), STILL);
+  assert.equal(isDriveKey('KeyQ', false), false);
+  assert.equal(isDriveKey('KeyW', false), true);
+  assert.deepEqual(fromKeys(['KeyX', 'Tab']), STILL);
+});
+
+test('Q and E go sideways, where wheels can', () => {
+  assert.equal(isDriveKey('KeyQ', true), true);
+  assert.deepEqual(fromKeys(['KeyQ', 'KeyW']), { forward: 1, turn: 0, left: 1 });
+  assert.deepEqual(fromKeys(['KeyE']), { forward: 0, turn: 0, left: -1 });
+  assert.deepEqual(fromKeys(['KeyQ', 'KeyE']), STILL);
+  const demand = { forward: 0.5, turn: 0, left: -1 };
+  assert.deepEqual(toVelocity(demand, { linear: 0.4, angular: 2 }), {
+    linear: 0.2,
+    angular: 0,
+    sideways: -0.4,
+  });
 });
 
 test('a stick pushed up drives ahead, pushed to the left turns left', () => {

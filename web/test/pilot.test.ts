@@ -72,6 +72,18 @@ test('a hand drives at once, in the units of the robot', () => {
   assert.equal(outside.sent[0].at, 0);
 });
 
+test('a robot that can goes sideways, with the limit of its speed', () => {
+  const { outside, pilot } = piloting();
+  pilot.setLimits({ linear: 0.4, angular: 2 });
+  pilot.set('keys', { forward: 0, turn: 0, left: -1 });
+  assert.deepEqual(outside.last, {
+    type: 'drive', robot: '/', linear: 0, angular: 0, sideways: -0.4,
+  });
+  pilot.set('keys', { forward: 0, turn: 0, left: 1 });
+  outside.pass(100);
+  assert.equal((outside.last as Drive).sideways, 0.4);
+});
+
 test('while a hand holds, drives go out well within the time limit of the node', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);

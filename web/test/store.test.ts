@@ -103,7 +103,7 @@ test('a controller that would hear commands but does not run is found by its top
     store.take({
       type: 'controllers',
       robot: '/robot1',
-      controllers: [{ name: 'diff_drive_controller', kind: 'k', state, claims: [] }],
+      controllers: [{ name: 'diff_drive_controller', kind: 'k', state, claims: [], moves: [] }],
       hardware: [],
     });
   const deaf = (): string | undefined => store.deafController?.state;
@@ -112,6 +112,21 @@ test('a controller that would hear commands but does not run is found by its top
   assert.equal(deaf(), 'inactive');
   say('active');
   assert.equal(deaf(), undefined);
+});
+
+test('active controllers tell which joints can be moved, and whether it goes sideways', () => {
+  const store = connected('/');
+  assert.equal(store.movedJoints.size, 0);
+  const of = (name: string, kind: string, state: string, moves: string[]) => ({
+    name, kind, state, claims: [], moves,
+  });
+  const tell = (...controllers: ReturnType<typeof of>[]): void =>
+    store.take({ type: 'controllers', robot: '/', controllers, hardware: [] });
+  tell(of('arm', 'a/JointTrajectoryController', 'active', ['a', 'b']), of('wheels', 'm/MecanumDriveController', 'inactive', []));
+  assert.deepEqual([...store.movedJoints], [['a', 'arm'], ['b', 'arm']]);
+  assert.equal(store.goesSideways, false);
+  tell(of('wheels', 'm/MecanumDriveController', 'active', []));
+  assert.equal(store.goesSideways, true);
 });
 
 test('notices that repeat are counted, and only the latest are kept', () => {

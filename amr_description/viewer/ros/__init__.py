@@ -7,6 +7,7 @@ The backend of the page's server for the robots of a ROS graph.
 ``backend.py``          :class:`GraphBackend`: what pages ask, and what they are sent
 ``graph_monitor.py``    watches the graph, and connects to its robots and simulators
 ``robot.py``            the connection to one robot: description, commands; a simulator's world
+``joint_commands.py``   joints that pages move by controllers
 ``robot_topics.py``     what moves: transforms, joints, odometry, commands, wheels
 ``states.py``           … assembled into the binary states
 ``description.py``      a robot description for the page: joints, meshes, findings

@@ -15,6 +15,7 @@ from visualization_msgs.msg import MarkerArray
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, ViewerError
+from amr_description.viewer.joint_groups import joint_groups, JointGroup, with_moves
 from amr_description.viewer.protocol import (
     Graph,
     RobotInfo,
@@ -99,13 +100,19 @@ class GraphBackend(GraphObserver):
         """Return the robots that take velocity commands."""
         return [name for name, each in self._monitor.connections.items() if each.found.command]
 
-    def drive(self, robot: str, linear: float, angular: float) -> None:
+    def drive(self, robot: str, linear: float, angular: float, sideways: float = 0.0) -> None:
         """Publish one command."""
-        self._connection(robot).drive(linear, angular, self._now())
+        self._connection(robot).drive(linear, angular, sideways, self._now())
 
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
-        """Move joints that joint_state_publisher publishes."""
+        """Move joints by joint_state_publisher, else by controllers."""
         self._connection(robot).set_joints(positions, self._now())
+
+    def hold_joints(self, robot: str | None) -> None:
+        """Stop the joints that pages have moved by controllers."""
+        for name, each in self._monitor.connections.items():
+            if robot in (None, name):
+                each.commands.hold(each.topics.positions())
 
     async def handle(self, request: Request) -> str:
         """Carry out a request."""
@@ -154,6 +161,11 @@ class GraphBackend(GraphObserver):
     def _set_session(self) -> None:
         """Pass on the present session: rclpy runs tasks in any order."""
         self._monitor.set_session(self._session)
+
+    def _set_groups(self, connection: RobotConnection, groups: Sequence[JointGroup]) -> None:
+        """Advertise what moves joints, unless the robot has gone in the meantime."""
+        if connection in self._monitor.connections.values():
+            connection.commands.set_groups(groups)
 
     def disconnect(self) -> None:
         """Disconnect from the graph, after the server has ended; the last stops have arrived."""
@@ -256,7 +268,9 @@ class GraphBackend(GraphObserver):
             if connection is not None and connection.found.manager is not None:
                 manager = connection.found.manager
                 controllers = await list_controllers(self._services, manager, robot)
-                self.server.publish_now(robot, controllers)
+                groups = joint_groups(controllers.controllers, connection.found.joint_commands)
+                self._executor.create_task(self._set_groups, connection, groups)
+                self.server.publish_now(robot, with_moves(controllers, groups))
 
         self._start(list_them())
 

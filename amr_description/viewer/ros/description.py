@@ -38,6 +38,8 @@ class DescribedRobot:
     message: Model
     files: Mapping[str, Path | bytes]
     """What is in a file, or instead of one that the page does not read."""
+    speeds: Mapping[str, float]
+    """The velocity limits of joints that have one, rad/s or m/s."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -80,7 +82,9 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
         joints=tuple(_joint(each) for each in model.joints if each.has_position) if model else (),
         findings=tuple(told),
     )
-    return DescribedRobot(model.name if model else '', message, files)
+    limits = {each.name: each.limit for each in model.joints if each.limit} if model else {}
+    speeds = {name: limit.velocity for name, limit in limits.items() if limit.velocity > 0.0}
+    return DescribedRobot(model.name if model else '', message, files, speeds)
 
 
 def _files_of(robot: Robot) -> Iterator[str]:

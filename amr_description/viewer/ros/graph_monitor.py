@@ -34,6 +34,7 @@ from amr_description.viewer.graph import (
     TF,
     TWISTS,
 )
+from amr_description.viewer.joint_groups import POSITIONS, TRAJECTORY
 from amr_description.viewer.ros.robot import RobotConnection, WorldSubscription
 from amr_description.viewer.ros.robot_topics import TransformTopics
 from amr_description.viewer.ros.service_clients import (
@@ -53,7 +54,7 @@ _PUBLISHED_TYPES = {
     STRING,
     TF,
 }
-_SUBSCRIBED_TYPES = {JOINT_STATE, *TWISTS}
+_SUBSCRIBED_TYPES = {JOINT_STATE, POSITIONS, TRAJECTORY, *TWISTS}
 _PERIOD = 0.5
 """s between two polls of the graph."""
 

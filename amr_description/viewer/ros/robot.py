@@ -25,6 +25,7 @@ from amr_description.ros.qos import LATCHED
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import RobotInfo
 from amr_description.viewer.ros.description import describe_robot, DescribedRobot
+from amr_description.viewer.ros.joint_commands import JointCommands
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
 
 _COMMAND_FRAME = 'base_link'
@@ -62,6 +63,8 @@ class RobotConnection:
         self._activity: Any = None
         self._commands: Publisher | None = None
         self._joints: Publisher | None = None
+        self.commands = JointCommands(node, found.id)
+        """The joints that controllers let pages move."""
         self._advertise_commands()
         self._advertise_joints()
         self._subscribe_activity()
@@ -113,13 +116,14 @@ class RobotConnection:
             if publisher is not None:
                 _destroy_publisher(self._node, publisher)
         self._commands = self._joints = None
+        self.commands.destroy()
         for subscription in (self._description, self._activity):
             if subscription is not None:
                 self._node.destroy_subscription(subscription)
         self.topics.destroy()
 
-    def drive(self, linear: float, angular: float, time: int) -> None:
-        """Publish a command, m/s and rad/s, stamped ``time`` (ns). Raises ViewerError."""
+    def drive(self, linear: float, angular: float, sideways: float, time: int) -> None:
+        """Publish a command, m/s, rad/s and m/s, stamped ``time`` (ns). Raises ViewerError."""
         publisher = self._commands
         if publisher is None:
             raise ViewerError(
@@ -133,17 +137,20 @@ class RobotConnection:
             message.header.frame_id = _COMMAND_FRAME
             twist = message.twist
         assert isinstance(twist, Twist), 'the only other type'
-        twist.linear.x, twist.angular.z = linear, angular
+        twist.linear.x, twist.linear.y, twist.angular.z = linear, sideways, angular
         self._publish(publisher, message)
 
     def set_joints(self, positions: Mapping[str, float], time: int) -> None:
-        """Send positions (rad or m) to joint_state_publisher. Raises ViewerError."""
+        """
+        Send positions (rad or m) to joint_state_publisher, else to controllers.
+
+        Raises ViewerError: neither takes them.
+        """
         publisher = self._joints
         if publisher is None:
-            raise ViewerError(
-                f'no joint_state_publisher takes positions of {self.found.id}; the joints are '
-                'moved by controllers'
-            )
+            speeds = self.described.speeds if self.described else {}
+            self.commands.move(positions, self.topics.positions(), speeds)
+            return
         message = JointState(name=list(positions), position=list(positions.values()))
         fill_stamp(time, message.header.stamp)
         self._publish(publisher, message)

@@ -198,6 +198,14 @@ class RobotTopics:
             self.layout = RobotLayout(self.layout.id, self.layout.joints, wheels)
         return new
 
+    def positions(self) -> dict[str, float]:
+        """Return the latest positions of the joints, rad or m, as far as they are known."""
+        latest = self._latest.get('joint_states')
+        if latest is None:
+            return {}
+        pairs = zip(latest.names, latest.positions, strict=False)  # the positions may be missing
+        return {name: position for name, position in pairs if math.isfinite(position)}
+
     def write(self, floats: RobotFloats, parts: Sequence[str] | None = None) -> None:
         """Write the latest values of these parts, or of all, into a state."""
         for part in self._latest if parts is None else parts:

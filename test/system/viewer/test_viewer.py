@@ -6,6 +6,8 @@ from contextlib import contextmanager
 import signal
 import struct
 
+from controller_manager_msgs.msg import ControllerState
+from controller_manager_msgs.srv import ListControllers, ListHardwareComponents
 from fixtures.sim.driving import AMR
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
@@ -22,6 +24,7 @@ from support.page import Page
 from support.running_programs import PATIENCE, Program
 from test_viewer_server import ask, url_of, viewer
 from tf2_msgs.msg import TFMessage
+from trajectory_msgs.msg import JointTrajectory
 
 from amr_description.ros.service_calls import wait_until
 
@@ -369,6 +372,52 @@ def test_sliders_move_the_joints_of_a_joint_state_publisher(host, url, tmp_path)
         host.until(moved)
         assert page.last('graph')['robots'][0]['joint_publisher'] == '/joint_state_publisher'
         assert program.end(signal.SIGINT) == 0
+
+
+def test_sliders_move_joints_by_controllers_and_a_stop_holds_them(host, url):
+    robot = Robot(host.node, '/arm')
+    left, right = WHEELS[0], WHEELS[2]
+    listed = ControllerState(
+        name='mover', state='active', claimed_interfaces=[f'{left}/position', f'{right}/position']
+    )
+    services = [
+        host.node.create_service(
+            kind, f'/arm/controller_manager/{name}', lambda _, response, fill=fill: fill(response)
+        )
+        for kind, name, fill in (
+            (
+                ListControllers,
+                'list_controllers',
+                lambda r: setattr(r, 'controller', [listed]) or r,
+            ),
+            (ListHardwareComponents, 'list_hardware_components', lambda r: r),
+        )
+    ]
+    heard = []
+    host.node.create_subscription(JointTrajectory, '/arm/mover/joint_trajectory', heard.append, 10)
+    with Page(url) as page:
+        host.until(
+            lambda: (page.last('controllers') or {'controllers': [{'moves': []}]})['controllers'][
+                0
+            ]['moves']
+        )
+        positions = JointState(name=[left, right], position=[0.25, -0.5])
+
+        def moved():
+            robot.joint_states.publish(positions)
+            page.say('set_joints', robot='/arm', positions={left: 1.0})
+            return heard
+
+        host.until(moved)
+        (point,) = heard[-1].points
+        assert (heard[-1].joint_names, [*point.positions]) == ([left, right], [1.0, -0.5])
+        duration = point.time_from_start.sec + point.time_from_start.nanosec * 1e-9
+        assert duration == pytest.approx(0.75)
+        page.say('stop', robot=None)
+        host.until(lambda: [*heard[-1].points[0].positions] == [0.25, -0.5])
+    for service in services:
+        host.node.destroy_service(service)
+    robot.vanish()
 
 
 def test_several_robots_come_and_go(host, url):

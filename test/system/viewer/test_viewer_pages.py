@@ -29,6 +29,7 @@ class Backend:
 
     def __init__(self):
         self.calls = []
+        self.joints_are_moved = False
         self.new = ()
         self.frame = None
 
@@ -47,10 +48,14 @@ class Backend:
     def robots(self):
         return ['/']
 
-    def drive(self, robot, linear, angular):
+    def drive(self, robot, linear, angular, sideways=0.0):
         if robot != '/':
             raise ViewerError(f'there is no robot {robot}')
-        self.calls.append((linear, angular))
+        self.calls.append((linear, angular, sideways) if sideways else (linear, angular))
+
+    def hold_joints(self, robot):
+        if self.joints_are_moved:
+            self.calls.append(f'hold {robot}')
 
     def set_joints(self, robot, positions):
         self.calls.append(positions)
@@ -229,6 +234,15 @@ def test_slider_positions_reach_the_backend(backend, server):
         page.say('set_joints', robot='/', positions={'a': 1, 'b': -0.5})
         page.ask('play', 1, simulator='/s')
         assert backend.calls[-1] == {'a': 1.0, 'b': -0.5}
+
+
+def test_a_stop_holds_joints_first_and_a_drive_may_go_sideways(backend, server):
+    backend.joints_are_moved = True
+    with Page(server.url) as page:
+        page.say('drive', robot='/', linear=1.0, angular=0.5, sideways=-0.2)
+        page.say('stop', robot=None)
+        page.ask('play', 1, simulator='/s')
+        assert backend.calls[-3:] == [(1.0, 0.5, -0.2), 'hold None', (0.0, 0.0)]
 
 
 def test_a_server_that_ends_stops_the_robot_of_a_page(backend):

@@ -66,6 +66,7 @@ def test_names_in_the_namespace_belong_to_the_robot(place):
         'manager': f'{place}/controller_manager',
         'activity': f'{place}/controller_manager/activity',
         'introspection': f'{place}/controller_manager/introspection_data',
+        'joint_commands': (),
     }
 
 

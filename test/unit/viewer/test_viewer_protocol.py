@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What page and node say to each other: both sides of web/src/protocol.ts are the same."""
 
-from dataclasses import fields
+from dataclasses import fields, MISSING
 import json
 import math
 import re
@@ -124,7 +124,8 @@ def test_parts_that_the_page_writes_in_place_have_its_fields():
 def test_what_is_heard_has_the_fields_that_the_page_writes(name):
     there = members_of(name)
     assert there.pop('type') == ' | '.join(f"'{each}'" for each in HEARD[name].types)
-    assert {f.name: script(f.type) for f in fields(HEARD[name])} == there
+    optional = {f.name: '' if f.default is MISSING else '?' for f in fields(HEARD[name])}
+    assert {f'{f.name}{optional[f.name]}': script(f.type) for f in fields(HEARD[name])} == there
 
 
 def test_requests_have_the_fields_that_the_page_writes():

@@ -1,6 +1,9 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** A gamepad as a hand: the left stick drives, the right one turns too, B (circle) stops. */
+/**
+ * A gamepad as a hand: the left stick drives, the right one turns too, B (circle) stops. The left
+ * stick of a robot that goes sideways takes it there, and only the right one turns.
+ */
 import { fromStick, mix, type Demand } from './mixing';
 import type { Pilot } from './pilot';
 
@@ -15,11 +18,12 @@ export interface Pad {
 }
 
 /** The command of a gamepad; null while its sticks are at rest. */
-export function demandOf({ axes }: Pad): Demand | null {
-  const drive = fromStick(axes[0] ?? 0, axes[1] ?? 0, DEAD);
-  const turn = fromStick(axes[2] ?? 0, 0, DEAD);
-  const demand = mix([drive, { forward: 0, turn: turn.turn }]);
-  return demand.forward === 0 && demand.turn === 0 ? null : demand;
+export function demandOf({ axes }: Pad, goesSideways: boolean): Demand | null {
+  const { forward, turn: left } = fromStick(axes[0] ?? 0, axes[1] ?? 0, DEAD);
+  const { turn } = fromStick(axes[2] ?? 0, 0, DEAD);
+  const drive = goesSideways ? { forward, turn: 0, left } : { forward, turn: left };
+  const demand = mix([drive, { forward: 0, turn }]);
+  return Object.values(demand).every((share) => share === 0) ? null : demand;
 }
 
 export function wantsStop({ buttons }: Pad): boolean {
@@ -44,7 +48,7 @@ export function listenToGamepads(pilot: Pilot, onName: (name: string | null) => 
       pilot.stop();
     }
     stopped = stop;
-    pilot.set(HAND, document.hasFocus() ? demandOf(pad) : null);
+    pilot.set(HAND, document.hasFocus() ? demandOf(pad, pilot.goesSideways) : null);
     requestAnimationFrame(read);
   };
   window.addEventListener('gamepadconnected', (event) => {

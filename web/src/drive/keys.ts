@@ -19,7 +19,7 @@ export function listenToKeys(pilot: Pilot): void {
       // While ⌘ is down, macOS sends no key-up of other keys.
       down.clear();
       tell();
-    } else if (isDriveKey(event.code) && isForDriving(event)) {
+    } else if (isDriveKey(event.code, pilot.goesSideways) && isForDriving(event)) {
       event.preventDefault(); // arrows would scroll a panel
       if (!event.repeat) {
         down.add(event.code);

@@ -4,11 +4,13 @@
  * From what hands do to a velocity of the robot: pure, so that a test can try every case.
  *
  * A demand is a share of the limits: ahead and to the left are positive (REP 103), each in -1..1.
+ * Sideways go only robots whose wheels can; what does not want to leaves `left` out.
  */
 
 export interface Demand {
   forward: number; // -1..1, ahead
   turn: number; // -1..1, to the left
+  left?: number; // -1..1, sideways to the left; none: 0
 }
 
 export interface Limits {
@@ -19,6 +21,7 @@ export interface Limits {
 export interface Velocity {
   linear: number; // m/s ahead
   angular: number; // rad/s to the left
+  sideways?: number; // m/s to the left; none: 0
 }
 
 export const STILL: Demand = { forward: 0, turn: 0 };
@@ -35,14 +38,20 @@ const KEYS: ReadonlyMap<string, Demand> = new Map([
   ['ArrowRight', { forward: 0, turn: -1 }],
 ]);
 
-/** Whether a key drives. */
-export function isDriveKey(code: string): boolean {
-  return KEYS.has(code);
+/** Of robots that can go sideways. */
+const SIDEWAYS_KEYS: ReadonlyMap<string, Demand> = new Map([
+  ['KeyQ', { forward: 0, turn: 0, left: 1 }],
+  ['KeyE', { forward: 0, turn: 0, left: -1 }],
+]);
+
+/** Whether a key drives, a robot that `goesSideways` or not. */
+export function isDriveKey(code: string, goesSideways: boolean): boolean {
+  return KEYS.has(code) || (goesSideways && SIDEWAYS_KEYS.has(code));
 }
 
 /** The demand of the keys that are down. Opposite keys cancel; W and the up arrow are one. */
 export function fromKeys(down: Iterable<string>): Demand {
-  return mix([...down].map((code) => KEYS.get(code) ?? STILL));
+  return mix([...down].map((code) => KEYS.get(code) ?? SIDEWAYS_KEYS.get(code) ?? STILL));
 }
 
 /**
@@ -64,16 +73,21 @@ export function fromStick(right: number, down: number, dead: number): Demand {
 export function mix(demands: readonly Demand[]): Demand {
   let forward = 0;
   let turn = 0;
+  let left = 0;
   for (const demand of demands) {
     forward += demand.forward;
     turn += demand.turn;
+    left += demand.left ?? 0;
   }
-  return { forward: clamp(forward), turn: clamp(turn) };
+  const sum = { forward: clamp(forward), turn: clamp(turn) };
+  return left === 0 ? sum : { ...sum, left: clamp(left) };
 }
 
 /** What a demand means to the robot. */
 export function toVelocity(demand: Demand, limits: Limits): Velocity {
-  return { linear: demand.forward * limits.linear, angular: demand.turn * limits.angular };
+  const { forward, turn, left = 0 } = demand;
+  const velocity = { linear: forward * limits.linear, angular: turn * limits.angular };
+  return left === 0 ? velocity : { ...velocity, sideways: left * limits.linear };
 }
 
 function clamp(share: number): number {

@@ -25,6 +25,7 @@ export class DrivePanel implements Panel {
   private readonly who = h('span', { class: 'chip' });
   private readonly topic = h('p', { class: 'fine' });
   private readonly pad = h('span', { class: 'fine' });
+  private readonly sideways: HTMLElement;
   private readonly cells = new Map<Source, { linear: HTMLElement; angular: HTMLElement }>();
 
   constructor(private readonly app: App) {
@@ -33,18 +34,29 @@ export class DrivePanel implements Panel {
       linear: remembered('linear'),
       angular: remembered('angular'),
     };
+    this.sideways = h(
+      'div',
+      { class: 'sideways', hidden: true },
+      sidewaysButton(app.pilot, 'Left', 'Q', 1),
+      sidewaysButton(app.pilot, 'Right', 'E', -1),
+    );
     this.element = h(
       'section',
       { class: 'drive', 'aria-label': 'Drive' },
       h('header', { class: 'drive-head' }, h('h2', {}, 'Drive'), this.who),
       this.joystick.element,
       this.readout(),
+      this.sideways,
       h('div', { class: 'drive-limits' }, this.limit('linear'), this.limit('angular')),
       stopButton(app.pilot),
       h('div', { class: 'drive-notes' }, keysHint(), this.pad, this.topic),
     );
     app.store.watch(['graph', 'robot', 'driver', 'link', 'hello'], () => this.showWho());
     app.store.watch(['graph', 'robot', 'controllers'], () => this.showTopic());
+    app.store.watch(['graph', 'robot', 'controllers'], () => {
+      app.pilot.goesSideways = app.store.goesSideways;
+      this.sideways.hidden = !app.store.goesSideways;
+    });
     app.pilot.onChange = (velocity) => this.showAsked(velocity);
   }
 
@@ -98,7 +110,9 @@ export class DrivePanel implements Panel {
     if (robot === null) {
       setText(this.topic, 'There is no robot.');
     } else if (command === null) {
-      setText(this.topic, 'No command topic: this robot cannot be driven.');
+      const moved = this.app.store.movedJoints.size;
+      const joints = moved > 0 ? ` Its joints are moved under Joints.` : '';
+      setText(this.topic, `Nothing hears velocity commands: this robot cannot be driven.${joints}`);
     } else if (deaf !== null) {
       setText(this.topic, `${deaf.name} is ${deaf.state}: it hears no command.`);
     } else {
@@ -173,6 +187,26 @@ function stopButton(pilot: Pilot): HTMLElement {
   // On the press, not on the release of a click: it is for when one is in a hurry.
   element.addEventListener('pointerdown', () => pilot.stop());
   element.addEventListener('click', () => pilot.stop());
+  return element;
+}
+
+/** A button that takes the robot sideways while it is held. */
+function sidewaysButton(pilot: Pilot, text: string, key: string, left: number): HTMLElement {
+  const hand = `sideways ${text}`;
+  const element = h(
+    'button',
+    { type: 'button', class: 'button', 'aria-label': `${text}, sideways while held`, 'aria-keyshortcuts': key },
+    h('span', {}, text),
+    h('kbd', {}, key),
+  );
+  element.addEventListener('pointerdown', (event) => {
+    element.setPointerCapture(event.pointerId);
+    pilot.set(hand, { forward: 0, turn: 0, left });
+  });
+  for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
+    element.addEventListener(end, () => pilot.set(hand, null));
+  }
+  element.addEventListener('contextmenu', (event) => event.preventDefault());
   return element;
 }
 

@@ -22,6 +22,8 @@ export interface PilotPort {
 
 export class Pilot {
   limits: Limits = { linear: 0.5, angular: 1.0 };
+  /** Whether the wheels of the robot can take it sideways: mecanum and omni wheels. */
+  goesSideways = false;
   /** Called when what is asked of the robot changes. */
   onChange: (velocity: Velocity | null) => void = () => {};
   /** Called when a hand wants to drive what another page drives. */
@@ -178,6 +180,11 @@ export class Pilot {
 }
 
 function same(one: Demand | undefined, other: Demand): boolean {
-  return one !== undefined && one.forward === other.forward && one.turn === other.turn;
+  return (
+    one !== undefined &&
+    one.forward === other.forward &&
+    one.turn === other.turn &&
+    one.left === other.left
+  );
 }
 

@@ -1,12 +1,18 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** A slider for each joint if joint_state_publisher runs; else the positions of the joints. */
+/**
+ * The positions of the joints, and a slider for each that can be moved: by joint_state_publisher,
+ * or by an active controller that takes positions or trajectories.
+ */
 import type { App, Panel } from '../app';
 import { button, h, setText } from '../dom';
 import { degrees, fixed, UNKNOWN } from '../format';
 import type { JointInfo } from '../protocol';
 import { jointsOf, robotOf, type JointReading } from '../readings';
 import type { State } from '../state';
+
+const HELD = 1500; // ms: how long a slider stays where a hand has left it
+const LEAST_GAP = 50; // ms between two positions for a controller
 
 interface Row {
   show(reading: JointReading): void;
@@ -19,10 +25,12 @@ export class JointsPanel implements Panel {
   readonly element = h('div', {});
   private readonly rows = new Map<string, Row>();
   private readonly wanted: Record<string, number> = {};
-  private sending: number | null = null;
+  private signature = '';
+  private isSending = false;
+  private sentAt = 0; // ms
 
   constructor(private readonly app: App) {
-    app.store.watch(['model', 'graph', 'robot'], () => this.build());
+    app.store.watch(['model', 'graph', 'robot', 'controllers'], () => this.build());
   }
 
   pulse(state: State): void {
@@ -33,28 +41,39 @@ export class JointsPanel implements Panel {
   }
 
   private build(): void {
-    const { model, robot } = this.app.store;
+    const { model, robot, movedJoints } = this.app.store;
     const publisher = robot?.joint_publisher ?? null;
     const moved = model?.joints ?? [];
+    const { joint_states: source } = robot ?? {};
+    const signature = JSON.stringify([robot?.id, publisher, source, moved, [...movedJoints]]);
+    if (signature === this.signature) {
+      return; // the same again must not take the slider out of a hand
+    }
+    this.signature = signature;
     this.rows.clear();
     if (moved.length === 0) {
       this.element.replaceChildren(h('p', { class: 'empty' }, 'No joint moves.'));
       return;
     }
     const free = moved.filter((joint) => joint.follows === null);
+    const slides = ({ name, follows }: JointInfo): boolean =>
+      publisher === null ? movedJoints.has(name) : follows === null;
     this.element.replaceChildren(
       publisher === null ? this.watching() : this.tools(free),
-      ...moved.map((joint) => this.row(joint, publisher !== null && joint.follows === null)),
+      ...moved.map((joint) => this.row(joint, slides(joint))),
     );
   }
 
   private watching(): HTMLElement {
-    const source = this.app.store.robot?.joint_states;
+    const { robot, movedJoints } = this.app.store;
+    const source = robot?.joint_states ?? null;
+    const measured = source === null ? 'Nobody publishes joint states.' : `Measured, from ${source}.`;
+    const movers = [...new Set(movedJoints.values())].join(', ');
     const text =
-      source === null || source === undefined
-        ? 'Nobody publishes joint states.'
-        : `Measured, from ${source}. Sliders appear with a joint_state_publisher.`;
-    return h('p', { class: 'fine' }, text);
+      movers === ''
+        ? 'No active controller takes positions, and no joint_state_publisher runs: no sliders.'
+        : `Sliders command ${movers}: the robot moves.`;
+    return h('p', { class: 'fine' }, `${measured} ${text}`);
   }
 
   private tools(joints: readonly JointInfo[]): HTMLElement {
@@ -84,7 +103,7 @@ export class JointsPanel implements Panel {
       const wanted = Number.isNaN(commanded) ? [] : [`commanded ${fixed(commanded, 2)}`];
       return [...turned, ...moves, ...wanted].join('  ');
     };
-    const head = h('span', { class: 'joint-name', title: joint.kind }, joint.name);
+    const head = h('span', { class: 'joint-name', title: about(joint, unit) }, joint.name);
     if (!slides) {
       const value = h('span', { class: 'value' }, UNKNOWN);
       const follows = joint.follows === null ? '' : `follows ${joint.follows}`;
@@ -95,7 +114,8 @@ export class JointsPanel implements Panel {
         },
         set: () => {},
       });
-      return h('div', { class: 'joint', title: follows }, head, value, other);
+      const limits = h('span', { class: 'fine limits' }, range(joint));
+      return h('div', { class: 'joint', title: follows }, head, value, other, limits);
     }
     return this.sliderRow(joint, unit, head, other, motion);
   }
@@ -115,17 +135,20 @@ export class JointsPanel implements Panel {
     const field = h('input', {
       type: 'number', ...bounds, step: 0.01, 'aria-label': `${name}, value in ${unit}`,
     });
+    let movedAt = -Infinity;
     const set = (position: number): void => {
       slider.valueAsNumber = position;
       field.value = position.toFixed(3);
     };
     slider.addEventListener('input', () => {
+      movedAt = performance.now();
       field.value = slider.valueAsNumber.toFixed(3);
       this.want(name, slider.valueAsNumber);
     });
     field.addEventListener('change', () => {
       const value = field.valueAsNumber;
       const position = Number.isNaN(value) ? zero : Math.min(upper, Math.max(lower, value));
+      movedAt = performance.now();
       set(position);
       this.want(name, position);
     });
@@ -133,29 +156,55 @@ export class JointsPanel implements Panel {
       set,
       show: (reading) => {
         setText(other, motion(reading));
-        // A hand on the slider, or a value being typed, is not overruled by what comes back.
-        const busy = slider.matches(':active') || document.activeElement === field;
-        if (!busy && Number.isFinite(reading.position) && this.sending === null) {
+        // A hand on the slider, or a value being typed, is not overruled by what comes back; nor
+        // is a key on the slider, while a robot is on its way.
+        const held = slider.matches(':active') || document.activeElement === field;
+        const busy = held || performance.now() - movedAt < (this.isDirect ? 0 : HELD);
+        if (!busy && Number.isFinite(reading.position) && !this.isSending) {
           set(reading.position);
         }
       },
     });
-    return h('div', { class: 'joint slides' }, head, field, slider, other);
+    const limits = h('span', { class: 'fine limits' }, range(joint));
+    return h('div', { class: 'joint slides' }, head, field, slider, other, limits);
+  }
+
+  /** Whether what is sent is what is published: there is no robot on its way to it. */
+  private get isDirect(): boolean {
+    return this.app.store.robot?.joint_publisher != null;
   }
 
   /** Send the position with the next frame of the screen, and others that come until then. */
   private want(name: string, position: number): void {
     this.wanted[name] = position;
-    this.sending ??= requestAnimationFrame(() => {
-      this.sending = null;
-      const robot = this.app.store.robot;
-      if (robot !== null) {
-        const positions = { ...this.wanted };
-        this.app.connection.send({ type: 'set_joints', robot: robot.id, positions });
-      }
-      for (const sent of Object.keys(this.wanted)) {
-        delete this.wanted[sent];
-      }
-    });
+    if (this.isSending) {
+      return;
+    }
+    this.isSending = true;
+    const wait = this.isDirect ? 0 : this.sentAt + LEAST_GAP - performance.now();
+    setTimeout(() => requestAnimationFrame(() => this.send()), Math.max(0, wait));
   }
+
+  private send(): void {
+    this.isSending = false;
+    this.sentAt = performance.now();
+    const robot = this.app.store.robot;
+    if (robot !== null) {
+      const positions = { ...this.wanted };
+      this.app.connection.send({ type: 'set_joints', robot: robot.id, positions });
+    }
+    for (const sent of Object.keys(this.wanted)) {
+      delete this.wanted[sent];
+    }
+  }
+}
+
+/** The limits of a joint, as text; a continuous one has none. */
+function range({ kind, lower, upper }: JointInfo): string {
+  return kind === 'continuous' ? 'no limits' : `${fixed(lower, 2)} … ${fixed(upper, 2)}`;
+}
+
+function about(joint: JointInfo, unit: string): string {
+  const limits = joint.kind === 'continuous' ? range(joint) : `${range(joint)} ${unit}`;
+  return `${joint.name}: ${joint.kind}, ${limits}`;
 }

@@ -1,0 +1,95 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which joints a page can move, by what topic, and where the others of a group stay."""
+
+import pytest
+
+from amr_description.errors import ViewerError
+from amr_description.viewer.graph import discover, GraphNames, STRING
+from amr_description.viewer.joint_groups import (
+    GroupTargets,
+    joint_groups,
+    JointGroup,
+    MEMORY,
+    POSITIONS,
+    TRAJECTORY,
+    with_moves,
+)
+from amr_description.viewer.protocol import Command, ControllerInfo, Controllers
+
+ARM = Command('/r1/arm/joint_trajectory', TRAJECTORY)
+GRIPPER = Command('/r1/gripper/commands', POSITIONS)
+
+
+def controller(name, *claims, state='active'):
+    return ControllerInfo(name, 'any/Type', state, claims)
+
+
+def test_topics_that_move_joints_are_found_by_name_and_type():
+    subscribed = {
+        ARM.topic: [TRAJECTORY],
+        GRIPPER.topic: [POSITIONS],
+        '/r1/lights': [POSITIONS],
+        '/r1/arm/commands': [TRAJECTORY],
+    }
+    (found,) = discover(GraphNames({'/r1/robot_description': [STRING]}, subscribed)).robots
+    assert found.joint_commands == (ARM, GRIPPER)
+
+
+def test_groups_are_the_joints_of_active_controllers_in_their_order():
+    found = joint_groups(
+        [
+            controller('arm', 'b/position', 'a/position', 'b/velocity', 'a/velocity'),
+            controller('gripper', 'pid/finger/position'),
+            controller('other', 'c/position'),
+        ],
+        [ARM, GRIPPER],
+    )
+    assert found == (
+        JointGroup('arm', ARM.topic, TRAJECTORY, ('b', 'a')),
+        JointGroup('gripper', GRIPPER.topic, POSITIONS, ('finger',)),
+    )
+    listed = Controllers('/r1', (controller('arm', 'x/position'), controller('c')), ())
+    assert [each.moves for each in with_moves(listed, found).controllers] == [('b', 'a'), ()]
+
+
+@pytest.mark.parametrize(
+    'listed',
+    [
+        controller('gripper', 'finger/position', state='inactive'),
+        controller('gripper', 'finger/velocity'),
+        controller('gripper', 'finger/position', 'finger/effort'),
+        controller('gripper'),
+    ],
+)
+def test_what_is_no_position_of_an_active_controller_is_not_moved(listed):
+    assert joint_groups([listed], [GRIPPER]) == ()
+
+
+def test_a_trajectory_may_be_followed_by_speed_or_effort():
+    (group,) = joint_groups([controller('arm', 'a/effort')], [ARM])
+    assert group.joints == ('a',)
+
+
+def test_joints_that_are_not_asked_stay_and_do_not_creep():
+    targets = GroupTargets(JointGroup('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
+    assert targets.targets({'a': 0.5}, {'a': 0.0, 'b': 1.0}, 100.0) == [0.5, 1.0]
+    assert targets.targets({'a': 0.6}, {'a': 0.4, 'b': 0.9}, 101.0) == [0.6, 1.0]
+    late = 101.0 + MEMORY + 0.1
+    assert targets.targets({'b': 0.2}, {'a': 0.7, 'b': 0.9}, late) == [0.7, 0.2]
+
+
+def test_a_joint_of_which_nothing_is_known_is_named():
+    targets = GroupTargets(JointGroup('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
+    with pytest.raises(ViewerError, match="arm takes the positions of all its joints.*'b'"):
+        targets.targets({'a': 0.5}, {}, 0.0)
+    assert targets.targets({'a': 0.5, 'b': 0.1}, {}, 0.0) == [0.5, 0.1]
+
+
+def test_a_trajectory_is_no_faster_than_the_slowest_joint():
+    targets = GroupTargets(JointGroup('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
+    targets.targets({'a': 1.0, 'b': 0.1}, {}, 0.0)
+    measured = {'a': 0.0, 'b': 0.0}
+    assert targets.duration(measured, {}) == pytest.approx(1.0)
+    assert targets.duration(measured, {'a': 5.0, 'b': 0.05}) == pytest.approx(2.0)
+    assert targets.duration({'a': 1.0, 'b': 0.1}, {}) == pytest.approx(0.1)
