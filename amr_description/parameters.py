@@ -225,11 +225,12 @@ def group(prefix: str, table: Callable[[], Any]) -> Any:
 
 def keyed_group(prefix: str, keys: str, table: Callable[[], Any]) -> Any:
     """
-    Make a field, a mapping, that holds another table for each element of a list parameter.
+    Make a field, a mapping, that holds another table for each element of a list parameter, or for
+    a name.
 
     Args:
         prefix: in front of the elements, ``gains`` for ``gains.<element>.p``; '': nothing.
-        keys: the field of the list, which stands above this one.
+        keys: the field of the list, or of the name, which stands above this one.
         table: the dataclass of one element.
     """
     return dataclasses.field(default_factory=dict, metadata={_KEY: _Keys(prefix, keys, table)})
@@ -309,7 +310,9 @@ class _KeyedGroup:
     def groups(self, values: Mapping[str, Any]) -> dict[str, _Group]:
         """Return the group of each element."""
         keys = values.get(self.keys, ())
-        if isinstance(keys, str) or not isinstance(keys, Sequence):
+        if isinstance(keys, str):
+            keys = [keys] if keys else []
+        if not isinstance(keys, Sequence):
             return {}
         return {str(key): _Group(self.table, f'{self.prefix}{key}.') for key in keys}
 

@@ -8,6 +8,7 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 ``world.py``                 … the simulated world of a hardware component: World, JointGroup
 ``interfaces.py``            the terms: interface names, state and command interfaces, lifecycle
 ``samples.py``               what the shipped controllers publish and subscribe to
+``dof_samples.py``           … of PID controllers and grippers
 ``sensor_samples.py``        … of sensors, batteries and GPIOs
 
 ``loaded_component.py``      a hardware component inside the manager: lifecycle, read, write

@@ -35,6 +35,8 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``battery_state_broadcaster.py``  … batteries → ``~/battery_state``
 ``state_interfaces_broadcaster.py`` … any states, as numbers
 ``gpio_command_controller.py``    GPIOs: commands from a topic, states on one
+``gripper_action_controller.py``  goals of a gripper: position, effort, stalling
+``pid_controller.py``             a PID for each degree of freedom, alone or in a chain
 ``gazebo_diff_drive.py``          a differential drive as Gazebo's plugins drive one
 ``gazebo_planar_move.py``         a body that moves as commanded, whatever its wheels do
 ``gazebo_odometry_publisher.py``  the true pose of a link as odometry
@@ -55,12 +57,6 @@ CONTROLLERS = Registry(
         'ackermann_steering_controller/AckermannSteeringController': (
             'amr_description.controllers.steering_controllers:AckermannSteeringController'
         ),
-        'battery_state_broadcaster/BatteryStateBroadcaster': (
-            'amr_description.controllers.battery_state_broadcaster:BatteryStateBroadcaster'
-        ),
-        'bicycle_steering_controller/BicycleSteeringController': (
-            'amr_description.controllers.steering_controllers:BicycleSteeringController'
-        ),
         'amr_description/GazeboDiffDrive': (
             'amr_description.controllers.gazebo_diff_drive:GazeboDiffDrive'
         ),
@@ -70,8 +66,17 @@ CONTROLLERS = Registry(
         'amr_description/GazeboPlanarMove': (
             'amr_description.controllers.gazebo_planar_move:GazeboPlanarMove'
         ),
+        'battery_state_broadcaster/BatteryStateBroadcaster': (
+            'amr_description.controllers.battery_state_broadcaster:BatteryStateBroadcaster'
+        ),
+        'bicycle_steering_controller/BicycleSteeringController': (
+            'amr_description.controllers.steering_controllers:BicycleSteeringController'
+        ),
         'diff_drive_controller/DiffDriveController': (
             'amr_description.controllers.diff_drive_controller:DiffDriveController'
+        ),
+        'effort_controllers/GripperActionController': (
+            'amr_description.controllers.gripper_action_controller:EffortGripperActionController'
         ),
         'effort_controllers/JointGroupEffortController': (
             'amr_description.controllers.forward_command_controller:JointGroupEffortController'
@@ -108,8 +113,15 @@ CONTROLLERS = Registry(
         'omni_wheel_drive_controller/OmniWheelDriveController': (
             'amr_description.controllers.omni_wheel_drive_controller:OmniWheelDriveController'
         ),
+        'parallel_gripper_action_controller/GripperActionController': (
+            'amr_description.controllers.gripper_action_controller:ParallelGripperActionController'
+        ),
+        'pid_controller/PidController': 'amr_description.controllers.pid_controller:PidController',
         'pose_broadcaster/PoseBroadcaster': (
             'amr_description.controllers.pose_broadcaster:PoseBroadcaster'
+        ),
+        'position_controllers/GripperActionController': (
+            'amr_description.controllers.gripper_action_controller:PositionGripperActionController'
         ),
         'position_controllers/JointGroupPositionController': (
             'amr_description.controllers.forward_command_controller:JointGroupPositionController'

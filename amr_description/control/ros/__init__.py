@@ -19,6 +19,7 @@ node serves its callbacks, and submits to the control thread what concerns a man
 ``plugin_nodes.py``            the nodes of controllers and hardware components
 ``port_servers.py``            their services and actions
 ``converters.py``              samples of controllers ↔ messages
+``dof_converters.py``          … of PID controllers and grippers
 ``sensor_converters.py``       … of the broadcasters of sensors, batteries, GPIOs
 ``services.py``                its services: requests in, responses out
 ``requests.py``                what they do

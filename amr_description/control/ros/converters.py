@@ -24,7 +24,7 @@ from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control.contracts import Port
-from amr_description.control.ros import sensor_converters
+from amr_description.control.ros import dof_converters, sensor_converters
 from amr_description.control.samples import (
     AckermannSample,
     BodyOdometrySample,
@@ -236,6 +236,7 @@ _READERS: dict[_Key, Callable[[Any], Any]] = {
     (EmptySample, 'std_srvs/srv/Empty_Request'): empty_sample,
     (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
+    **dof_converters.READERS,
     **sensor_converters.READERS,
 }
 _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
@@ -251,6 +252,7 @@ _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
     (OdometrySample, 'tf2_msgs/msg/TFMessage'): fill_odometry_transform,
     (SteeringStateSample, 'control_msgs/msg/SteeringControllerStatus'): fill_steering_state,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): fill_twist,
+    **dof_converters.WRITERS,
     **sensor_converters.WRITERS,
 }
 
