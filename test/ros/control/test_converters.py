@@ -266,4 +266,4 @@ def test_any_number_of_joints_goes(count):
 def test_a_plain_twist_has_no_stamp_and_keeps_the_planar_part():
     message = Twist()
     message.linear.x, message.linear.y, message.angular.z = 0.5, 9.0, -0.25
-    assert converters.unstamped_twist_sample(message) == TwistSample(0, 0.5, -0.25)
+    assert converters.unstamped_twist_sample(message) == TwistSample(0, 0.5, -0.25, lateral=9.0)
