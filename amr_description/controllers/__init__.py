@@ -38,6 +38,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``gripper_action_controller.py``  goals of a gripper: position, effort, stalling
 ``pid_controller.py``             a PID for each degree of freedom, alone or in a chain
 ``gazebo_diff_drive.py``          a differential drive as Gazebo's plugins drive one
+``gazebo_wheels.py``              mecanum wheels and a car, likewise
 ``gazebo_planar_move.py``         a body that moves as commanded, whatever its wheels do
 ``gazebo_odometry_publisher.py``  the true pose of a link as odometry
 
@@ -59,6 +60,12 @@ CONTROLLERS = Registry(
         ),
         'amr_description/GazeboDiffDrive': (
             'amr_description.controllers.gazebo_diff_drive:GazeboDiffDrive'
+        ),
+        'amr_description/GazeboAckermannDrive': (
+            'amr_description.controllers.gazebo_wheels:GazeboAckermannDrive'
+        ),
+        'amr_description/GazeboMecanumDrive': (
+            'amr_description.controllers.gazebo_wheels:GazeboMecanumDrive'
         ),
         'amr_description/GazeboOdometryPublisher': (
             'amr_description.controllers.gazebo_odometry_publisher:GazeboOdometryPublisher'

@@ -56,6 +56,25 @@ class PluginController:
     namespace: str
     origin: str
 
+    def names_of_topics(self, namespace: str) -> dict[str, str]:
+        """
+        Return what it calls its topics → their full names.
+
+        Args:
+            namespace: of its node. That of the robot, if it has one, counts before that of the
+                plugin, as with Gazebo's spawner.
+        """
+        inside = namespace.rstrip('/') or f'/{self.namespace}'.rstrip('/')
+        own = f'{namespace.rstrip("/")}/{self.name}'
+        return {
+            before: after
+            if after.startswith('/')
+            else f'{inside}/{after}'
+            if not after.startswith('~')
+            else f'{own}{after[1:]}'
+            for before, after in self.topics.items()
+        }
+
 
 @dataclass(frozen=True, slots=True)
 class GazeboTranslation:
@@ -66,7 +85,8 @@ class GazeboTranslation:
         robot: the robot with that hardware, and with the wheels' torques limited as a plugin says.
         controllers: to be active as soon as the robot is spawned, as plugins are.
         update_rate: that the controllers need, Hz.
-        notes: what is to be said, one line each.
+        notes: what is to be warned of, one line each.
+        remark: what is worth to be known, in one line, or ''.
         not_simulated: one line that names what is declared and not simulated; '' if nothing is.
     """
 
@@ -75,6 +95,7 @@ class GazeboTranslation:
     update_rate: int = LEAST_RATE
     notes: tuple[str, ...] = ()
     not_simulated: str = ''
+    remark: str = ''
 
 
 class Builder:
@@ -204,18 +225,19 @@ class Builder:
             robot,
             tuple(self.controllers),
             rate,
-            (*self.notes, *self._lone_joints()),
+            tuple(self.notes),
             _names_of(self.lacking),
+            self._lone_joints(),
         )
 
-    def _lone_joints(self) -> Sequence[str]:
+    def _lone_joints(self) -> str:
         """Return a line about joints that nothing moves, if that is all of them."""
         free = [joint.name for joint in self.robot.joints if joint.has_position]
         if self.is_controlled or self._commands or self._moves_base or not free:
-            return ()
+            return ''
         return (
             f'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its '
-            f'{len(free)} joints are free, as there',
+            f'joints are free, as there: {quote_all(free)}'
         )
 
     def _joint_hardware(self) -> tuple[HardwareInfo, ...]:

@@ -20,12 +20,18 @@ from amr_description.model.gazebo_builder import (
     origin_of,
 )
 from amr_description.model.gazebo_plugins import PluginElement
+from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Robot
+from amr_description.model.wheels import find_wheels
 from amr_description.model.xml_reader import parse_number
 from amr_description.text import quote, quote_all
 
+_ACKERMANN = 'amr_description/GazeboAckermannDrive'
+_MECANUM = 'amr_description/GazeboMecanumDrive'
 _DRIVE = 'amr_description/GazeboDiffDrive'
 _MOVE = 'amr_description/GazeboPlanarMove'
+_DRIVES = (_ACKERMANN, _DRIVE, _MECANUM)
+"""They publish the transform from odom to base."""
 _ODOMETRY = 'amr_description/GazeboOdometryPublisher'
 _UNKNOWN_VARIANCE = 1e12
 _WORLD_FRAMES = ('', 'world', '/world', 'map', '/map')
@@ -72,7 +78,7 @@ def _diff_drive(builder: Builder, plugin: PluginElement) -> None:
             parameters['max_wheel_acceleration'] = acceleration
         _classic_drive(builder, plugin, parameters, _DRIVE, name)
     else:
-        parameters |= _limits(plugin)
+        parameters |= _limits(plugin, ('linear.x', 'angular.z'))
         _gz_drive(builder, plugin, parameters, _DRIVE, 'diff_drive')
 
 
@@ -83,6 +89,119 @@ def _wheel_names(plugin: PluginElement) -> tuple[list[str], list[str]]:
         left = plugin.texts('leftFrontJoint') + plugin.texts('leftRearJoint')
         right = plugin.texts('rightFrontJoint') + plugin.texts('rightRearJoint')
     return left, right
+
+
+def _mecanum(builder: Builder, plugin: PluginElement) -> None:
+    """New Gazebo's drive of four mecanum wheels; Classic's is planar move."""
+    corners = ('front_left', 'front_right', 'back_right', 'back_left')
+    joints = [plugin.texts(f'{corner}_joint') for corner in corners]
+    wheels = [names[0] for names in joints if names]
+    if len(wheels) < len(corners):
+        plugin.note('it cannot work: it does not name four wheels')
+        return
+    if any(len(names) > 1 for names in joints):
+        plugin.note('the first wheel of each corner is driven, the others roll freely')
+    if not builder.can_drive(plugin, wheels):
+        return
+    separation = plugin.number('wheel_separation', default=1.0)
+    base = plugin.number('wheelbase', default=1.0)
+    radius = plugin.number('wheel_radius', default=0.2)
+    if not min(separation, base, radius) > 0.0:
+        plugin.note('it cannot work: distances and size of the wheels must be above 0')
+        return
+    builder.command(wheels, 'velocity')
+    ours = ('front_left', 'front_right', 'rear_right', 'rear_left')
+    parameters: dict[str, Any] = {
+        **{f'{n}_wheel_command_joint_name': j for n, j in zip(ours, wheels, strict=True)},
+        'kinematics.wheels_radius': radius,
+        'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5 * (separation + base),
+        **_limits(plugin, ('linear.x', 'linear.y', 'angular.z')),
+    }
+    _gz_drive(builder, plugin, parameters, _MECANUM, 'mecanum_drive')
+
+
+def _ackermann(builder: Builder, plugin: PluginElement) -> None:
+    """New Gazebo's car."""
+    steering = [plugin.text('right_steering_joint'), plugin.text('left_steering_joint')]
+    sides = [plugin.texts('right_joint'), plugin.texts('left_joint')]
+    traction = [_unsteered(builder.robot, side, steering) for side in sides]
+    if not all(traction) or not all(steering):
+        plugin.note('it cannot work: it does not name driven and steered joints of both sides')
+        return
+    if any(len(side) > 1 for side in sides):
+        plugin.note(f'{quote_all(traction)} are driven; its other wheels roll freely')
+    sizes = {
+        'wheelbase': plugin.number('wheel_base', default=1.0),
+        'traction_track_width': plugin.number('wheel_separation', default=1.0),
+        'steering_track_width': plugin.number('kingpin_width', default=0.8),
+        'traction_wheels_radius': plugin.number('wheel_radius', default=0.2),
+    }
+    if _can_steer(builder, plugin, traction, steering, sizes):
+        parameters = _car(traction, steering, sizes)
+        _gz_drive(builder, plugin, parameters, _ACKERMANN, 'ackermann_steering')
+
+
+def _classic_ackermann(builder: Builder, plugin: PluginElement) -> None:
+    """Classic's car, which measures the model instead of being told its sizes."""
+    robot = builder.robot
+    rear = [plugin.text(f'rear_{side}_joint') for side in ('right', 'left')]
+    front = [plugin.text(f'front_{side}_joint') for side in ('right', 'left')]
+    steering = [plugin.text(f'{side}_steering_joint') for side in ('right', 'left')]
+    lacking = [name for name in (*rear, *front, *steering) if not robot.has_joint(name)]
+    if lacking:
+        plugin.note(f'it cannot work: there is no joint {quote_all(lacking)}')
+        return
+    poses = link_poses(robot, {})
+    places = [poses[robot.joint(name).child].translation for name in (*rear, *front)]
+    (x, right, _), (_, left, _), (ahead, front_right, _), (_, front_left, _) = places
+    radii = [wheel.radius for wheel in find_wheels(robot, rear)]
+    sizes = {
+        'wheelbase': abs(ahead - x),
+        'traction_track_width': abs(left - right),
+        'steering_track_width': abs(front_left - front_right),
+        'traction_wheels_radius': (radii or plugin.numbers('wheel_radius') or [0.0])[0],
+    }
+    if not _can_steer(builder, plugin, rear, steering, sizes):
+        return
+    parameters = _car(rear, steering, sizes)
+    parameters |= {
+        'angular_is_steering': True,
+        'max_steer': plugin.number('max_steer', default=0.6),
+    }
+    _classic_drive(builder, plugin, parameters, _ACKERMANN, 'gazebo_ackermann_drive')
+
+
+def _unsteered(robot: Robot, wheels: list[str], steering: list[str]) -> str:
+    """Return the wheel of a side that is not steered, else the first one; '' for none."""
+    steered = [robot.joint(name).child for name in steering if robot.has_joint(name)]
+    fixed = (
+        name
+        for name in wheels
+        if robot.has_joint(name) and robot.joint(name).parent not in steered
+    )
+    return next(fixed, wheels[0] if wheels else '')
+
+
+def _can_steer(
+    builder: Builder,
+    plugin: PluginElement,
+    traction: list[str],
+    steering: list[str],
+    sizes: Mapping[str, float],
+) -> bool:
+    """Have the joints of a car commanded; return False, and note it, if they cannot be."""
+    if not builder.can_drive(plugin, traction + steering):
+        return False
+    if not min(sizes.values()) > 0.0:
+        plugin.note('it cannot work: distances and size of the wheels must be above 0')
+        return False
+    builder.command(traction, 'velocity')
+    builder.command(steering, 'position')
+    return True
+
+
+def _car(traction: list[str], steering: list[str], sizes: Mapping[str, float]) -> dict[str, Any]:
+    return {'traction_joints_names': traction, 'steering_joints_names': steering, **sizes}
 
 
 def _planar_move(builder: Builder, plugin: PluginElement) -> None:
@@ -124,7 +243,7 @@ def _joint_states(builder: Builder, plugin: PluginElement) -> None:
 
 def _odometry_publisher(builder: Builder, plugin: PluginElement) -> None:
     """New Gazebo's: the true pose; on /tf only if no drive publishes it, or by its own wish."""
-    drives = any(each.type in (_DRIVE, _MOVE) for each in builder.controllers)
+    drives = any(each.type in _DRIVES for each in builder.controllers)
     robot = builder.robot
     rate = plugin.number('odom_publish_frequency', default=50.0)
     transforms, frame = _gz_transform(plugin, default='' if drives else '/tf')
@@ -261,8 +380,10 @@ def _classic_drive(
         **_classic_covariances(plugin),
     }
     topics = {'~/cmd_vel': plugin.topic('cmd_vel', 'commandTopic'), '/tf': '/tf'}
+    if kind != _DRIVE:
+        del parameters['publish_rate']
     if from_wheels:
-        topics['~/odom'] = plugin.topic('odom', 'odometryTopic')
+        topics[_odometry_port(kind)] = plugin.topic('odom', 'odometryTopic')
     builder.add(
         kind, parameters, topics, name=name, origin=origin_of(plugin), namespace=plugin.namespace
     )
@@ -328,10 +449,17 @@ def _gz_drive(
     }
     topics = {
         '~/cmd_vel': _gz_topic(plugin, 'topic', 'cmd_vel'),
-        '~/odom': _gz_topic(plugin, 'odom_topic', 'odom'),
+        _odometry_port(kind): _gz_topic(plugin, 'odom_topic', 'odom'),
         '/tf': frame,
     }
+    if kind != _DRIVE:
+        del parameters['publish_rate']
     builder.add(kind, parameters, topics, name=name, origin=origin_of(plugin))
+
+
+def _odometry_port(kind: str) -> str:
+    """Return what a drive calls the topic of its odometry."""
+    return '~/odom' if kind == _DRIVE else '~/odometry'
 
 
 def _gz_topic(plugin: PluginElement, element: str, default: str) -> str:
@@ -348,14 +476,15 @@ def _gz_transform(plugin: PluginElement, default: str) -> tuple[bool, str]:
     return True, '/tf' if given.rpartition('/')[2] in ('tf', 'pose') else given
 
 
-def _limits(plugin: PluginElement) -> dict[str, float]:
+def _limits(plugin: PluginElement, axes: tuple[str, ...]) -> dict[str, float]:
     """
     Return new Gazebo's limits as those of a rate limiter.
 
     Gazebo limits a change of speed to ``[min dt, max dt]``, whether the robot speeds up or brakes.
     """
     found: dict[str, float] = {}
-    for axis, kind in (('linear.x', 'linear'), ('angular.z', 'angular')):
+    for axis in axes:
+        kind = axis.partition('.')[0]
         for quantity, names in (
             ('velocity', (('max_velocity',), ('min_velocity',))),
             (
@@ -387,10 +516,13 @@ def _base(robot: Robot) -> str:
 
 
 TRANSLATORS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
+    'ackermann-steering': _ackermann,
     'diff-drive': _diff_drive,
+    'gazebo-ros-ackermann-drive': _classic_ackermann,
     'gazebo-ros-diff-drive': _diff_drive,
     'gazebo-ros-skid-steer-drive': _diff_drive,
     'gazebo-ros-planar-move': _planar_move,
+    'mecanum-drive': _mecanum,
     'velocity-control': _planar_move,
     'gazebo-ros-joint-state-publisher': _joint_states,
     'joint-state-publisher': _joint_states,
@@ -399,5 +531,5 @@ TRANSLATORS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
 }
 """Kind of a plugin → what adds its controllers."""
 
-FIRST = ('diff-drive', 'velocity-control')
+FIRST = ('ackermann-steering', 'diff-drive', 'mecanum-drive', 'velocity-control')
 """Kinds that are translated before others, which look whether there is a drive."""

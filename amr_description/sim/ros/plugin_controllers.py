@@ -58,44 +58,30 @@ def node_arguments(controller: PluginController, namespace: str, update_rate: in
 
     Args:
         controller: Its parameters and topics.
-        namespace: Of its node. The robot's own counts before that of the plugin, as with
-            Gazebo's spawner.
+        namespace: Of its node.
         update_rate: Of the manager, Hz; no controller can be faster.
     """
     arguments = []
     for name, value in controller.parameters.items():
         limited = min(value, update_rate) if name == 'update_rate' else value
         arguments += ['-p', f'{name}:={json.dumps(limited)}']
-    for before, after in topics_of(controller, namespace).items():
+    for before, after in controller.names_of_topics(namespace).items():
         if before != after:
             arguments += ['-r', f'{before}:={after}']
     return arguments
 
 
-def topics_of(controller: PluginController, namespace: str) -> dict[str, str]:
-    """Return what a controller calls its topics → their names, absolute or for its node."""
-    prefix = f'/{controller.namespace}/' if controller.namespace and namespace == '/' else ''
-    return {
-        before: after if after.startswith(('/', '~')) else f'{prefix}{after}'
-        for before, after in controller.topics.items()
-    }
-
-
 def log_translation(robot: str, translation: GazeboTranslation, namespace: str, log: Log) -> None:
     """Log what was made of a robot's plugins: a line each, and one of what is not simulated."""
     for each in translation.controllers:
-        root = namespace.rstrip('/')
-        topics = ', '.join(
-            dict.fromkeys(
-                topic if topic.startswith('/') else f'{root}/{topic.replace("~", each.name)}'
-                for topic in topics_of(each, namespace).values()
-            )
-        )
+        topics = ', '.join(dict.fromkeys(each.names_of_topics(namespace).values()))
         log(
             Severity.INFO,
             f"'{robot}': {each.origin} is simulated by the controller {each.name} ({each.type}): "
             f'{topics}',
         )
+    if translation.remark:
+        log(Severity.INFO, f"'{robot}': {translation.remark}")
     for note in translation.notes:
         log(Severity.WARN, f"'{robot}': {note}")
     if translation.not_simulated:

@@ -89,6 +89,71 @@ def test_a_drive_publishes_what_is_wanted(odom, transform):
     assert names == ['~/odom'] * odom + ['/tf'] * transform
 
 
+CORNERS = ('front_left', 'front_right', 'rear_right', 'rear_left')
+MECANUM = {
+    **{f'{corner}_wheel_command_joint_name': corner for corner in CORNERS},
+    'kinematics.wheels_radius': 0.1,
+    'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5,
+}
+CAR = {
+    'traction_joints_names': ['tr', 'tl'],
+    'steering_joints_names': ['sr', 'sl'],
+    'wheelbase': 1.0,
+    'traction_track_width': 0.5,
+    'steering_track_width': 0.5,
+    'traction_wheels_radius': 0.1,
+}
+
+
+def driven(kind, twist, **values):
+    """The commands for a twist, after a while without another one, and those at rest."""
+    drive = controller(kind, **values)
+    commands, states = (
+        [kind_of(*name.split('/'), 0.0) for name in request.names]
+        for kind_of, request in (
+            (CommandInterface, drive.command_interfaces()),
+            (StateInterface, drive.state_interfaces()),
+        )
+    )
+    drive.activate(commands, states, 0)
+    drive.update(PERIOD, PERIOD)
+    rest = [each.value for each in commands]
+    (port,) = drive.inputs()
+    assert (port.port.name, port.port.message) == ('~/cmd_vel', 'geometry_msgs/msg/Twist')
+    port.open()
+    port.put(TwistSample(0, *twist))
+    for time in range(2, 1000):
+        drive.update(time * PERIOD, PERIOD)
+        for command in commands:
+            for state in states:
+                if state.name == command.name:
+                    state.value = command.value
+    return [each.value for each in commands], rest
+
+
+def test_mecanum_wheels():
+    speeds, rest = driven('GazeboMecanumDrive', (0.1, 0.2, '', 0.05), **MECANUM)
+    assert speeds == pytest.approx([-0.5, 2.5, 1.5, 0.5])
+    assert rest == [0.0] * 4
+
+
+def test_a_car():
+    (right, left, steer_right, steer_left), rest = driven(
+        'GazeboAckermannDrive', (0.5, 0.25), **CAR
+    )
+    assert (right, left) == pytest.approx((5.625, 4.375))
+    assert (steer_right, steer_left) == pytest.approx((math.atan(1 / 2.25), math.atan(1 / 1.75)))
+    assert rest[:2] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize('angle, steered', [(0.3, 0.3), (-2.0, -0.4)])
+def test_a_car_of_classic_takes_the_angle_of_its_tyres(angle, steered):
+    values = {'angular_is_steering': True, 'max_steer': 0.4}
+    (right, left, *_), _ = driven('GazeboAckermannDrive', (0.5, angle), **CAR, **values)
+    turn = 0.5 * math.tan(steered)
+    assert (right, left) == pytest.approx((5.0 + 2.5 * turn, 5.0 - 2.5 * turn))
+
+
 def test_a_body_is_moved_by_the_latest_command():
     move = controller('GazeboPlanarMove')
     commands = [CommandInterface(*name.split('/')) for name in move.command_interfaces().names]

@@ -108,6 +108,87 @@ def test_odometry_of_classic_is_that_of_the_world_or_of_the_wheels():
     assert found['drive'].topics['~/odom'] == 'odom'
 
 
+def four_wheels(*plugins):
+    """A car of four wheels; the front ones are steered."""
+    links = ''.join(f'<link name="{name}"/>' for name in ('b', 'sl', 'sr', 'fl', 'fr', 'rl', 'rr'))
+
+    def joint(name, parent, kind, xyz, limit=''):
+        return f"""<joint name="{name}_joint" type="{kind}"><parent link="{parent}"/>
+        <child link="{name}"/><origin xyz="{xyz}"/><axis xyz="0 1 0"/>{limit}</joint>"""
+
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    joints = ''.join(
+        (
+            joint('sl', 'b', 'revolute', '0.5 0.2 0', limit),
+            joint('sr', 'b', 'revolute', '0.5 -0.2 0', limit),
+            joint('fl', 'sl', 'continuous', '0 0.05 0'),
+            joint('fr', 'sr', 'continuous', '0 -0.05 0'),
+            joint('rl', 'b', 'continuous', '-0.3 0.3 0'),
+            joint('rr', 'b', 'continuous', '-0.3 -0.3 0'),
+        )
+    )
+    text = f'<robot name="car">{links}{joints}<gazebo>{"".join(plugins)}</gazebo></robot>'
+    found = translate(parse(text))
+    for each in found.controllers:
+        build(CONTROLLERS.find(each.type).parameters_type, each.parameters)
+    return found
+
+
+def test_mecanum_wheels_of_new_gazebo():
+    corners = ('front_left', 'front_right', 'back_left', 'back_right')
+    joints = ''.join(
+        f'<{corner}_joint>{name}_joint</{corner}_joint>'
+        for corner, name in zip(corners, ('fl', 'fr', 'rl', 'rr'), strict=True)
+    )
+    sizes = """<wheelbase>0.8</wheelbase><wheel_separation>0.6</wheel_separation>
+    <wheel_radius>0.1</wheel_radius><max_linear_velocity>2</max_linear_velocity>"""
+    one = plugin('', 'gz::sim::systems::MecanumDrive', joints + sizes)
+    drive, _ = four_wheels(one).controllers
+    assert drive.type == 'amr_description/GazeboMecanumDrive'
+    assert drive.parameters['rear_right_wheel_command_joint_name'] == 'rr_joint'
+    reach = drive.parameters['kinematics.sum_of_robot_center_projection_on_X_Y_axis']
+    assert reach == pytest.approx(0.7)
+    assert drive.parameters['linear.y.max_velocity'] == 2.0
+    assert drive.topics == {'~/cmd_vel': 'cmd_vel', '~/odometry': 'odom', '/tf': '/tf'}
+
+
+STEERED = """<left_steering_joint>sl_joint</left_steering_joint>
+<right_steering_joint>sr_joint</right_steering_joint>"""
+
+
+def test_a_car_of_new_gazebo():
+    wheels = ''.join(
+        f'<{side}_joint>{name}_joint</{side}_joint>'
+        for side, name in (('left', 'fl'), ('right', 'fr'), ('left', 'rl'), ('right', 'rr'))
+    )
+    found = four_wheels(plugin('', 'gz::sim::systems::AckermannSteering', wheels + STEERED))
+    car = found.controllers[0].parameters
+    assert car['traction_joints_names'] == ['rr_joint', 'rl_joint']
+    assert car['steering_joints_names'] == ['sr_joint', 'sl_joint']
+    assert (car['wheelbase'], car['steering_track_width']) == (1.0, 0.8)
+    assert found.notes == (
+        'plugin "gz::sim::systems::AckermannSteering": "rr_joint", "rl_joint" are driven; its '
+        'other wheels roll freely',
+    )
+
+
+def test_a_car_of_classic_is_measured():
+    corners = ('front_left', 'front_right', 'rear_left', 'rear_right')
+    wheels = ''.join(
+        f'<{corner}_joint>{name}_joint</{corner}_joint>'
+        for corner, name in zip(corners, ('fl', 'fr', 'rl', 'rr'), strict=True)
+    )
+    inside = f'{wheels}{STEERED}<wheel_radius>0.3</wheel_radius><publish_odom>1</publish_odom>'
+    found = four_wheels(plugin('libgazebo_ros_ackermann_drive.so', 'car', inside))
+    car, truth, _ = found.controllers
+    assert truth.name == 'car_odometry'
+    assert car.parameters['angular_is_steering'] and car.parameters['max_steer'] == 0.6
+    sizes = [car.parameters[name] for name in ('wheelbase', 'traction_track_width')]
+    assert sizes == pytest.approx([0.8, 0.6])
+    assert car.parameters['steering_track_width'] == pytest.approx(0.5)
+    assert car.parameters['traction_wheels_radius'] == 0.3
+
+
 def test_names_of_ros_1():
     found = only(
         plugin(
@@ -230,11 +311,11 @@ def test_what_is_not_simulated_is_named_once():
 
 
 def test_a_robot_that_says_nothing_is_noted():
-    assert translated().notes == (
-        'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its 2 '
-        'joints are free, as there',
+    assert translated().remark == (
+        'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its joints '
+        'are free, as there: "left_joint", "right_joint"'
     )
-    assert not translated(gz_drive()).notes
+    assert not translated(gz_drive()).remark
 
 
 @pytest.mark.parametrize(
