@@ -6,9 +6,11 @@ Hardware components: drivers of simulated, mocked and real robots.
 ``<plugin>`` of a ``<ros2_control>`` block names the class: one of :data:`HARDWARE`, or
 ``my_package.my_module/MyClass`` for a
 :class:`~amr_description.control.contracts.HardwareComponent` of yours. A class is imported when it
-is used.
+is used. In the simulator other names than these are taken for drivers of real robots, and what they
+drive is simulated (``in_simulator.py``).
 
 ============================ =====================================================================
+``in_simulator.py``          which class stands for a plugin in the simulator
 ``mujoco_system.py``         the joints and sensors of a simulated robot
 ``simulated_imu.py``         … its inertial measurement units
 ``mock_system.py``           states follow commands at once, without physics
@@ -34,8 +36,13 @@ HARDWARE = Registry(
         'amr_description/MujocoSystem': _MUJOCO_SYSTEM,
         # A description written for another simulator runs here unchanged.
         'gz_ros2_control/GazeboSimSystem': _MUJOCO_SYSTEM,
+        'ign_ros2_control/IgnitionSystem': _MUJOCO_SYSTEM,
+        'gazebo_ros2_control/GazeboSystem': _MUJOCO_SYSTEM,
         'mujoco_ros2_control/MujocoSystemInterface': _MUJOCO_SYSTEM,
+        'mujoco_ros2_control/MujocoSystem': _MUJOCO_SYSTEM,
+        'webots_ros2_control::Ros2ControlSystem': _MUJOCO_SYSTEM,
         'mock_components/GenericSystem': _MOCK_SYSTEM,
+        'fake_components/GenericSystem': _MOCK_SYSTEM,
         'amr_description/SerialBaseSystem': _SERIAL_BASE_SYSTEM,
         'amr_description/SimulatedBase': _SIMULATED_BASE,
     },

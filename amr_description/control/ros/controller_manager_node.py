@@ -18,6 +18,7 @@ Whoever waits for the services so finds a manager whose hardware is ready.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import monotonic_ns
 
 from rclpy.node import Node
@@ -38,6 +39,7 @@ from amr_description.control.ros.status_topics import (
 )
 from amr_description.control.snapshot import ManagerSnapshot
 from amr_description.hardware import HARDWARE
+from amr_description.hardware.in_simulator import class_in_simulator
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.arguments import inherited
@@ -117,13 +119,16 @@ class PreparedManager:
     robot: Robot | None
     components: Sequence[tuple[HardwareInfo, ComponentNode]]
 
-    def bring_up(self, world: World | None, period: int) -> ControllerManager:
+    def bring_up(
+        self, world: World | None, period: int, simulates_mocks: bool = False
+    ) -> ControllerManager:
         """
         Make components and manager, and start the hardware; on the control thread.
 
         Args:
             world: As simulated components see it; None: the hardware is real.
             period: Between two cycles, ns.
+            simulates_mocks: Mock hardware is simulated, if there is a world.
 
         Returns:
             The manager, for the control loop.
@@ -143,7 +148,10 @@ class PreparedManager:
         resources = ResourceManager(manager_node.log, self.robot, enforce, monotonic_ns)
         try:
             for info, node in self.components:
-                resources.load(info, HARDWARE.find, world, node.log)
+                find = HARDWARE.find
+                if world is not None:
+                    find = partial(class_in_simulator, info, node.log, simulates_mocks)
+                resources.load(info, find, world, node.log)
             resources.start_components(
                 initial.unconfigured,
                 initial.inactive,

@@ -96,6 +96,7 @@ class EntityManager:
         executor: Executor,
         log: Log,
         controllers: str,
+        simulates_mocks: bool,
         ros_args: Sequence[str],
     ) -> None:
         """
@@ -108,6 +109,7 @@ class EntityManager:
             executor: Of the ROS thread.
             log: Of the simulator.
             controllers: Path of the managers' parameter file, or empty.
+            simulates_mocks: Mock hardware is simulated; False: it stays a mock.
             ros_args: ROS arguments for every manager and controller.
         """
         self._context = context
@@ -117,6 +119,7 @@ class EntityManager:
         self._executor = executor
         self._log = log
         self._controllers = controllers
+        self._simulates_mocks = simulates_mocks
         self._ros_args = ros_args
         self._entities: dict[str, Entity] = {}
         self._namespaces: set[str] = set()
@@ -252,7 +255,7 @@ class EntityManager:
             world.timestep = physics_stepping(_period_of(rate), world.longest_step).step
         view = world.spawn(name, robot, pose)
         try:
-            manager = prepared.bring_up(view, self._period(rate))
+            manager = prepared.bring_up(view, self._period(rate), self._simulates_mocks)
         except Exception:
             world.remove(name)
             raise

@@ -72,6 +72,13 @@ class SimulationParameters:
         'moves and has no mass; else that is said, and it is spawned',
         read_only=True,
     )
+    mock_hardware: str = parameter(
+        'simulate',
+        'Whether mock_components/GenericSystem is simulated as any other hardware, or is a mock, '
+        'whose states follow commands while the robot in the world stands still',
+        choices=('simulate', 'mock'),
+        read_only=True,
+    )
     on_fault: str = parameter(
         'continue',
         'What the simulation does when the physics goes wrong, beside saying so',
@@ -156,6 +163,7 @@ class Simulation:
                 executor=executor,
                 log=self.log,
                 controllers=parameters.controllers,
+                simulates_mocks=parameters.mock_hardware == 'simulate',
                 ros_args=ros_args,
             )
         except Exception:
