@@ -28,12 +28,30 @@ VELOCITY = 'velocity'
 ACCELERATION = 'acceleration'
 EFFORT = 'effort'
 JERK = 'jerk'
+QUANTITIES = {
+    **{name: name for name in (POSITION, VELOCITY, EFFORT, ACCELERATION)},
+    **dict.fromkeys(('torque', 'force'), EFFORT),
+    'position_pid': POSITION,
+    'velocity_pid': VELOCITY,
+}
+"""
+Interface of a joint, by any of the names that simulators know it by → the quantity that it is.
+
+``torque`` and ``force`` are those of mujoco_ros2_control, ``…_pid`` those of gazebo_ros2_control.
+"""
 IMU_INTERFACES = (
     *(f'orientation.{axis}' for axis in 'xyzw'),
     *(f'angular_velocity.{axis}' for axis in 'xyz'),
     *(f'linear_acceleration.{axis}' for axis in 'xyz'),
 )
 """The state interfaces of an inertial measurement unit: a unit quaternion, rad/s, m/s²."""
+POSE_INTERFACES = (
+    *(f'position.{axis}' for axis in 'xyz'),
+    *(f'orientation.{axis}' for axis in 'xyzw'),
+)
+"""The state interfaces of a pose: m, a unit quaternion."""
+WRENCH_INTERFACES = (*(f'force.{axis}' for axis in 'xyz'), *(f'torque.{axis}' for axis in 'xyz'))
+"""The state interfaces of a force-torque sensor: N, N·m."""
 
 
 class LifecycleState(enum.IntEnum):

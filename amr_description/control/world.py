@@ -28,6 +28,9 @@ class JointGroup(Protocol):
     def efforts(self) -> list[float]:
         """Return the generalised forces of the actuators, N·m or N."""
 
+    def accelerations(self) -> list[float]:
+        """Return the accelerations during the last physics step, rad/s² or m/s²."""
+
     def command(self, interface: str, values: Sequence[float]) -> None:
         """
         Let the joints follow one command interface, and no other, from now on.
@@ -65,6 +68,14 @@ class ImuReading:
     """rad/s."""
     linear_acceleration: 'Vector'
     """m/s², gravity included: at rest it is +9.81 upwards, in free fall 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wrench:
+    """A force (N) and a torque (N·m), both in the axes of a frame and at its origin."""
+
+    force: 'Vector'
+    torque: 'Vector'
 
 
 class World(Protocol):
@@ -113,6 +124,18 @@ class World(Protocol):
         Args:
             link: the link that it is mounted on.
             mount_pose: the transform from the unit to the link.
+
+        Raises:
+            SimulationError: there is no such link.
+        """
+
+    def wrench(self, link: str, mount_pose: 'Transform') -> Wrench:
+        """
+        Return what holds a link and all that hangs on it: the wrench of its parent on the link.
+
+        Args:
+            link: the link.
+            mount_pose: the transform from the frame of the wrench to the link.
 
         Raises:
             SimulationError: there is no such link.

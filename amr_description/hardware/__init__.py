@@ -6,12 +6,14 @@ Hardware components: drivers of simulated, mocked and real robots.
 ``<plugin>`` of a ``<ros2_control>`` block names the class: one of :data:`HARDWARE`, or
 ``my_package.my_module/MyClass`` for a
 :class:`~amr_description.control.contracts.HardwareComponent` of yours. A class is imported when it
-is used. In the simulator other names than these are taken for drivers of real robots, and what they
-drive is simulated (``in_simulator.py``).
+is used. In the simulator any other name is that of a driver, and what it drives is simulated
+(``in_simulator.py``).
 
 ============================ =====================================================================
 ``in_simulator.py``          which class stands for a plugin in the simulator
 ``mujoco_system.py``         the joints and sensors of a simulated robot
+``simulated_sensors.py``     … its sensors: poses, forces and torques
+``simulated_sensor.py``      … what they have in common: where they are mounted
 ``simulated_imu.py``         … its inertial measurement units
 ``mock_system.py``           states follow commands at once, without physics
 ``simulated_base.py``        the body of a simulated robot: moved as a whole, and its truth

@@ -1,36 +1,53 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``amr_description/MujocoSystem``: the joints and inertial measurement units of a simulated robot.
+``amr_description/MujocoSystem``: the joints, sensors and GPIOs of a simulated robot.
 
 It depends on :class:`~amr_description.control.world.World` only. A joint follows the command
 interface that is claimed, from the first command on. Before that, and while nobody commands it, it
 is held where it is, as with ``hold_joints`` in Gazebo. With ``<hold_joints>false</hold_joints>``
 in the plugin's ``<gazebo>`` block, or ``<param name="hold_joints">false</param>`` in
-``<hardware>``, it moves freely.
+``<hardware>``, it moves freely. A controller that claims several command interfaces of a joint
+moves it by the position, else by the velocity: Gazebo, which takes the velocity, drifts away.
+
+A state of a GPIO follows the command of its name. A command that is not simulated can be claimed
+and has no effect, a state that is not simulated keeps its initial value; one line names them.
+Transmissions are not applied, as in Gazebo: commands and states are those of the joints.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 import math
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import HardwareComponent, Log, Severity
 from amr_description.control.interfaces import (
+    ACCELERATION,
     CommandInterface,
     EFFORT,
     POSITION,
+    QUANTITIES,
     StateInterface,
     VELOCITY,
 )
 from amr_description.control.world import JointGroup, World
 from amr_description.errors import HardwareError, SimulationError
-from amr_description.hardware.simulated_imu import imus_of
+from amr_description.hardware.mock_system import MockPart
+from amr_description.hardware.simulated_sensors import sensors_of
 from amr_description.model.gazebo import GAZEBO_POSITION_GAIN, ros2_control_host_of
-from amr_description.model.hardware_info import ComponentInfo, HardwareInfo, InterfaceInfo
-from amr_description.text import truth
+from amr_description.model.hardware_info import (
+    HardwareInfo,
+    HardwareType,
+    InterfaceInfo,
+)
+from amr_description.text import quote_all, truth
 
-STATES = COMMANDS = (POSITION, VELOCITY, EFFORT)
-"""The interfaces of a joint that are supported."""
+COMMANDS = (POSITION, VELOCITY, EFFORT)
+"""What a joint can follow; of several that are claimed, the first one."""
+STATES = (*COMMANDS, ACCELERATION)
+"""What is measured of a joint."""
+_PID = '_pid'
+_GAINS = ('pos_k', 'vel_k')
 
 
 class MujocoSystem(HardwareComponent):
@@ -53,52 +70,78 @@ class MujocoSystem(HardwareComponent):
 
     def _bind(self, world: World) -> None:
         """Connect the interfaces of the tag with the world."""
-        joints = self.info.joints
         self._commands = [
             CommandInterface(joint.name, interface.name)
-            for joint in joints
-            for interface in _checked(joint, joint.command_interfaces, 'command', COMMANDS)
+            for joint in self.info.joints
+            for interface in _exported(joint.command_interfaces)
         ]
         self._states = [
-            StateInterface(joint.name, interface.name)
-            for joint in joints
-            for interface in _checked(joint, joint.state_interfaces, 'state', STATES)
+            StateInterface.of(joint, interface)
+            for joint in self.info.joints
+            for interface in _exported(joint.state_interfaces)
         ]
         self._sources: list[tuple[list[StateInterface], Callable[[], list[float]]]] = []
-        for interface in STATES:
-            states = [state for state in self._states if state.interface == interface]
+        for quantity in STATES:
+            states = [state for state in self._states if _quantity(state) == quantity]
             if states:
                 group = world.joints([state.prefix for state in states])
-                read = {
-                    POSITION: group.positions,
-                    VELOCITY: group.velocities,
-                    EFFORT: group.efforts,
-                }[interface]
-                self._sources.append((states, read))
-        self._imus = imus_of(self.info, world)
-        self._warn_unsupported()
-        self._states += [state for imu in self._imus for state in imu.states]
-        self._modes = CommandModes(self._commands)
+                self._sources.append((states, _reader(group, quantity)))
+        self._modes = CommandModes([c for c in self._commands if _quantity(c) in COMMANDS])
         self._commanded: list[_CommandedGroup] = []
         self._idle: tuple[str, ...] = ()
         self._idle_group = world.joints(self._modes.joints)
+        sensors = sensors_of(self.info, world, self.log)
+        self._sensors = sensors.instruments
+        self._gpios = [MockPart(gpio) for gpio in self.info.gpios]
+        self._states += sensors.states
+        self._states += [state for gpio in self._gpios for state in gpio.states.values()]
+        if self.info.type is not HardwareType.SENSOR:
+            self._commands += [each for gpio in self._gpios for each in gpio.commands.values()]
+        self._say_what_is_not_simulated(sensors.others)
 
-    def _warn_unsupported(self) -> None:
-        simulated = [imu.info for imu in self._imus]
-        others = [sensor for sensor in self.info.sensors if sensor not in simulated]
+    def _say_what_is_not_simulated(self, of_sensors: Sequence[str]) -> None:
+        name = f"hardware component '{self.info.name}':"
+        missing = [*self._of_joints(), *of_sensors, *self._of_gpios()]
+        if missing:
+            self.log(
+                Severity.WARN,
+                f'{name} not simulated: {quote_all(missing)}; such states keep their initial '
+                'values, such commands have no effect',
+            )
+        if self.info.transmissions:
+            transmissions = quote_all([each.name for each in self.info.transmissions])
+            self.log(
+                Severity.INFO,
+                f'{name} transmissions are not applied, as in Gazebo: {transmissions}; commands '
+                'and states are those of the joints',
+            )
         host = ros2_control_host_of(self._world.description)
-        if host.position_proportional_gain != GAZEBO_POSITION_GAIN:
+        has_gains = any(key.startswith(_GAINS) for j in self.info.joints for key in j.parameters)
+        if has_gains or host.position_proportional_gain != GAZEBO_POSITION_GAIN:
+            gains = 'gains of joints are' if has_gains else '<position_proportional_gain> is'
             self.log(
                 Severity.WARN,
-                f"hardware component '{self.info.name}': <position_proportional_gain> is left "
-                'out: positions are approached as fast as the limits of their joints allow',
+                f'{name} {gains} left out: positions are approached as fast as the limits of '
+                'their joints allow',
             )
-        for component in (*others, *self.info.gpios):
-            self.log(
-                Severity.WARN,
-                f"hardware component '{self.info.name}': {component.type} '{component.name}' is "
-                'not simulated and has no interfaces',
-            )
+
+    def _of_joints(self) -> Iterator[str]:
+        """Yield the names of the joints' interfaces that are not simulated."""
+        for joint in self.info.joints:
+            for interfaces, known in (
+                (joint.command_interfaces, COMMANDS),
+                (joint.state_interfaces, STATES),
+            ):
+                for each in _exported(interfaces):
+                    if QUANTITIES.get(each.name) not in known:
+                        yield f'{joint.name}/{each.name}'
+
+    def _of_gpios(self) -> Iterator[str]:
+        """Yield the names of the GPIOs' states that nothing sets."""
+        for gpio in self._gpios:
+            for state in gpio.states.values():
+                if state.interface not in gpio.commands and math.isnan(state.value):
+                    yield state.name
 
     def state_interfaces(self) -> Sequence[StateInterface]:
         """Return those of the tag, in its order."""
@@ -110,12 +153,16 @@ class MujocoSystem(HardwareComponent):
 
     def configure(self) -> None:
         """Read the states, which become available now."""
+        for gpio in self._gpios:
+            gpio.set_initial_states()
         self.read(0, 0)
-        self._restart_noise()
+        self._restart_sensors()
 
     def activate(self) -> None:
         """Start with idle joints, without earlier commands."""
         self._stop()
+        for gpio in self._gpios:
+            gpio.set_initial_commands()
 
     def deactivate(self) -> None:
         """Leave the joints idle."""
@@ -132,19 +179,31 @@ class MujocoSystem(HardwareComponent):
     def perform_command_mode_switch(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """Joints that are claimed or released are idle until the first command."""
         self._make_idle(self._modes.switch(start, stop))
+        unheeded = self._modes.unheeded(start)
+        if unheeded:
+            self.log(
+                Severity.INFO,
+                f"hardware component '{self.info.name}': {quote_all(unheeded)} has no effect: of "
+                'several commands to a joint the position counts, else the velocity',
+            )
 
     def reset(self, time: int) -> None:
         """Drop all commands, and repeat the noise from its start."""
         self._stop()
-        self._restart_noise()
+        for gpio in self._gpios:
+            gpio.set_initial_commands()
+            gpio.set_initial_states()
+        self._restart_sensors()
 
     def read(self, time: int, period: int) -> None:
-        """Read joints and sensors."""
+        """Read joints and sensors; the states of GPIOs follow their commands."""
         for states, read in self._sources:
             for state, value in zip(states, read(), strict=True):
                 state.value = value
-        for imu in self._imus:
-            imu.read(period / NANOSECONDS)
+        for sensor in self._sensors:
+            sensor.read(period / NANOSECONDS)
+        for gpio in self._gpios:
+            gpio.follow()
 
     def write(self, time: int, period: int) -> None:
         """Command the joints; NaN keeps the previous command."""
@@ -162,9 +221,9 @@ class MujocoSystem(HardwareComponent):
         command = self._modes.followed(joint)
         return command is not None and not math.isnan(command.value)
 
-    def _restart_noise(self) -> None:
-        for imu in self._imus:
-            imu.restart()
+    def _restart_sensors(self) -> None:
+        for sensor in self._sensors:
+            sensor.restart()
 
     def _stop(self) -> None:
         self._make_idle(self._modes.joints)
@@ -184,11 +243,11 @@ class MujocoSystem(HardwareComponent):
         targets = {name: target for each in self._commanded for name, target in each.targets()}
         busy = [self._modes.followed(joint) for joint in self._modes.joints if joint not in idle]
         self._commanded = []
-        for interface in COMMANDS:
-            commands = [each for each in busy if each is not None and each.interface == interface]
+        for quantity in COMMANDS:
+            commands = [each for each in busy if each is not None and _quantity(each) == quantity]
             if commands:
                 group = self._world.joints([command.prefix for command in commands])
-                self._commanded.append(_CommandedGroup(group, interface, commands, targets))
+                self._commanded.append(_CommandedGroup(group, quantity, commands, targets))
         self._idle = tuple(idle)
         self._idle_group = self._world.joints(self._idle)
 
@@ -203,7 +262,8 @@ class CommandModes:
     """
     The command interface that each joint follows: the claimed one.
 
-    A joint with a single command interface follows it, claimed or not.
+    A joint with a single command interface follows it, claimed or not. Of several that were
+    claimed at once, which one controller does, it follows the first by :data:`COMMANDS`.
     """
 
     def __init__(self, commands: Sequence[CommandInterface]) -> None:
@@ -213,6 +273,8 @@ class CommandModes:
         self._by_joint: dict[str, list[CommandInterface]] = {}
         for command in commands:
             self._by_joint.setdefault(command.prefix, []).append(command)
+        for own in self._by_joint.values():
+            own.sort(key=lambda command: COMMANDS.index(_quantity(command)))
 
     def check(self, start: Sequence[str], stop: Sequence[str]) -> None:
         """
@@ -223,13 +285,16 @@ class CommandModes:
             stop: names of the interfaces to release.
 
         Raises:
-            HardwareError: two interfaces of one joint would be claimed.
+            HardwareError: a joint that is claimed already would be claimed by another interface.
         """
-        modes: dict[str, str] = {}
-        for name in sorted(self._after(start, stop)):
+        modes = {
+            self._commands[name].prefix: self._commands[name].interface
+            for name in sorted(self._claimed - set(stop) - set(start))
+        }
+        for name in sorted(self._commands.keys() & set(start)):
             command = self._commands[name]
-            other = modes.setdefault(command.prefix, command.interface)
-            if other != command.interface:
+            other = modes.get(command.prefix)
+            if other is not None:
                 raise HardwareError(
                     f"joint '{command.prefix}' is to be commanded by {other} and "
                     f'{command.interface} at once; one of them will do'
@@ -251,6 +316,16 @@ class CommandModes:
         if len(commands) == 1:
             return commands[0]
         return next((command for command in commands if command.name in self._claimed), None)
+
+    def unheeded(self, start: Sequence[str]) -> list[str]:
+        """Return those of the interfaces just claimed that their joints do not follow."""
+        names = [name for name in start if name in self._commands]
+        followed = [self.followed(self._commands[name].prefix) for name in names]
+        return [
+            name
+            for name, command in zip(names, followed, strict=True)
+            if command is not None and command.name != name
+        ]
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -287,19 +362,29 @@ class _CommandedGroup:
         return zip((command.name for command in self._commands), self._targets, strict=True)
 
 
-def _checked(
-    joint: ComponentInfo,
-    interfaces: Sequence[InterfaceInfo],
-    kind: str,
-    supported: Sequence[str],
-) -> Sequence[InterfaceInfo]:
+def _reader(group: JointGroup, quantity: str) -> Callable[[], list[float]]:
+    """Return what reads a quantity of STATES."""
+    if quantity == POSITION:
+        return group.positions
+    if quantity == VELOCITY:
+        return group.velocities
+    return group.efforts if quantity == EFFORT else group.accelerations
+
+
+def _quantity(handle: CommandInterface | StateInterface) -> str:
+    """Return the quantity of an interface; '' if it is not simulated."""
+    return QUANTITIES.get(handle.interface, '')
+
+
+def _exported(interfaces: Sequence[InterfaceInfo]) -> Iterator[InterfaceInfo]:
+    """Yield the interfaces as they are exported: ``position_pid`` as ``position``."""
+    names = set()
     for interface in interfaces:
-        if interface.name not in supported:
-            raise HardwareError(
-                f"joint '{joint.name}': {kind} interface '{interface.name}' is asked; there are: "
-                f'{", ".join(supported)}'
-            )
-    return interfaces
+        name = QUANTITIES.get(interface.name, '') if interface.name.endswith(_PID) else ''
+        exported = replace(interface, name=name) if name else interface
+        if exported.name not in names:
+            yield exported
+        names.add(exported.name)
 
 
 def _holds_joints(info: HardwareInfo, world: World) -> bool:

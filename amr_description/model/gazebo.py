@@ -139,6 +139,10 @@ class GazeboSensor:
     line: int
     noise: tuple[tuple[str, Noise], ...] = ()
     """For an IMU: (state interface, such as ``angular_velocity.x``, its noise)."""
+    frame: str = 'child'
+    """Of a force-torque sensor: the axes, those of ``child``, ``parent`` or ``sensor``."""
+    measure_direction: str = 'child_to_parent'
+    """Likewise: whose wrench on whom it measures, or ``parent_to_child``."""
 
 
 def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
@@ -224,7 +228,18 @@ def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> G
         )
     pose = _read_pose(element, reader)
     noise = tuple(_read_imu_noise(element, reader))
-    return GazeboSensor(name, element.get('type', ''), link, pose, line_of(element), noise)
+    return GazeboSensor(
+        name=name,
+        type=element.get('type', ''),
+        link=link,
+        pose=pose,
+        line=line_of(element),
+        noise=noise,
+        frame=element.findtext('force_torque/frame', 'child').strip(),
+        measure_direction=element.findtext(
+            'force_torque/measure_direction', 'child_to_parent'
+        ).strip(),
+    )
 
 
 def _read_pose(element: etree._Element, reader: ElementReader) -> Transform:

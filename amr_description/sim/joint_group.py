@@ -73,6 +73,12 @@ class MujocoJointGroup:
             self._bind()
         return self._read_efforts()
 
+    def accelerations(self) -> list[float]:
+        """During the last physics step, rad/s² or m/s²."""
+        if self._generation != self._engine.generation:
+            self._bind()
+        return self._read_accelerations()
+
     def command(self, interface: str, values: Sequence[float]) -> None:
         """
         Let the joints follow one command interface, until the next call.
@@ -172,7 +178,9 @@ class MujocoJointGroup:
         rotors = [j if rotor < 0 else rotor for j, rotor in zip(joints, rotors, strict=True)]
         self._read_positions = reader(data.qpos, [int(model.jnt_qposadr[j]) for j in joints])
         self._read_rotors = reader(data.qpos, [int(model.jnt_qposadr[j]) for j in rotors])
-        self._read_velocities = reader(data.qvel, [int(model.jnt_dofadr[j]) for j in joints])
+        degrees = [int(model.jnt_dofadr[j]) for j in joints]
+        self._read_velocities = reader(data.qvel, degrees)
+        self._read_accelerations = reader(data.qacc, degrees)
         self._read_efforts = EffortReader(self._engine, self._robot, self._names)
         self._interface = ''
         self._generation = self._engine.generation

@@ -7,21 +7,21 @@ MuJoCo's own URDF reader does most of it, from the XML of :mod:`amr_description.
 the rest is edited in the spec.
 """
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 import mujoco
 
 from amr_description.control.contracts import Log
-from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
+from amr_description.control.interfaces import EFFORT, POSITION, QUANTITIES, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.base_interfaces import BASE
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
-from amr_description.sim.actuators import add_actuators, command_bounds
+from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
 from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
 from amr_description.sim.friction import (
@@ -114,7 +114,7 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
             # Commands without an actuator are rejected by the hardware component that claims them.
             if robot.joint(name).has_position:
                 add_actuators(spec, robot.joint(name), interfaces)
-        _couple_mimics(spec, [joint.name for joint in controlled if joint.mimic is None])
+        _couple_mimics(spec, robot, controlled)
         wheels = find_wheels(robot, [j for j, i in commands.items() if _DRIVING_INTERFACES & {*i}])
         if wheels:
             wheels += find_passive_wheels(robot, commands)
@@ -139,12 +139,18 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
 
 
 def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ...]]:
-    """Return the command interfaces of each joint, which two blocks may share."""
+    """Return what each joint, which two blocks may share, is commanded by."""
     commands: dict[str, tuple[str, ...]] = {}
     for joint in controlled:
-        names = tuple(interface.name for interface in joint.command_interfaces)
-        commands[joint.name] = commands.get(joint.name, ()) + names
+        commands[joint.name] = commands.get(joint.name, ()) + _quantities(joint)
     return commands
+
+
+def _quantities(joint: ComponentInfo) -> tuple[str, ...]:
+    """Return what a joint is commanded by; one whose commands are not simulated is held."""
+    names = [QUANTITIES.get(interface.name, '') for interface in joint.command_interfaces]
+    known = tuple(name for name in names if name in COMMANDS)
+    return known or ((VELOCITY,) if names else ())
 
 
 def _replace_floating_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
@@ -164,13 +170,21 @@ def _replace_floating_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
         link.add_joint(name=f'{joint.name}/ball', type=mujoco.mjtJoint.mjJNT_BALL)
 
 
-def _couple_mimics(spec: mujoco.MjSpec, independent: Collection[str]) -> None:
+def _couple_mimics(spec: mujoco.MjSpec, robot: Robot, controlled: Sequence[ComponentInfo]) -> None:
     """
     Stiffen the equality constraints that MuJoCo made of ``<mimic>``.
 
-    ``independent``: the joints whose constraint is deleted, such as those for which
-    ``<ros2_control>`` says ``mimic="false"``.
+    Where ``<ros2_control>`` says ``mimic="false"`` the constraint is deleted; where it has the
+    parameter ``mimic`` and the URDF no ``<mimic>``, one is added.
     """
+    independent = {joint.name for joint in controlled if joint.mimic is None}
+    for joint in controlled:
+        mimic = joint.mimic
+        if mimic is not None and robot.joint(joint.name).mimic is None:
+            coupling = spec.add_equality(
+                type=mujoco.mjtEq.mjEQ_JOINT, name1=joint.name, name2=mimic.joint
+            )
+            coupling.data[:2] = mimic.offset, mimic.multiplier
     for coupling in tuple(spec.equalities):
         if coupling.name1 in independent:
             spec.delete(coupling)

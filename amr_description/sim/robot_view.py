@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from amr_description.control.contracts import Log
-from amr_description.control.world import ImuReading
+from amr_description.control.world import ImuReading, Wrench
 from amr_description.errors import SimulationError
 from amr_description.model.frames import (
     conjugate,
@@ -166,6 +166,35 @@ class RobotView:
             angular_velocity=rotate(back, rate),
             linear_acceleration=rotate(back, (x, y, z)),
         )
+
+    def wrench(self, link: str, mount_pose: Transform) -> Wrench:
+        """
+        Return the wrench of a link's parent on the link, from the last physics step.
+
+        It is what Newton's and Euler's laws ask for, given how the link and all below it are
+        accelerated, and what acts on them from outside: gravity, contacts and such.
+
+        Args:
+            link: The link.
+            mount_pose: Transform from the frame of the wrench to the link.
+
+        Raises:
+            SimulationError: There is no such link.
+        """
+        body = self._body(link)
+        model, data = self._engine.model, self._engine.data
+        self._engine.refresh_kinematics()
+        mujoco.mj_rnePostConstraint(model, data)
+        wrench = data.cfrc_int[body]
+        torque, force = _vector(wrench[:3]), _vector(wrench[3:])
+        frame = self.pose(link) @ mount_pose
+        # In world axes, about the centre of mass of the whole robot.
+        centre = data.subtree_com[model.body_rootid[body]]
+        lever = _vector(centre - frame.translation)
+        moment = cross(lever, force)
+        x, y, z = (of + by for of, by in zip(torque, moment, strict=True))
+        back = conjugate(frame.rotation)
+        return Wrench(force=rotate(back, force), torque=rotate(back, (x, y, z)))
 
     def height_index(self) -> int | None:
         """Return the index of the root's height in ``qpos``; None: the robot stands fixed."""

@@ -117,40 +117,121 @@ def test_needs_a_world():
         MujocoSystem(info_of(), Lines(), None)
 
 
-@pytest.mark.parametrize(
-    'old, new, message',
-    [
-        (
-            '<command_interface name="velocity"/>',
-            '<command_interface name="acceleration"/>',
-            "joint 'jb': command interface 'acceleration' is asked; there are: position, v",
-        ),
-        (
-            '<state_interface name="effort"/>',
-            '<state_interface name="voltage"/>',
-            "joint 'ja': state interface 'voltage' is asked; there are: position, velocity, effo",
-        ),
-    ],
-)
-def test_interface_that_it_does_not_have(world, old, new, message):
-    with pytest.raises(HardwareError, match=message):
-        MujocoSystem(info_of(URDF.replace(old, new, 1)), Lines(), world)
+def test_interfaces_that_are_not_simulated_are_taken_and_named_in_one_line(world):
+    urdf = URDF.replace(
+        '<state_interface name="effort"/>',
+        '<command_interface name="kp"/><state_interface name="voltage"/><state_interface '
+        'name="current"><param name="initial_value">0.5</param></state_interface>',
+    )
+    sensor = '<sensor name="eye"/><sensor name="nose"><state_interface name="smell"/></sensor>'
+    system = MujocoSystem(
+        info_of(urdf.replace('</ros2_control>', f'{sensor}</ros2_control>')), Lines(), world
+    )
+    ((severity, text),) = system.log.lines
+    assert severity is Severity.WARN
+    assert text == (
+        'hardware component \'Cart\': not simulated: "ja/kp", "ja/voltage", "ja/current", "eye", '
+        '"nose/smell"; such states keep their initial values, such commands have no effect'
+    )
+    system.configure()
+    system.activate()
+    states = {state.name: state.value for state in system.state_interfaces()}
+    assert math.isnan(states['ja/voltage']) and math.isnan(states['nose/smell'])
+    assert states['ja/current'] == 0.5
+    cell(system.command_interfaces(), 'ja/kp').value = 7.0
+    switch(system, ['ja/kp', 'ja/velocity'])
+    system.write(0, PERIOD)
+    assert world.commands['ja'] == 'held'
+
+
+def test_torque_and_force_are_other_names_of_effort(world):
+    urdf = URDF.replace(
+        '<command_interface name="velocity"/>',
+        '<command_interface name="torque"/><state_interface name="force"/>'
+        '<state_interface name="acceleration"/>',
+        1,
+    )
+    system = MujocoSystem(info_of(urdf), Lines(), world)
+    world.state.update({('jb', 'effort'): 2.0, ('jb', 'acceleration'): 3.0})
+    system.configure()
+    system.activate()
+    assert cell(system.state_interfaces(), 'jb/force').value == 2.0
+    assert cell(system.state_interfaces(), 'jb/acceleration').value == 3.0
+    cell(system.command_interfaces(), 'jb/torque').value = 4.0
+    system.write(0, PERIOD)
+    assert world.commands['jb'] == ('effort', 4.0)
+    assert system.log.lines == []
+
+
+def test_interfaces_with_gains_are_exported_without_as_gazebo_does(world):
+    urdf = URDF.replace(
+        '<command_interface name="velocity"/>',
+        '<param name="pos_kp">10</param><command_interface name="position_pid"/>',
+        1,
+    )
+    system = MujocoSystem(info_of(urdf), Lines(), world)
+    assert [command.name for command in system.command_interfaces()][0] == 'jb/position'
+    assert "WARN hardware component 'Cart': gains of joints are left out: " in system.log.text
+
+
+TRANSMISSION = """<transmission name="gear">
+  <plugin>transmission_interface/SimpleTransmission</plugin>
+  <joint name="ja" role="joint1"><mechanical_reduction>50</mechanical_reduction></joint>
+  <actuator name="motor" role="actuator1"/></transmission></ros2_control>"""
+
+
+def test_transmissions_are_not_applied_and_that_is_said(world):
+    system = MujocoSystem(info_of(URDF.replace('</ros2_control>', TRANSMISSION)), Lines(), world)
+    text = (
+        'hardware component \'Cart\': transmissions are not applied, as in Gazebo: "gear"; '
+        'commands and states are those of the joints'
+    )
+    assert system.log.lines == [(Severity.INFO, text)]
+    cell(system.command_interfaces(), 'ja/velocity').value = 2.0
+    system.activate()
+    cell(system.command_interfaces(), 'ja/velocity').value = 2.0
+    system.write(0, PERIOD)
+    assert world.commands['ja'] == velocity(2.0)
+
+
+GPIO = """<gpio name="valve"><command_interface name="open"/>
+  <state_interface name="open"><param name="initial_value">1.0</param></state_interface>
+  <state_interface name="pressure"/></gpio></ros2_control>"""
+
+
+def test_states_of_a_gpio_follow_commands_of_their_name(world):
+    system = MujocoSystem(info_of(URDF.replace('</ros2_control>', GPIO)), Lines(), world)
+    system.configure()
+    system.activate()
+    is_open = cell(system.state_interfaces(), 'valve/open')
+    assert is_open.value == 1.0
+    command = cell(system.command_interfaces(), 'valve/open')
+    switch(system, ['valve/open'])
+    command.value = 0.0
+    system.write(0, PERIOD)
+    system.read(0, PERIOD)
+    assert is_open.value == 0.0
+    assert math.isnan(cell(system.state_interfaces(), 'valve/pressure').value)
+    assert 'not simulated: "valve/pressure"; such states keep' in system.log.text
+    system.reset(0)
+    system.read(0, PERIOD)
+    assert is_open.value == 1.0
+
+
+def test_a_sensor_block_lends_no_commands_of_gpios(world):
+    urdf = URDF.replace('</ros2_control>', GPIO).replace('type="system"', 'type="sensor"')
+    system = MujocoSystem(info_of(urdf.replace(VELOCITY_COMMAND, '')), Lines(), world)
+    assert system.command_interfaces() == []
+    assert cell(system.state_interfaces(), 'valve/open')
+
+
+VELOCITY_COMMAND = '<command_interface name="velocity"/>'
 
 
 def test_joint_that_the_world_does_not_have(world):
     world.state = {('ja', 'position'): 0.0}
     with pytest.raises(HardwareError, match="hardware component 'Cart': there is no joint 'jb'"):
         MujocoSystem(info_of(), Lines(), world)
-
-
-@pytest.mark.parametrize('kind', ['sensor', 'gpio'])
-def test_components_that_are_not_simulated_are_warned_of(world, kind):
-    part = f'<{kind} name="it"><state_interface name="counts"/></{kind}></ros2_control>'
-    log = Lines()
-    system = MujocoSystem(info_of(URDF.replace('</ros2_control>', part)), log, world)
-    assert len(system.state_interfaces()) == 4
-    text = f"hardware component 'Cart': {kind} 'it' is not simulated and has no interfaces"
-    assert log.lines == [(Severity.WARN, text)]
 
 
 # --- several command interfaces on a joint -------------------------------------------------------
@@ -227,12 +308,12 @@ def test_a_command_of_a_neighbour_survives_a_switch(multi, world):
 @pytest.mark.parametrize(
     'claimed, start, stop',
     [
-        ([], ['jb/position', 'jb/effort'], []),
         (['jb/position'], ['jb/velocity'], []),
-        (['jb/position'], ['jb/velocity', 'jb/effort'], ['jb/position']),
+        (['jb/effort'], ['jb/velocity', 'jb/position'], []),
+        (['jb/position'], ['jb/velocity', 'ja/velocity'], ['ja/velocity']),
     ],
 )
-def test_two_modes_on_one_joint_are_refused(multi, world, claimed, start, stop):
+def test_a_second_controller_of_a_joint_is_refused(multi, world, claimed, start, stop):
     switch(multi, claimed)
     with pytest.raises(HardwareError, match="'jb' is to be commanded by .* and .* at once; one"):
         multi.prepare_command_mode_switch(start, stop)
@@ -240,7 +321,28 @@ def test_two_modes_on_one_joint_are_refused(multi, world, claimed, start, stop):
     for command in multi.command_interfaces():
         command.value = 4.0
     multi.write(0, PERIOD)
-    assert world.commands['jb'] == (('position', 4.0) if claimed else 'held')
+    assert world.commands['jb'] == (claimed[0].removeprefix('jb/'), 4.0)
+
+
+@pytest.mark.parametrize(
+    'start, followed, unheeded',
+    [
+        (['jb/velocity', 'jb/position'], 'position', '"jb/velocity"'),
+        (['jb/effort', 'jb/velocity'], 'velocity', '"jb/effort"'),
+        (['jb/position', 'jb/velocity', 'jb/effort'], 'position', '"jb/velocity", "jb/effort"'),
+    ],
+)
+def test_one_controller_may_claim_several_commands_of_a_joint(
+    multi, world, start, followed, unheeded
+):
+    switch(multi, start)
+    for number, command in enumerate(multi.command_interfaces()):
+        command.value = float(number)
+    multi.write(0, PERIOD)
+    expected = ['position', 'velocity', 'effort'].index(followed)
+    assert world.commands['jb'] == (followed, float(expected))
+    text = f"INFO hardware component 'Cart': {unheeded} has no effect: of several commands to a"
+    assert text in multi.log.text
 
 
 def test_claims_end_with_the_component(multi):
@@ -312,6 +414,9 @@ def test_the_gain_of_gazebos_position_servo_is_warned_of(world):
         'amr_description/MujocoSystem',
         'gz_ros2_control/GazeboSimSystem',
         'mujoco_ros2_control/MujocoSystemInterface',
+        'ign_ros2_control/IgnitionSystem',
+        'gazebo_ros2_control/GazeboSystem',
+        'webots_ros2_control::Ros2ControlSystem',
         'amr_description.hardware.mujoco_system/MujocoSystem',
     ],
 )

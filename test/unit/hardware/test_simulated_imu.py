@@ -3,14 +3,14 @@
 """An inertial measurement unit in the ``<ros2_control>`` block of a simulated robot."""
 
 import math
+import re
 from statistics import fmean, pstdev
 
 from fixtures.sim.driving import AMR, Drive, Lines
-from fixtures.sim.fake_world import FakeWorld, info_of, PERIOD, URDF
+from fixtures.sim.fake_world import cell, FakeWorld, info_of, PERIOD, URDF
 import pytest
 
 from amr_description.control.interfaces import IMU_INTERFACES
-from amr_description.errors import HardwareError
 from amr_description.hardware.mujoco_system import MujocoSystem
 from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
@@ -53,6 +53,8 @@ def test_imu_with_some_interfaces_only():
         ({'parameters': '<param name="link">a</param>'}, 'a'),
         ({'parameters': '<param name="frame_id">c</param>'}, 'c'),
         ({'name': 'base'}, 'base'),
+        ({'name': 'base_sensor'}, 'base'),
+        ({'name': 'jb'}, 'b'),
         ({'mount': MOUNT, 'parameters': '<param name="link">a</param>'}, 'b'),
     ],
 )
@@ -71,15 +73,25 @@ def test_where_an_imu_is_mounted(options, link):
             with_imu(['orientation.x'], parameters='<param name="link">nose</param>'),
             "sensor 'imu': there is no link 'nose' to mount it on; there are: base, a, b, c",
         ),
-        (
-            with_imu(['orientation.x', 'temperature'], MOUNT),
-            "sensor 'imu': state interface 'temperature' is asked; an IMU has: orientation.x, or",
-        ),
     ],
 )
-def test_invalid_imu(urdf, message):
-    with pytest.raises(HardwareError, match=f"hardware component 'Cart': .*{message}"):
-        imu_of(urdf)
+def test_an_imu_that_is_mounted_nowhere_measures_nothing(urdf, message):
+    system, world = imu_of(urdf)
+    system.configure()
+    assert math.isnan(cell(system.state_interfaces(), 'imu/orientation.x').value)
+    assert world.imus == []
+    assert re.search(
+        f"^WARN hardware component 'Cart': .*{message}.*; it measures nothing$",
+        system.log.text,
+    )
+
+
+def test_what_else_a_sensor_has_is_left_as_it_is():
+    system, world = imu_of(with_imu(['orientation.x', 'temperature'], MOUNT))
+    system.configure()
+    assert cell(system.state_interfaces(), 'imu/orientation.x').value == 0.1
+    assert math.isnan(cell(system.state_interfaces(), 'imu/temperature').value)
+    assert 'not simulated: "imu/temperature"; such states' in system.log.text
 
 
 def test_component_of_nothing_but_an_imu_in_the_simulator():
