@@ -94,13 +94,8 @@ def _imported(
 
     The collector would look through all of it several times in vain, at the end once more; without
     it 10 to 20 % of the CPU time of an import is saved (CPython 3.12).
-
-    numpy's OpenBLAS starts a thread for each processor, which waits for its first work in a loop;
-    no matrix here is large enough for two. One thread will do, in this process alone: what it
-    starts gets ``os.environ``, which does not change.
     """
-    if _BLAS_THREADS not in os.environ:
-        os.putenv(_BLAS_THREADS, '1')
+    use_one_blas_thread()
     was_enabled = gc.isenabled()
     gc.disable()
     try:
@@ -111,6 +106,20 @@ def _imported(
             gc.enable()
 
 
+def use_one_blas_thread() -> None:
+    """
+    Have numpy, when it is imported, start no threads.
+
+    Its OpenBLAS starts one for each processor, which waits for its first work in a loop; no matrix
+    here is large enough for two. One thread will do, in this process alone: what it starts gets
+    ``os.environ``, which does not change.
+    """
+    if _BLAS_THREADS not in os.environ:
+        os.putenv(_BLAS_THREADS, '1')
+
+
 _package = LazyEntryPoint(__package__)
 bringup, nodes = _package.bringup, _package.nodes
+OWN_NODES: str = nodes.path
+"""The package whose modules are the nodes, named as their executables."""
 xacro = LazyEntryPoint('xacro')

@@ -40,6 +40,7 @@ no clock:
 ``scheduler.py``         pure: what may start, what failed, when it is ready or over; timeouts
 ``graph_watcher.py``     observes the ROS graph and files while a condition asks
 ``process.py``           one running process: its process group, its output, its end
+``fork_server.py``       starts executables of this package without their imports
 ``terminal.py``          … that has the terminal, as a shell gives it to a foreground job
 ``lifeline.py``          parent-death pipe: how children notice the orchestrator's end
 ``guardian.py``          reaper process: ends what is left after the orchestrator

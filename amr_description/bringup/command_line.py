@@ -17,7 +17,7 @@ import shutil
 
 from amr_description.ament_index import executable_of, is_own, OWN_PACKAGE, path_of
 from amr_description.bringup.description import Node, ParameterValue, Stack
-from amr_description.bringup.environment import interpreter_of
+from amr_description.bringup.environment import interpreter_of, is_of_this_python
 from amr_description.bringup.placement import Placement, ResolvedNode
 from amr_description.errors import BringupError, UsageError
 
@@ -115,6 +115,13 @@ class ProcessSpec:
         """Whether it is an executable of this package: it may be started with SIGINT blocked."""
         is_ours = self.node.package == OWN_PACKAGE and is_own(self.executable)
         return is_ours and not (self.node.prefix or self.launch_prefix)
+
+    @property
+    def is_forkable(self) -> bool:
+        """Whether the fork server may start it, see ``fork_server.py``."""
+        return (
+            self.unblocks_sigint and not self.node.terminal and is_of_this_python(self.executable)
+        )
 
     def explain(self, error: OSError) -> str:
         """Return why it could not be started; the kernel names no missing interpreter."""

@@ -203,14 +203,15 @@ def child_environment(executable: Path, base: Mapping[str, str]) -> dict[str, st
         OSError: the executable cannot be read.
     """
     environment = {**base, 'PYTHONUNBUFFERED': '1'}
-    if WHEELS_GUARD in base and not _is_of_this_python(executable, base):
+    if WHEELS_GUARD in base and not is_of_this_python(executable, base):
         del environment[WHEELS_GUARD]
         if interpreter_of(executable, base):
             _drop_wheels_libraries(environment)
     return environment
 
 
-def _is_of_this_python(executable: Path, base: Mapping[str, str]) -> bool:
+def is_of_this_python(executable: Path, base: Mapping[str, str] = os.environ) -> bool:
+    """Return whether a file is a Python script for the interpreter of this process."""
     interpreter = interpreter_of(executable, base)
     return interpreter is not None and _same_folder(interpreter.parent, Path(sys.prefix) / 'bin')
 

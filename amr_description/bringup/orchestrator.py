@@ -24,6 +24,7 @@ from amr_description.bringup.command_line import ProcessSpec
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
+from amr_description.bringup.fork_server import ForkServer
 from amr_description.bringup.graph_watcher import COMMAND, ExternalState, GraphWatch
 from amr_description.bringup.handlers import describe_failure, Stopping
 from amr_description.bringup.lifeline import Lifeline
@@ -84,7 +85,9 @@ class Orchestrator:
         """Run the stack to its end; return the exit code. No process is left when it returns."""
         with self._signal_handlers():
             self._lifeline = Lifeline(self._run_name)
+            self._fork_server = self._start_fork_server()
             try:
+                await self._fork_server_is_ready()
                 await self._run_until_over()
             finally:
                 await self._stop_all()
@@ -127,6 +130,31 @@ class Orchestrator:
         self._stop_requests += 1
         self._scheduler.over = True
         self._wake.set()
+
+    def _start_fork_server(self) -> ForkServer | None:
+        """Start what starts executables of this package; None: there are less than two."""
+        specs = [spec for spec in self._specs.values() if spec.is_forkable]
+        if len(specs) < 2:
+            return None
+        names = dict.fromkeys(spec.node.executable for spec in specs)
+        environment = child_environment(specs[0].executable, self._environment)
+        with contextlib.suppress(OSError):
+            return ForkServer(names, environment | self._lifeline.variables, self._lifeline.reader)
+        return None
+
+    async def _fork_server_is_ready(self) -> None:
+        """Wait until it is ready, or has ended, or the stack is over."""
+        server = self._fork_server
+        if server is None:
+            return
+        loop = asyncio.get_running_loop()
+        loop.add_reader(server, self._wake.set)
+        try:
+            await self._event(None)
+        finally:
+            loop.remove_reader(server)
+        if not self._scheduler.over:
+            server.take_ready()
 
     async def _run_until_over(self) -> None:
         while not self._scheduler.over:
@@ -194,7 +222,8 @@ class Orchestrator:
         with signal_blocked(signal.SIGINT) if spec.unblocks_sigint else contextlib.nullcontext():
             if not spec.node.terminal:
                 on_line = functools.partial(self._on_line, spec.node)
-                return Child(spec.command, environment, reader, on_line)
+                server = self._fork_server if spec.is_forkable else None
+                return Child(spec.command, environment, reader, on_line, server)
             reporter.progress(self._scheduler)  # while all of it can still be seen
             reporter.lending_terminal(spec.node)
             try:
@@ -232,8 +261,8 @@ class Orchestrator:
 
     def _running_pids(self) -> set[int]:
         watch = self._external.watch.process
-        running = [*self._running().values(), *([watch] if watch else [])]
-        return {child.pid for child in running}
+        others = (watch, self._fork_server)
+        return {each.pid for each in (*self._running().values(), *others) if each}
 
     async def _stop_all(self) -> None:
         """Signal all processes in the reverse order of their start, then escalate."""
@@ -261,6 +290,8 @@ class Orchestrator:
 
     async def _end_the_rest(self) -> None:
         """Have the guardian end what the children left behind."""
+        if self._fork_server:
+            self._fork_server.end()
         self._lifeline.cut()
         while not self._lifeline.is_over():
             await self._event(None)

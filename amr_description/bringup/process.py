@@ -16,6 +16,8 @@ import signal
 import subprocess
 import termios
 
+from amr_description.bringup.fork_server import ForkedProcess, ForkServer
+
 LAST_LINES = 20  # kept for failure reports
 LONGEST_LINE = 32_768  # bytes; a longer one is shown in pieces rather than held in memory
 _READ_SIZE = 65_536  # bytes, the capacity of a pipe
@@ -43,7 +45,7 @@ class RunningProcess:
     Its subclasses :class:`Child` and :class:`terminal.TerminalChild` start it.
     """
 
-    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+    def __init__(self, process: subprocess.Popen[bytes] | ForkedProcess) -> None:
         """Take over a process that was just started."""
         self._process = process
         self.last_lines: deque[str] = deque(maxlen=LAST_LINES)
@@ -95,6 +97,7 @@ class Child(RunningProcess):
         environment: Mapping[str, str],
         inherit: int,
         on_line: Callable[[str], None],
+        fork_server: ForkServer | None = None,
     ) -> None:
         """
         Start the process.
@@ -108,18 +111,19 @@ class Child(RunningProcess):
             environment: all its environment variables.
             inherit: a file descriptor that the child gets under the same number.
             on_line: called with each line of its stdout and stderr, without line end.
+            fork_server: starts it, if it can; it has ``inherit`` already.
 
         Raises:
             OSError: the operating system cannot start it.
         """
-        reader, writer = os.pipe()
+        reader, writer = os.pipe()  # one pipe for both outputs: the order of the lines stays
         try:
-            process = subprocess.Popen(
+            process = _forked(fork_server, command, environment, writer) or subprocess.Popen(
                 command,
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=writer,
-                stderr=writer,  # the same pipe: the order of the lines stays
+                stderr=writer,
                 pass_fds=(inherit,),
                 start_new_session=True,
             )
@@ -175,6 +179,17 @@ class Child(RunningProcess):
         for line in lines:
             self.last_lines.append(line)
             self._on_line(line)
+
+
+def _forked(
+    server: ForkServer | None, command: Sequence[str], environment: Mapping[str, str], output: int
+) -> ForkedProcess | None:
+    """Return a process that the server has forked, or None: it is to be executed."""
+    if server is None or not server.can_start(command, environment):
+        return None
+    with contextlib.suppress(OSError):  # somebody ended the server
+        return server.start(command, environment, output)
+    return None
 
 
 class LineSplitter:

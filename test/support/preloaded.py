@@ -16,7 +16,6 @@ program, one with options of the interpreter, and one whose environment changes 
 started as ever.
 """
 
-import atexit
 import ctypes
 import fcntl
 import functools
@@ -26,7 +25,6 @@ import io
 import json
 import os
 from pathlib import Path
-import re
 import runpy
 import socket
 import struct
@@ -37,6 +35,8 @@ import threading
 import warnings
 
 from support.paths import ROOT
+
+from amr_description.bringup.fork_server import end_without_teardown, ForkTracing
 
 _LENGTH = struct.Struct('<I')
 _PID = struct.Struct('<i')
@@ -181,7 +181,7 @@ class _Server:
 
 def _serve(connection):
     """Fork a program for each request, until the test run ends; return in each program."""
-    tracing = _Tracing()
+    tracing = ForkTracing()
     while True:
         head, files, _, _ = socket.recv_fds(connection, _LENGTH.size, 3)
         if not head:
@@ -189,13 +189,13 @@ def _serve(connection):
         request = json.loads(connection.recv(_LENGTH.unpack(head)[0], socket.MSG_WAITALL))
         reader, writer = os.pipe()
         begun, held = os.pipe()
-        masked = tracing.before_fork()
+        tracing.before_fork()
         between = os.fork()
         if between == 0:
             os.close(held)
             pid = os.fork()
             if pid == 0:
-                tracing.after_fork_child(masked)
+                tracing.after_fork_in_child()
                 os.read(begun, 1)
                 for fd in (reader, writer, begun):
                     os.close(fd)
@@ -203,7 +203,7 @@ def _serve(connection):
                 return request, files
             os.write(writer, _PID.pack(pid))
             os._exit(0)
-        tracing.after_fork_parent(masked)
+        tracing.after_fork_in_parent()
         os.waitpid(between, 0)
         os.close(held)  # the program has its new parent now, and begins
         for fd in (begun, *files):
@@ -211,31 +211,6 @@ def _serve(connection):
         connection.sendall(os.read(reader, _PID.size))
         os.close(reader)
         os.close(writer)
-
-
-class _Tracing:
-    """
-    What LTTng has to be told of a fork: it has threads, which rclpy's libraries start and end.
-
-    Its ``liblttng-ust-fork`` does the same where it is loaded before the C library.
-    """
-
-    def __init__(self):
-        maps = Path('/proc/self/maps').read_text()
-        (path,) = set(re.findall(r'/\S*/liblttng-ust-[0-9a-f]+\.so\S*', maps))
-        self._ust = ctypes.CDLL(path)
-
-    def before_fork(self):
-        """Return the mask of signals to give back afterwards."""
-        mask = ctypes.create_string_buffer(128)  # a sigset_t
-        self._ust.ust_before_fork(mask)
-        return mask
-
-    def after_fork_child(self, mask):
-        self._ust.ust_after_fork_child(mask)
-
-    def after_fork_parent(self, mask):
-        self._ust.ust_after_fork_parent(mask)
 
 
 def _become(request, files):
@@ -290,14 +265,6 @@ def _execute(program, base):
         runpy.run_path(kind, run_name='__main__')
 
 
-def _forget(modules):
-    """Have the interpreter end without looking at modules; it frees no other memory either."""
-    ctypes.pythonapi.Py_IncRef(ctypes.py_object(modules))
-    for name, module in modules.items():
-        if sys.modules.get(name) is module and name not in ('builtins', 'sys', '__main__'):
-            del sys.modules[name]
-
-
 def serve(base):
     """
     Import the modules that the command line names, fork programs, and run them in the forks.
@@ -305,8 +272,7 @@ def serve(base):
     Args:
         base: What the interpreter itself had in ``sys.path``.
     """
-    loaded: dict[str, object] = {}
-    atexit.register(_forget, loaded)  # of all that are registered, the last to be called
+    loaded = end_without_teardown()
     for name in sys.argv[2:]:
         importlib.import_module(name)
     for name in [name for name in sys.modules if name.startswith('amr_description.nodes.')]:
