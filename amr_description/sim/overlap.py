@@ -1,14 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Rejects a robot that is spawned inside something else, and finds the height at which it is free.
+Finds whether a robot is spawned inside something else, and the height at which it is free.
 
 Its contacts would throw it out: measured, a robot 2 mm inside the ground comes up by 0.4 mm, one
 10 mm inside hops by 13 mm, and one 50 mm inside by 420 mm.
 """
 
 import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 
@@ -32,24 +32,28 @@ class Overlap:
     is_robot: bool
     depth: float
     """m."""
+    lift: float | None = None
+    """How much higher the robot is free, m; None: it is inside a robot, or there is none."""
+
+    def error(self, robot: str) -> SpawnError:
+        """Return the refusal to spawn a robot of this name."""
+        remedy = 'spawn it elsewhere'
+        if self.lift is not None:
+            remedy = f'raise z by {self.lift:.3f} m, or spawn it elsewhere'
+        return SpawnError(
+            f"'{robot}' would be spawned inside {self.other}: its link '{self.link}' is "
+            f'{self.depth:.3f} m deep in it; {remedy}',
+            SpawnCode.INVALID_POSE,
+        )
 
 
-def refuse_overlap(engine: Engine, robot: str) -> None:
-    """Raise SpawnError if ``robot`` is inside the world or another robot; nothing is changed."""
+def find_overlap(engine: Engine, robot: str) -> Overlap | None:
+    """Return the deepest overlap of ``robot`` with the world or a robot; nothing is changed."""
     probe = _OverlapProbe(engine, robot)
     found = probe.deepest()
-    if found is None:
-        return
-    lift = None if found.is_robot else probe.lift()
-    if lift is None:
-        remedy = 'spawn it elsewhere'
-    else:
-        remedy = f'raise z by {lift:.3f} m, or spawn it elsewhere'
-    raise SpawnError(
-        f"'{robot}' would be spawned inside {found.other}: its link '{found.link}' is "
-        f'{found.depth:.3f} m deep in it; {remedy}',
-        SpawnCode.INVALID_POSE,
-    )
+    if found is None or found.is_robot:
+        return found
+    return replace(found, lift=probe.lift())
 
 
 class _OverlapProbe:

@@ -23,7 +23,7 @@ from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
 from amr_description.sim.engine import compiler_message, compiler_warnings, Engine, LONGEST_STEP
 from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
-from amr_description.sim.overlap import refuse_overlap
+from amr_description.sim.overlap import find_overlap
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import (
@@ -141,7 +141,14 @@ class MujocoWorld:
                 f"there is no robot '{name}'; there are: {', '.join(self.names) or 'none'}"
             ) from None
 
-    def spawn(self, name: str, description: str | Robot, pose: Transform = AT_ORIGIN) -> RobotView:
+    def spawn(
+        self,
+        name: str,
+        description: str | Robot,
+        pose: Transform = AT_ORIGIN,
+        *,
+        lift: bool = False,
+    ) -> RobotView:
         """
         Put a robot into the world, its joints held at their initial positions.
 
@@ -152,6 +159,8 @@ class MujocoWorld:
             description: A URDF, or what
                 :func:`~amr_description.sim.spawning.read_description` made of it.
             pose: Transform from the robot's root link to the world.
+            lift: Whether a robot that would be inside the ground, or another static body, is
+                lifted until it is free, which is logged.
 
         Returns:
             The robot, as a hardware component sees it.
@@ -166,13 +175,25 @@ class MujocoWorld:
         model = build_robot(description, self._log, strict=self._strict)
         contacts = self._contacts_of(description, model)
         spec = self._specs.setdefault(description.text, model.spec)
-        self._attach(name, spec, pose, contacts)
-        view = RobotView(self.engine, name, description, model, pose, self._log, self._seed)
-        try:
-            refuse_overlap(self.engine, name)
-        except SpawnError:
+        robot = description
+
+        def put(pose: Transform) -> RobotView:
+            self._attach(name, spec, pose, contacts)
+            return RobotView(self.engine, name, robot, model, pose, self._log, self._seed)
+
+        view = put(pose)
+        overlap = find_overlap(self.engine, name)
+        if overlap is not None:
             self._detach(name)
-            raise
+            if not lift or overlap.lift is None:
+                raise overlap.error(name)
+            x, y, z = pose.translation
+            view = put(Transform((x, y, z + overlap.lift), pose.rotation))
+            self._log(
+                Severity.INFO,
+                f"'{name}' is lifted by {overlap.lift:.3f} m: its link '{overlap.link}' would be "
+                f'{overlap.depth:.3f} m deep in {overlap.other}',
+            )
         self._robots[name] = view
         self._index_roots()
         return view
@@ -236,9 +257,12 @@ class MujocoWorld:
         self.engine.recompile()
 
     def _delete(self, name: str) -> None:
-        """Delete from the spec what was attached, including its default class."""
+        """Delete from the spec what was attached, including its assets and its default class."""
         spec = self.engine.spec
         spec.delete(spec.frame(name))
+        for asset in (*spec.meshes, *spec.textures, *spec.materials):
+            if asset.name.startswith(f'{name}/'):
+                spec.delete(asset)
         defaults = spec.find_default(f'{name}/main')
         if defaults is not None:
             spec.delete(defaults)

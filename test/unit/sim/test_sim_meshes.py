@@ -85,6 +85,16 @@ def test_scale_is_applied_once(tmp_path, name):
     assert world.robot('crate').pose('base_link').translation[2] == pytest.approx(0.1, abs=1e-3)
 
 
+def test_a_robot_of_meshes_may_go_and_come_again(tmp_path):
+    write(tmp_path / 'a.obj', CRATES['a.obj'])
+    world = spawned(tmp_path, urdf('a.obj'))
+    count = world.engine.model.nmesh
+    world.remove('crate')
+    assert world.engine.model.nmesh == 0
+    world.spawn('crate', urdf(str(tmp_path / 'a.obj')), Transform((0.0, 0.0, 0.25)))
+    assert world.engine.model.nmesh == count > 0
+
+
 def prepared(folder, text):
     """The spec of a description's meshes, ready to compile."""
     tree = etree.fromstring(text)

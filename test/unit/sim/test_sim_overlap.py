@@ -116,3 +116,28 @@ def test_a_base_that_stands_fixed_may_go_into_the_ground(world):
     foot = '<link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision>'
     buried = ARM.replace('<link name="base"/>', f'{foot}</link>')
     world.spawn('arm', buried, at(0.0, 0.0, -0.9))
+
+
+@pytest.mark.parametrize(
+    ('place', 'height'), [(at(0, 0, -0.1), 0.0), (at(5, 0, 0.15), 0.2), (at(-2, 0, 0.3), 0.3)]
+)
+def test_a_robot_that_may_be_lifted_stands_on_what_it_was_in(things, place, height):
+    said = []
+    world = MujocoWorld(things, log=lambda severity, text, **_: said.append(text))
+    robot = world.spawn('amr', AMR, place, lift=True)
+    assert robot.pose('base_footprint').translation[2] == pytest.approx(height, abs=TOLERANCE)
+    lifted = height - place.translation[2]
+    assert said == (
+        []
+        if lifted < TOLERANCE
+        else [f"'amr' is lifted by {lifted:.3f} m: {said[0].partition(': ')[2]}"]
+    )
+    world.step(5)
+    world.reset()
+    assert robot.pose('base_footprint').translation[2] == pytest.approx(height, abs=TOLERANCE)
+
+
+def test_no_robot_is_lifted_out_of_another(world):
+    world.spawn('one', AMR)
+    with pytest.raises(SpawnError, match='spawned inside link .* of robot .*; spawn it elsewhere'):
+        world.spawn('two', AMR, lift=True)
