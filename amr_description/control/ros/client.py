@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from controller_manager_msgs import srv
-from controller_manager_msgs.msg import HardwareComponentState
+from controller_manager_msgs.msg import ControllerState, HardwareComponentState
 from lifecycle_msgs.msg import State
 from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
 from rclpy.client import Client
@@ -98,7 +98,11 @@ class ManagerClient:
 
     def states(self) -> dict[str, str]:
         """Return the states of all loaded controllers, by their names."""
-        return {each.name: each.state for each in self.query(srv.ListControllers).controller}
+        return {name: each.state for name, each in self.controllers().items()}
+
+    def controllers(self) -> dict[str, ControllerState]:
+        """Return all loaded controllers, by their names."""
+        return {each.name: each for each in self.query(srv.ListControllers).controller}
 
     def components(self) -> list[HardwareComponentState]:
         """Return the hardware components."""

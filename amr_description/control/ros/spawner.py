@@ -17,6 +17,7 @@ from pathlib import Path
 import sys
 from typing import Any
 
+from controller_manager_msgs.msg import ControllerState
 from rclpy.node import Node
 
 from amr_description.colors import BLUE, colored, CYAN, GREEN, YELLOW
@@ -47,9 +48,14 @@ class Spawner:
         Spawn all controllers, or those before ``stopped()``, which is asked before each.
 
         Raises:
-            ControllerError: One has failed; the reason is in it. The others are not spawned.
+            ControllerError: One has failed; the reason is in it. The others are not spawned,
+                unless the options say so: then it is logged.
             ParameterError: A parameter file is no good.
         """
+        if self._options.continue_on_error:
+            for line in self.spawn_what_can_be(stopped):
+                self._log.warning(line)
+            return
         group = []
         for plan in self._options.plans:
             if stopped():
@@ -59,17 +65,46 @@ class Spawner:
             if self._options.as_group:
                 group.append(plan.name)
             else:
-                self._activate(
-                    [plan.name],
-                    done=f'Configured and activated {plan.name}',
-                    failed=f'Failed to activate controller : {plan.name}',
-                )
+                self._activate_one(plan.name)
         if group and not stopped():
             self._activate(
                 group,
                 done=f'Configured and activated all the parsed controllers list : {group}!',
                 failed=f'Failed to activate the parsed controllers list : {group}',
             )
+
+    def spawn_what_can_be(self, stopped: Callable[[], bool] = lambda: False) -> Iterator[str]:
+        """
+        Spawn all controllers that can be; yield a line for each that is left out or inactive.
+
+        Broadcasters and drives come in the order of the plans, a controller that commands or
+        reads another one after that one. Of those that claim the same command interfaces the
+        first one is activated.
+        """
+        ready = []
+        for plan in self._options.plans:
+            if stopped():
+                return
+            try:
+                ready += [plan.name] if self._prepare(plan) else []
+            except (ControllerError, ParameterError) as error:
+                yield f'{error}; it is left out'
+        for name in in_order_of_chains(ready, self._manager.controllers()):
+            if stopped():
+                return
+            controllers = self._manager.controllers()
+            holder, interfaces = claimed_by_others(name, controllers)
+            if holder:
+                yield (
+                    f'{name} stays inactive: {holder} has claimed {", ".join(interfaces)}; for '
+                    f'the other one:  ros2 control switch_controllers --deactivate {holder} '
+                    f'--activate {name}'
+                )
+                continue
+            try:
+                self._activate_one(name)
+            except ControllerError as error:
+                yield f'{error}; it stays inactive'
 
     def unload(self) -> None:
         """Deactivate and unload those that are loaded. Raises ControllerError: one failed."""
@@ -122,6 +157,13 @@ class Spawner:
             raise ControllerError(self._failure(f'Failed to configure controller {name}', name))
         return not plan.inactive
 
+    def _activate_one(self, name: str) -> None:
+        self._activate(
+            [name],
+            done=f'Configured and activated {name}',
+            failed=f'Failed to activate controller : {name}',
+        )
+
     def _activate(self, names: Sequence[str], *, done: str, failed: str) -> None:
         """Activate with one request. Raises ControllerError."""
         message = self._switch(activate=names)
@@ -157,6 +199,37 @@ class Spawner:
 
     def _log_colored(self, color: str, text: str) -> None:
         self._log.info(colored(text, color, sys.stderr))
+
+
+def in_order_of_chains(
+    names: Sequence[str], controllers: Mapping[str, ControllerState]
+) -> list[str]:
+    """Return names so that each comes after those whose interfaces it needs, else as they are."""
+
+    def needs(name: str) -> set[str]:
+        state = controllers[name]
+        interfaces = (*state.required_command_interfaces, *state.required_state_interfaces)
+        return {interface.partition('/')[0] for interface in interfaces} & {*names} - {name}
+
+    waiting, ordered = list(names), list[str]()
+    while waiting:
+        free = [name for name in waiting if not needs(name) & {*waiting}]
+        # A circle is for the manager to refuse.
+        ordered.append((free or waiting)[0])
+        waiting.remove(ordered[-1])
+    return ordered
+
+
+def claimed_by_others(
+    name: str, controllers: Mapping[str, ControllerState]
+) -> tuple[str, list[str]]:
+    """Return who has claimed command interfaces that a controller needs, and which; '': nobody."""
+    wanted = controllers[name].required_command_interfaces
+    for other in controllers.values():
+        common = [each for each in wanted if each in other.claimed_interfaces]
+        if other.name != name and common:
+            return other.name, common
+    return '', []
 
 
 @contextmanager

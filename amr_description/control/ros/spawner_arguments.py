@@ -53,6 +53,7 @@ class SpawnOptions:
     as_group: bool
     activate_asap: bool
     unload_on_kill: bool
+    continue_on_error: bool
 
 
 def parse(words: Sequence[str]) -> SpawnOptions:
@@ -78,6 +79,7 @@ def parse(words: Sequence[str]) -> SpawnOptions:
         as_group=options.activate_as_group,
         activate_asap=options.switch_asap,
         unload_on_kill=options.unload_on_kill,
+        continue_on_error=options.continue_on_error,
     )
 
 
@@ -231,6 +233,12 @@ def _common(*, switch_asap: bool) -> ArgumentParser:
         )
     options.add_argument(
         '--activate-as-group', action='store_true', help='activate all with one request'
+    )
+    options.add_argument(
+        '--continue-on-error',
+        action='store_true',
+        help='name what fails, leave a controller inactive whose command interfaces another one '
+        'has claimed, and spawn the others, each after those that it is chained to',
     )
     options.add_argument(
         '--switch-asap',

@@ -19,6 +19,7 @@ DEFAULTS = SpawnOptions(
     as_group=False,
     activate_asap=True,
     unload_on_kill=False,
+    continue_on_error=False,
 )
 
 

@@ -5,6 +5,7 @@
 import signal
 import subprocess
 
+from controller_manager_msgs.msg import ControllerState
 import pytest
 from rcl_interfaces.srv import GetParameters
 from support.control_fakes import WHEELS
@@ -12,7 +13,7 @@ from support.manager_host import ros_in_this_process, running_host
 from support.ros_processes import command, environment, PATIENCE, run
 from support.running_programs import Program
 
-from amr_description.control.ros.spawner import Spawner
+from amr_description.control.ros.spawner import in_order_of_chains, Spawner
 from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.ros.service_calls import call, NoAnswerError
@@ -227,6 +228,58 @@ def test_a_controller_that_cannot_be_configured_has_its_reason(spawner, tmp_path
     file.write_text(f'lopsided: {{ros__parameters: {{type: {TYPE}, left_wheel_names: [a]}}}}')
     with pytest.raises(ControllerError, match='^Failed to configure controller lopsided: .*wheel'):
         spawner('lopsided', '-p', str(file)).spawn()
+
+
+def test_what_cannot_be_is_named_and_the_rest_is_spawned(host, spawner, said, tmp_path):
+    """A type that is not there, wheels that another one has claimed; in the order of chains."""
+    file = tmp_path / 'robot.yaml'
+    wheels = f'left_wheel_names: [{WHEELS[0]}], right_wheel_names: [{WHEELS[2]}]'
+    drive = f'type: {TYPE}, {wheels}, wheel_separation: 0.3, wheel_radius: 0.1'
+    file.write_text(
+        'arm: {ros__parameters: {type: vendor/Arm}}\n'
+        f'other: {{ros__parameters: {{{drive}}}}}\n'
+        f'broken: {{ros__parameters: {{{drive}, cmd_vel_timeout: long}}}}'
+    )
+    words = ['-p', str(file), '--continue-on-error']
+    spawner(JOINTS, DRIVE, 'arm', 'broken', 'other', *words).spawn()
+    assert host.client.states() == {
+        JOINTS: 'active',
+        DRIVE: 'active',
+        'other': 'inactive',
+    }
+    missing, broken, claimed = [line for line in said() if 'left out' in line or 'stays' in line]
+    assert missing.startswith('Failed loading controller arm: ')
+    assert "'vendor/Arm'" in missing
+    assert missing.endswith('; it is left out')
+    assert broken.startswith('Failed loading controller broken: ')
+    assert claimed == (
+        f'other stays inactive: {DRIVE} has claimed {WHEELS[0]}/velocity, {WHEELS[2]}/velocity; '
+        f'for the other one:  ros2 control switch_controllers --deactivate {DRIVE} '
+        '--activate other'
+    )
+
+
+def test_controllers_are_activated_after_those_that_they_are_chained_to():
+    def state(name, *commands, states=()):
+        return ControllerState(
+            name=name,
+            required_command_interfaces=list(commands),
+            required_state_interfaces=list(states),
+        )
+
+    given = {
+        each.name: each
+        for each in (
+            state('drive', 'left/velocity', 'right/velocity'),
+            state('filter', states=['drive/speed']),
+            state('left', 'wheel_left/velocity'),
+            state('right', 'wheel_right/velocity'),
+            state('ring_a', 'ring_b/x'),
+            state('ring_b', 'ring_a/x'),
+        )
+    }
+    ordered = in_order_of_chains(list(given), given)
+    assert ordered == ['left', 'right', 'drive', 'filter', 'ring_a', 'ring_b']
 
 
 def test_two_spawners_of_one_controller_take_turns(host):
