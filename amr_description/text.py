@@ -7,12 +7,14 @@ known words closest to a misspelt one.
 
 from collections.abc import Collection, Iterable, Sequence
 from difflib import get_close_matches
+import re
 
 _LONGEST_WORD = 60
 _MOST_WORDS = 300
 _SHOWN_CHARACTERS = 80
 _LONGEST_LINE = 200
 _TAIL = 60
+_NOT_PLAIN = re.compile(r'[^A-Za-z0-9_.-]')
 _TRUTH_VALUES = {'true': True, '1': True, 'false': False, '0': False}
 
 
@@ -52,6 +54,11 @@ def quote_all(texts: Sequence[str], limit: int = 10) -> str:
         return 'none'
     more = f' and {len(texts) - limit} more' if len(texts) > limit else ''
     return ', '.join(quote(text) for text in texts[:limit]) + more
+
+
+def plain_name(text: str) -> str:
+    """Return a name with ``_`` for what is no letter of ASCII, digit, ``_``, ``.`` or ``-``."""
+    return _NOT_PLAIN.sub('_', text)
 
 
 def truth(text: str) -> bool | None:

@@ -8,13 +8,13 @@ YAML and the URDF are read where they are needed only: a stack of the shipped ro
 
 from pathlib import Path
 
-from amr_description.ament_index import parameter_path, path_of
-from amr_description.errors import DescriptionError, ResourceError, UsageError
+from amr_description.ament_index import path_of
+from amr_description.errors import DescriptionError, UsageError
 from amr_description.text import one_line
 
 URDF = 'package://amr_description/urdf/amr.urdf'
 """The robot of this package."""
-_SHIPPED = 'package://amr_description/config/controllers.yaml'
+SHIPPED = 'package://amr_description/config/controllers.yaml'
 """The parameters of its controllers."""
 _MANAGER = 'controller_manager'
 
@@ -35,21 +35,21 @@ def controllers_file(controllers: str, urdf: str, description: str) -> Path:
     """
     if controllers:
         return path_of(controllers, 'controllers')
-    shipped = path_of(_SHIPPED)
+    shipped = path_of(SHIPPED)
     if urdf == URDF:
         return shipped
+    from amr_description.model.controller_files import existing_files, foreign_wheels, named_files
+    from amr_description.model.urdf import parse
+
     try:
-        named = _named_by(description)
+        robot = parse(description)
+        named = named_files(robot)
     except DescriptionError:  # the node that reads it says where, and what would do
         return shipped
-    for written in named:
-        try:
-            path = parameter_path(written)
-        except ResourceError:  # of a package that is not installed
-            continue
-        if path.is_file():
-            return path
-    foreign = _foreign_wheels(description, shipped)
+    found = existing_files(named)
+    if found:
+        return found[0]
+    foreign = foreign_wheels(robot, shipped)
     if not foreign:
         return shipped
     if named:
@@ -84,31 +84,3 @@ def require_namespaces(file: Path, namespaces: list[str]) -> None:
         f'write /**/{_MANAGER}: there, and /**/ before the names of the controllers, for robots '
         'in any namespace'
     )
-
-
-def _named_by(description: str) -> list[str]:
-    """Return what the ros2_control plugins of a URDF name in ``<parameters>``, as written."""
-    from amr_description.model.gazebo import gazebo_plugins_of
-    from amr_description.model.urdf import parse
-
-    hosts = [each for each in gazebo_plugins_of(parse(description)) if each.hosts_ros2_control]
-    return [path for each in hosts for path in each.parameters]
-
-
-def _foreign_wheels(description: str, file: Path) -> list[str]:
-    """Return the wheels in a parameter file that a robot with ``<ros2_control>`` lacks."""
-    from amr_description.model.ros2_control_tag import hardware_of
-    from amr_description.model.urdf import parse
-    from amr_description.parameter_files import flatten, read_parameter_file, sections
-
-    robot = parse(description)
-    if not hardware_of(robot):
-        return []
-    wheels = [
-        wheel
-        for section in sections(read_parameter_file(file))
-        for keys, value in flatten(section.parameters)
-        if str(keys[-1]).endswith('_wheel_names')
-        for wheel in value
-    ]
-    return [wheel for wheel in wheels if not robot.has_joint(wheel)]

@@ -19,7 +19,9 @@ module                   what it holds
 ``urdf_links.py``        its ``<link>`` and ``<material>`` elements
 ``urdf_joints.py``       its ``<joint>`` elements
 ``ros2_control_tag.py``  ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
+``fixing.py``            a robot bolted to the ground
 ``gazebo.py``            ``<gazebo>`` plugins and sensors
+``controller_files.py``  parameter files: which are a robot's, what controllers they have types for
 ``gazebo_plugins.py``    … the plugins that drive a robot without ros2_control, and what they say
 ``gazebo_drives.py``     … what each kind of them becomes
 ``gazebo_builder.py``    … collects it: hardware, controllers, lines to say

@@ -20,6 +20,7 @@ from std_msgs.msg import String
 
 from amr_description.errors import AmrError, UsageError
 from amr_description.model.description_file import description_at, mappings_of
+from amr_description.model.fixing import fixed_to_world
 from amr_description.model.frames import Transform
 from amr_description.ros.arguments import other_arguments, ros_arguments
 from amr_description.ros.messages import fill_pose
@@ -55,6 +56,12 @@ def parser() -> argparse.ArgumentParser:
     for axis, name in zip('RPY', ('roll', 'pitch', 'yaw'), strict=True):
         options.add_argument(f'-{axis}', type=float, default=0.0, metavar='RAD', help=name)
     options.add_argument(
+        '-fixed',
+        '--fixed',
+        action='store_true',
+        help='fix the root link to the world, as that of an arm',
+    )
+    options.add_argument(
         'arguments', nargs='*', metavar='NAME:=VALUE', help='arguments of a xacro file'
     )
     return options
@@ -73,12 +80,14 @@ def create(args: list[str] | None) -> int:
                 automatically_declare_parameters_from_overrides=True,
             )
         try:
+            text = _description(node, options)
+            # Without a namespace of its own the robot is in the one that its URDF names.
             request = SpawnEntity.Request(
                 name=options.name,
                 allow_renaming=options.allow_renaming,
-                entity_namespace=node.get_namespace(),
+                entity_namespace=node.get_namespace().removeprefix('/'),
                 uri=options.file or '',
-                resource_string=_description(node, options),
+                resource_string=fixed_to_world(text) if options.fixed else text,
             )
             pose = Transform.from_xyz_rpy(
                 (options.x, options.y, options.z), (options.R, options.P, options.Y)

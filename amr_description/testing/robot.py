@@ -5,7 +5,9 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import math
+from pathlib import Path
 from typing import Any
+import warnings
 
 from controller_manager_msgs.srv import ListControllers
 from nav_msgs.msg import Odometry
@@ -17,7 +19,14 @@ from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.spawner import Spawner
 from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import SimulationError
+from amr_description.model.controller_files import (
+    declared_controllers,
+    DeclaredController,
+    manager_of,
+    spawner_words,
+)
 from amr_description.model.frames import Transform
+from amr_description.model.robot import Robot as Description
 from amr_description.ros.messages import fill_pose
 from amr_description.testing.lock_step import LatestMessage, LockStep, TIMEOUT
 from amr_description.testing.readings import (
@@ -155,30 +164,57 @@ def _latest(readings: Node, message_type: Any, topic: str) -> LatestMessage | No
     return LatestMessage(readings, message_type, topic) if topic else None
 
 
+def _spawn_in(
+    manager: ManagerClient,
+    node: Node,
+    declared: Sequence[DeclaredController],
+    names: Sequence[str] | None,
+) -> None:
+    """Spawn the controllers that are named, or as many of those that are declared as can be."""
+    known = {each.name: each for each in declared}
+    chosen = known if names is None else names
+    wanted = [known.get(name, DeclaredController(name, '')) for name in chosen]
+    if not wanted:
+        return
+    spawner = Spawner(node, manager, parse(spawner_words(wanted)))
+    if names is not None:
+        spawner.spawn()
+        return
+    for line in spawner.spawn_what_can_be():
+        warnings.warn(line, stacklevel=2)
+
+
 def spawn_controllers(
-    lock_step: LockStep, names: Sequence[str] | None, namespace: str = ''
+    lock_step: LockStep,
+    description: Description,
+    files: Sequence[Path],
+    names: Sequence[str] | None,
+    namespace: str = '',
 ) -> Topics:
     """
     Load, configure and activate controllers; return the topics of the active ones.
 
     Args:
         lock_step: The simulator.
-        names: The controllers, in order; None: all that the manager has a type for.
-        namespace: Of the controller manager.
+        description: The robot, which names its manager.
+        files: The parameter files of the controllers.
+        names: The controllers, in order; None: all that the files have types for. One that cannot
+            be, or claims what another one has claimed, is then left out or inactive, with a
+            warning.
+        namespace: Of the controller manager; empty: what the URDF says, or none.
 
     Raises:
-        ControllerError, ParameterError: A controller cannot be spawned.
+        ControllerError, ParameterError: A controller that is named cannot be spawned.
     """
-    inside = f'/{namespace.strip("/")}'
+    of_the_urdf, manager_name = manager_of(description)
+    inside = f'/{namespace.strip("/")}' if namespace else of_the_urdf
     manager = ManagerClient(
         lock_step.node,
-        f'{inside.rstrip("/")}/controller_manager',
+        f'{inside.rstrip("/")}/{manager_name}',
         timeout=TIMEOUT,
         silent=5.0,
     )
-    wanted = manager.typed_controllers() if names is None else [*names]
-    if wanted:
-        Spawner(lock_step.node, manager, parse(wanted)).spawn()
+    _spawn_in(manager, lock_step.node, declared_controllers(files, inside, manager_name), names)
     listed = manager.query(ListControllers).controller
     active = [(each.type, each.name) for each in listed if each.state == 'active']
     drive = next((name for kind, name in active if kind.endswith(DRIVE)), None)

@@ -42,6 +42,7 @@ from simulation_interfaces.srv import DeleteEntity
 from amr_description.ament_index import path_of
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
+from amr_description.model.controller_files import files_of
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.model.ros2_control_tag import hardware_of
@@ -84,6 +85,7 @@ class Simulation:
         world: str | Path = 'empty',
         rtf: float = 0.0,
         activate: Sequence[str] | None = None,
+        name: str = '',
         pose: Transform = _AT_ORIGIN,
         robots: Mapping[str, Transform] | None = None,
         parameters: Mapping[str, Any] | None = None,
@@ -93,13 +95,18 @@ class Simulation:
 
         Args:
             urdf: A URDF or xacro file, a ``package://`` URI, or the text itself.
-            controllers: Parameter file of the controller manager; None: that which the URDF
-                names, else that of this package.
+            controllers: Parameter file of the controller manager; None: those that the URDF
+                names, else that of this package, if it is for this robot.
             world: A shipped name or an MJCF file.
             rtf: Real-time factor, to watch the simulation; 0: as fast as possible. The results
                 are the same.
-            activate: The controllers to spawn, in order; None: all of the parameter file.
-            pose: Transform from the robot's root link to the world.
+            activate: The controllers to spawn, in order; None: all of the parameter file. One
+                that cannot be, or claims what another one has claimed, is then left out or
+                inactive, with a warning.
+            name: Of the robot in the world; empty: that of the URDF, with _ for blanks and the
+                like.
+            pose: Transform from the robot's root link to the world. A robot that would be inside
+                the ground is lifted until it is free.
             robots: Several robots instead of one: name → pose. Each is in the namespace of its
                 name, which the parameter file has to cover (``/**/controller_manager: …``).
             parameters: Further parameters of ``mujoco_sim``.
@@ -108,6 +115,9 @@ class Simulation:
             raise SimulationError(f'rtf is {rtf}; a real-time factor is 0 or above')
         self._urdf = str(urdf)
         self._activate = activate
+        if name and robots is not None:
+            raise SimulationError(f"name is '{name}', and robots have the names of robots")
+        self._name = name
         self._poses: Mapping[str, Transform] = {'': pose} if robots is None else robots
         self._rtf = rtf
         self._parameters: dict[str, Any] = {
@@ -128,7 +138,9 @@ class Simulation:
         with ExitStack() as stack:
             self._description = self._read_description()
             # Before anything is started: what is wrong with it is told at once.
-            self._is_controlled = bool(hardware_of(parse_urdf(self._description)))
+            self._robot_model = parse_urdf(self._description)
+            self._is_controlled = bool(hardware_of(self._robot_model))
+            self._files = self._parameter_files()
             domain = stack.enter_context(own_domain())
             self._simulator = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack, domain)
@@ -184,13 +196,22 @@ class Simulation:
             return self._urdf
         return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=6))
 
+    def _parameter_files(self) -> list[Path]:
+        """Return the parameter files that the simulator reads, by the same rule."""
+        given = self._parameters['controllers']
+        if given:
+            return [Path(given)]
+        return files_of(self._robot_model)
+
     def _spawn(self, name: str, pose: Transform) -> Robot:
         """``name``: of the entity and its namespace; empty: that of the URDF, no namespace."""
         lock_step, namespace = self._running, name
-        name = spawn(lock_step, self._description, pose, name, namespace)
+        name = spawn(lock_step, self._description, pose, name or self._name, namespace)
         topics = Topics()
         if self._is_controlled:
-            topics = spawn_controllers(lock_step, self._activate, namespace)
+            topics = spawn_controllers(
+                lock_step, self._robot_model, self._files, self._activate, namespace
+            )
         self._robots[name] = Robot(lock_step, self._readings, name, namespace, topics)
         return self._robots[name]
 

@@ -28,7 +28,8 @@ from amr_description.bringup import (
 from amr_description.bringup.conditions import Condition
 from amr_description.bringup.controller_files import controllers_file, URDF
 from amr_description.bringup.input_files import Note
-from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS, how_to_drive
+from amr_description.bringup.stacks.next_steps import how_to_drive
+from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
 

@@ -1,9 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stack ``simulation``: the robot in MuJoCo, both controllers active, ready to drive."""
+"""The stack ``simulation``: the robot in MuJoCo, its controllers active, ready to drive."""
 
-import os
-import re
+import math
 from typing import Annotated
 from xml.etree import ElementTree
 
@@ -15,12 +14,20 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.controller_files import controllers_file, URDF
-from amr_description.bringup.environment import setup_command
+from amr_description.bringup.controller_files import URDF
+from amr_description.bringup.description import ParameterValue
+from amr_description.bringup.stacks.controllers import (
+    ABOUT_ACTIVATE,
+    AMR,
+    ControllerPlan,
+    plan_controllers,
+    spawners,
+)
+from amr_description.bringup.stacks.next_steps import how_to_drive, how_to_go_on
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
-from amr_description.errors import UsageError
+from amr_description.errors import DescriptionError, UsageError
+from amr_description.text import plain_name
 
-_NO_NAME = re.compile(r'[^A-Za-z0-9_.-]')
 ABOUT_CONTROLLERS = (
     'parameters of the controllers; empty: the file that the URDF names, for amr the shipped one'
 )
@@ -30,25 +37,31 @@ def simulation(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     controllers: Annotated[str, ABOUT_CONTROLLERS] = '',
+    activate: Annotated[str, ABOUT_ACTIVATE] = '',
     world: Annotated[str, 'world to simulate'] = 'empty',
     rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
     paused: Annotated[bool, 'whether time stands still at first'] = False,
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
+    name: Annotated[str, 'name of the robot in the simulator; empty: that of the URDF'] = '',
+    x: Annotated[float, 'where the root link is spawned, m'] = 0.0,
+    y: Annotated[float, 'm'] = 0.0,
+    z: Annotated[str, 'm; empty: on the ground, amr 0.2 above it'] = '',
+    yaw: Annotated[float, 'its heading, rad'] = 0.0,
+    fixed: Annotated[
+        bool, 'whether the root link is fixed to the world, as that of an arm'
+    ] = False,
+    lift: Annotated[
+        bool, 'whether a robot that would touch the world is lifted until it is free'
+    ] = True,
 ) -> Stack:
-    """The robot in MuJoCo with both controllers, ready to drive."""
-    if not rtf >= 0:
-        raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
+    """The robot in MuJoCo with its controllers, ready to drive."""
     description = robot_description(urdf, xacro_args)
-    file = controllers_file(controllers, urdf, description)
+    if fixed:
+        description = _fixed(description, urdf)
+    plan = plan_controllers(urdf, description, controllers, activate)
 
     # 1. The simulated world, empty so far; it publishes /clock.
-    mujoco_sim = Node(
-        'mujoco_sim',
-        parameters=[
-            {'world': world, 'real_time_factor': rtf, 'paused': paused, 'controllers': str(file)}
-        ],
-        on_exit='shutdown',
-    )
+    mujoco_sim = _simulator(world, rtf, paused, plan.parameter, lift)
 
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
@@ -57,32 +70,36 @@ def simulation(
     )
 
     # 3. The robot is spawned; its <ros2_control> block brings up /controller_manager.
-    name = entity_name(description)
-    create = Node('create', arguments=['-topic', 'robot_description', '-name', name, '-z', '0.2'])
+    name = name or entity_name(description)
+    create = Node(
+        'create',
+        arguments=['-topic', 'robot_description', '-name', name, *_pose(name, x, y, z, yaw)],
+    )
 
     # 4. The controllers, one after the other, once there is a controller manager.
-    joint_state_broadcaster = Node(
-        'spawner', arguments=['joint_state_broadcaster'], start_when=exited_cleanly(create)
-    )
-    diff_drive_controller = Node(
-        'spawner',
-        arguments=['diff_drive_controller'],
-        start_when=exited_cleanly(joint_state_broadcaster),
+    controlled = spawners(plan, exited_cleanly(create))
+
+    up = exited_cleanly(controlled[-1] if controlled else create)
+    return Stack(
+        [mujoco_sim, robot_state_publisher, create, *controlled, *page(viewer, up)],
+        ready_when=up,
+        next_steps=_next_steps(viewer, plan, description),
+        notes=[*notes_on([path_of(urdf), *plan.files]), *plan.notes],
     )
 
-    return Stack(
-        [
-            mujoco_sim,
-            robot_state_publisher,
-            create,
-            joint_state_broadcaster,
-            diff_drive_controller,
-            *page(viewer, exited_cleanly(diff_drive_controller)),
-        ],
-        ready_when=exited_cleanly(diff_drive_controller),
-        next_steps=how_to_drive(viewer),
-        notes=notes_on([path_of(urdf), file]),
-    )
+
+def _simulator(world: str, rtf: float, paused: bool, controllers: str, lift: bool) -> Node:
+    if not rtf >= 0:
+        raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
+    parameters: dict[str, ParameterValue] = {
+        'world': world,
+        'real_time_factor': rtf,
+        'paused': paused,
+        'controllers': controllers,
+    }
+    if not lift:
+        parameters['lift'] = False
+    return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
 
 
 def entity_name(urdf: str) -> str:
@@ -91,17 +108,35 @@ def entity_name(urdf: str) -> str:
         name = ElementTree.fromstring(urdf).get('name', '')
     except ElementTree.ParseError:  # robot_state_publisher says where
         name = ''
-    return _NO_NAME.sub('_', name) or 'robot'
+    return plain_name(name) or 'robot'
 
 
-def how_to_drive(viewer: bool) -> str:
-    """Return the next steps of a user; ``viewer``: whether the page is served."""
-    page = 'open the page whose address comes below, or ' if viewer else ''
-    return f"""{page}drive with, in another shell,
-    {setup_command('amr_description', os.environ)}
-    ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
-        -r /cmd_vel:=/diff_drive_controller/cmd_vel
-or for one command
-    ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \\
-        "{{header: {{frame_id: base_link}}, twist: {{linear: {{x: 0.5}}, angular: {{z: 0.0}}}}}}"
-Ctrl-C stops all."""
+def _pose(name: str, x: float, y: float, z: str, yaw: float) -> list[str]:
+    """Return the pose as arguments of ``create``, which puts a robot without a z on the ground."""
+    height = z or ('0.2' if name == AMR else '')
+    try:
+        numbers = [x, y, yaw, float(height or 0.0)]
+    except ValueError:
+        raise UsageError(f"z:={z}: '{z}' is not a number") from None
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f'x:={x} y:={y} z:={z} yaw:={yaw}: a pose is of finite numbers')
+    words = [('-x', x and str(x)), ('-y', y and str(y)), ('-z', height), ('-Y', yaw and str(yaw))]
+    return [word for option, value in words if value for word in (option, str(value))]
+
+
+def _fixed(description: str, urdf: str) -> str:
+    """Return a description whose root is fixed to the world."""
+    from amr_description.model.fixing import fixed_to_world
+
+    try:
+        return fixed_to_world(description)
+    except DescriptionError as error:
+        raise UsageError(f'fixed:=true: urdf:={urdf}: {error}') from None
+
+
+def _next_steps(viewer: bool, plan: ControllerPlan, description: str) -> str:
+    if plan.is_that_of_amr:
+        return how_to_drive(viewer)
+    from amr_description.model.urdf import parse
+
+    return how_to_go_on(viewer, plan, parse(description))

@@ -14,7 +14,6 @@ from pathlib import Path
 
 from rclpy.executors import Executor
 
-from amr_description.ament_index import own_share, parameter_path
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
@@ -28,8 +27,9 @@ from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.controllers.drive_files import drive_warnings
 from amr_description.errors import RequestError, SpawnError
+from amr_description.model.controller_files import files_of, missing_files, named_files
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import gazebo_plugins_of, ros2_control_host_of
+from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
@@ -47,6 +47,7 @@ from amr_description.sim.ros.plugin_controllers import (
 )
 from amr_description.sim.spawning import check_name, free_name, SpawnCode
 from amr_description.sim.world import MujocoWorld
+from amr_description.text import quote_all
 
 
 class Category(enum.IntEnum):
@@ -97,6 +98,7 @@ class EntityManager:
         log: Log,
         controllers: str,
         simulates_mocks: bool,
+        lift: bool,
         ros_args: Sequence[str],
     ) -> None:
         """
@@ -110,6 +112,7 @@ class EntityManager:
             log: Of the simulator.
             controllers: Path of the managers' parameter file, or empty.
             simulates_mocks: Mock hardware is simulated; False: it stays a mock.
+            lift: Whether a robot that would be inside the world is lifted until it is free.
             ros_args: ROS arguments for every manager and controller.
         """
         self._context = context
@@ -120,6 +123,7 @@ class EntityManager:
         self._log = log
         self._controllers = controllers
         self._simulates_mocks = simulates_mocks
+        self._lift = lift
         self._ros_args = ros_args
         self._entities: dict[str, Entity] = {}
         self._namespaces: set[str] = set()
@@ -246,14 +250,14 @@ class EntityManager:
         """Add robot, components (all of them active) and manager, between two cycles."""
         loop, world = self._loop_thread.loop, self._world
         if prepared is None:
-            world.spawn(name, robot, pose)
+            world.spawn(name, robot, pose, lift=self._lift)
             return None
         namespace = prepared.manager_node.node.get_namespace()
         rate = prepared.manager_node.parameters.update_rate
         self._check_namespace(namespace)
         if not loop.managers:
             world.timestep = physics_stepping(_period_of(rate), world.longest_step).step
-        view = world.spawn(name, robot, pose)
+        view = world.spawn(name, robot, pose, lift=self._lift)
         try:
             manager = prepared.bring_up(view, self._period(rate), self._simulates_mocks)
         except Exception:
@@ -329,17 +333,26 @@ class EntityManager:
 
     def _parameter_files(self, robot: Robot) -> Sequence[str]:
         """Return ``--params-file`` arguments: of the parameter, else the URDF, else shipped."""
-        paths = [self._controllers] if self._controllers else []
-        if not paths:
-            hosts = (p for p in gazebo_plugins_of(robot) if p.hosts_ros2_control)
-            paths = [str(parameter_path(path)) for host in hosts for path in host.parameters]
-        if not paths:
-            paths = [str(own_share() / 'config' / 'controllers.yaml')]
+        paths = [self._controllers] if self._controllers else self._files_of(robot)
         for path in paths:
             read_parameter_file(Path(path))  # its errors have a line number, rcl's have none
         for finding in drive_warnings(robot, paths):
             self._log(Severity.WARN, finding.text)
         return [argument for path in paths for argument in ('--params-file', path)]
+
+    def _files_of(self, robot: Robot) -> list[str]:
+        """Return the parameter files of a robot for which none is given; say if it has none."""
+        found, missing = files_of(robot), missing_files(named_files(robot))
+        remedy = 'another one is given by the parameter controllers of the simulator'
+        if missing:
+            why = f'a parameter file that it names is not there: {quote_all(missing)}'
+            self._log(Severity.WARN, f'{robot.source}: {why}; {remedy}')
+        elif not found:
+            why = 'it names no parameter file for its controllers'
+            self._log(
+                Severity.WARN, f'{robot.source}: {why}; {remedy.replace("another one", "one")}'
+            )
+        return [str(path) for path in found]
 
 
 def _destroy(entity: Entity) -> None:

@@ -63,7 +63,7 @@ class SimulationParameters:
     controllers: str = parameter(
         '',
         'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
-        'names, else that of this package',
+        'names, else that of this package, if it is for this robot',
         read_only=True,
     )
     strict: bool = parameter(
@@ -77,6 +77,12 @@ class SimulationParameters:
         'Whether mock_components/GenericSystem is simulated as any other hardware, or is a mock, '
         'whose states follow commands while the robot in the world stands still',
         choices=('simulate', 'mock'),
+        read_only=True,
+    )
+    lift: bool = parameter(
+        True,
+        'Whether a robot that would be spawned inside the ground, or another static body, is '
+        'lifted until it is free; else it is refused',
         read_only=True,
     )
     on_fault: str = parameter(
@@ -156,21 +162,28 @@ class Simulation:
             self.world.faults.on_fault = lambda: calls.put(self._on_fault)
             if parameters.paused:
                 self.loop_thread.loop.pause()
-            self.entities = EntityManager(
-                LoopContext(self.loop_thread, publisher, self.logs),
-                self.world,
-                ground_truth,
-                executor=executor,
-                log=self.log,
-                controllers=parameters.controllers,
-                simulates_mocks=parameters.mock_hardware == 'simulate',
-                ros_args=ros_args,
-            )
+            context = LoopContext(self.loop_thread, publisher, self.logs)
+            self.entities = self._entity_manager(context, ground_truth, ros_args)
         except Exception:
             self.logs.stop()
             raise
         add_validation_callback(node, SimulationParameters)
         node.add_post_set_parameters_callback(self._on_parameters_set)
+
+    def _entity_manager(
+        self, context: LoopContext, ground_truth: GroundTruth, ros_args: Sequence[str]
+    ) -> EntityManager:
+        return EntityManager(
+            context,
+            self.world,
+            ground_truth,
+            executor=self._executor,
+            log=self.log,
+            controllers=self.parameters.controllers,
+            simulates_mocks=self.parameters.mock_hardware == 'simulate',
+            lift=self.parameters.lift,
+            ros_args=ros_args,
+        )
 
     def start(self) -> None:
         """Start the control thread; time begins to pass, unless paused."""

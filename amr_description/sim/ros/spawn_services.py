@@ -31,7 +31,7 @@ from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import read_description, SpawnCode
-from amr_description.text import unwrap
+from amr_description.text import plain_name, unwrap
 
 FEATURES = (
     SimulatorFeatures.SPAWNING,
@@ -136,7 +136,7 @@ class SpawnServices:
         _check_frame(request.initial_pose)
         namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
         name = await self._simulation.entities.spawn(
-            request.name or robot.name,
+            request.name or plain_name(robot.name),
             robot,
             transform_of(request.initial_pose.pose),
             _checked_namespace(namespace),

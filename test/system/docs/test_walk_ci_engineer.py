@@ -90,7 +90,7 @@ def test_the_workflow(runner):
 def test_the_stack_of_the_package_is_found(runner):
     """As docs/your_own_robot.md starts it, in a shell that sources the workspace alone."""
     printed = runner.run('source install/setup.bash\nros2 launch rover rover_sim.py --print')
-    assert 'spawner imu_sensor_broadcaster' in printed
+    assert 'spawner joint_state_broadcaster imu_sensor_broadcaster' in printed
     assert str(runner.workspace / 'install/rover/share/rover/config/rover.yaml') in printed
 
 

@@ -84,7 +84,6 @@ def test_the_robot_in_the_simulator(robot, home):
         odometry = x(shell.run('ros2 topic echo --once --field pose.pose.position /odom'))
         assert 0.3 < truth < 1.0
         assert odometry == pytest.approx(truth, abs=0.02)
-        assert 'activated imu_sensor_broadcaster' in shell.run('ros2 run amr_description spawner')
         turning = shell.run('ros2 topic echo --once --field angular_velocity')
         assert abs(float(re.search(r'^z: (\S+)$', turning, re.MULTILINE)[1])) < 0.1
 

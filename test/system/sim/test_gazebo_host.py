@@ -77,7 +77,6 @@ def test_the_namespace_of_a_request_prevails(sim, hosted):
 @pytest.mark.parametrize(
     'inside, reason',
     [
-        ('<parameters>/no/such.yaml</parameters>', '/no/such.yaml'),
         ('<ros><namespace>left wing</namespace></ros>', "namespace is 'left wing', which ROS"),
         ('<controller_manager_name>c m</controller_manager_name>', "Invalid node name: .*'c m'"),
         ('<ros><remapping>a b</remapping></ros>', 'a b'),
@@ -87,3 +86,9 @@ def test_the_namespace_of_a_request_prevails(sim, hosted):
 def test_what_cannot_be_is_refused_in_one_line(sim, inside, reason):
     _, said = sim.refused(SpawnEntity, name='odd', resource_string=urdf(inside))
     assert re.search(reason, said), said
+
+
+def test_a_parameter_file_that_is_not_there_is_no_reason_to_refuse(sim):
+    inside = '<ros><namespace>odd</namespace></ros><parameters>/no/such.yaml</parameters>'
+    sim.do(SpawnEntity, name='odd', resource_string=urdf(inside))
+    sim.do(DeleteEntity, entity='odd')

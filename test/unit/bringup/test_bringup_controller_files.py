@@ -91,7 +91,7 @@ def test_a_robot_with_the_wheels_of_amr_has_its_controllers(share):
 
 
 @pytest.mark.parametrize('named', [[], ['/gone/cart.yaml'], ['$(find gone)/cart.yaml']])
-@pytest.mark.parametrize('function', [simulation, mock, fleet])
+@pytest.mark.parametrize('function', [mock, fleet])
 def test_another_robot_has_to_be_given_one(share, function, named):
     robot = urdf(share, *named)
     with pytest.raises(UsageError) as caught:
@@ -104,6 +104,35 @@ def test_another_robot_has_to_be_given_one(share, function, named):
     else:
         foreign = 'has the controllers of amr, and this robot has no joint joint_wheel_front_left'
         assert f'config/controllers.yaml {foreign}; ' in said
+
+
+@pytest.mark.parametrize('named', [[], ['/gone/cart.yaml']])
+def test_in_the_simulation_it_comes_up_without_controllers(share, named):
+    robot = urdf(share, *named)
+    made = stack(simulation, urdf=robot)
+    assert [node.executable for node in made.nodes] == [
+        'mujoco_sim', 'robot_state_publisher', 'create', 'viewer',
+    ]  # fmt: skip
+    why = 'it names no parameter file'
+    if named:
+        why = 'a file that it names in <parameters> is not there: "/gone/cart.yaml"'
+    note = f'urdf:={robot}: {why}; no controller is spawned: give controllers:=FILE'
+    assert ('WARNING', note) in made.notes
+    assert controllers_of(made) == ''
+
+
+def test_several_files_that_the_urdf_names_are_all_read(share):
+    other = share / 'config/more.yaml'
+    other.write_text('lift: {ros__parameters: {type: position_controllers/Lift}}')
+    made = stack(simulation, urdf=urdf(share, share / 'config/cart.yaml', other))
+    assert controllers_of(made) == '', 'the simulator reads what the URDF names'
+    (spawner,) = (node for node in made.nodes if node.executable == 'spawner')
+    assert list(spawner.arguments) == [
+        '--switch-asap',
+        *('--controller', 'diff_drive_controller'),
+        *('--controller', 'lift', '--param-file', str(other)),
+        '--continue-on-error',
+    ]
 
 
 def test_a_fleet_with_the_file_of_one_robot_is_told_what_to_write(share):

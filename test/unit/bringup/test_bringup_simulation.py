@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stack ``simulation``: the order of starts, and the parameters."""
 
+import re
+
 import pytest
 from support.paths import ROOT
 
@@ -11,6 +13,7 @@ from amr_description.bringup.stacks.simulation import simulation
 from amr_description.errors import AmrError
 from amr_description.model.description_file import located_text
 from amr_description.model.origins import with_file
+from amr_description.model.urdf import parse
 from amr_description.sim.spawning import check_name
 
 GRIPPER = str(ROOT / 'test/fixtures/urdf/gripper.urdf.xacro')
@@ -95,8 +98,130 @@ def test_parameters(installed):
 def test_the_robot_has_the_name_of_its_description(installed, tmp_path, urdf, name):
     (tmp_path / 'rover.urdf').write_text(urdf)
     create = stack(urdf=str(tmp_path / 'rover.urdf')).nodes[2]
-    assert create.arguments == ['-topic', 'robot_description', '-name', name, '-z', '0.2']
+    assert create.arguments == ['-topic', 'robot_description', '-name', name]
     check_name(name, ())
+
+
+@pytest.mark.parametrize(
+    ('given', 'words'),
+    [
+        ({}, ['-z', '0.2']),
+        ({'z': '0'}, ['-z', '0']),
+        ({'z': '-0.1', 'x': '1', 'yaw': '0.5'}, ['-x', '1.0', '-z', '-0.1', '-Y', '0.5']),
+    ],
+)
+def test_the_pose_is_as_asked(given, words):
+    create = stack(**given).nodes[2]
+    assert create.arguments == ['-topic', 'robot_description', '-name', 'amr', *words]
+
+
+def cart(folder, types, more=''):
+    """Write a cart that is no amr, and a parameter file; return the arguments of the stack."""
+    text = (ROOT / 'test/fixtures/urdf_good/cart.urdf').read_text()
+    (folder / 'cart.urdf').write_text(text.replace('</robot>', f'{more}</robot>'))
+    lines = ''.join(f'    {name}: {{type: {kind}}}\n' for name, kind in types.items())
+    file = folder / 'cart.yaml'
+    file.write_text(f'controller_manager:\n  ros__parameters:\n    update_rate: 50\n{lines}')
+    return {'urdf': str(folder / 'cart.urdf'), 'controllers': str(file)}
+
+
+STATES = 'joint_state_broadcaster/JointStateBroadcaster'
+DRIVE = 'diff_drive_controller/DiffDriveController'
+TYPES = {'base': DRIVE, 'lift': 'position_controllers/JointGroupPositionController', 'js': STATES}
+
+
+def spawners(made):
+    return [node for node in made.nodes if node.executable == 'spawner']
+
+
+def test_another_robot_gets_the_controllers_of_its_file(tmp_path):
+    made = stack(**cart(tmp_path, TYPES))
+    (spawner,) = spawners(made)
+    assert spawner.arguments == ['js', 'base', 'lift', '--continue-on-error']
+    assert spawner.namespace is None
+    assert '-r /cmd_vel:=/base/cmd_vel\n' in made.next_steps
+    assert 'ros2 topic pub --once /base/cmd_vel geometry_msgs/msg/TwistStamped' in made.next_steps
+
+
+def test_some_of_them_may_be_chosen(tmp_path):
+    given = cart(tmp_path, TYPES)
+    (spawner,) = spawners(stack(**given, activate='lift, js'))
+    assert spawner.arguments == ['lift', 'js', '--continue-on-error']
+    with pytest.raises(AmrError, match='^activate:=lif: .* "js", "base", "lift"; did you mean'):
+        stack(**given, activate='js lif')
+
+
+def test_the_manager_may_have_a_namespace_and_a_name(tmp_path):
+    plugin = (
+        '<gazebo><plugin filename="x" name="gz_ros2_control::GazeboSimROS2ControlPlugin"><ros>'
+        '<namespace>left</namespace><remapping>~/cmd_vel:=cmd_vel</remapping></ros>'
+        '<controller_manager_name>boss</controller_manager_name></plugin></gazebo>'
+    )
+    given = cart(tmp_path, TYPES, plugin)
+    file = tmp_path / 'cart.yaml'
+    file.write_text(file.read_text().replace('controller_manager:', '/left/boss:'))
+    made = stack(**given)
+    (spawner,) = spawners(made)
+    assert spawner.namespace == '/left'
+    assert spawner.arguments[-3:] == ['--controller-manager', 'boss', '--continue-on-error']
+    assert '/cmd_vel:=/left/cmd_vel\n' in made.next_steps
+
+
+def test_a_robot_without_ros2_control_waits_for_nobody(tmp_path):
+    given = cart(tmp_path, TYPES)
+    path = tmp_path / 'cart.urdf'
+    path.write_text(re.sub('<ros2_control.*</ros2_control>', '', path.read_text(), flags=re.S))
+    made = stack(**given)
+    assert spawners(made) == []
+    assert made.ready_when.nodes[0].executable == 'create'
+    ((level, note),) = [each for each in made.notes if 'using' not in each[1]]
+    assert level == 'INFO'
+    assert note.endswith(f'controllers:={given["controllers"]} has no effect')
+
+
+@pytest.mark.parametrize(
+    ('kind', 'parameters', 'expected'),
+    [
+        (
+            'joint_trajectory_controller/JointTrajectoryController',
+            'joints: [lift_joint]',
+            '/it/joint_trajectory trajectory_msgs/msg/JointTrajectory \\\n        "{joint_names: '
+            '[lift_joint], points: [{positions: [0.18], time_from_start: {sec: 2}}]}"',
+        ),
+        (
+            'forward_command_controller/ForwardCommandController',
+            'joints: [lift_joint]',
+            '/it/commands std_msgs/msg/Float64MultiArray "{data: [0.18]}"',
+        ),
+        (
+            'position_controllers/GripperActionController',
+            'joint: lift_joint',
+            '/it/gripper_cmd control_msgs/action/GripperCommand "{command: {position: 0.18}}"',
+        ),
+        (
+            'parallel_gripper_action_controller/GripperActionController',
+            'joint: lift_joint',
+            'action/ParallelGripperCommand "{command: {position: [0.18]}}"',
+        ),
+        ('mecanum_drive_controller/MecanumDriveController', '', '/it/reference '),
+        ('tricycle_controller/TricycleController', '', '/it/cmd_vel '),
+    ],
+)
+def test_the_next_steps_name_the_topics_of_the_controllers(tmp_path, kind, parameters, expected):
+    given = cart(tmp_path, {'js': STATES, 'it': kind})
+    with (tmp_path / 'cart.yaml').open('a') as file:
+        file.write(f'it:\n  ros__parameters: {{{parameters}}}\n')
+    said = stack(**given).next_steps
+    assert expected in said
+    assert said.endswith('Ctrl-C stops all.')
+
+
+def test_the_root_may_be_fixed(tmp_path):
+    made = stack(**cart(tmp_path, TYPES), fixed='true', name='it', lift='false')
+    sim, publisher, create, *_ = made.nodes
+    assert parse(publisher.parameters[0]['robot_description']).root.name == 'world'
+    assert create.arguments[-1] == 'it'
+    assert sim.parameters[0]['lift'] is False
 
 
 def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
@@ -139,6 +264,8 @@ def test_the_files_are_noted_with_their_hashes(installed):
         ),
         ({'urdf': GRIPPER, 'xacro_args': "palm:='"}, 'No closing quotation'),
         ({'urdf': GRIPPER, 'xacro_args': 'palm'}, "'palm' is no argument of a xacro file"),
+        ({'z': 'high'}, "z:=high: 'high' is not a number"),
+        ({'x': 'inf'}, 'a pose is of finite numbers'),
         ({'rtf': '-1'}, 'rtf:=-1.0: a real-time factor is 0'),
         ({'rtf': 'nan'}, 'rtf:=nan: a real-time factor is 0'),
         ({'urdf': 'no.urdf'}, 'urdf:=no.urdf: no such file: /'),

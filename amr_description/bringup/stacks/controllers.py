@@ -1,0 +1,171 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which controllers a stack spawns for a robot, in what order, and what is said of it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+import re
+from typing import TYPE_CHECKING
+
+from amr_description.ament_index import path_of
+from amr_description.bringup import exited_cleanly, Node
+from amr_description.bringup.conditions import Condition
+from amr_description.bringup.controller_files import controllers_file, SHIPPED, URDF
+from amr_description.bringup.input_files import Note
+from amr_description.errors import DescriptionError, UsageError
+from amr_description.text import quote_all, suggestion
+
+if TYPE_CHECKING:  # YAML and the URDF are read where they are needed only
+    from amr_description.model.controller_files import DeclaredController
+    from amr_description.model.robot import Robot
+
+AMR = 'amr'
+"""The name of the robot of this package, and of the tutorial."""
+PAIR = ('joint_state_broadcaster', 'diff_drive_controller')
+"""The controllers of amr, and of the tutorial: each has a spawner of its own."""
+ABOUT_ACTIVATE = (
+    'controllers to spawn, in order, separated by blanks or commas; empty: all that the parameter '
+    'file has types for'
+)
+
+
+@dataclass(frozen=True)
+class ControllerPlan:
+    """What a stack does about the controllers of a robot."""
+
+    names: tuple[str, ...] = PAIR
+    """In the order in which they are spawned."""
+    declared: tuple['DeclaredController', ...] = ()
+    """The same with their types and parameters; empty where they are those of amr."""
+    files: tuple[Path, ...] = ()
+    """Their parameter files."""
+    namespace: str = '/'
+    """Of the controller manager."""
+    manager: str = 'controller_manager'
+    remappings: tuple[tuple[str, str], ...] = ()
+    """Of all controllers, by the URDF: (from, to)."""
+    notes: tuple[Note, ...] = ()
+
+    @property
+    def is_that_of_amr(self) -> bool:
+        """Whether robot and controllers are those of this package and of the tutorial."""
+        return self.names == PAIR and not self.declared
+
+    @property
+    def parameter(self) -> str:
+        """The parameter ``controllers`` of the simulator; '': those that the URDF names."""
+        return str(self.files[0]) if len(self.files) == 1 else ''
+
+
+def plan_controllers(
+    urdf: str, description: str, controllers: str = '', activate: str = ''
+) -> ControllerPlan:
+    """
+    Return what is spawned for a robot.
+
+    Args:
+        urdf: the description as given.
+        description: its text.
+        controllers: the parameter file as given; '': that which the URDF names, else the shipped
+            one, if it is for this robot.
+        activate: the names as given; '': all.
+
+    Raises:
+        ResourceError, ParameterError: there is no such file, or it is no parameter file.
+        UsageError: a name of ``activate`` is not in it.
+    """
+    wanted = tuple(filter(None, re.split(r'[\s,]+', activate)))
+    if urdf == URDF and not controllers and not wanted:
+        return ControllerPlan(files=(path_of(SHIPPED),))
+    from amr_description.model.urdf import parse
+
+    try:
+        robot = parse(description, urdf)
+        return _plan(urdf, robot, controllers, wanted)
+    except DescriptionError:  # the node that reads it says where, and what would do
+        return ControllerPlan(files=(controllers_file(controllers, urdf, description),))
+
+
+def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) -> ControllerPlan:
+    from amr_description.model.controller_files import (
+        declared_controllers,
+        manager_of,
+        remapping,
+    )
+    from amr_description.model.gazebo import ros2_control_host_of
+    from amr_description.model.ros2_control_tag import hardware_of
+
+    given = [path_of(controllers, 'controllers')] if controllers else []
+    if not hardware_of(robot):
+        note = f'urdf:={urdf}: it has no <ros2_control>, and so no controller manager of its own'
+        note += f'; controllers:={controllers} has no effect' if controllers else ''
+        return ControllerPlan((), files=tuple(given), notes=(('INFO', note),))
+    files, notes = (given, []) if given else _files_of(urdf, robot)
+    namespace, manager = manager_of(robot)
+    found = declared_controllers(files, namespace, manager)
+    if files and not found:
+        named = ', '.join(map(str, files))
+        notes.append(('WARNING', f'{named}: no controller has a type there, so none is spawned'))
+    names = [each.name for each in found]
+    for name in wanted:
+        if name not in names:
+            raise UsageError(
+                f'activate:={name}: no parameter file has a type for it; there are: '
+                f'{quote_all(names)}{suggestion(name, names)}'
+            )
+    chosen = tuple(wanted) or tuple(names)
+    if robot.name == AMR and chosen == PAIR and namespace == '/':
+        return ControllerPlan(files=tuple(files), notes=tuple(notes))
+    by_name = {each.name: each for each in found}
+    return ControllerPlan(
+        chosen,
+        tuple(by_name[name] for name in chosen),
+        tuple(files),
+        namespace,
+        manager,
+        tuple(rule for rule in map(remapping, ros2_control_host_of(robot).remappings) if rule),
+        tuple(notes),
+    )
+
+
+def _files_of(urdf: str, robot: 'Robot') -> tuple[list[Path], list[Note]]:
+    """Return the parameter files of a robot for which none is given, and what is said of it."""
+    from amr_description.model.controller_files import files_of, missing_files, named_files
+
+    files, missing = files_of(robot), missing_files(named_files(robot))
+    if not files:
+        why = 'no controller is spawned: give controllers:=FILE'
+        why = f'it names no parameter file; {why}' if not missing else why
+    elif missing:
+        why = 'correct its name, or give controllers:=FILE'
+    else:
+        return files, []
+    if missing:
+        why = f'a file that it names in <parameters> is not there: {quote_all(missing)}; {why}'
+    return files, [('WARNING', f'urdf:={urdf}: {why}')]
+
+
+def spawners(plan: ControllerPlan, start_when: Condition) -> list[Node]:
+    """
+    Return the nodes that spawn the controllers of a plan; [] where there are none.
+
+    Those of amr are spawned one after the other, and a failure stops the stack. Those of another
+    robot have one spawner, which leaves out what cannot be.
+    """
+    namespace = None if plan.namespace == '/' else plan.namespace
+    if plan.is_that_of_amr:
+        nodes: list[Node] = []
+        for name in plan.names:
+            nodes.append(Node('spawner', arguments=[name], start_when=start_when))
+            start_when = exited_cleanly(nodes[-1])
+        return nodes
+    if not plan.names:
+        return []
+    from amr_description.model.controller_files import spawner_words
+
+    words = spawner_words(plan.declared)
+    if plan.manager != 'controller_manager':
+        words += ['--controller-manager', plan.manager]
+    words.append('--continue-on-error')
+    return [Node('spawner', namespace=namespace, arguments=words, start_when=start_when)]
