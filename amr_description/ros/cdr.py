@@ -27,7 +27,7 @@ _ORDERS = tuple((each, struct.Struct(f'{each}I'), struct.Struct(f'{each}iI')) fo
 """By the second byte: how numbers are written, with the structs of a length and of a time."""
 
 type Motion = tuple[float, ...]
-"""x y z qx qy qz qw of a pose, linear x, angular z: m, m/s, rad/s."""
+"""x y z qx qy qz qw of a pose, linear x, angular z, linear y: m, m/s, rad/s, m/s."""
 
 
 class Reader:
@@ -183,7 +183,7 @@ def read_statistics_values(data: bytes) -> StatisticValues:
 
 
 def read_twist(data: bytes) -> tuple[float, ...]:
-    """``geometry_msgs/msg/Twist``: linear x, m/s, and angular z, rad/s."""
+    """``geometry_msgs/msg/Twist``: linear x, m/s, angular z, rad/s, and linear y, m/s."""
     return _planar(Reader(data))
 
 
@@ -207,7 +207,7 @@ def _read_transform(reader: Reader) -> FramePose:
 
 def _planar(reader: Reader) -> tuple[float, ...]:
     values = reader.doubles(6)
-    return (values[0], values[5])
+    return (values[0], values[5], values[1])
 
 
 _AFTER_STAMP = 12

@@ -8,7 +8,7 @@ The binary frames: a state as ``web/src/protocol.ts`` defines it, filled in plac
     0  u8 1 │ 1  u8 0 │ 2  u16 layout │ 4  u32 number │ 8  f64 time │ 16  f32 …
 
 The f32 values are the pose of each frame (7), then for each robot: joint positions, joint
-velocities, commanded joint velocities, odometry (9), ground truth (9), command (2), and 4 per
+velocities, commanded joint velocities, odometry (10), ground truth (10), command (3), and 4 per
 wheel. NaN: not known.
 """
 
@@ -23,8 +23,8 @@ HEADER = struct.Struct('<BBHId')
 KIND = 1
 POSE_FLOATS = 7
 JOINT_FLOATS = 3
-MOTION_FLOATS = 9
-COMMAND_FLOATS = 2
+MOTION_FLOATS = 10
+COMMAND_FLOATS = 3
 WHEEL_FLOATS = 4
 LAYOUTS = 2**16
 """Number of layout ids; they are reused after that."""

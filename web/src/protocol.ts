@@ -226,14 +226,14 @@ export type ClientMessage = Drive | Stop | SetJoints | Request;
  *
  *     position of each joint, then the velocity of each,
  *     then the commanded velocity of each                        3 × joints
- *     odometry: x y z qx qy qz qw, linear x, angular z           9, in the frame of the message
- *     ground truth: the same                                     9, in `world`
- *     command: linear x, angular z                               2, the latest on the command topic
+ *     odometry: x y z qx qy qz qw, linear x, angular z, linear y 10, in the frame of the message
+ *     ground truth: the same                                     10, in `world`
+ *     command: linear x, angular z, linear y                     3, the latest on the command topic
  *     wheels: contact, normal force, slip along, slip across     4 × wheels
  */
 export const HEADER_BYTES = 16;
 export const POSE_FLOATS = 7;
 export const JOINT_FLOATS = 3;
-export const MOTION_FLOATS = 9;
-export const COMMAND_FLOATS = 2;
+export const MOTION_FLOATS = 10;
+export const COMMAND_FLOATS = 3;
 export const WHEEL_FLOATS = 4;

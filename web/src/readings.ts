@@ -10,6 +10,7 @@ export type Source = (typeof SOURCES)[number];
 
 const LINEAR = 7; // where the twist stands in a motion, behind the pose
 const ANGULAR = 8;
+const SIDEWAYS = 9;
 
 export interface JointReading {
   name: string;
@@ -35,8 +36,12 @@ export function robotOf(state: State, id: string | undefined): RobotState | null
 /** Velocity as commanded, as odometry has it, or as it truly is; not a number where unknown. */
 export function velocityOf(robot: RobotState, source: Source): Velocity {
   return source === 'command'
-    ? { linear: robot.command[0], angular: robot.command[1] }
-    : { linear: robot[source][LINEAR], angular: robot[source][ANGULAR] };
+    ? { linear: robot.command[0], angular: robot.command[1], sideways: robot.command[2] }
+    : {
+        linear: robot[source][LINEAR],
+        angular: robot[source][ANGULAR],
+        sideways: robot[source][SIDEWAYS],
+      };
 }
 
 function layoutOf(state: State, robot: RobotState): { joints: string[]; wheels: string[] } {

@@ -28,9 +28,9 @@ export interface RobotState {
   positions: Float32Array; // of each joint of the layout, rad or m
   velocities: Float32Array; // rad/s or m/s
   commanded: Float32Array; // the velocity that its controller wants of each, rad/s or m/s
-  odometry: Float32Array; // x y z qx qy qz qw, linear x (m/s), angular z (rad/s)
+  odometry: Float32Array; // x y z qx qy qz qw, linear x (m/s), angular z (rad/s), linear y
   truth: Float32Array; // the same, in `world`
-  command: Float32Array; // linear x (m/s), angular z (rad/s)
+  command: Float32Array; // linear x (m/s), angular z (rad/s), linear y (m/s)
   wheels: Float32Array; // of each: contact (0, 1), normal force (N), slip along, across (m/s)
 }
 

@@ -40,11 +40,11 @@ test('each number of a state stands in its column', () => {
   assert.deepEqual(record?.wheels, ['left', 'right']);
   const [times, ...columns] = record.history.since(0).map(([first]) => first);
   assert.equal(times, 1.5);
-  // 3 positions, velocities and commanded ones, odometry from 9 on, truth from 18 on, command at 27.
-  assert.equal(columns[velocityColumn(0, 'linear')], 27);
+  // 3 positions, velocities and commanded ones, odometry from 9 on, truth from 19 on, command at 29.
+  assert.equal(columns[velocityColumn(0, 'linear')], 29);
   assert.equal(columns[velocityColumn(1, 'linear')], 9 + 7);
   assert.equal(columns[velocityColumn(1, 'angular')], 9 + 8);
-  assert.equal(columns[velocityColumn(2, 'linear')], 18 + 7);
+  assert.equal(columns[velocityColumn(2, 'linear')], 19 + 7);
   assert.ok(Math.abs((columns[FACTOR_COLUMN] ?? 0) - 0.9) < 1e-6);
   assert.deepEqual(columns.slice(wheelColumn(0, 'measured')), [4, 7, 5, 8]);
   assert.equal(wheelColumn(1, 'commanded'), columns.length - 1);
@@ -53,9 +53,9 @@ test('each number of a state stands in its column', () => {
 test('wheels have their joint’s speed, contact, load and slip', () => {
   const [left, right] = wheelsOf(state(0), state(0).robots[0]);
   assert.deepEqual(left, {
-    name: 'left', speed: 4, contact: true, force: 30, along: 31, across: 32,
+    name: 'left', speed: 4, contact: true, force: 33, along: 34, across: 35,
   });
-  assert.equal(right.force, 34);
+  assert.equal(right.force, 37);
 });
 
 test('where no simulator names wheels, what turns without end is taken for one', () => {

@@ -109,14 +109,16 @@ def test_joint_states(frame, names, positions, velocities):
     )  # fmt: skip
 
 
-@given(TEXTS, TEXTS, SEVEN, NUMBERS, NUMBERS)
-def test_odometry(frame, child, pose, linear, angular):
+@given(TEXTS, TEXTS, SEVEN, NUMBERS, NUMBERS, NUMBERS)
+def test_odometry(frame, child, pose, linear, angular, sideways):
     message = Odometry(child_frame_id=child)
     message.header.frame_id = frame
     fill(message.pose.pose, pose)
     message.pose.covariance[35] = 1.0
     message.twist.twist.linear.x, message.twist.twist.angular.z = linear, angular
-    assert cdr.read_odometry(serialize_message(message)) == (*pose, linear, angular)
+    message.twist.twist.linear.y = sideways
+    read = cdr.read_odometry(serialize_message(message))
+    assert read == (*pose, linear, angular, sideways)
 
 
 @given(TEXTS, st.lists(st.tuples(TEXTS, st.dictionaries(TEXTS, NUMBERS, max_size=3)), max_size=3))
@@ -138,8 +140,8 @@ def test_commands(frame, linear, angular):
     for twist in (plain, stamped.twist):
         twist.linear.x, twist.angular.z = linear, angular
         twist.linear.y = 9.0
-    assert cdr.read_twist(serialize_message(plain)) == (linear, angular)
-    assert cdr.read_twist_stamped(serialize_message(stamped)) == (linear, angular)
+    assert cdr.read_twist(serialize_message(plain)) == (linear, angular, 9.0)
+    assert cdr.read_twist_stamped(serialize_message(stamped)) == (linear, angular, 9.0)
 
 
 @given(TEXTS, st.lists(TEXTS, max_size=4), st.lists(NUMBERS), st.integers(0, 2**32 - 1))

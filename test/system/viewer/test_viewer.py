@@ -159,6 +159,7 @@ def test_a_page_sees_what_moves(host, url):
     odometry = Odometry()
     odometry.pose.pose.position.y = -2.0
     odometry.twist.twist.linear.x = 0.25
+    odometry.twist.twist.linear.y = -0.5
     time = Clock()
     time.clock.sec = 10_000  # so that it is seen to go back, however late
 
@@ -191,8 +192,8 @@ def test_a_page_sees_what_moves(host, url):
         assert positions[joints.index(WHEELS[1])] == 0.5
         assert np.isnan(positions).sum() == 3
         assert np.isnan(speeds).all()  # neither measured nor commanded
-        assert values[19:28].tolist() == [0, -2, 0, 0, 0, 0, 1, 0.25, 0]
-        assert np.isnan(values[28:37]).all()  # no simulator, no truth
+        assert values[19:29].tolist() == [0, -2, 0, 0, 0, 0, 1, 0.25, 0, -0.5]
+        assert np.isnan(values[29:39]).all()  # no simulator, no truth
         numbers = [struct.unpack_from('<I', state, 4)[0] for state in page.states]
         assert numbers == sorted(set(numbers))
         now = struct.unpack_from('<d', page.states[-1], 8)[0]

@@ -27,7 +27,7 @@ def test_the_head_says_kind_layout_number_and_time():
 
 def test_what_is_not_known_is_not_a_number():
     data = StateFrame(LAYOUT).encode(0, 0.0)
-    assert len(data) == 16 + 4 * (2 * 7 + (3 * 2 + 9 + 9 + 2 + 4) + (9 + 9 + 2))
+    assert len(data) == 16 + 4 * (2 * 7 + (3 * 2 + 10 + 10 + 3 + 4) + (10 + 10 + 3))
     assert np.isnan(floats(data)).all()
 
 
@@ -38,14 +38,14 @@ def test_every_part_has_its_place():
     first.positions[:] = (14, 15)
     first.velocities[:] = (16, 17)
     first.commanded[:] = (18, 19)
-    first.odometry[:] = range(20, 29)
-    first.truth[:] = range(29, 38)
-    first.command[:] = (38, 39)
-    first.wheels[0] = (40, 41, 42, 43)
-    second.odometry[:] = range(44, 53)
-    second.truth[:] = range(53, 62)
-    second.command[:] = (62, 63)
-    assert floats(frame.encode(1, 0.0)).tolist() == list(range(64))
+    first.odometry[:] = range(20, 30)
+    first.truth[:] = range(30, 40)
+    first.command[:] = (40, 41, 42)
+    first.wheels[0] = (43, 44, 45, 46)
+    second.odometry[:] = range(47, 57)
+    second.truth[:] = range(57, 67)
+    second.command[:] = (67, 68, 69)
+    assert floats(frame.encode(1, 0.0)).tolist() == list(range(70))
 
 
 def test_a_frame_that_was_encoded_does_not_change_any_more():

@@ -26,7 +26,7 @@ export class DrivePanel implements Panel {
   private readonly topic = h('p', { class: 'fine' });
   private readonly pad = h('span', { class: 'fine' });
   private readonly sideways: HTMLElement;
-  private readonly cells = new Map<Source, { linear: HTMLElement; angular: HTMLElement }>();
+  private readonly cells = new Map<Source, Record<keyof Velocity, HTMLElement>>();
 
   constructor(private readonly app: App) {
     this.joystick = new Joystick(app.pilot);
@@ -56,6 +56,7 @@ export class DrivePanel implements Panel {
     app.store.watch(['graph', 'robot', 'controllers'], () => {
       app.pilot.goesSideways = app.store.goesSideways;
       this.sideways.hidden = !app.store.goesSideways;
+      this.element.classList.toggle('goes-sideways', app.store.goesSideways);
     });
     app.pilot.onChange = (velocity) => this.showAsked(velocity);
   }
@@ -68,6 +69,7 @@ export class DrivePanel implements Panel {
       if (cells !== undefined) {
         setText(cells.linear, fixed(velocity?.linear, 2));
         setText(cells.angular, fixed(velocity?.angular, 2));
+        setText(cells.sideways, fixed(velocity?.sideways, 2));
       }
     }
   }
@@ -125,16 +127,21 @@ export class DrivePanel implements Panel {
 
   private readout(): HTMLElement {
     const rows = SOURCES.map((source) => {
-      const cells = { linear: h('td', {}, '–'), angular: h('td', {}, '–') };
+      const cells = {
+        linear: h('td', {}, '–'),
+        angular: h('td', {}, '–'),
+        sideways: h('td', { class: 'of-sideways' }, '–'),
+      };
       this.cells.set(source, cells);
       const name = h('th', { scope: 'row' }, h('i', { class: `swatch ${source}` }), WORDS[source]);
-      return h('tr', {}, name, cells.linear, cells.angular);
+      return h('tr', {}, name, cells.linear, cells.sideways, cells.angular);
     });
+    const left = h('th', { scope: 'col', class: 'of-sideways' }, 'm/s left');
     return h(
       'table',
       { class: 'readout' },
       h('caption', { class: 'unseen' }, 'Velocity of the robot'),
-      h('thead', {}, h('tr', {}, h('td'), unit('m/s'), unit('rad/s'))),
+      h('thead', {}, h('tr', {}, h('td'), unit('m/s'), left, unit('rad/s'))),
       h('tbody', {}, ...rows),
     );
   }
