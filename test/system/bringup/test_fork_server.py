@@ -22,8 +22,8 @@ SUBREAPER = 36  # PR_SET_CHILD_SUBREAPER
 REPORT = f"""#!{sys.executable}
 import json, os, signal, sys
 from pathlib import Path
-streams = [(s.fileno(), s.name, s.encoding, s.errors, s.line_buffering, s.write_through, s.isatty())
-           for s in (sys.stdin, sys.stdout, sys.stderr)]
+streams = [(each.fileno(), each.name, each.encoding, each.errors, each.line_buffering,
+            each.write_through, each.isatty()) for each in (sys.stdin, sys.stdout, sys.stderr)]
 status = Path('/proc/self/status').read_text().splitlines()
 print(json.dumps({{
     'argv': sys.argv, 'orig_argv': sys.orig_argv, 'path': sys.path, 'name': __name__,
