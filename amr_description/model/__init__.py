@@ -27,6 +27,7 @@ module                   what it holds
 ``gazebo_builder.py``    … collects it: hardware, controllers, lines to say
 ``gazebo_translation.py``  … of a robot: ``translate(robot)``
 ``base_interfaces.py``   the interfaces of a simulated robot's body as a whole
+``gazebo_physics.py``    <gazebo reference="…">: friction, springs, gravity, self-collision
 ``findings.py``          Finding: severity, line, what, found, expected, fix
 ``xml_reader.py``        XML of unknown origin, and attributes with true line numbers
 

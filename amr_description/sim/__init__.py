@@ -10,6 +10,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``engine.py``           the MuJoCo model and its state; integer time; recompiling; physics steps
 
 ``world_file.py``       the world: MJCF file, physics options, measured defaults
+``gazebo_physics.py``   frictions, springs, gravity, self-collision that Gazebo is told of
 ``friction.py``         sliding friction of geoms without one, of links and of wheels
 
 ``spawning.py``         checks of a request to spawn; the codes of simulation_interfaces

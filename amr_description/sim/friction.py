@@ -11,26 +11,23 @@ on the ground and µ_w on the wall that is ``µ (r + µ_w (a + r)) > a``; where 
 rigid rubber wheel would really do so; walls are smoother.
 
 **Links** have the friction that a URDF made for Gazebo gives them:
-``<gazebo reference="caster"><mu1>``. As in Gazebo, the smaller friction of two touching geoms
-counts, so that of a link matters where it is small, as for a ball caster that cannot roll.
+``<gazebo reference="caster"><mu1>``, else 1, which is Gazebo's default too. As in Gazebo, the
+smaller friction of two touching geoms counts, so that of a link matters where it is small, as for
+a ball caster that cannot roll.
 
 **Wheels** have :data:`WHEEL_FRICTION` on everything that moves, which is above all the side of
 another robot: with MuJoCo's 1 robots that run into each other climb. Static surfaces have their
 own friction, see :mod:`amr_description.sim.wheel_contact`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 import math
 from pathlib import Path
 
 from lxml import etree
 import mujoco
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.model.findings import raise_error
-from amr_description.model.origins import place_in
-from amr_description.model.robot import Robot
-from amr_description.model.xml_reader import line_of, parse_xml
+from amr_description.model.gazebo_physics import GazeboLink
 
 DEFAULT_FRICTION = 0.5
 """Rubber on a smooth dry floor; holds on 26 degrees, climbs kerbs of 20 mm, and no wall."""
@@ -41,11 +38,10 @@ Of a wheel on everything that moves: smooth paint. From ``(a - r) / (a + r)`` on
 shipped robot, it would rear up there, the friction of the ground being 1.
 """
 
-WHEEL_PRIORITY, LINK_PRIORITY = 1, 2
-"""MuJoCo takes the friction of the geom with the higher priority: a link's own prevails."""
-
-_MUJOCO_DEFAULT = 1.0
-_TAGS = ('mu1', 'mu', 'collision/surface/friction/ode/mu')
+_ROUGHEST = 10.0
+"""Frictions from here on count as one."""
+_STEPS = 1000.0
+_FILES_PRIORITY = 100_000
 
 _SENTINEL = 0.987654321
 """A friction that no file has."""
@@ -96,47 +92,41 @@ def _set_default(root: etree._Element) -> None:
     first.insert(0, geom)
 
 
-def link_frictions(robot: Robot, log: Log) -> Mapping[str, float]:
+def count_the_smaller(geoms: Iterable[mujoco.MjsGeom]) -> None:
     """
-    Return the sliding friction of the links that have one of their own.
+    Have the smaller friction of two touching geoms count, as in Gazebo.
+
+    MuJoCo takes the larger one, or that of the geom with the higher priority: so priorities follow
+    from frictions. One that a file gives goes before.
+    """
+    for geom in geoms:
+        slippery = round(_STEPS * (_ROUGHEST - min(float(geom.friction[0]), _ROUGHEST)))
+        geom.priority = geom.priority * _FILES_PRIORITY + slippery
+
+
+def apply_link_frictions(
+    spec: mujoco.MjSpec, links: Mapping[str, GazeboLink], wheels: Collection[str]
+) -> Mapping[str, float]:
+    """
+    Give the geoms of links the friction that ``<mu1>`` has, and those of ``wheels`` theirs.
 
     Args:
-        robot: Its ``<gazebo reference="…">`` blocks are read.
-        log: Gets a warning for each value that is no number or negative.
+        spec: Of a robot; edited.
+        links: What Gazebo is told, by link.
+        wheels: The names of the geoms that are wheels.
+
+    Returns:
+        The friction of its own of each geom that has a name and one.
     """
-    root = parse_xml(robot.text, robot.source, raise_error)
-    assert root is not None, 'raise_error does not return from an error'
-    names = {link.name for link in robot.links}
-    frictions: dict[str, float] = {}
-    for block in root.iterchildren('gazebo'):
-        link = block.get('reference', '')
-        found = next((f for f in map(block.find, _TAGS) if f is not None), None)
-        if link not in names or found is None:
-            continue
-        friction = _number(found.text)
-        if friction >= 0.0:
-            frictions[link] = friction
-        else:
-            log(
-                Severity.WARN,
-                f'{place_in(robot.text, robot.source, line_of(found))}: <{found.tag}> of link '
-                f'"{link}" is "{found.text}"; a number from 0 on is needed, and it is left out',
-            )
-    return frictions
-
-
-def apply_link_frictions(spec: mujoco.MjSpec, frictions: Mapping[str, float]) -> None:
-    """Let the friction of a link prevail where it is smaller than that of its geoms."""
-    for link, friction in frictions.items():
-        for geom in spec.body(link).geoms:
-            is_wheel = geom.priority == WHEEL_PRIORITY
-            if friction < (_MUJOCO_DEFAULT if is_wheel else geom.friction[0]):
-                geom.friction[0] = friction
-                geom.priority = LINK_PRIORITY
-
-
-def _number(text: str | None) -> float:
-    try:
-        return float(text or '')
-    except ValueError:
-        return math.nan
+    own: dict[str, float] = {}
+    for geom in spec.geoms:
+        link = links.get(geom.parent.name)
+        friction = math.inf if link is None or link.mu1 is None else link.mu1
+        if geom.name in wheels:
+            geom.friction[0] = min(WHEEL_FRICTION, friction)
+        elif friction < math.inf:
+            geom.friction[0] = friction
+        if geom.name and friction < math.inf:
+            own[geom.name] = friction
+    count_the_smaller(spec.geoms)
+    return own

@@ -9,7 +9,6 @@ the rest is edited in the spec.
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import mujoco
 
@@ -17,6 +16,7 @@ from amr_description.control.contracts import Log
 from amr_description.control.interfaces import EFFORT, POSITION, QUANTITIES, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.base_interfaces import BASE
+from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of
@@ -24,12 +24,7 @@ from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
 from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
-from amr_description.sim.friction import (
-    apply_link_frictions,
-    link_frictions,
-    WHEEL_FRICTION,
-    WHEEL_PRIORITY,
-)
+from amr_description.sim.gazebo_physics import apply_gazebo_physics, wheel_geom_name
 from amr_description.sim.meshes import insert_meshes
 from amr_description.sim.prepared_xml import prepared_xml
 from amr_description.sim.spawning import SpawnCode
@@ -61,7 +56,9 @@ class RobotSpec:
     :func:`wheel_geom_name`.
     """
     casters: tuple[str, ...]
-    """The names of the spherical geoms of a wheeled robot that are no wheels: possible casters."""
+    """The names of the geoms of a wheeled robot that touch and are no wheels: possible casters."""
+    frictions: Mapping[str, float]
+    """The sliding friction of the named geoms whose link has one of its own."""
     commands: Mapping[str, Collection[str]]
     """The command interfaces of each joint in a ``<ros2_control>`` block."""
     initial_states: Mapping[str, JointState]
@@ -73,11 +70,6 @@ class RobotSpec:
 def root_joint(robot: Robot) -> str:
     """Return the name of the free joint of a robot that does not stand fixed."""
     return f'{robot.root.name}/free'
-
-
-def wheel_geom_name(link: str) -> str:
-    """Return the name of the geom with which a wheel touches the ground."""
-    return f'{link}/wheel'
 
 
 def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
@@ -121,8 +113,8 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
         for wheel in wheels:
             _make_wheel_geom(spec, wheel)
         casters = _name_casters(spec) if wheels else ()
-        apply_link_frictions(spec, link_frictions(robot, log))
-        _exclude_self_collision(spec, robot)
+        physics = gazebo_physics_of(robot)
+        frictions = apply_gazebo_physics(spec, robot, physics, wheels, log)
         if any(gpio.name == BASE for info in hardware for gpio in info.gpios):
             add_base_servo(spec, root_joint(robot))
         # Compiled alone first: a robot that MuJoCo rejects never gets into the world.
@@ -135,7 +127,7 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
         ) from cause
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     initial = initial_states(robot, controlled)
-    return RobotSpec(spec, wheels, casters, commands, initial, free)
+    return RobotSpec(spec, wheels, casters, frictions, commands, initial, free)
 
 
 def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ...]]:
@@ -212,27 +204,19 @@ def _make_wheel_geom(spec: mujoco.MjSpec, wheel: Wheel) -> None:
     geom.name = wheel_geom_name(wheel.link)
     geom.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
     geom.size = [wheel.radius, wheel.radius, wheel.half_width]
-    geom.friction[0], geom.priority = WHEEL_FRICTION, WHEEL_PRIORITY
 
 
 def _name_casters(spec: mujoco.MjSpec) -> tuple[str, ...]:
-    """Name the spherical geoms that collide and are no wheels; return the names."""
-    spheres = [
-        geom
-        for geom in spec.geoms
-        if geom.type == mujoco.mjtGeom.mjGEOM_SPHERE and (geom.contype or geom.conaffinity)
-    ]
-    for number, geom in enumerate(spheres):
-        geom.name = f'{geom.parent.name}/caster_{number}'
-    return tuple(geom.name for geom in spheres)
-
-
-def _exclude_self_collision(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Exclude contacts between links of one robot: Gazebo's default (``self_collide`` off)."""
-    touching = [link.name for link in robot.links if link.collisions]
-    for one, other in combinations(touching, 2):
-        if WORLD_LINK not in (one, other):
-            spec.add_exclude(bodyname1=one, bodyname2=other)
+    """Name the geoms that collide and are no wheels; return the names."""
+    names: list[str] = []
+    for body in spec.bodies:
+        others = [
+            geom for geom in body.geoms if not geom.name and (geom.contype or geom.conaffinity)
+        ]
+        for number, geom in enumerate(others):
+            geom.name = f'{body.name}/caster_{number}'
+            names.append(geom.name)
+    return tuple(names)
 
 
 def initial_states(robot: Robot, controlled: Iterable[ComponentInfo]) -> dict[str, JointState]:

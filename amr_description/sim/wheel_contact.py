@@ -12,10 +12,9 @@ cancels the sink.
 """
 
 from dataclasses import dataclass
+import math
 
 import mujoco
-
-from amr_description.sim.friction import LINK_PRIORITY
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +32,8 @@ class ContactSettings:
     m; contacts begin this far above the surface, which cancels the sink under the weight. It is
     adjusted for each robot by :mod:`amr_description.sim.wheel_trim`.
     """
+    sliding_friction: float = math.inf
+    """Of the wheel's own link; infinite: it has none, and that of the surface counts."""
     torsional_friction: float = 0.005
     """m; no effect at ``condim`` 3."""
     rolling_friction: float = 0.0001
@@ -74,7 +75,7 @@ def add_wheel_contact(
     """
     Add a contact pair of a wheel and a static surface.
 
-    The sliding friction is that of the surface, or that of the wheel where its link has a smaller
+    The sliding friction is that of the surface, or that of the wheel's link where it has a smaller
     one of its own (:mod:`amr_description.sim.friction`).
 
     Args:
@@ -83,10 +84,7 @@ def add_wheel_contact(
         surface: A geom of the world.
         settings: Of the contact.
     """
-    mu = float(surface.friction[0])
-    geom = spec.geom(wheel)
-    if geom.priority >= LINK_PRIORITY > surface.priority:
-        mu = min(mu, float(geom.friction[0]))
+    mu = min(float(surface.friction[0]), settings.sliding_friction)
     pair = spec.add_pair(geomname1=wheel, geomname2=surface.name)
     pair.condim = 3
     pair.friction = [

@@ -9,13 +9,15 @@ so each robot is set down on flat ground once, by itself, before it is spawned. 
 margin of the shipped robot: a robot on two wheels of 50 mm and a ball sinks by 0.65 mm and drives
 0.6 % short; trimmed, by 2 µm.
 
-A ball caster slides when the robot turns, as a wheel does. With MuJoCo's default contacts it hops,
+A ball caster slides when the robot turns, as a wheel does, and so does whatever else a robot on
+wheels rests on: a skid, a fixed caster wheel, its tail. With MuJoCo's default contacts it hops,
 and the wheels slip by 10 %; so it gets the contact of a wheel too.
 """
 
 from collections.abc import Mapping
 from dataclasses import replace
 import hashlib
+import math
 
 import mujoco
 import numpy as np
@@ -59,10 +61,18 @@ def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float
     Raises:
         ValueError: MuJoCo's.
     """
-    contacts = dict.fromkeys((wheel_geom_name(wheel.link) for wheel in model.wheels), settings)
+    contacts = {
+        geom: _with_friction_of(geom, model, settings)
+        for geom in (wheel_geom_name(wheel.link) for wheel in model.wheels)
+    }
     for geom, height in _rest_heights(model, settings, gravity).items():
-        contacts[geom] = replace(settings, margin=max(0.0, settings.margin - height))
+        contact = _with_friction_of(geom, model, settings)
+        contacts[geom] = replace(contact, margin=max(0.0, settings.margin - height))
     return contacts
+
+
+def _with_friction_of(geom: str, model: RobotSpec, settings: ContactSettings) -> ContactSettings:
+    return replace(settings, sliding_friction=model.frictions.get(geom, math.inf))
 
 
 def _rest_heights(
@@ -81,7 +91,8 @@ def _rest_heights(
     spec.attach(model.spec.copy(), frame=spec.worldbody.add_frame(), prefix='robot/')
     geoms = [*(wheel_geom_name(wheel.link) for wheel in model.wheels), *model.casters]
     for geom in geoms:
-        add_wheel_contact(spec, f'robot/{geom}', ground, settings)
+        contact = _with_friction_of(geom, model, settings)
+        add_wheel_contact(spec, f'robot/{geom}', ground, contact)
     with compiler_warnings(null_log, ''):  # logged when the robot was built
         compiled = spec.compile()
     data = mujoco.MjData(compiled)

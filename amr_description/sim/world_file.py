@@ -42,7 +42,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.parameters import parameter
 from amr_description.sim.engine import compiler_message
-from amr_description.sim.friction import apply_default_friction
+from amr_description.sim.friction import apply_default_friction, count_the_smaller
 
 AS_IN_WORLD = 'world'
 
@@ -180,6 +180,7 @@ def prepare_world(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS)
         surface.name = surface.name or f'surface_{index}'
         if not math.isnan(settings.friction):
             surface.friction[0] = settings.friction
+    count_the_smaller(spec.geoms)
 
 
 def apply_settings(option: mujoco.MjOption, settings: WorldSettings) -> None:

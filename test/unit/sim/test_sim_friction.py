@@ -4,14 +4,15 @@
 
 from statistics import mean
 
-from fixtures.sim.driving import AMR, Lines, ROOT
+from fixtures.sim.driving import AMR, ROOT
 import pytest
 
-from amr_description.sim.friction import link_frictions
-from amr_description.sim.spawning import read_description
+from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import WorldSettings
 
+LOAD = 9.81 * (4 * 0.02 + 0.1 * 0.14) / 0.14
+"""N on the caster: moments about the axle, chassis 0.02 m and caster 0.14 m behind it."""
 TWO_WHEELS = (ROOT / 'test' / 'fixtures' / 'sim' / 'two_wheels.urdf').read_text()
 
 
@@ -36,9 +37,7 @@ def test_a_caster_drags_with_its_own_friction(friction):
     for _ in range(100):
         world.step(5)
         efforts.append(sum(wheels.efforts()))
-    # Moments about the axle: chassis of 4 kg 0.02 m behind, caster of 0.1 kg 0.14 m behind.
-    load = 9.81 * (4 * 0.02 + 0.1 * 0.14) / 0.14
-    assert mean(efforts) == pytest.approx(-friction * load * 0.05, rel=0.02, abs=1e-4)
+    assert mean(efforts) == pytest.approx(-friction * LOAD * 0.05, rel=0.02, abs=1e-4)
 
 
 @pytest.mark.parametrize('wheels, ground, counts', [(0.2, 1.0, 0.2), (50.0, 0.3, 0.3)])
@@ -58,17 +57,46 @@ def test_the_smaller_friction_of_the_two_counts(wheels, ground, counts):
     assert before - after == pytest.approx(counts * 9.81 * 0.1, rel=0.02)
 
 
-def test_a_friction_that_is_no_number_is_logged_and_ignored():
-    log = Lines()
-    bad = with_friction(AMR, base_link='smooth', wheel_front_left=-1, nobody=0.5)
-    assert link_frictions(read_description(bad, 'amr.urdf'), log) == {}
-    assert '<mu1> of link "base_link" is "smooth"; a number from 0 on is needed' in log.text
-    assert '<mu1> of link "wheel_front_left" is "-1"' in log.text
+SKID = TWO_WHEELS.replace(
+    '<geometry><sphere radius="0.025"/>',
+    '<origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.025" length="0.04"/>',
+)
 
 
-def test_the_form_of_sdf_is_read_too():
-    inside = (
-        '<collision><surface><friction><ode><mu>0.3</mu></ode></friction></surface></collision>'
-    )
-    urdf = AMR.replace('</robot>', f'<gazebo reference="base_link">{inside}</gazebo></robot>')
-    assert link_frictions(read_description(urdf, 'amr'), Lines()) == {'base_link': 0.3}
+@pytest.mark.parametrize('ground', [1.0, 0.5])
+@pytest.mark.parametrize('own, counts', [(None, 1.0), (0.5, 0.5), (0.1, 0.1), (30.0, 1.0)])
+def test_a_skid_drags_with_the_smaller_friction_and_the_wheels_roll(ground, own, counts):
+    """As Coulomb has it: with less drag than the wheels can pull, they do not slip."""
+    world = MujocoWorld('empty', settings=WorldSettings(friction=ground))
+    robot = world.spawn('robot', SKID if own is None else with_friction(SKID, caster=own))
+    wheels = robot.joints(['left', 'right'])
+    for tick in range(100):
+        wheels.command('velocity', [6.0 * min(1.0, tick / 50)] * 2)
+        world.step(5)
+    start, rolled = robot.pose('base_link').translation[0], sum(wheels.positions())
+    efforts = []
+    for _ in range(50):
+        world.step(5)
+        efforts.append(sum(wheels.efforts()))
+    way = robot.pose('base_link').translation[0] - start
+    assert way == pytest.approx((sum(wheels.positions()) - rolled) / 2 * 0.05, rel=0.002)
+    assert mean(efforts) == pytest.approx(min(ground, counts) * LOAD * 0.05, rel=0.02)
+
+
+SLED = """<robot name="sled"><link name="base_link">
+<inertial><mass value="10"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+<collision><geometry><box size="1 1 0.02"/></geometry></collision></link></robot>"""
+
+
+@pytest.mark.parametrize(
+    'own, ground, counts', [(None, 0.5, 0.5), (0.8, 0.5, 0.5), (0.2, 0.5, 0.2), (None, 1.5, 1.0)]
+)
+def test_the_smaller_friction_counts_without_wheels_too(own, ground, counts):
+    world = MujocoWorld('empty', settings=WorldSettings(friction=ground, gravity=10.0))
+    urdf = SLED if own is None else with_friction(SLED, base_link=own)
+    world.spawn('sled', urdf, Transform((0.0, 0.0, 0.011)))
+    model = world.engine.model
+    contact = model.geom('ground'), model.geom(model.ngeom - 1)
+    first = max(contact, key=lambda geom: geom.priority)
+    assert first.friction[0] == pytest.approx(counts)
+    assert contact[0].priority != contact[1].priority

@@ -161,8 +161,7 @@ def test_unknown_names_are_reported_with_the_known_ones(world):
 def test_refused_robot_leaves_the_world_as_it_was(world):
     world.spawn('amr', AMR)
     before = states(world, 3)[-1][0]
-    # A shape that the checker lets pass and MuJoCo does not.
-    broken = AMR.replace('<box size="0.5 0.3 0.1"/>', '<box size="0 0.3 0.1"/>')
+    broken = AMR.replace('<box size="0.5 0.3 0.1"/>', '<box size="-1 0.3 0.1"/>')
     with pytest.raises(SpawnError) as refusal:
         world.spawn('broken', broken)
     assert refusal.value.code == SpawnCode.RESOURCE_PARSE_ERROR
