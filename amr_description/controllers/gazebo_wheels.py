@@ -29,7 +29,10 @@ from amr_description.controllers.command_reception import (
     Twist,
 )
 from amr_description.controllers.mecanum_drive_controller import MecanumDriveController
-from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
+from amr_description.controllers.mecanum_drive_parameters import (
+    MecanumDriveParameters,
+    REFERENCE_TIMEOUT,
+)
 from amr_description.controllers.steering_controllers import AckermannSteeringController
 from amr_description.controllers.steering_parameters import (
     AckermannSteeringParameters,
@@ -45,7 +48,7 @@ _ABOUT_ODOM = 'Publish odometry on ~/odometry'
 class GazeboMecanumDriveParameters(MecanumDriveParameters):
     """The table of amr_description/GazeboMecanumDrive."""
 
-    reference_timeout: float = parameter(1.0, _NOT_USED, unit='s')
+    reference_timeout: float = parameter(1.0, _NOT_USED, **REFERENCE_TIMEOUT)
     tf_frame_prefix_enable: bool = parameter(False, 'Put a prefix before the frame ids')
     tf_odometry_topic: str = parameter('/tf', 'Topic of the transform', not_empty=True)
 
@@ -54,7 +57,7 @@ class GazeboMecanumDriveParameters(MecanumDriveParameters):
 class GazeboAckermannDriveParameters(AckermannSteeringParameters):
     """The table of amr_description/GazeboAckermannDrive."""
 
-    reference_timeout: float = parameter(1.0, _NOT_USED, unit='s')
+    reference_timeout: float = parameter(1.0, _NOT_USED, **REFERENCE_TIMEOUT)
     tf_odometry_topic: str = parameter('/tf', 'Topic of the transform', not_empty=True)
     publish_odom: bool = parameter(True, _ABOUT_ODOM)
     angular_is_steering: bool = parameter(
