@@ -56,7 +56,7 @@ class Bounds:
     The constraints on a value.
 
     Numbers must be finite unless ``nan`` is true; NaN then satisfies every bound on size.
-    ``length``, ``fewer_than`` and ``unique`` are about the elements of an array.
+    ``length``, ``fewer_than``, ``unique`` and ``elements`` are about the elements of an array.
 
     ``magnitude`` holds the smallest and the greatest absolute value of a number other than 0 that
     a robot can have. Beyond it computations overflow. It is not in the descriptor of the
@@ -73,6 +73,7 @@ class Bounds:
     fewer_than: int | None = None
     not_empty: bool = False
     unique: bool = False
+    elements: tuple[str, ...] = ()
     nan: bool = False
 
     def complaint(self, value: Value) -> str:
@@ -86,6 +87,8 @@ class Bounds:
             return f'must have fewer than {self.fewer_than} elements'
         if self.unique and len(set(elements)) < len(elements):
             return 'must not hold anything twice'
+        if self.elements and not set(elements) <= set(self.elements):
+            return f'must hold only {", ".join(self.elements)}'
         if self.choices and value not in self.choices:
             return f'must be one of {", ".join(self.choices)}'
         numbers = value if isinstance(value, tuple) else (value,)

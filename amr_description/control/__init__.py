@@ -3,12 +3,12 @@
 """
 ros2_control without ROS: no ROS, no simulator, no clock. One thread, the control thread, runs it.
 
-============================ =====================================================================
 ``contracts.py``             the page to read: Controller, HardwareComponent, Port, Log
 ``world.py``                 … the simulated world of a hardware component: World, JointGroup
 ``interfaces.py``            the terms: interface names, state and command interfaces, lifecycle
 ``samples.py``               what the shipped controllers publish and subscribe to
 ``dof_samples.py``           … of PID controllers and grippers
+``trajectory_samples.py``    … trajectories of joints
 ``sensor_samples.py``        … of sensors, batteries and GPIOs
 
 ``loaded_component.py``      a hardware component inside the manager: lifecycle, read, write
@@ -34,5 +34,4 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 ``loop.py``                  the control loop: queued calls → managers → publish → step → pace
 
 ``ros/``                     controller manager node, services, topics, client, spawner
-============================ =====================================================================
 """

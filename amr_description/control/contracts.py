@@ -116,9 +116,23 @@ class Input[Sample]:
     It is closed, and takes nothing, until the controller is activated.
     """
 
-    def __init__(self, port: Port, capacity: int = 16) -> None:
-        """``capacity``: if more samples arrive between two updates, the oldest are dropped."""
+    def __init__(
+        self,
+        port: Port,
+        capacity: int = 16,
+        check: Callable[[Sample, int], str] | None = None,
+    ) -> None:
+        """
+        Declare it.
+
+        Args:
+            port: name and type.
+            capacity: if more samples arrive between two updates, the oldest are dropped.
+            check: ``(sample, time in ns) -> why it is dropped``, which is logged; '' to take it.
+                It is called on the ROS thread, so it reads only what ``configure`` has set.
+        """
         self.port = port
+        self.check = check
         self.is_open = False
         self._samples: deque[Sample] = deque(maxlen=capacity)
 

@@ -20,6 +20,13 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``steering_parameters.py``        … their parameters
 ``steering_kinematics.py``        … bicycle, tricycle, Ackermann steering
 ``reference_ports.py``            … topics shared with the mecanum drive controller
+``joint_trajectory_controller.py`` joints follow trajectories, from an action or a topic
+``joint_trajectory_parameters.py`` … its parameters
+``joint_trajectory_interfaces.py`` … interfaces of its joints, and their combinations
+``joint_trajectory_ports.py`` … its topics, service and action
+``joint_trajectory.py``           … splines between points in time
+``trajectory_tolerances.py``      … how far a joint may be from them
+``trajectory_checks.py``          … why a trajectory is not accepted
 ``pid.py``                        control_toolbox's PID, with its anti-windup strategies
 ``tricycle_controller.py``        a twist → one wheel that is driven and steered; odometry
 ``tricycle_limiters.py``          … its limits
@@ -113,6 +120,9 @@ CONTROLLERS = Registry(
         ),
         'magnetometer_broadcaster/MagnetometerBroadcaster': (
             'amr_description.controllers.magnetometer_broadcaster:MagnetometerBroadcaster'
+        ),
+        'joint_trajectory_controller/JointTrajectoryController': (
+            'amr_description.controllers.joint_trajectory_controller:JointTrajectoryController'
         ),
         'mecanum_drive_controller/MecanumDriveController': (
             'amr_description.controllers.mecanum_drive_controller:MecanumDriveController'

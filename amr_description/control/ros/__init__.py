@@ -21,6 +21,7 @@ node serves its callbacks, and submits to the control thread what concerns a man
 ``converters.py``              samples of controllers ↔ messages
 ``dof_converters.py``          … of PID controllers and grippers
 ``sensor_converters.py``       … of the broadcasters of sensors, batteries, GPIOs
+``trajectory_converters.py``   … those of joint trajectories
 ``services.py``                its services: requests in, responses out
 ``requests.py``                what they do
 ``status_topics.py``           activity, diagnostics, introspection

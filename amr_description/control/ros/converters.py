@@ -23,6 +23,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
+from amr_description.control import trajectory_samples
 from amr_description.control.contracts import Port
 from amr_description.control.ros import dof_converters, sensor_converters
 from amr_description.control.samples import (
@@ -259,12 +260,25 @@ _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
 
 def reader_of(port: Port) -> Callable[[Any], Any]:
     """Return ``(message) -> sample`` of an input. Raises ControllerError: there is none."""
+    if _is_of_trajectories(port):
+        from amr_description.control.ros import trajectory_converters
+
+        return _find(trajectory_converters.READERS, port)
     return _find(_READERS, port)
 
 
 def writer_of(port: Port) -> Callable[[Any, Any], None]:
     """Return ``(sample, message) -> None`` of an output. Raises ControllerError: likewise."""
+    if _is_of_trajectories(port):
+        from amr_description.control.ros import trajectory_converters
+
+        return _find(trajectory_converters.WRITERS, port)
     return _find(_WRITERS, port)
+
+
+def _is_of_trajectories(port: Port) -> bool:
+    """Whether its messages are those that only arms need, and that are slow to import."""
+    return port.sample is not None and port.sample.__module__ == trajectory_samples.__name__
 
 
 def _find[Function](table: Mapping[_Key, Function], port: Port) -> Function:

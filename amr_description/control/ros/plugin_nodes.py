@@ -190,13 +190,17 @@ class ControllerNode:
         def receive(message: Any, info: Any) -> None:
             try:
                 sample = convert(message)
+                now = self.node.get_clock().now().nanoseconds
+                reason = port.check(sample, now) if port.check else ''
             except Exception as error:  # a third party's converter; the robot must go on
                 self.node.get_logger().error(
                     f"Cannot accept a message on '{port.port.name}': {describe(error)}",
                     throttle_duration_sec=1.0,
                 )
                 return
-            if port.put(sample):
+            if reason:
+                self.node.get_logger().error(reason)
+            elif port.put(sample):
                 self._publisher.acknowledge(
                     subscription.topic_name, info['publication_sequence_number']
                 )

@@ -227,13 +227,11 @@ def test_an_ordinary_file_in_a_namespace_is_told_what_to_write(tmp_path):
 @pytest.mark.parametrize(
     'kind',
     [
-        'joint_trajectory_controller/JointTrajectoryController',
+        'admittance_controller/AdmittanceController',
         'swerve_drive_controller/SwerveDriveController',
         'my_diff_drive_controller/DiffDriveController',
         'my_package.drive/DiffDriveController',
-        'effort_controllers/GripperActionController',
         'acceleration_controllers/JointGroupAccelerationController',
-        'force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster',
     ],
 )
 def test_types_of_others_are_not_corrected(kind):
