@@ -19,6 +19,7 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError
+from amr_description.sim.rollers import RollerContacts
 from amr_description.text import unwrap
 
 _INTEGRATION = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -88,6 +89,8 @@ class Engine:
         self._time_at_step_0 = 0
         self._kinematics_at: tuple[int, int] | None = None
         spec.option.timestep = timestep / NANOSECONDS
+        self.rollers = RollerContacts()
+        """The wheels with rollers; an edit counts from the next recompile on."""
         self.model: mujoco.MjModel = spec.compile()
         self.data = mujoco.MjData(self.model)
 
@@ -124,8 +127,11 @@ class Engine:
         return self.time.to_bytes(8) + state.tobytes()
 
     def step(self, count: int) -> None:
-        """Advance by ``count`` physics steps, in one call into C."""
-        mujoco.mj_step(self.model, self.data, count)
+        """Advance by ``count`` physics steps, in one call into C unless wheels have rollers."""
+        if self.rollers:
+            self.rollers.step(self.model, self.data, count)
+        else:
+            mujoco.mj_step(self.model, self.data, count)
         self._steps += count
 
     def recompile(self) -> None:
@@ -137,6 +143,7 @@ class Engine:
         # The warnings were logged when the world and each robot were compiled by themselves.
         with compiler_warnings(null_log, ''):
             self.model, self.data = self.spec.recompile(self.model, self.data)
+        self.rollers.bind(self.model)
         self.generation += 1
 
     def reset(self) -> None:

@@ -19,6 +19,7 @@ from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
+from amr_description.model.rollers import described_rollers, Rollers
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
@@ -33,6 +34,7 @@ MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """Of the equality constraint of a mimic joint: nearly rigid, as gears are."""
 
 _ROUND = (mujoco.mjtGeom.mjGEOM_CYLINDER, mujoco.mjtGeom.mjGEOM_SPHERE)
+_NO_ROLLERS: Mapping[str, Rollers] = {}
 _DRIVING_INTERFACES = {VELOCITY, EFFORT}
 """The command interfaces by which a wheel is driven."""
 
@@ -55,6 +57,8 @@ class RobotSpec:
     The links that touch the ground as wheels, driven ones first. The geom of each is called
     :func:`wheel_geom_name`.
     """
+    rollers: Mapping[str, Rollers]
+    """Of mecanum and omni wheels, by geom."""
     casters: tuple[str, ...]
     """The names of the geoms of a wheeled robot that touch and are no wheels: possible casters."""
     frictions: Mapping[str, float]
@@ -72,7 +76,13 @@ def root_joint(robot: Robot) -> str:
     return f'{robot.root.name}/free'
 
 
-def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
+def build_robot(
+    robot: Robot,
+    log: Log,
+    *,
+    strict: bool = False,
+    named_rollers: Mapping[str, Rollers] = _NO_ROLLERS,
+) -> RobotSpec:
     """
     Build the spec of a robot.
 
@@ -81,17 +91,14 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
         log: Gets what is left out or taken as something else, and the warnings of MuJoCo's
             compiler.
         strict: Refuse a robot without mass, and a collision whose mesh cannot be read.
+        named_rollers: Of wheels, by joint, whose controller says that they have rollers; what the
+            description says of the same wheel counts more.
 
     Raises:
         SpawnError: MuJoCo rejects the model, or as ``strict`` says.
     """
-    is_massless = not any(link.inertial for link in robot.links)
-    if strict and is_massless and robot.root.name != WORLD_LINK:
-        raise SpawnError(
-            f'{robot.source}: no link has mass, so nothing can move the robot; add <inertial> '
-            'with <mass value="…"/> (kg) and <inertia …/> (kg·m²)',
-            SpawnCode.RESOURCE_PARSE_ERROR,
-        )
+    if strict:
+        _refuse_massless(robot)
     hardware = hardware_of(robot)
     controlled = [joint for info in hardware for joint in info.joints]
     commands = _commands_of(controlled)
@@ -115,6 +122,7 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
         casters = _name_casters(spec) if wheels else ()
         physics = gazebo_physics_of(robot)
         frictions = apply_gazebo_physics(spec, robot, physics, wheels, log)
+        rollers = _rollers_of(wheels, described_rollers(robot, physics), named_rollers)
         if any(gpio.name == BASE for info in hardware for gpio in info.gpios):
             add_base_servo(spec, root_joint(robot))
         # Compiled alone first: a robot that MuJoCo rejects never gets into the world.
@@ -127,7 +135,24 @@ def build_robot(robot: Robot, log: Log, *, strict: bool = False) -> RobotSpec:
         ) from cause
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     initial = initial_states(robot, controlled)
-    return RobotSpec(spec, wheels, casters, frictions, commands, initial, free)
+    return RobotSpec(spec, wheels, rollers, casters, frictions, commands, initial, free)
+
+
+def _refuse_massless(robot: Robot) -> None:
+    if robot.root.name != WORLD_LINK and not any(link.inertial for link in robot.links):
+        raise SpawnError(
+            f'{robot.source}: no link has mass, so nothing can move the robot; add <inertial> '
+            'with <mass value="…"/> (kg) and <inertia …/> (kg·m²)',
+            SpawnCode.RESOURCE_PARSE_ERROR,
+        )
+
+
+def _rollers_of(
+    wheels: Iterable[Wheel], described: Mapping[str, Rollers], named: Mapping[str, Rollers]
+) -> dict[str, Rollers]:
+    """Return the rollers of wheels by geom, from those by link and by joint."""
+    found = ((w, described.get(w.link) or named.get(w.joint)) for w in wheels)
+    return {wheel_geom_name(w.link): rollers for w, rollers in found if rollers is not None}
 
 
 def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ...]]:

@@ -62,13 +62,19 @@ def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float
         ValueError: MuJoCo's.
     """
     contacts = {
-        geom: _with_friction_of(geom, model, settings)
+        geom: _settings_of(geom, model, settings)
         for geom in (wheel_geom_name(wheel.link) for wheel in model.wheels)
     }
     for geom, height in _rest_heights(model, settings, gravity).items():
-        contact = _with_friction_of(geom, model, settings)
+        contact = _settings_of(geom, model, settings)
         contacts[geom] = replace(contact, margin=max(0.0, settings.margin - height))
     return contacts
+
+
+def _settings_of(geom: str, model: RobotSpec, settings: ContactSettings) -> ContactSettings:
+    settings = _with_friction_of(geom, model, settings)
+    rollers = model.rollers.get(geom)
+    return settings if rollers is None else settings.with_rollers(rollers)
 
 
 def _with_friction_of(geom: str, model: RobotSpec, settings: ContactSettings) -> ContactSettings:

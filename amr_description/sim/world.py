@@ -14,6 +14,8 @@ The simulated world: a ground, robots that come and go, and time.
     robot.pose('base_footprint')
 """
 
+from collections.abc import Mapping
+
 import mujoco
 import numpy as np
 
@@ -21,8 +23,10 @@ from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
+from amr_description.model.rollers import Rollers
 from amr_description.sim.engine import compiler_message, compiler_warnings, Engine, LONGEST_STEP
 from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
+from amr_description.sim.gazebo_physics import wheel_geom_name
 from amr_description.sim.overlap import find_overlap
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
@@ -38,6 +42,7 @@ from amr_description.sim.world_file import load_world, longest_step, static_surf
 
 AT_ORIGIN = Transform()
 _FILE_SETTINGS = WorldSettings()
+_NO_ROLLERS: Mapping[str, Rollers] = {}
 
 
 class MujocoWorld:
@@ -90,7 +95,7 @@ class MujocoWorld:
         self._contact = contact
         self._seed = seed
         self._strict = strict
-        self._contacts: dict[str, Contacts] = {}
+        self._contacts: dict[tuple[str, tuple[Rollers, ...]], Contacts] = {}
         # MuJoCo keeps every spec that was ever attached, 0.1 MB each: so there is one for each
         # description, and it is copied into the world for each robot of it.
         self._specs: dict[str, mujoco.MjSpec] = {}
@@ -148,6 +153,7 @@ class MujocoWorld:
         pose: Transform = AT_ORIGIN,
         *,
         lift: bool = False,
+        rollers: Mapping[str, Rollers] = _NO_ROLLERS,
     ) -> RobotView:
         """
         Put a robot into the world, its joints held at their initial positions.
@@ -161,6 +167,7 @@ class MujocoWorld:
             pose: Transform from the robot's root link to the world.
             lift: Whether a robot that would be inside the ground, or another static body, is
                 lifted until it is free, which is logged.
+            rollers: Of mecanum and omni wheels, by joint, of which the description does not tell.
 
         Returns:
             The robot, as a hardware component sees it.
@@ -172,12 +179,13 @@ class MujocoWorld:
         pose = checked_pose(pose)
         if isinstance(description, str):
             description = read_description(description, name, self._log, strict=self._strict)
-        model = build_robot(description, self._log, strict=self._strict)
+        model = build_robot(description, self._log, strict=self._strict, named_rollers=rollers)
         contacts = self._contacts_of(description, model)
         spec = self._specs.setdefault(description.text, model.spec)
         robot = description
 
         def put(pose: Transform) -> RobotView:
+            self._add_rollers(name, model)
             self._attach(name, spec, pose, contacts)
             return RobotView(self.engine, name, robot, model, pose, self._log, self._seed)
 
@@ -227,10 +235,18 @@ class MujocoWorld:
 
     def _contacts_of(self, robot: Robot, model: RobotSpec) -> Contacts:
         """Return the contacts of wheels and casters, computed once for each description."""
-        if robot.text not in self._contacts:
+        key = robot.text, tuple(model.rollers.values())
+        if key not in self._contacts:
             gravity = float(np.linalg.norm(self.engine.spec.option.gravity))
-            self._contacts[robot.text] = trimmed_contacts(model, self._contact, gravity)
-        return self._contacts[robot.text]
+            self._contacts[key] = trimmed_contacts(model, self._contact, gravity)
+        return self._contacts[key]
+
+    def _add_rollers(self, name: str, model: RobotSpec) -> None:
+        for wheel in model.wheels:
+            geom = wheel_geom_name(wheel.link)
+            if geom in model.rollers:
+                angle = model.rollers[geom].angle
+                self.engine.rollers.add(f'{name}/{geom}', f'{name}/{wheel.joint}', angle)
 
     def _attach(
         self, name: str, robot: mujoco.MjSpec, pose: Transform, contacts: Contacts
@@ -259,6 +275,7 @@ class MujocoWorld:
     def _delete(self, name: str) -> None:
         """Delete from the spec what was attached, including its assets and its default class."""
         spec = self.engine.spec
+        self.engine.rollers.remove(f'{name}/')
         spec.delete(spec.frame(name))
         for asset in (*spec.meshes, *spec.textures, *spec.materials):
             if asset.name.startswith(f'{name}/'):
