@@ -26,7 +26,6 @@ from amr_description.control.trajectory_samples import (
     TrajectoryStateSample,
 )
 
-
 _TOPIC = Port('~/joint_trajectory', 'trajectory_msgs/msg/JointTrajectory', sample=TrajectorySample)
 _SCALING = Port(
     '~/speed_scaling_input',

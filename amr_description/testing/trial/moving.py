@@ -1,16 +1,21 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Joints, moved a little way by a trajectory, or by position or velocity commands, and read again.
+Joints, moved a little way by a trajectory, by position or velocity commands, or by the action of a
+gripper, and read again.
 
 What is asked of a joint: 0.3 rad or 5 cm, a fifth of its range at most, to the side with more
 room.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 import math
+from typing import Any
 
 from builtin_interfaces.msg import Duration
+from control_msgs.action import GripperCommand, ParallelGripperCommand
+from rclpy.action import ActionClient, get_action_names_and_types
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -34,11 +39,16 @@ _TOLERANCE = 0.1
 _BROADCASTER = 'JointStateBroadcaster'
 _TRAJECTORIES = 'JointTrajectoryController'
 _GROUPS = ('ForwardCommandController', 'JointGroup')
+_GRIPPERS = 'GripperActionController'
+_ACTIONS: dict[str, Any] = {
+    'control_msgs/action/GripperCommand': GripperCommand,
+    'control_msgs/action/ParallelGripperCommand': ParallelGripperCommand,
+}
 
 
 def is_moved(controller: Active) -> bool:
     """Return whether a controller is one that is tried here."""
-    return any(word in controller.type for word in (_TRAJECTORIES, *_GROUPS))
+    return any(word in controller.type for word in (_TRAJECTORIES, _GRIPPERS, *_GROUPS))
 
 
 def offset_of(joint: Joint | None, position: float) -> float:
@@ -103,6 +113,8 @@ class Mover:
         try:
             if what == 'trajectory':
                 return self._by_trajectory()
+            if _GRIPPERS in self._controller.type:
+                return self._by_action()
             if self._interfaces == {'position'}:
                 return self._by_position()
             if self._interfaces == {'velocity'}:
@@ -137,6 +149,48 @@ class Mover:
         data = [target for _, target in targets.values()]
         self._sim.send(self._topic('commands'), Float64MultiArray(data=data))
         return self._judge('position', targets)
+
+    def _by_action(self) -> Motion:
+        """Move a gripper by its action; the result has to come, too."""
+        name, node = self._topic('gripper_cmd'), self._sim.node
+
+        def offered() -> list[str]:
+            named = dict(get_action_names_and_types(node))
+            return [kind for kind in named.get(name, ()) if kind in _ACTIONS]
+
+        kind = _ACTIONS[self._sim.wait(offered, f"the action '{name}'")[0]]
+        targets = self._targets()
+        (joint, (_, target)), *_ = targets.items()
+        goal = kind.Goal()
+        if kind is GripperCommand:
+            goal.command.position = target
+        else:
+            goal.command = JointState(name=[joint], position=[target])
+        client = ActionClient(node, kind, name)
+        try:
+            self._sim.wait(client.server_is_ready, f"the server of '{name}'")
+            handle = self._finished(client.send_goal_async(goal), 'the answer to the goal')
+            if not handle.accepted:
+                return Motion(
+                    self._controller.name, 'gripper', target, None, None, False, 'refused'
+                )
+            moved = self._judge('gripper', targets)
+            result = self._finished(handle.get_result_async(), 'the result of the action')
+        finally:
+            client.destroy()
+        end = result.result
+        ended = f'reached_goal={end.reached_goal}, stalled={end.stalled}'
+        return replace(moved, note=f'{moved.note}; {ended}')
+
+    def _finished(self, future: Any, what: str) -> Any:
+        """Let time pass until a future is done; return its result."""
+
+        def result() -> Any:
+            self._sim.step(10)
+            return future.done() or None
+
+        self._sim.wait(result, what, 10.0)
+        return future.result()
 
     def _judge(self, what: str, targets: Mapping[str, tuple[float, float]]) -> Motion:
         self._sim.run(_SECONDS + _SETTLING)

@@ -236,7 +236,7 @@ class Trial:
                 with closing(Drive(sim, controller)) as drive:
                     self.found.motions += drive.try_all()
             except LookupError as error:
-                self.found.undriven.append(str(error))
+                self.found.undriven.append(f'{error}')
 
     def _miss_motions(self, text: str) -> None:
         """A robot that says how it is moved, and was not moved at all, is not fine."""
