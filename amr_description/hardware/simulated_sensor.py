@@ -8,8 +8,9 @@ A ``<sensor>`` of a ``<ros2_control>`` block is mounted where the Gazebo sensor 
     <gazebo reference="base_link"><sensor name="imu" type="imu"/></gazebo>
 
 or else on the link that its parameter ``link``, ``frame``, ``frame_id`` or ``frame_name`` names,
-or on the link of its own name: ``imu``, ``imu_link`` or ``imu_frame``, also for ``imu_sensor``. A
-joint stands for its child link.
+or on the link of its own name: ``imu``, ``imu_link`` or ``imu_frame``, also for ``imu_sensor``.
+One whose name begins with ``tcp_`` is else at ``tool0`` or ``flange``, which end an arm by the
+names of ROS-Industrial. A joint stands for its child link.
 """
 
 from abc import ABC, abstractmethod
@@ -25,6 +26,8 @@ from amr_description.model.gazebo import GazeboSensor
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import Robot
 
+_TOOL = 'tcp_'
+_TOOL_FRAMES = ('tcp', 'tool0', 'flange')
 _PARAMETERS = ('link', 'frame', 'frame_id', 'frame_name')
 
 
@@ -105,6 +108,8 @@ def _guesses(name: str) -> Iterator[str]:
     for stem in (name, name.removesuffix('_sensor')):
         for suffix in ('', '_link', '_frame', '_joint'):
             yield stem + suffix
+    if name.startswith(_TOOL):
+        yield from _TOOL_FRAMES
 
 
 def _link_of(name: str, robot: Robot) -> str:

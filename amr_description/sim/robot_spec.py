@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import mujoco
 
-from amr_description.control.contracts import Log
+from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import EFFORT, POSITION, QUANTITIES, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.base_interfaces import BASE
@@ -134,7 +134,7 @@ def build_robot(
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
-    initial = initial_states(robot, controlled)
+    initial = initial_states(robot, controlled, log, strict=strict)
     return RobotSpec(spec, wheels, rollers, casters, frictions, commands, initial, free)
 
 
@@ -244,19 +244,24 @@ def _name_casters(spec: mujoco.MjSpec) -> tuple[str, ...]:
     return tuple(names)
 
 
-def initial_states(robot: Robot, controlled: Iterable[ComponentInfo]) -> dict[str, JointState]:
+def initial_states(
+    robot: Robot, controlled: Iterable[ComponentInfo], log: Log, *, strict: bool = False
+) -> dict[str, JointState]:
     """
     Return where joints are at spawn and after a reset: those that do not begin at rest at 0.
 
-    Mimic joints follow their source: multiplier · position + offset, multiplier · velocity.
+    A joint begins within its limits, so that no end stop throws it. Mimic joints follow their
+    source: multiplier · position + offset, multiplier · velocity.
 
     Args:
         robot: All joints, with their limits.
         controlled: The joints of the ``<ros2_control>`` blocks; ``initial_value`` of their state
             interfaces position and velocity is applied.
+        log: Gets what begins elsewhere than asked.
+        strict: Refuse an initial value beyond the limits of its joint.
 
     Raises:
-        SpawnError: An initial position is beyond the joint's limits.
+        SpawnError: A strict one has such an initial value.
     """
     given: dict[str, dict[str, float]] = {POSITION: {}, VELOCITY: {}}
     mimics = {joint.name: joint.mimic for joint in robot.joints}
@@ -265,7 +270,7 @@ def initial_states(robot: Robot, controlled: Iterable[ComponentInfo]) -> dict[st
         for interface in part.state_interfaces:
             if interface.name in given and interface.initial_value is not None:
                 given[interface.name][part.name] = interface.initial_value
-    _check_positions(robot, given[POSITION])
+    given[POSITION] = _within_limits(robot, given[POSITION], log, strict=strict)
 
     def state_of(joint: str) -> JointState:
         return JointState(given[POSITION].get(joint, 0.0), given[VELOCITY].get(joint, 0.0))
@@ -285,12 +290,42 @@ def initial_states(robot: Robot, controlled: Iterable[ComponentInfo]) -> dict[st
     return states
 
 
-def _check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
-    for name, position in positions.items():
-        bounds = command_bounds(robot.joint(name), POSITION)
-        if not bounds.lower <= position <= bounds.upper:
-            raise SpawnError(
-                f"{robot.source}: joint '{name}': initial_value {position:.6g} of its position is "
-                f'beyond {bounds}',
-                SpawnCode.RESOURCE_PARSE_ERROR,
+def _within_limits(
+    robot: Robot, positions: Mapping[str, float], log: Log, *, strict: bool
+) -> dict[str, float]:
+    """
+    Return the initial positions of all joints that do not begin at 0.
+
+    Args:
+        robot: The joints and their limits.
+        positions: What the description asks for, by joint.
+        log: Gets what is not within the limits.
+        strict: Refuse that, if it was asked for.
+
+    Raises:
+        SpawnError: A strict one has an initial value beyond the limits.
+    """
+    moved: dict[str, float] = {}
+    elsewhere = []
+    for joint in robot.joints:
+        asked = positions.get(joint.name, 0.0)
+        bounds = command_bounds(joint, POSITION)
+        begin = asked
+        if joint.has_position and bounds.lower <= bounds.upper:
+            begin = min(max(asked, bounds.lower), bounds.upper)
+        if begin != asked and joint.name in positions:
+            text = (
+                f"{robot.source}: joint '{joint.name}': initial_value {asked:.6g} of its position "
+                f'is beyond {bounds}'
             )
+            if strict:
+                raise SpawnError(text, SpawnCode.RESOURCE_PARSE_ERROR)
+            log(Severity.WARN, f'{text}; it begins at {begin:.6g}')
+        elif begin != asked:
+            elsewhere.append(f'{joint.name} at {begin:.6g}')
+        if begin:
+            moved[joint.name] = begin
+    if elsewhere:
+        text = f'{robot.source}: 0 is beyond the limits of joints, which begin within them: '
+        log(Severity.INFO, f'{text}{", ".join(elsewhere)}')
+    return moved

@@ -44,9 +44,11 @@ def commanded_joints_have_a_position(context: CheckContext) -> Iterator[Finding]
 
 
 def components_offer_interfaces(context: CheckContext) -> Iterator[Finding]:
-    """Every component of a block has an interface; commanded joints have a state interface."""
+    """Every component has an interface, or is a sensor of parameters; who moves can be read."""
     for hardware, component in _components(context):
         where = f'{component.type} {quote(component.name)} of ros2_control {quote(hardware.name)}'
+        if component.type is ComponentType.SENSOR and component.parameters:
+            continue  # cameras and lidars of mujoco_ros2_control have parameters only
         if not component.command_interfaces and not component.state_interfaces:
             yield context.warning(
                 component.line,

@@ -60,6 +60,14 @@ def test_a_pose_stands_where_its_gazebo_sensor_does():
     assert values == pytest.approx({'position.y': 1.0, 'position.z': 3.0})
 
 
+def test_a_sensor_of_the_tool_is_at_the_end_of_an_industrial_arm():
+    urdf = with_sensor(POSE_INTERFACES, name='tcp_pose', inside='').replace('"b"', '"tool0"')
+    world = FakeWorld(urdf)
+    world.poses = {'tool0': Transform((1.0, 2.0, 3.0), QUARTER)}
+    values, lines = measured(urdf, name='tcp_pose', world=world)
+    assert (values['position.z'], lines) == (3.0, [])
+
+
 def test_a_sensor_may_be_several_instruments():
     urdf = with_sensor(['position.x', *IMU_INTERFACES, 'force.z', 'height'])
     world = FakeWorld(urdf)

@@ -3,6 +3,7 @@
 """Where joints stand at spawn and after a reset: ``initial_value`` of their state interfaces."""
 
 from fixtures.sim.arm import ARM, arm, follow
+from fixtures.sim.driving import Lines
 import pytest
 
 from amr_description.errors import SpawnError
@@ -42,6 +43,40 @@ def test_initial_velocity_of_a_joint_without_command():
     assert spindle.positions() == pytest.approx([4.0], rel=1e-6)
 
 
-def test_initial_position_beyond_the_range_is_refused():
+def test_initial_position_beyond_the_range_begins_at_its_end():
+    log = Lines()
+    _, robot = arm(with_initial('shoulder', 'position', 3), log=log)
+    assert robot.joints(['shoulder']).positions() == [2.0]
+    text = "joint 'shoulder': initial_value 3 of its position is beyond its limit of 2; it begins "
+    assert f'WARN arm: {text}at 2' in log.text
     with pytest.raises(SpawnError, match="'shoulder': initial_value 3 of its position is beyond "):
-        arm(with_initial('shoulder', 'position', 3))
+        arm(with_initial('shoulder', 'position', 3), strict=True)
+
+
+def test_a_joint_whose_range_excludes_0_begins_within_it_and_stays():
+    log = Lines()
+    urdf = ARM.replace('lower="-2" upper="2" effort="50"', 'lower="-3" upper="-0.07" effort="50"')
+    world, robot = arm(urdf, log=log)
+    elbow = robot.joints(['elbow'])
+    assert elbow.positions() == [-0.07]
+    world.step(200)
+    assert elbow.positions() == pytest.approx([-0.07], abs=1e-3)
+    assert 'INFO arm: 0 is beyond the limits of joints, which begin within them: elbow at' in (
+        log.text
+    )
+
+
+def test_mimics_by_parameters_of_the_block_follow_too():
+    urdf = ARM.replace(
+        '<joint name="lift">',
+        '<joint name="spindle"><param name="mimic">shoulder</param><param name="multiplier">2'
+        '</param><param name="offset">0.1</param><state_interface name="position"/></joint>'
+        '<joint name="lift">',
+    )
+    start = urdf.rindex('<joint name="spindle">')
+    urdf = urdf[:start] + urdf[urdf.index('</joint>', start) + len('</joint>') :]
+    world, robot = arm(with_initial('shoulder', 'position', 0.3, urdf))
+    group = robot.joints(['shoulder', 'spindle'])
+    assert group.positions() == pytest.approx([0.3, 0.7])
+    follow(world, robot.joints(['shoulder']), [-0.5], 1.0)
+    assert group.positions() == pytest.approx([-0.5, -0.9], abs=2e-3)

@@ -10,6 +10,7 @@ import pytest
 from support.mesh_files import ascii_stl, binary_stl, box, dae, FACES, glb, gltf, obj, write
 
 from amr_description.cli import check_urdf
+from amr_description.errors import SpawnError
 from amr_description.model.frames import Transform
 from amr_description.sim import meshes as sim_meshes
 from amr_description.sim.meshes import insert_meshes, resolve_meshes, THICKNESS
@@ -185,3 +186,15 @@ def test_a_file_that_has_changed_is_read_again(tmp_path):
     write(tmp_path / 'a.dae', dae(box((1.0, 1.0, 1.25))))
     _, found = prepared(tmp_path, urdf('a.dae'))
     assert {mesh.size for mesh in found.values()} == {(1.0, 1.0, 1.25)}
+
+
+def test_a_robot_of_meshes_comes_back_under_its_name(tmp_path):
+    world = spawned(tmp_path, urdf(write(tmp_path / 'a.obj', obj(BOX)).name))
+    robot = world.robot('crate').description
+    meshes = world.engine.model.nmesh
+    world.remove('crate')
+    assert world.engine.model.nmesh == 0
+    with pytest.raises(SpawnError, match='raise z by 0.200 m'):
+        world.spawn('crate', robot)
+    world.spawn('crate', robot, Transform((0.0, 0.0, 0.25)))
+    assert world.engine.model.nmesh == meshes > 0
