@@ -47,6 +47,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``gazebo_diff_drive.py``          a differential drive as Gazebo's plugins drive one
 ``gazebo_wheels.py``              mecanum wheels and a car, likewise
 ``gazebo_planar_move.py``         a body that moves as commanded, whatever its wheels do
+``gazebo_joint_command.py``       one number for a joint, or for several alike
 ``gazebo_odometry_publisher.py``  the true pose of a link as odometry
 
 ``parameter_sections.py``         the sections of parameter files, with their lines
@@ -70,6 +71,9 @@ CONTROLLERS = Registry(
         ),
         'amr_description/GazeboAckermannDrive': (
             'amr_description.controllers.gazebo_wheels:GazeboAckermannDrive'
+        ),
+        'amr_description/GazeboJointCommand': (
+            'amr_description.controllers.gazebo_joint_command:GazeboJointCommand'
         ),
         'amr_description/GazeboMecanumDrive': (
             'amr_description.controllers.gazebo_wheels:GazeboMecanumDrive'

@@ -23,7 +23,8 @@ module                   what it holds
 ``gazebo.py``            ``<gazebo>`` plugins and sensors
 ``controller_files.py``  parameter files: which are a robot's, what controllers they have types for
 ``gazebo_plugins.py``    … the plugins that drive a robot without ros2_control, and what they say
-``gazebo_drives.py``     … what each kind of them becomes
+``gazebo_drives.py``     … what drives and odometry become
+``gazebo_joints.py``     … what plugins of single joints, and sensors, become
 ``gazebo_builder.py``    … collects it: hardware, controllers, lines to say
 ``gazebo_translation.py``  … of a robot: ``translate(robot)``
 ``base_interfaces.py``   the interfaces of a simulated robot's body as a whole

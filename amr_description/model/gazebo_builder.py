@@ -32,6 +32,7 @@ _IMU_STATES = (
     *(f'linear_acceleration.{axis}' for axis in 'xyz'),
 )
 _STATES = ('position', 'velocity', 'effort')
+_MODEL = re.compile(r'/?model/[^/]+/')
 _NO_NAME = re.compile(r'\W', re.ASCII)
 
 
@@ -86,7 +87,7 @@ class GazeboTranslation:
         controllers: to be active as soon as the robot is spawned, as plugins are.
         update_rate: that the controllers need, Hz.
         notes: what is to be warned of, one line each.
-        remark: what is worth to be known, in one line, or ''.
+        remarks: what is worth to be known, one line each.
         not_simulated: one line that names what is declared and not simulated; '' if nothing is.
     """
 
@@ -95,7 +96,7 @@ class GazeboTranslation:
     update_rate: int = LEAST_RATE
     notes: tuple[str, ...] = ()
     not_simulated: str = ''
-    remark: str = ''
+    remarks: tuple[str, ...] = ()
 
 
 class Builder:
@@ -107,6 +108,7 @@ class Builder:
         self.controlled = {joint.name for info in hardware for joint in info.joints}
         self.sensors = {sensor.name for info in hardware for sensor in info.sensors}
         self.notes: list[str] = []
+        self.remarks: list[str] = []
         self.lacking: list[tuple[str, str, str]] = []
         """What is not simulated: sensor or plugin, its name, its type or library."""
         self.controllers: list[PluginController] = []
@@ -114,6 +116,7 @@ class Builder:
         self._commands: dict[str, tuple[str, ...]] = {}
         self._truths: list[str] = []
         self._moves_base = False
+        self._initial: dict[str, float] = {}
         self._torques: dict[str, float] = {}
         self._rates = [float(LEAST_RATE)]
 
@@ -134,10 +137,19 @@ class Builder:
             plugin.note(f'it is left out: {owner} has the joints {quote_all(theirs)}')
         return not lacking and not theirs and bool(joints)
 
-    def command(self, joints: Sequence[str], interface: str, torque: float = math.inf) -> None:
-        """Give joints a command interface, and a largest torque, N·m."""
+    def command(
+        self,
+        joints: Sequence[str],
+        interface: str,
+        *,
+        torque: float = math.inf,
+        initial: float | None = None,
+    ) -> None:
+        """Give joints a command interface, a largest torque, N·m, and an initial position."""
         for joint in joints:
-            self._commands[joint] = (interface,)
+            self._commands[joint] = (*self._commands.get(joint, ()), interface)
+            if initial is not None:
+                self._initial[joint] = initial
             if 0.0 < torque < math.inf:
                 self._torques[joint] = torque
 
@@ -227,17 +239,17 @@ class Builder:
             rate,
             tuple(self.notes),
             _names_of(self.lacking),
-            self._lone_joints(),
+            (*self.remarks, *self._lone_joints()),
         )
 
-    def _lone_joints(self) -> str:
+    def _lone_joints(self) -> Sequence[str]:
         """Return a line about joints that nothing moves, if that is all of them."""
         free = [joint.name for joint in self.robot.joints if joint.has_position]
         if self.is_controlled or self._commands or self._moves_base or not free:
-            return ''
+            return ()
         return (
             f'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its '
-            f'joints are free, as there: {quote_all(free)}'
+            f'joints are free, as there: {quote_all(free)}',
         )
 
     def _joint_hardware(self) -> tuple[HardwareInfo, ...]:
@@ -246,7 +258,7 @@ class Builder:
                 joint.name,
                 ComponentType.JOINT,
                 tuple(InterfaceInfo(each) for each in self._commands.get(joint.name, ())),
-                tuple(InterfaceInfo(each) for each in _STATES),
+                self._states(joint.name),
                 mimic=joint.mimic,
             )
             for joint in self.robot.joints
@@ -261,6 +273,10 @@ class Builder:
             return ()
         plugin = 'amr_description/MujocoSystem'
         return (HardwareInfo(JOINTS, HardwareType.SYSTEM, plugin, joints=joints, sensors=sensors),)
+
+    def _states(self, joint: str) -> tuple[InterfaceInfo, ...]:
+        initial = {'position': self._initial.get(joint)}
+        return tuple(InterfaceInfo(each, initial_value=initial.get(each)) for each in _STATES)
 
     def _base_hardware(self) -> tuple[HardwareInfo, ...]:
         states = tuple(InterfaceInfo(each) for each in TRUTH)
@@ -308,3 +324,9 @@ def node_name(name: str, default: str) -> str:
 
 def origin_of(plugin: PluginElement) -> str:
     return f'plugin {quote(plugin.name or plugin.filename)}'
+
+
+def gz_topic(plugin: PluginElement, element: str, default: str) -> str:
+    """Return a topic of new Gazebo as it is usually bridged to ROS."""
+    given = _MODEL.sub('', plugin.text(element), count=1)
+    return 'odom' if given == 'odometry' and default == 'odom' else given or default

@@ -1,29 +1,18 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What each kind of Gazebo's plugins becomes: :data:`TRANSLATORS`, and :func:`add_imu` for sensors.
+What Gazebo's plugins that move a robot, or say where it is, become: :data:`DRIVES`.
 """
 
 from collections.abc import Callable, Mapping
 import math
-import re
 from typing import Any
 
-from lxml import etree
-
-from amr_description.model.gazebo import gazebo_sensors_of
-from amr_description.model.gazebo_builder import (
-    Builder,
-    HIGHEST_RATE,
-    LEAST_RATE,
-    node_name,
-    origin_of,
-)
+from amr_description.model.gazebo_builder import Builder, gz_topic, node_name, origin_of
 from amr_description.model.gazebo_plugins import PluginElement
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Robot
 from amr_description.model.wheels import find_wheels
-from amr_description.model.xml_reader import parse_number
 from amr_description.text import quote, quote_all
 
 _ACKERMANN = 'amr_description/GazeboAckermannDrive'
@@ -35,7 +24,6 @@ _DRIVES = (_ACKERMANN, _DRIVE, _MECANUM)
 _ODOMETRY = 'amr_description/GazeboOdometryPublisher'
 _UNKNOWN_VARIANCE = 1e12
 _WORLD_FRAMES = ('', 'world', '/world', 'map', '/map')
-_MODEL = re.compile(r'/?model/[^/]+/')
 
 
 def _diff_drive(builder: Builder, plugin: PluginElement) -> None:
@@ -64,7 +52,7 @@ def _diff_drive(builder: Builder, plugin: PluginElement) -> None:
     torque = math.inf
     if classic:
         torque = plugin.number('max_wheel_torque', 'wheelTorque', 'torque', default=5.0)
-    builder.command(left + right, 'velocity', torque)
+    builder.command(left + right, 'velocity', torque=torque)
     parameters: dict[str, Any] = {
         'left_wheel_names': left,
         'right_wheel_names': right,
@@ -209,7 +197,7 @@ def _planar_move(builder: Builder, plugin: PluginElement) -> None:
     if not builder.move_base(plugin):
         return
     if not plugin.is_classic:
-        topics = {'~/cmd_vel': _gz_topic(plugin, 'topic', 'cmd_vel')}
+        topics = {'~/cmd_vel': gz_topic(plugin, 'topic', 'cmd_vel')}
         builder.add(_MOVE, {}, topics, name='velocity_control', origin=origin_of(plugin))
         return
     name = node_name(plugin.name, 'gazebo_planar_move')
@@ -219,26 +207,6 @@ def _planar_move(builder: Builder, plugin: PluginElement) -> None:
     publishes = plugin.flag('publish_odom', default=True)
     transforms = plugin.flag('publish_odom_tf', default=True)
     _classic_truth(builder, plugin, name, rate, publishes=publishes, transforms=transforms)
-
-
-def _joint_states(builder: Builder, plugin: PluginElement) -> None:
-    if builder.is_controlled:
-        plugin.note(
-            'it is left out: the robot has <ros2_control>, whose joint_state_broadcaster '
-            'publishes its joint states'
-        )
-        return
-    asked = plugin.texts('joint_name')
-    joints = [name for name in asked if builder.robot.has_joint(name)]
-    if lacking := [name for name in asked if name not in joints]:
-        plugin.note(f'there is no joint {quote_all(lacking)}; it publishes the others')
-    rate = plugin.number('update_rate', default=float(LEAST_RATE)) if plugin.is_classic else 0.0
-    if plugin.is_classic:
-        topic = plugin.topic('joint_states')
-    else:
-        topic = _gz_topic(plugin, 'topic', 'joint_states')
-        topic = 'joint_states' if topic.endswith('joint_state') else topic
-    builder.broadcast(plugin, joints, topic, rate)
 
 
 def _odometry_publisher(builder: Builder, plugin: PluginElement) -> None:
@@ -260,7 +228,7 @@ def _odometry_publisher(builder: Builder, plugin: PluginElement) -> None:
     }
     _note_noise(plugin)
     has_odom = any('odom' in each.topics.values() for each in builder.controllers)
-    topic = _gz_topic(plugin, 'odom_topic', 'odometry' if has_odom else 'odom')
+    topic = gz_topic(plugin, 'odom_topic', 'odometry' if has_odom else 'odom')
     topics = {'~/odom': topic, '/tf': frame}
     name = 'odometry_publisher'
     builder.add(_ODOMETRY, parameters, topics, name=name, origin=origin_of(plugin))
@@ -301,57 +269,6 @@ def _p3d(builder: Builder, plugin: PluginElement) -> None:
         origin=origin_of(plugin),
         namespace=plugin.namespace,
     )
-
-
-def add_imu(builder: Builder, sensor: etree._Element, link: str) -> bool:
-    """Add the broadcaster of a unit; return False if it is no sound one."""
-    name = sensor.get('name', '')
-    if name in builder.imus or not builder.robot.has_link(link):
-        return False
-    builder.imus.append(name)
-    inside = sensor.find('plugin')
-    plugin = PluginElement(inside if inside is not None else sensor, builder.notes)
-    if inside is not None and plugin.is_classic:
-        topic = plugin.topic('~/out', 'topicName')
-        frame = plugin.text('frame_name', 'frameName')
-        node = node_name(plugin.name, node_name(name, 'imu'))
-    else:
-        topic, node = _gz_topic(PluginElement(sensor), 'topic', 'imu'), node_name(name, 'imu')
-        frame = PluginElement(sensor).text('gz_frame_id', 'ignition_frame_id')
-        topic = 'imu' if topic == '__default_topic__' else topic
-    rate = parse_number((sensor.findtext('update_rate') or '').strip())
-    parameters: dict[str, Any] = {
-        'sensor_name': name,
-        'frame_id': frame or link,
-        **_imu_covariances(builder.robot, name),
-    }
-    if rate > 0.0:
-        parameters['update_rate'] = max(1, round(min(rate, HIGHEST_RATE)))
-    if rate > HIGHEST_RATE:
-        builder.notes.append(f'sensor {quote(name)}: {HIGHEST_RATE} Hz for the {rate:g} Hz asked')
-    builder.add(
-        'imu_sensor_broadcaster/IMUSensorBroadcaster',
-        parameters,
-        {'~/imu': topic},
-        name=node,
-        origin=f'sensor {quote(name)}',
-        namespace=plugin.namespace if inside is not None else '',
-    )
-    return True
-
-
-def _imu_covariances(robot: Robot, name: str) -> dict[str, list[float]]:
-    """Return the variances of a unit's noise, as Gazebo's plugins fill them in."""
-    noises = next((dict(each.noise) for each in gazebo_sensors_of(robot) if each.name == name), {})
-    found = {}
-    for quantity in ('angular_velocity', 'linear_acceleration'):
-        axes = [noises.get(f'{quantity}.{axis}') for axis in 'xyz']
-        deviations = [0.0 if noise is None else noise.stddev for noise in axes]
-        if any(deviations):
-            matrix = [0.0] * 9
-            matrix[0], matrix[4], matrix[8] = (value * value for value in deviations)
-            found[f'static_covariance_{quantity}'] = matrix
-    return found
 
 
 # --- what drives have in common ------------------------------------------------------------------
@@ -448,8 +365,8 @@ def _gz_drive(
         'enable_odom_tf': transforms,
     }
     topics = {
-        '~/cmd_vel': _gz_topic(plugin, 'topic', 'cmd_vel'),
-        _odometry_port(kind): _gz_topic(plugin, 'odom_topic', 'odom'),
+        '~/cmd_vel': gz_topic(plugin, 'topic', 'cmd_vel'),
+        _odometry_port(kind): gz_topic(plugin, 'odom_topic', 'odom'),
         '/tf': frame,
     }
     if kind != _DRIVE:
@@ -460,12 +377,6 @@ def _gz_drive(
 def _odometry_port(kind: str) -> str:
     """Return what a drive calls the topic of its odometry."""
     return '~/odom' if kind == _DRIVE else '~/odometry'
-
-
-def _gz_topic(plugin: PluginElement, element: str, default: str) -> str:
-    """Return a topic of new Gazebo as it is usually bridged to ROS."""
-    given = _MODEL.sub('', plugin.text(element), count=1)
-    return 'odom' if given == 'odometry' and default == 'odom' else given or default
 
 
 def _gz_transform(plugin: PluginElement, default: str) -> tuple[bool, str]:
@@ -515,7 +426,7 @@ def _base(robot: Robot) -> str:
     return robot.root.name
 
 
-TRANSLATORS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
+DRIVES: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'ackermann-steering': _ackermann,
     'diff-drive': _diff_drive,
     'gazebo-ros-ackermann-drive': _classic_ackermann,
@@ -524,8 +435,6 @@ TRANSLATORS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'gazebo-ros-planar-move': _planar_move,
     'mecanum-drive': _mecanum,
     'velocity-control': _planar_move,
-    'gazebo-ros-joint-state-publisher': _joint_states,
-    'joint-state-publisher': _joint_states,
     'odometry-publisher': _odometry_publisher,
     'gazebo-ros-p3d': _p3d,
 }

@@ -14,6 +14,8 @@ planar move, VelocityControl                 ``amr_description/GazeboPlanarMove`
 p3d, OdometryPublisher, odometry of a drive  ``amr_description/GazeboOdometryPublisher``: the truth
 that has the world as its source
 joint state publisher                        ``joint_state_broadcaster/JointStateBroadcaster``
+JointPositionController, JointController     ``amr_description/GazeboJointCommand``
+ros_control of ROS 1, with <transmission>    none: its joints can be commanded by ros2_control
 ``<sensor type="imu">``                      ``imu_sensor_broadcaster/IMUSensorBroadcaster``
 ============================================ ====================================================
 
@@ -26,12 +28,15 @@ What the ``<ros2_control>`` blocks have stays theirs: joints, and sensors by the
 """
 
 from amr_description.model.gazebo_builder import Builder, GazeboTranslation
-from amr_description.model.gazebo_drives import add_imu, FIRST, TRANSLATORS
+from amr_description.model.gazebo_drives import DRIVES, FIRST
+from amr_description.model.gazebo_joints import add_imu, JOINTS
 from amr_description.model.gazebo_plugins import plugins_of, sensors_of
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
 from amr_description.model.xml_reader import parse_xml
+
+_TRANSLATORS = {**DRIVES, **JOINTS}
 
 
 def translate(robot: Robot) -> GazeboTranslation:
@@ -46,8 +51,8 @@ def translate(robot: Robot) -> GazeboTranslation:
         return GazeboTranslation(robot)
     builder = Builder(robot, read_hardware(xml, robot, report))
     for plugin in sorted(plugins_of(xml, builder.notes), key=lambda each: each.kind not in FIRST):
-        if plugin.kind in TRANSLATORS:
-            TRANSLATORS[plugin.kind](builder, plugin)
+        if plugin.kind in _TRANSLATORS:
+            _TRANSLATORS[plugin.kind](builder, plugin)
         elif not plugin.is_world_matter:
             builder.lacking.append(('plugin', plugin.name or plugin.filename, plugin.library))
     for sensor, link in sensors_of(xml):

@@ -20,7 +20,7 @@ from control_msgs.msg import (
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Float64, Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control import trajectory_samples
@@ -191,6 +191,11 @@ def commands_sample(message: Float64MultiArray) -> CommandsSample:
     return CommandsSample(tuple(message.data))
 
 
+def command_sample(message: Float64) -> CommandsSample:
+    """Keep the number."""
+    return CommandsSample((message.data,))
+
+
 def fill_imu(sample: ImuSample, message: Imu) -> None:
     """Write what is measured and, the first time, frame and covariances."""
     if message.header.frame_id != sample.constants.frame_id:
@@ -233,6 +238,7 @@ type _Key = tuple[type | None, str]
 """Type of a port's samples, and of its messages."""
 
 _READERS: dict[_Key, Callable[[Any], Any]] = {
+    (CommandsSample, 'std_msgs/msg/Float64'): command_sample,
     (CommandsSample, 'std_msgs/msg/Float64MultiArray'): commands_sample,
     (EmptySample, 'std_srvs/srv/Empty_Request'): empty_sample,
     (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,

@@ -318,7 +318,7 @@ class EntityManager:
         host = ros2_control_host_of(robot)
         rules = [word for rule in host.remappings for word in ('-r', rule)]
         arguments = [*self._ros_args, *rules]
-        if len(hardware) > len(robot.plugin_hardware):
+        if len(hardware) > len(robot.plugin_hardware) or self._controllers:
             arguments += self._parameter_files(robot)
         else:  # Gazebo's plugins are all that it has
             arguments += ['-p', f'update_rate:={translation.update_rate}']

@@ -80,8 +80,8 @@ def log_translation(robot: str, translation: GazeboTranslation, namespace: str, 
             f"'{robot}': {each.origin} is simulated by the controller {each.name} ({each.type}): "
             f'{topics}',
         )
-    if translation.remark:
-        log(Severity.INFO, f"'{robot}': {translation.remark}")
+    for remark in translation.remarks:
+        log(Severity.INFO, f"'{robot}': {remark}")
     for note in translation.notes:
         log(Severity.WARN, f"'{robot}': {note}")
     if translation.not_simulated:

@@ -9,7 +9,7 @@ from support.control_fakes import collect, FakeLog, MS
 
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import CommandInterface, StateInterface
-from amr_description.control.samples import TwistSample
+from amr_description.control.samples import CommandsSample, TwistSample
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
 from amr_description.model.frames import quaternion_from_rpy, Transform
@@ -152,6 +152,21 @@ def test_a_car_of_classic_takes_the_angle_of_its_tyres(angle, steered):
     (right, left, *_), _ = driven('GazeboAckermannDrive', (0.5, angle), **CAR, **values)
     turn = 0.5 * math.tan(steered)
     assert (right, left) == pytest.approx((5.0 + 2.5 * turn, 5.0 - 2.5 * turn))
+
+
+def test_joints_follow_one_number():
+    forward = controller('GazeboJointCommand', joints=['a', 'b'])
+    commands = [CommandInterface(*name.split('/')) for name in forward.command_interfaces().names]
+    forward.activate(commands, (), 0)
+    (port,) = forward.inputs()
+    port.open()
+    forward.update(PERIOD, PERIOD)
+    assert math.isnan(commands[0].value)
+    port.put(CommandsSample((0.7,)))
+    forward.update(PERIOD, PERIOD)
+    port.put(CommandsSample((math.inf,)))
+    forward.update(PERIOD, PERIOD)
+    assert [each.value for each in commands] == [0.7, 0.7]
 
 
 def test_a_body_is_moved_by_the_latest_command():

@@ -311,11 +311,50 @@ def test_what_is_not_simulated_is_named_once():
 
 
 def test_a_robot_that_says_nothing_is_noted():
-    assert translated().remark == (
+    assert translated().remarks == (
         'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its joints '
-        'are free, as there: "left_joint", "right_joint"'
+        'are free, as there: "left_joint", "right_joint"',
     )
-    assert not translated(gz_drive()).remark
+    assert not translated(gz_drive()).remarks
+
+
+def test_joints_that_are_commanded_by_a_number():
+    inside = '<joint_name>left_joint</joint_name><initial_position>0.5</initial_position>'
+    found = translated(
+        plugin('', 'gz::sim::systems::JointPositionController', inside),
+        plugin(
+            '',
+            'gz::sim::systems::JointController',
+            '<joint_name>right_joint</joint_name><topic>spin</topic>',
+        ),
+    )
+    position, velocity, _ = found.controllers
+    assert position.name == 'left_joint_position'
+    assert position.topics == {'~/command': '/model/cart/joint/left_joint/0/cmd_pos'}
+    assert velocity.parameters == {'joints': ['right_joint'], 'interface_name': 'velocity'}
+    assert velocity.topics == {'~/command': 'spin'}
+    left, right = found.robot.plugin_hardware[0].joints
+    assert left.state_interfaces[0].initial_value == 0.5
+    assert [each.name for each in right.command_interfaces] == ['velocity']
+
+
+def test_transmissions_of_ros_1():
+    kinds = {'left': 'hardware_interface/VelocityJointInterface', 'right': 'EffortJointInterface'}
+    transmissions = ''.join(
+        f"""<transmission name="{side}"><joint name="{side}_joint">
+        <hardwareInterface>{kind}</hardwareInterface></joint></transmission>"""
+        for side, kind in kinds.items()
+    )
+    text = cart(plugin('libgazebo_ros_control.so', 'gazebo_ros_control'))
+    found = translate(parse(text.replace('</robot>', f'{transmissions}</robot>')))
+    left, right = found.robot.plugin_hardware[0].joints
+    assert left.command_interfaces[0].name == 'velocity'
+    assert right.command_interfaces[0].name == 'effort'
+    assert found.remarks == (
+        'plugin "gazebo_ros_control" is of ROS 1; its 2 joints of <transmission> can be commanded '
+        'by ros2_control ("velocity", "effort"), by controllers of a parameter file that is given',
+    )
+    assert not found.not_simulated
 
 
 @pytest.mark.parametrize(
