@@ -72,10 +72,15 @@ def missing_files(named: Iterable[str]) -> list[str]:
 
 
 def files_of(robot: Robot) -> list[Path]:
-    """Return the files that a URDF names, else the shipped one, if that is for this robot."""
+    """
+    Return the files that a URDF names, else the shipped one, if that is for this robot.
+
+    It is for none without ``<ros2_control>``, even if plugins of Gazebo drive it.
+    """
     shipped = own_share() / 'config' / 'controllers.yaml'
     found = existing_files(named_files(robot))
-    return found or ([] if foreign_wheels(robot, shipped) else [shipped])
+    is_for_it = hardware_of(robot) and not foreign_wheels(robot, shipped)
+    return found or ([shipped] if is_for_it else [])
 
 
 def foreign_wheels(robot: Robot, file: Path) -> list[str]:

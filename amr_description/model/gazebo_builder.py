@@ -22,6 +22,10 @@ from amr_description.text import quote, quote_all
 
 JOINTS = 'gazebo_plugins'
 """The name of the hardware component of joints and sensors."""
+COMMAND = '~/cmd_vel'
+"""What the controllers that drive call the topic of their commands."""
+ODOMETRY = ('~/odom', '~/odometry')
+"""What controllers call the topic of their odometry."""
 BROADCASTER = 'joint_state_broadcaster/JointStateBroadcaster'
 LEAST_RATE, HIGHEST_RATE = 100, 200
 """Hz, of the controller manager; it is raised for sensors that are faster."""
@@ -97,6 +101,27 @@ class GazeboTranslation:
     notes: tuple[str, ...] = ()
     not_simulated: str = ''
     remarks: tuple[str, ...] = ()
+
+    def twist_topic(self, namespace: str) -> str:
+        """Return the topic of ``geometry_msgs/msg/Twist`` that drives the robot; '': none does."""
+        for each in self.controllers:
+            if COMMAND in each.topics:
+                return each.names_of_topics(namespace)[COMMAND]
+        return ''
+
+    def odometry_topic(self, namespace: str) -> str:
+        """Return the topic of its first odometry; '': there is none."""
+        for each in self.controllers:
+            topics = each.names_of_topics(namespace)
+            if each.parameters.get('publish_odom', True) and (found := {*topics} & {*ODOMETRY}):
+                return topics[found.pop()]
+        return ''
+
+    def joint_states_topic(self, namespace: str) -> str:
+        """Return the topic of its joint states; '': there is none."""
+        found = (each for each in self.controllers if each.type == BROADCASTER)
+        first = next(found, None)
+        return '' if first is None else first.names_of_topics(namespace)['joint_states']
 
 
 class Builder:

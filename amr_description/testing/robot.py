@@ -10,6 +10,7 @@ from typing import Any
 import warnings
 
 from controller_manager_msgs.srv import ListControllers
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -26,6 +27,8 @@ from amr_description.model.controller_files import (
     spawner_words,
 )
 from amr_description.model.frames import Transform
+from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot as Description
 from amr_description.ros.messages import fill_pose
 from amr_description.testing.lock_step import LatestMessage, LockStep, TIMEOUT
@@ -56,6 +59,8 @@ class Topics:
 
     command: str = ''
     """geometry_msgs/msg/TwistStamped, of the first diff_drive_controller."""
+    is_stamped: bool = True
+    """Whether it is; Twist without a stamp drives a plugin of Gazebo."""
     odometry: str = ''
     """nav_msgs/msg/Odometry, of the same controller."""
     joints: str = ''
@@ -77,10 +82,17 @@ class Robot:
         """The name of the entity."""
         self.namespace = namespace
         self.command_topic = topics.command
-        """Of the diff_drive_controller; empty: there is none."""
+        """Of the diff_drive_controller, or of a plugin of Gazebo; empty: there is none."""
+        self._is_stamped = topics.is_stamped
         self._lock_step = lock_step
         self._odometry = _latest(readings, Odometry, topics.odometry)
         self._joints = _latest(readings, JointState, topics.joints)
+
+    def twist(self, linear: float, angular: float) -> TwistStamped | Twist:
+        """Return a command, m/s and rad/s, of the type that :attr:`command_topic` has."""
+        twist = Twist()
+        twist.linear.x, twist.angular.z = float(linear), float(angular)
+        return TwistStamped(twist=twist) if self._is_stamped else twist
 
     @property
     def truth(self) -> Motion:
@@ -237,8 +249,19 @@ def spawn_controllers(
 
     publishers = node.get_publisher_names_and_types_by_node
     subscribers = node.get_subscriber_names_and_types_by_node
-    return Topics(
+    topics = Topics(
         command=topic(drive, subscribers, 'geometry_msgs/msg/TwistStamped'),
         odometry=topic(drive, publishers, 'nav_msgs/msg/Odometry'),
         joints=topic(broadcaster, publishers, 'sensor_msgs/msg/JointState'),
+    )
+    return topics if topics.command else _with_plugins(topics, translate(description), inside)
+
+
+def _with_plugins(topics: Topics, plugins: GazeboTranslation, namespace: str) -> Topics:
+    """Return topics with those of Gazebo's plugins in place of what is missing."""
+    return Topics(
+        command=plugins.twist_topic(namespace),
+        is_stamped=False,
+        odometry=topics.odometry or plugins.odometry_topic(namespace),
+        joints=topics.joints or plugins.joint_states_topic(namespace),
     )

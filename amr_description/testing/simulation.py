@@ -32,7 +32,6 @@ from types import MappingProxyType, TracebackType
 from typing import Any, Self
 import warnings
 
-from geometry_msgs.msg import TwistStamped
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -45,6 +44,7 @@ from amr_description.errors import SimulationError
 from amr_description.model.controller_files import files_of
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
 from amr_description.ros.discovery import use_whole_graph
@@ -139,7 +139,7 @@ class Simulation:
             self._description = self._read_description()
             # Before anything is started: what is wrong with it is told at once.
             self._robot_model = parse_urdf(self._description)
-            self._is_controlled = bool(hardware_of(self._robot_model))
+            self._is_controlled = bool(hardware_of(translate(self._robot_model).robot))
             self._files = self._parameter_files()
             domain = stack.enter_context(own_domain())
             self._simulator = stack.enter_context(simulator(self._parameters))
@@ -347,7 +347,7 @@ class Simulation:
         steps = max(1, self._steps_in(_COMMAND_PERIOD))
         while count > 0:
             self.send_all(
-                {robot.command_topic: _twist(*twist) for robot, twist in commands.items()}
+                {robot.command_topic: robot.twist(*twist) for robot, twist in commands.items()}
             )
             self.step(min(steps, count))
             count -= steps
@@ -447,12 +447,6 @@ def _client(transport: AbstractContextManager[None]) -> tuple[Context, Node]:
 def _node(name: str, context: Context) -> Node:
     """Make a node without /rosout: two simulations of a test have nodes of the same names."""
     return Node(name, context=context, use_global_arguments=False, enable_rosout=False)
-
-
-def _twist(linear: float, angular: float) -> TwistStamped:
-    message = TwistStamped()
-    message.twist.linear.x, message.twist.angular.z = float(linear), float(angular)
-    return message
 
 
 def _absolute(world: str | Path) -> str:

@@ -46,6 +46,8 @@ class ControllerPlan:
     remappings: tuple[tuple[str, str], ...] = ()
     """Of all controllers, by the URDF: (from, to)."""
     notes: tuple[Note, ...] = ()
+    plugin_twist: str = ''
+    """The topic of ``geometry_msgs/msg/Twist`` by which a plugin of Gazebo drives; '': none."""
 
     @property
     def is_that_of_amr(self) -> bool:
@@ -94,15 +96,20 @@ def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) ->
         remapping,
     )
     from amr_description.model.gazebo import ros2_control_host_of
+    from amr_description.model.gazebo_translation import translate
     from amr_description.model.ros2_control_tag import hardware_of
 
     given = [path_of(controllers, 'controllers')] if controllers else []
-    if not hardware_of(robot):
+    plugins = translate(robot)
+    if not hardware_of(plugins.robot):
         note = f'urdf:={urdf}: it has no <ros2_control>, and so no controller manager of its own'
         note += f'; controllers:={controllers} has no effect' if controllers else ''
         return ControllerPlan((), files=tuple(given), notes=(('INFO', note),))
     files, notes = (given, []) if given else _files_of(urdf, robot)
     namespace, manager = manager_of(robot)
+    if plugins.controllers:
+        named = ', '.join(each.name for each in plugins.controllers)
+        notes.append(('INFO', f"urdf:={urdf}: Gazebo's plugins, active from the start: {named}"))
     found = declared_controllers(files, namespace, manager)
     if files and not found:
         named = ', '.join(map(str, files))
@@ -126,14 +133,18 @@ def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) ->
         manager,
         tuple(rule for rule in map(remapping, ros2_control_host_of(robot).remappings) if rule),
         tuple(notes),
+        plugins.twist_topic(namespace),
     )
 
 
 def _files_of(urdf: str, robot: 'Robot') -> tuple[list[Path], list[Note]]:
     """Return the parameter files of a robot for which none is given, and what is said of it."""
     from amr_description.model.controller_files import files_of, missing_files, named_files
+    from amr_description.model.ros2_control_tag import hardware_of
 
     files, missing = files_of(robot), missing_files(named_files(robot))
+    if not files and not missing and not hardware_of(robot):
+        return [], []  # Gazebo's plugins are all that it has
     if not files:
         why = 'no controller is spawned: give controllers:=FILE'
         why = f'it names no parameter file; {why}' if not missing else why

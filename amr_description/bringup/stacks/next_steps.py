@@ -56,7 +56,7 @@ def velocity_topic(plan: ControllerPlan) -> VelocityTopic | None:
         local = _DRIVES.get(_class_of(each))
         if local is not None:
             return VelocityTopic(_topic(plan, each, local))
-    return None
+    return VelocityTopic(plan.plugin_twist, is_stamped=False) if plan.plugin_twist else None
 
 
 def how_to_drive(viewer: bool, topic: VelocityTopic = AMR_TOPIC) -> str:

@@ -4,6 +4,7 @@
 
 import re
 
+from fixtures.sim import plugin_robot
 import pytest
 from support.paths import ROOT
 
@@ -282,3 +283,22 @@ def test_the_next_steps_can_be_typed():
     assert 'ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true' in text
     command = '{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}'
     assert f'"{command}"' in text
+
+
+def test_a_robot_for_gazebo_needs_no_spawner(tmp_path):
+    path = tmp_path / 'cart.urdf'
+    path.write_text(plugin_robot.cart(plugin_robot.gz_drive('<topic>base/cmd_vel</topic>')))
+    found = stack(urdf=str(path))
+    assert [node.executable for node in found.nodes] == [
+        'mujoco_sim',
+        'robot_state_publisher',
+        'create',
+        'viewer',
+    ]
+    assert found.nodes[0].parameters[0]['controllers'] == ''
+    assert 'teleop_twist_keyboard --ros-args \\\n        -r /cmd_vel:=/base/cmd_vel' in (
+        found.next_steps
+    )
+    assert '--once /base/cmd_vel geometry_msgs/msg/Twist \\\n        "{linear:' in found.next_steps
+    said = f"urdf:={path}: Gazebo's plugins, active from the start: diff_drive, "
+    assert ('INFO', f'{said}joint_state_broadcaster') in found.notes
