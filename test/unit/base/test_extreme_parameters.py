@@ -70,6 +70,10 @@ NEEDED_BY = {
         'traction_joints_names': ['rear'],
         **ONE_IN_FRONT,
     },
+    'joint_trajectory_controller/JointTrajectoryController': {
+        'command_interfaces': ['position'],
+        'state_interfaces': ['position', 'velocity'],
+    },
     'tricycle_steering_controller/TricycleSteeringController': ONE_IN_FRONT,
 }
 
