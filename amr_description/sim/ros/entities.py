@@ -7,7 +7,7 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 import enum
 from pathlib import Path
@@ -26,6 +26,7 @@ from amr_description.control.ros.controller_manager_node import (
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.controllers.drive_files import drive_warnings
+from amr_description.controllers.roller_files import rollers_of_controllers
 from amr_description.errors import RequestError, SpawnError
 from amr_description.model.controller_files import files_of, missing_files, named_files
 from amr_description.model.frames import Transform
@@ -34,6 +35,7 @@ from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
+from amr_description.model.rollers import Rollers
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameter_files import read_parameter_file
 from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_thread
@@ -172,11 +174,12 @@ class EntityManager:
         hardware = hardware_of(robot)
         translation = translate(robot)
         prepared = self._prepare(robot, hardware, namespace, translation) if hardware else None
+        rollers = self._rollers_of(robot) if hardware else {}
 
         def insert() -> tuple[str, ControllerManager | None]:
             given = free_name(name, self._world.names) if allow_renaming else name
             check_name(given, self._world.names)
-            return given, self._insert(given, robot, pose, prepared)
+            return given, self._insert(given, robot, pose, prepared, rollers)
 
         try:
             given, manager = await self._loop_thread.submit(insert)
@@ -246,6 +249,7 @@ class EntityManager:
         robot: Robot,
         pose: Transform,
         prepared: PreparedManager | None,
+        rollers: Mapping[str, Rollers],
     ) -> ControllerManager | None:
         """Add robot, components (all of them active) and manager, between two cycles."""
         loop, world = self._loop_thread.loop, self._world
@@ -257,7 +261,7 @@ class EntityManager:
         self._check_namespace(namespace)
         if not loop.managers:
             world.timestep = physics_stepping(_period_of(rate), world.longest_step).step
-        view = world.spawn(name, robot, pose, lift=self._lift)
+        view = world.spawn(name, robot, pose, lift=self._lift, rollers=rollers)
         try:
             manager = prepared.bring_up(view, self._period(rate), self._simulates_mocks)
         except Exception:
@@ -339,6 +343,11 @@ class EntityManager:
         for finding in drive_warnings(robot, paths):
             self._log(Severity.WARN, finding.text)
         return [argument for path in paths for argument in ('--params-file', path)]
+
+    def _rollers_of(self, robot: Robot) -> Mapping[str, Rollers]:
+        """Return the rollers of wheels of which only the parameters of a controller tell."""
+        paths = [self._controllers] if self._controllers else files_of(robot)
+        return rollers_of_controllers(robot, [str(path) for path in paths])
 
     def _files_of(self, robot: Robot) -> list[str]:
         """Return the parameter files of a robot for which none is given; say if it has none."""
