@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stack ``simulation``: the robot in MuJoCo, its controllers active, ready to drive."""
 
+from dataclasses import dataclass
 import math
 from typing import Annotated
 from xml.etree import ElementTree
@@ -23,7 +24,12 @@ from amr_description.bringup.stacks.controllers import (
     plan_controllers,
     spawners,
 )
-from amr_description.bringup.stacks.next_steps import how_to_drive, how_to_go_on
+from amr_description.bringup.stacks.next_steps import (
+    how_to_drive,
+    how_to_go_on,
+    velocity_topic,
+    VelocityTopic,
+)
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError, UsageError
 from amr_description.text import plain_name
@@ -31,6 +37,14 @@ from amr_description.text import plain_name
 ABOUT_CONTROLLERS = (
     'parameters of the controllers; empty: the file that the URDF names, for amr the shipped one'
 )
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedRobot(Stack):
+    """The stack of a simulated robot, and how that is driven."""
+
+    velocity_topic: VelocityTopic | None = None
+    """None: nothing drives it."""
 
 
 def simulation(
@@ -53,7 +67,7 @@ def simulation(
     lift: Annotated[
         bool, 'whether a robot that would touch the world is lifted until it is free'
     ] = True,
-) -> Stack:
+) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
     description = robot_description(urdf, xacro_args)
     if fixed:
@@ -80,11 +94,12 @@ def simulation(
     controlled = spawners(plan, exited_cleanly(create))
 
     up = exited_cleanly(controlled[-1] if controlled else create)
-    return Stack(
+    return SimulatedRobot(
         [mujoco_sim, robot_state_publisher, create, *controlled, *page(viewer, up)],
         ready_when=up,
         next_steps=_next_steps(viewer, plan, description),
         notes=[*notes_on([path_of(urdf), *plan.files]), *plan.notes],
+        velocity_topic=velocity_topic(plan),
     )
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from amr_description.bringup import Node, Stack
 from amr_description.bringup.arguments import with_arguments_of
 from amr_description.bringup.stacks.simulation import simulation
+from amr_description.errors import UsageError
 
 
 @with_arguments_of(simulation)
@@ -18,13 +19,18 @@ def teleop(
 ) -> Stack:
     """The simulation, driven with the keys of this terminal; Ctrl-C ends all."""
     robot = simulation(**others)
+    if robot.velocity_topic is None:
+        raise UsageError(
+            f'urdf:={others["urdf"]}: no controller of the robot takes a velocity, so keys cannot '
+            'drive it; the stack simulation brings it up'
+        )
     keyboard = Node(
         'teleop_twist_keyboard',
         terminal=True,
         arguments=['--latch'] if latch else [],
         # The controller drops commands whose stamps, in simulated time, are old.
         parameters=[{'speed': speed, 'turn': turn, 'use_sim_time': True}],
-        remappings=[('/cmd_vel', '/diff_drive_controller/cmd_vel')],
+        remappings=[('/cmd_vel', robot.velocity_topic.name)],
         start_when=robot.ready_when,
         on_exit='shutdown',
     )

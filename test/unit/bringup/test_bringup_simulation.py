@@ -11,6 +11,7 @@ from support.paths import ROOT
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.stacks.simulation import simulation
+from amr_description.bringup.stacks.teleop import teleop
 from amr_description.errors import AmrError
 from amr_description.model.description_file import located_text
 from amr_description.model.origins import with_file
@@ -178,6 +179,17 @@ def test_a_robot_without_ros2_control_waits_for_nobody(tmp_path):
     ((level, note),) = [each for each in made.notes if 'using' not in each[1]]
     assert level == 'INFO'
     assert note.endswith(f'controllers:={given["controllers"]} has no effect')
+
+
+def test_the_keys_drive_the_robot_by_its_own_topic(tmp_path):
+    def keyboard(**given):
+        return teleop(**resolve(declared(teleop), given)).nodes[-1]
+
+    given = cart(tmp_path, TYPES)
+    assert keyboard().remappings == [('/cmd_vel', '/diff_drive_controller/cmd_vel')]
+    assert keyboard(**given).remappings == [('/cmd_vel', '/base/cmd_vel')]
+    with pytest.raises(AmrError, match='no controller of the robot takes a velocity, so keys'):
+        keyboard(**given, activate='js')
 
 
 @pytest.mark.parametrize(
