@@ -21,7 +21,7 @@ PyYAML takes 20 ms to import, so programs that may do without import this module
 it.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 import re
@@ -53,16 +53,20 @@ class YamlError(ParameterError):
         self.where = where
 
 
-def load_yaml(text: str) -> Any:
+def load_yaml(text: str, load: Callable[[str], Any] = yaml.safe_load) -> Any:
     """
     Return what a text means as YAML 1.1.
+
+    Args:
+        text: the text.
+        load: reads it; raises what PyYAML raises.
 
     Raises:
         YamlError: it is not YAML.
         ParameterError: it is nested too deeply to be read.
     """
     try:
-        return yaml.safe_load(text)
+        return load(text)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         where = (mark.line + 1, mark.column + 1) if mark else None
@@ -76,6 +80,44 @@ def load_yaml(text: str) -> Any:
         raise ParameterError('it is nested too deeply') from error
     except ValueError as error:  # a date such as 2026-99-99, an integer of 5000 digits
         raise YamlError(unwrap(str(error))) from error
+
+
+def compose(text: str) -> yaml.Node | None:
+    """
+    Return the tree of a parameter file; tables of one key that stands twice are joined.
+
+    So rcl reads it: ``/**:`` may stand above every node of a file, and each counts. PyYAML would
+    keep the last one.
+    """
+    tree = yaml.compose(text, Loader=yaml.SafeLoader)
+    if tree is not None:
+        _join_tables(tree, set())
+    return tree
+
+
+def _join_tables(node: yaml.Node, seen: set[int]) -> None:
+    if not isinstance(node, yaml.MappingNode) or id(node) in seen:
+        return
+    seen.add(id(node))  # an anchor may hold itself
+    first: dict[str, yaml.MappingNode] = {}
+    kept = []
+    for key, value in node.value:
+        name = key.value if isinstance(key, yaml.ScalarNode) else ''
+        if name in first and isinstance(value, yaml.MappingNode):
+            first[name].value.extend(value.value)
+            continue
+        if name and isinstance(value, yaml.MappingNode):
+            first[name] = value
+        kept.append((key, value))
+    node.value = kept
+    for _, value in kept:
+        _join_tables(value, seen)
+
+
+def _content_of(text: str) -> Any:
+    """Return what a parameter file holds. Raises what PyYAML raises."""
+    tree = compose(text)
+    return None if tree is None else yaml.SafeLoader('').construct_document(tree)
 
 
 def read_parameter_file(path: Path) -> dict[str, Any]:
@@ -92,7 +134,7 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise ParameterError(f"parameter file '{path}': not UTF-8 text ({error})") from error
     try:
-        content = load_yaml(text)
+        content = load_yaml(text, _content_of)
         for _ in sections(content if isinstance(content, dict) else {}):
             pass
     except YamlError as error:
@@ -100,7 +142,7 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
         tabs = '; YAML is indented by spaces, not tabs' if "'\\t'" in str(error) else ''
         raise ParameterError(f'{path}{line}: {error}{tabs}') from error
     except SectionError as error:
-        number, _ = find_keys(yaml.compose(text, Loader=yaml.SafeLoader), error.keys)
+        number, _ = find_keys(compose(text), error.keys)
         raise ParameterError(f'{path}:{number}: {error}') from error
     except ParameterError as error:
         raise ParameterError(f"parameter file '{path}': {error}") from error
@@ -168,14 +210,15 @@ def _is_misspelt(name: Any) -> bool:
     return bool(closest_match(str(name), [KEY], 0.75))
 
 
-def find_keys(tree: yaml.Node, keys: tuple[Any, ...]) -> tuple[int, yaml.Node]:
+def find_keys(tree: yaml.Node | None, keys: tuple[Any, ...]) -> tuple[int, yaml.Node]:
     """
     Return the line of the innermost key, and the node below it.
 
     Args:
-        tree: what ``yaml.compose`` makes of the file.
+        tree: what :func:`compose` makes of the file, which holds something.
         keys: from outside to inside.
     """
+    assert tree is not None, 'what holds keys is not empty'
     line = tree.start_mark.line + 1
     for key in keys:
         line, tree = _entry(tree, key)

@@ -65,9 +65,12 @@ def controllers_file(controllers: str, urdf: str, description: str) -> Path:
 
 def require_namespaces(file: Path, namespaces: list[str]) -> None:
     """Raise UsageError: the parameter file is for a single robot, without a namespace."""
-    import yaml
-
-    from amr_description.parameter_files import find_keys, read_parameter_file, sections
+    from amr_description.parameter_files import (
+        compose,
+        find_keys,
+        read_parameter_file,
+        sections,
+    )
 
     found = [
         each
@@ -78,7 +81,7 @@ def require_namespaces(file: Path, namespaces: list[str]) -> None:
     lacking = [node for node in managers if not any(each.is_of(node) for each in found)]
     if not found or not lacking:
         return
-    line, _ = find_keys(yaml.compose(file.read_text('utf-8')), found[0].keys)
+    line, _ = find_keys(compose(file.read_text('utf-8')), found[0].keys)
     raise UsageError(
         f'{file}:{line}: the section {"/".join(map(str, found[0].keys))} is not for {lacking[0]}; '
         f'write /**/{_MANAGER}: there, and /**/ before the names of the controllers, for robots '

@@ -16,6 +16,7 @@ import yaml
 from amr_description.errors import ParameterError
 from amr_description.model.findings import SourceLocation
 from amr_description.parameter_files import (
+    compose,
     dotted,
     find_keys,
     flatten,
@@ -117,7 +118,7 @@ def _read(path: str) -> tuple[LocatedSection, ...]:
 @lru_cache(maxsize=32)
 def _read_unchanged(path: str, _changed: int, _size: int) -> tuple[LocatedSection, ...]:
     content = read_parameter_file(Path(path))
-    tree = yaml.compose(Path(path).read_text(encoding='utf-8'), Loader=yaml.SafeLoader)
+    tree = compose(Path(path).read_text(encoding='utf-8'))
     try:
         return tuple(_located(each, tree, path) for each in islice(sections(content), _MOST))
     except RecursionError:  # an anchor that holds itself
@@ -134,7 +135,7 @@ def _further_files(found: list[LocatedSection]) -> Iterator[str]:
                 yield from (file for file in names if isinstance(file, str))
 
 
-def _located(section: Section, tree: yaml.Node, path: str) -> LocatedSection:
+def _located(section: Section, tree: yaml.Node | None, path: str) -> LocatedSection:
     line, below = find_keys(tree, section.keys)
     values, locations = {}, {}
     if isinstance(section.parameters, dict):

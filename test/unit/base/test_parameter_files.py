@@ -8,7 +8,9 @@ import pytest
 
 from amr_description.errors import ParameterError
 from amr_description.parameter_files import (
+    compose,
     dotted,
+    find_keys,
     flatten,
     load_yaml,
     parameter_file_text,
@@ -97,3 +99,15 @@ def test_what_is_written_is_what_is_read(tmp_path):
     (section,) = sections(read_parameter_file(path))
     assert section.is_of('/left/arm')
     assert {dotted(keys): value for keys, value in flatten(section.parameters)} == parameters
+
+
+def test_a_key_that_stands_twice_is_one_table_as_rcl_reads_it(tmp_path):
+    path = tmp_path / 'twice.yaml'
+    path.write_text(
+        '/**:\n  arm:\n    ros__parameters: {a: 1, b: 1}\n'
+        '/**:\n  hand:\n    ros__parameters: {c: 3}\n'
+        '/**:\n  arm:\n    ros__parameters: {b: 2}\n'
+    )
+    tables = {each.pattern: each.parameters for each in sections(read_parameter_file(path))}
+    assert tables == {'/**/arm': {'a': 1, 'b': 2}, '/**/hand': {'c': 3}}
+    assert find_keys(compose(path.read_text()), ('/**', 'hand'))[0] == 5
