@@ -190,13 +190,28 @@ def test_what_cannot_be_spawned_is_refused_with_its_code(sim, node):
     assert state(node, 'nobody').result.result == Result.RESULT_NOT_FOUND
 
 
-def test_hardware_that_nobody_knows_leaves_no_robot_behind(sim, node):
-    urdf = URDF.replace('amr_description/MujocoSystem', 'acme/Motor')
+def test_hardware_in_python_that_is_not_there_leaves_no_robot_behind(sim, node):
+    urdf = URDF.replace('amr_description/MujocoSystem', 'acme.motors/Motor')
     result = spawn(node, name='amr', resource_string=urdf).result
     assert result.result == Result.RESULT_OPERATION_FAILED
-    assert "hardware plugin 'acme/Motor' is not known" in result.error_message
+    assert "hardware plugin 'acme.motors/Motor' is not known" in result.error_message
     assert state(node, 'amr').result.result == Result.RESULT_NOT_FOUND
     assert 'controller_manager' not in node.get_node_names()
+
+
+@pytest.mark.parametrize(
+    ('plugin', 'words'),
+    [
+        ('acme/Motor', 'drives real hardware and is not used here'),
+        ('mock_components/GenericSystem', 'is simulated; mock_hardware:=mock keeps the mock'),
+    ],
+)
+def test_hardware_of_real_robots_and_mocks_is_simulated(sim, node, plugin, words):
+    lost = '<joint name="lost"/></ros2_control>'
+    urdf = URDF.replace('amr_description/MujocoSystem', plugin).replace('</ros2_control>', lost)
+    assert spawn(node, name='amr', resource_string=urdf).result.result == Result.RESULT_OK
+    sim.program.expect(f"plugin '{plugin}' {words}")
+    assert "Joint 'lost' not found in URDF" in sim.program.output
 
 
 @pytest.mark.parametrize(
