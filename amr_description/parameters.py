@@ -257,6 +257,19 @@ def specs(table: type, prefix: str = '', values: Mapping[str, Any] = _NO_VALUES)
                 yield row
 
 
+def tables(
+    table: type, values: Mapping[str, Any] = _NO_VALUES, prefix: str = ''
+) -> Iterator[tuple[str, type]]:
+    """Yield (prefix, table) of a table and of those in its groups; see :func:`specs`."""
+    yield prefix, table
+    for _, row in _rows(table, prefix):
+        if isinstance(row, _Group):
+            yield from tables(row.table, values, row.prefix)
+        elif isinstance(row, _KeyedGroup):
+            for each in row.groups(values).values():
+                yield from tables(each.table, values, each.prefix)
+
+
 def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = '') -> Table:
     """
     Make the checked dataclass of some values; the others keep their defaults.

@@ -15,6 +15,9 @@ from typing import Any
 from amr_description.errors import AmrError
 from amr_description.text import did_you_mean
 
+_MOST_NAMES = 12
+"""That are listed in a message."""
+
 
 def resolve(target: str) -> Any:
     """Import ``module:attribute``. Raises ImportError or AttributeError, as ``import`` does."""
@@ -57,11 +60,27 @@ class Registry:
     YAML file or a URDF can name a class of another package.
     """
 
-    def __init__(self, kind: str, table: Mapping[str, str], error: type[AmrError]) -> None:
-        """``kind`` (``controller type``) and ``error`` are for the messages."""
+    def __init__(
+        self,
+        kind: str,
+        table: Mapping[str, str],
+        error: type[AmrError],
+        *,
+        absent: Mapping[str, str] | None = None,
+    ) -> None:
+        """
+        Take the names.
+
+        Args:
+            kind: ``controller type``, for the messages.
+            table: from a name to ``module:attribute``.
+            error: what is raised for a name that is not known.
+            absent: names that are known elsewhere, and what would do in their place.
+        """
         self._kind = kind
         self._table = dict(table)
         self._error = error
+        self._absent = absent or {}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -76,8 +95,15 @@ class Registry:
         except Exception as cause:  # a third-party module may raise anything
             if name in self._table:
                 raise
-            raise self._error(
-                f"{self._kind} '{name}' is not known, and cannot be imported as "
-                f'package.module/Class ({type(cause).__name__}: {cause})'
-                f'{did_you_mean(name, self.names)}. Known: {", ".join(self.names)}'
-            ) from cause
+            raise self._error(self.absence(name, cause)) from cause
+
+    def absence(self, name: str, cause: Exception | None = None) -> str:
+        """Return, in one line, that a name is not there, and what would do."""
+        if name in self._absent:
+            return f"{self._kind} '{name}' is not there: {self._absent[name]}"
+        reason = f' ({type(cause).__name__}: {cause})' if cause is not None else ''
+        known = f'. Known: {", ".join(self.names)}' if len(self.names) <= _MOST_NAMES else ''
+        return (
+            f"{self._kind} '{name}' is not known, and cannot be imported as "
+            f'package.module/Class{reason}{did_you_mean(name, self.names)}{known}'
+        )

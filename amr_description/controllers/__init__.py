@@ -50,6 +50,8 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``gazebo_joint_command.py``       one number for a joint, or for several alike
 ``gazebo_odometry_publisher.py``  the true pose of a link as odometry
 
+``absent_types.py``               public types that are not here, and what would do
+``former_drive_parameters.py``    what files of earlier releases say of drives
 ``parameter_sections.py``         the sections of parameter files, with their lines
 ``parameter_faults.py``           what is wrong in them, by its cause: misspelt names, types
 ``drive_files.py``                the differential drives of them, for ``check_urdf``
@@ -58,6 +60,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ================================= ================================================================
 """
 
+from amr_description.controllers.absent_types import ABSENT
 from amr_description.errors import ControllerError
 from amr_description.registry import Registry
 
@@ -67,11 +70,11 @@ CONTROLLERS = Registry(
         'ackermann_steering_controller/AckermannSteeringController': (
             'amr_description.controllers.steering_controllers:AckermannSteeringController'
         ),
-        'amr_description/GazeboDiffDrive': (
-            'amr_description.controllers.gazebo_diff_drive:GazeboDiffDrive'
-        ),
         'amr_description/GazeboAckermannDrive': (
             'amr_description.controllers.gazebo_wheels:GazeboAckermannDrive'
+        ),
+        'amr_description/GazeboDiffDrive': (
+            'amr_description.controllers.gazebo_diff_drive:GazeboDiffDrive'
         ),
         'amr_description/GazeboJointCommand': (
             'amr_description.controllers.gazebo_joint_command:GazeboJointCommand'
@@ -123,11 +126,11 @@ CONTROLLERS = Registry(
         'joint_state_broadcaster/JointStateBroadcaster': (
             'amr_description.controllers.joint_state_broadcaster:JointStateBroadcaster'
         ),
-        'magnetometer_broadcaster/MagnetometerBroadcaster': (
-            'amr_description.controllers.magnetometer_broadcaster:MagnetometerBroadcaster'
-        ),
         'joint_trajectory_controller/JointTrajectoryController': (
             'amr_description.controllers.joint_trajectory_controller:JointTrajectoryController'
+        ),
+        'magnetometer_broadcaster/MagnetometerBroadcaster': (
+            'amr_description.controllers.magnetometer_broadcaster:MagnetometerBroadcaster'
         ),
         'mecanum_drive_controller/MecanumDriveController': (
             'amr_description.controllers.mecanum_drive_controller:MecanumDriveController'
@@ -165,4 +168,5 @@ CONTROLLERS = Registry(
         ),
     },
     ControllerError,
+    absent=ABSENT,
 )

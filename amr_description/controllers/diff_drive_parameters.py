@@ -4,9 +4,11 @@
 
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, ClassVar
 
+from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.rate_limiter import RateLimiter
+from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
 
 _NO_LIMIT: dict[str, Any] = {'nan': True}
@@ -20,6 +22,7 @@ _DEPRECATED = 'Deprecated: set the limits themselves to .nan instead'
 class SpeedLimits:
     """Limits of one component of the commanded twist; NaN: no limit."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.SPEED_LIMITS
     has_velocity_limits: bool = parameter(True, _DEPRECATED)
     has_acceleration_limits: bool = parameter(True, _DEPRECATED)
     has_jerk_limits: bool = parameter(True, _DEPRECATED)
@@ -78,6 +81,7 @@ _SIX_ZEROS = (0.0,) * 6
 class DiffDriveParameters:
     """The table of diff_drive_controller/DiffDriveController."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.DIFF_DRIVE
     left_wheel_names: tuple[str, ...] = parameter(
         (), 'Joints of the wheels on the left', not_empty=True
     )

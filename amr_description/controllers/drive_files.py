@@ -76,7 +76,7 @@ def examine_drive_files(
         kind, fault = type_fault(each.name, each.type, each.location)
         faults += [fault] if fault is not None else []
         read = controller_parameters(found, each.node, kind, each.location)
-        faults += read.faults
+        faults += read.faults + read.readings
         if kind == DIFF_DRIVE and read.is_sound:
             drives.append(_settings(each.name, read))
     names = tuple(each.name for each in listed)

@@ -15,12 +15,14 @@ it no ``~/wrench_filtered``.
 from dataclasses import dataclass
 import itertools
 import math
+from typing import ClassVar
 
 from amr_description.control.contracts import ControllerContext, Output, Port
 from amr_description.control.interfaces import StateInterface
 from amr_description.control.sensor_samples import WrenchSample
 from amr_description.controllers.sensor_broadcaster import axes, below, SensorBroadcaster
 from amr_description.errors import ControllerError
+from amr_description.former_parameters import FormerParameter, ignored
 from amr_description.parameters import group, parameter
 
 _AXES = (*axes('force'), *axes('torque'))
@@ -87,6 +89,13 @@ class WrenchMultipliers:
 class ForceTorqueParameters:
     """The table of force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = (
+        ignored(
+            'sensor_filter_chain.*.type',
+            'the original',
+            'there are no filters here, nor ~/wrench_filtered',
+        ),
+    )
     frame_id: str = parameter('', 'Frame in which the values are', not_empty=True)
     sensor_name: str = parameter('', 'Name of the sensor in <ros2_control>, or interface_names')
     interface_names: WrenchNames = group('interface_names', WrenchNames)

@@ -10,7 +10,7 @@ in joint_state_broadcaster 4.x; an interface that a joint lacks is NaN.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from amr_description.control.contracts import Controller, ControllerContext, Output, Port, Severity
 from amr_description.control.interfaces import (
@@ -28,6 +28,7 @@ from amr_description.control.samples import (
     JointStateSample,
 )
 from amr_description.errors import ControllerError
+from amr_description.former_parameters import FormerParameter, ignored
 from amr_description.parameters import group, parameter
 
 _FIELDS = (POSITION, VELOCITY, EFFORT)
@@ -49,6 +50,9 @@ class InterfaceMap:
 class BroadcasterParameters:
     """The table of joint_state_broadcaster/JointStateBroadcaster."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = (
+        ignored('publish_rate', 'ROS 1', 'update_rate, in Hz, is how often it publishes'),
+    )
     use_local_topics: bool = parameter(
         False, 'Publish ~/joint_states instead of joint_states', read_only=True
     )

@@ -3,9 +3,11 @@
 """The parameters of mecanum_drive_controller 4.x: names, types, defaults and bounds."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
+from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.diff_drive_parameters import LENGTH, SpeedLimits, tf_prefix
+from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
 
 TF_TOPIC = 'Where the transform is published, /tf for instance. Not in the original'
@@ -60,6 +62,7 @@ class MecanumKinematicsParameters:
 class MecanumDriveParameters:
     """The table of mecanum_drive_controller/MecanumDriveController."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.TF_PREFIX
     reference_timeout: float = parameter(
         0.0,
         'Age at which a command ends and the robot brakes; 0: after one update',

@@ -18,7 +18,7 @@ Differences from omni_wheel_drive_controller 4.x:
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Port
@@ -31,6 +31,7 @@ from amr_description.control.interfaces import (
     VELOCITY,
 )
 from amr_description.control.samples import Frames, OdometrySample, TwistSample
+from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import (
     CommandReception,
     HOLONOMIC,
@@ -40,6 +41,7 @@ from amr_description.controllers.diff_drive_parameters import LENGTH, tf_prefix
 from amr_description.controllers.holonomic_odometry import HolonomicOdometry
 from amr_description.controllers.reference_ports import LEAST_PERIOD
 from amr_description.errors import ControllerError
+from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
 
 type Twist = tuple[float, float, float]
@@ -65,6 +67,7 @@ class DiagonalCovariance:
 class OmniWheelDriveParameters:
     """The table of omni_wheel_drive_controller/OmniWheelDriveController."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.TF_PREFIX
     wheel_offset: float = parameter(
         math.nan, 'Angle of the first wheel from x, counter-clockwise', unit='rad', read_only=True
     )

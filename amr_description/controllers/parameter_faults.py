@@ -9,8 +9,9 @@ names that nobody reads are compared with those that are missed. Only what is cl
 known is reported: a file may hold the parameters of any other node, too.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 import math
 from typing import Any
 
@@ -25,6 +26,7 @@ from amr_description.controllers.parameter_sections import (
     LocatedSection,
 )
 from amr_description.errors import ParameterError
+from amr_description.former_parameters import understand
 from amr_description.model.findings import Finding, Severity, SourceLocation
 from amr_description.parameters import Spec, specs
 from amr_description.text import closest_match, quote, quote_all
@@ -51,6 +53,10 @@ class ControllerParameters:
     values: dict[str, Any] = field(default_factory=dict)
     locations: dict[str, SourceLocation] = field(default_factory=dict)
     faults: list[Finding] = field(default_factory=list)
+    readings: list[Finding] = field(default_factory=list)
+    """What is made of parameters of earlier releases, and of numbers of another type."""
+    former: set[str] = field(default_factory=set)
+    """Names of parameters of earlier releases."""
     is_sound: bool = True
     """Whether the values are good once they are corrected."""
 
@@ -73,18 +79,20 @@ def controller_parameters(
         listed: where it is given its type.
     """
     name = node.rpartition('/')[2]
-    rows = _table(kind)
     mine = [each for each in found if each.section.is_of(node)]
     own = [each for each in mine if not each.is_for_every_node]
     read = ControllerParameters(own[-1].location if own else listed)
     if not own:
-        for section, fault in _misnamed(found, node, rows):
+        for section, fault in _misnamed(found, node, _table(kind, {})):
             mine.append(section)
             read.location = section.location
             read.faults.append(fault)
     for each in mine:
         read.values |= each.values
         read.locations |= each.locations
+    _understand(read, name, kind)
+    rows = _table(kind, read.values)
+    for each in mine:
         if rows and not each.is_for_every_node:
             read.faults += _misspelt(each, name, rows, read)
     is_empty = not any(row in read.values for row in rows)
@@ -92,16 +100,40 @@ def controller_parameters(
     return read
 
 
+def _understand(read: ControllerParameters, name: str, kind: str) -> None:
+    """Take what was given as the controller's node will, and keep what is to be said of it."""
+    for table in _tables_of(kind):
+        found = understand(table, read.values)
+        read.values |= found.values
+        read.former |= found.known
+        for key, text in found.texts.items():
+            read.readings.append(Finding.warning(*read.locations[key], f'{name}: {text}'))
+            for each in found.values:
+                read.locations.setdefault(each, read.locations[key])
+
+
 def type_fault(name: str, kind: str, location: SourceLocation) -> tuple[str, Finding | None]:
-    """Return the type that is meant, and the fault of one that is misspelt."""
-    meant = '' if kind in CONTROLLERS.names else closest_type(kind)
-    if not meant:
+    """Return the type that is meant, and what is wrong with one that is misspelt, or not there."""
+    if kind in CONTROLLERS.names:
         return kind, None
-    return meant, Finding.error(
-        *location,
-        f'{name}: there is no controller type {quote(kind)}',
-        fix=f'did you mean {quote(meant)}?',
-    )
+    meant = closest_type(kind)
+    if meant:
+        text = f'{name}: there is no controller type {quote(kind)}'
+        return meant, Finding.error(*location, text, fix=f'did you mean {quote(meant)}?')
+    if _may_be_python(kind):
+        return kind, None
+    return kind, Finding.warning(*location, f'{name}: {CONTROLLERS.absence(kind)}')
+
+
+def _may_be_python(kind: str) -> bool:
+    """Return whether a type may be a class of a Python package, which is not imported here."""
+    module = kind.partition('/')[0]
+    if '.' in module:
+        return True
+    try:
+        return find_spec(module) is not None
+    except (ImportError, ValueError):
+        return False
 
 
 def closest_type(kind: str) -> str:
@@ -159,12 +191,16 @@ def _faults_in_manager(section: LocatedSection, name: str) -> Iterator[Finding]:
                 yield _unknown(location, name, key, meant, is_missed=False)
 
 
-def _table(kind: str) -> dict[str, Spec]:
-    """Return the parameters of a shipped controller; none for others."""
+def _tables_of(kind: str) -> tuple[type, ...]:
+    """Return the tables of a shipped controller; none for others."""
     if kind not in CONTROLLERS.names:
-        return {}
-    tables = (CONTROLLERS.find(kind).parameters_type, CommonParameters)
-    return {spec.name: spec for table in tables for spec in specs(table)}
+        return ()
+    return CONTROLLERS.find(kind).parameters_type, CommonParameters
+
+
+def _table(kind: str, values: Mapping[str, Any]) -> dict[str, Spec]:
+    """Return the parameters of a shipped controller, with those that its lists make."""
+    return {spec.name: spec for table in _tables_of(kind) for spec in specs(table, '', values)}
 
 
 def _misnamed(
@@ -230,16 +266,31 @@ def _misspelt(
 ) -> Iterator[Finding]:
     """Yield the parameters of a section that nobody reads; their values count as meant."""
     known = [row for row in rows if row not in section.values]
+    passed = {*rows, *_OF_EVERY_NODE, *read.former}
     for key, value in section.values.items():
-        if key in rows or key in _OF_EVERY_NODE or '*' in key:
+        if key in passed or '*' in key:
             continue
-        meant = closest_match(key, known, _MISSPELT)
+        meant = _closest_parameter(key, known)
         if meant:
             spec = rows[meant]
             is_missed = meant not in read.values and bool(spec.bounds.complaint(spec.default))
             yield _unknown(section.locations[key], name, key, meant, is_missed=is_missed)
             read.values.setdefault(meant, value)
             read.locations.setdefault(meant, section.locations[key])
+
+
+def _closest_parameter(key: str, known: Sequence[str]) -> str:
+    """
+    Return the parameter that a misspelt one means; '' if there is none.
+
+    Where the group is right, the rest has to be alike: gains.joint_1.x is not gains.joint_1.p.
+    """
+    group, dot, rest = key.rpartition('.')
+    beside = [each.removeprefix(group + dot) for each in known if each.startswith(group + dot)]
+    if dot and beside:
+        meant = closest_match(rest, [each for each in beside if '.' not in each], _MISSPELT)
+        return f'{group}.{meant}' if meant else ''
+    return closest_match(key, known, _MISSPELT)
 
 
 def _unknown(

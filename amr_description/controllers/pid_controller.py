@@ -24,7 +24,7 @@ Differences from pid_controller 4.x:
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -57,6 +57,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.controllers.pid import Pid, PidGains, STRATEGIES
 from amr_description.errors import ControllerError
+from amr_description.former_parameters import CLAMP, FormerParameter
 from amr_description.parameters import keyed_group, parameter
 
 _NEWEST = Qos(depth=1, reliability='best_effort')
@@ -69,6 +70,7 @@ _MOST_INTERFACES = 2
 class DofGains:
     """The gains of one degree of freedom."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = (CLAMP,)
     p: float = parameter(0.0, 'Proportional gain')
     i: float = parameter(0.0, 'Integral gain')
     d: float = parameter(0.0, 'Derivative gain')

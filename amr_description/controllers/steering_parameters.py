@@ -9,9 +9,10 @@ with the original's warning.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from amr_description.control.contracts import Log, Severity
+from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.diff_drive_parameters import LENGTH
 from amr_description.controllers.mecanum_drive_parameters import REFERENCE_TIMEOUT, TF_TOPIC
 from amr_description.controllers.steering_kinematics import (
@@ -21,6 +22,7 @@ from amr_description.controllers.steering_kinematics import (
     TricycleKinematics,
 )
 from amr_description.errors import ControllerError
+from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import parameter
 
 _JOINTS: dict[str, Any] = {'read_only': True, 'fewer_than': 5, 'unique': True}
@@ -44,6 +46,7 @@ def _deprecated_size(instead: str) -> Any:
 class SteeringParameters:
     """What the tables of all steering controllers have in common."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.STAMPED_ONLY
     reference_timeout: float = parameter(
         1.0,
         'Age at which a command ends and the robot brakes; 0: after one update',

@@ -17,7 +17,7 @@ finite is warned of, and is none; the warnings of stamps are those of the diff_d
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -43,12 +43,14 @@ from amr_description.control.samples import (
     OdometrySample,
     TwistSample,
 )
+from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import CommandReception
 from amr_description.controllers.diff_drive_parameters import LENGTH
 from amr_description.controllers.odometry import PlanarOdometry
 from amr_description.controllers.reference_ports import LEAST_PERIOD
 from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
 from amr_description.errors import ControllerError
+from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
 
 _MILLISECOND = 1_000_000
@@ -61,6 +63,7 @@ _AT_REST = (0.0, 0.0)
 class TricycleParameters:
     """The table of tricycle_controller/TricycleController."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.STAMPED_ONLY
     traction_joint_name: str = parameter('', 'Joint that is driven', not_empty=True)
     steering_joint_name: str = parameter('', 'Joint that is steered', not_empty=True)
     wheelbase: float = parameter(

@@ -20,10 +20,12 @@ from rclpy.qos import qos_profile_parameter_events, QoSPolicyKind
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from amr_description.errors import ParameterError
+from amr_description.former_parameters import understand
 from amr_description.parameters import build, Spec, specs, Value
 from amr_description.ros.rclpy_internals import (
     parameter_overrides,
     replace_parameter_event_publisher,
+    set_parameter_override,
 )
 
 _ARRAYS = {
@@ -72,6 +74,23 @@ def declare_missing(
         else:
             default = defaults.get(spec.name, spec.default)
             _declare(node, dataclasses.replace(spec, default=default))
+
+
+def adopt_overrides(node: Node, *tables: type) -> list[str]:
+    """
+    Have what a node was given taken as it is meant, before the tables are declared.
+
+    Returns:
+        One line for each parameter that is of an earlier release, or a number of another type.
+    """
+    overrides = parameter_overrides(node)
+    lines: list[str] = []
+    for table in tables:
+        found = understand(table, {name: each.value for name, each in overrides.items()})
+        lines += found.texts.values()
+        for name, value in found.values.items():
+            set_parameter_override(node, Parameter(name, value=value))
+    return lines
 
 
 def declare_added(node: Node, table: type) -> None:

@@ -34,6 +34,7 @@ __all__ = [
     'RcutilsLogger',
     'replace_parameter_event_publisher',
     'set_clock_by_hand',
+    'set_parameter_override',
     'take_message',
     'UnknownROSArgsError',
 ]
@@ -59,6 +60,11 @@ def set_clock_by_hand(node: Node) -> None:
 def parameter_overrides(node: Node) -> Mapping[str, Parameter]:
     """Return the parameters that a node was given, by files and arguments, declared or not."""
     return node._parameter_overrides
+
+
+def set_parameter_override(node: Node, parameter: Parameter) -> None:
+    """Have a node given a value before the parameter is declared, in the place of another one."""
+    node._parameter_overrides[parameter.name] = parameter
 
 
 def replace_parameter_event_publisher(node: Node, publisher: Publisher) -> None:

@@ -45,7 +45,7 @@ controller_manager:
     wheel_separation: 0.3
     wheel_radius: 0.1
 wrong_number:
-  ros__parameters: {{wheel_radius: 1}}
+  ros__parameters: {{wheel_radius: '0.1'}}
 """
 
 

@@ -43,6 +43,7 @@ from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
     add_validation_callback,
+    adopt_overrides,
     declare,
     declare_added,
     values,
@@ -172,6 +173,8 @@ class ControllerNode:
 
     def _declare(self, manager_rate: int) -> CommonParameters:
         """Declare both tables; what is set later counts at the next configure."""
+        for line in adopt_overrides(self.node, self._table, CommonParameters):
+            self.log(Severity.WARN, line)
         declare(self.node, self._table)
         common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})
         add_validation_callback(self.node, self._table, CommonParameters)

@@ -143,7 +143,10 @@ def test_a_slow_configure_keeps_nobody_waiting(host):
         ('unheard_of', 'no type is set for it: /controller_manager has one for '),
         ('nowhere', "controller type 'no_such_package/Nothing' is not known"),
         ('broken', "load controller 'broken': ValueError: a mistake of a third party"),
-        ('wrong_number', "'wheel_radius' must be of type double, found 1, an integer; write 1.0"),
+        (
+            'wrong_number',
+            "'wheel_radius' must be of type double, found '0.1', a string; write",
+        ),
     ],
 )
 def test_a_controller_that_cannot_be_loaded_is_refused_with_the_reason(host, name, reason):

@@ -215,9 +215,9 @@ MISTAKES = {
     ),
     'an integer': Mistake(
         YAML, 'wheel_radius: 0.08', 'wheel_radius: 1',
-        'error: config/rover.yaml:19: ',
-        "parameter 'wheel_radius' must be of type double, found 1, an integer",
-        'write 1.0',
+        'warning: config/rover.yaml:19: ',
+        "parameter 'wheel_radius' is 1, an integer, where a double is declared",
+        'taken as 1.0; a node of rclcpp refuses it',
     ),
     'ros__parameters with one underscore': Mistake(
         YAML, 'ros__parameters', 'ros_parameters',
@@ -381,7 +381,7 @@ def test_the_first_line_names_the_cause_and_a_remedy(check, name):
     'name',
     [
         'degrees', 'no rpy', 'a caster too deep', 'a misspelt parameter', 'a section for no node',
-        'a controller type that is not there', 'an integer', 'grams',
+        'a controller type that is not there', 'a number in quotes', 'grams',
     ],
 )  # fmt: skip
 def test_nothing_is_said_of_what_follows(check, name):

@@ -124,9 +124,9 @@ def test_dotted_and_nested_names_are_the_same(read):
             f'names no controller of type {DIFF_DRIVE}; it is written as',
         ),
         (
-            f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS.replace("0.1", "1")}',
-            r"controllers.yaml:10: drive: parameter 'wheel_radius' must be of type double, found 1"
-            ', an integer; write 1.0$',
+            f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS.replace("0.1", "big")}',
+            r"controllers.yaml:10: drive: parameter 'wheel_radius' must be of type double, found "
+            "'big', a string$",
         ),
         (
             f'{MANAGER}drive:\n  ros__parameters:\n{WHEELS.replace("0.3", "-0.3")}',

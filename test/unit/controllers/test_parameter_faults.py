@@ -194,11 +194,78 @@ def test_a_misspelt_key_is_named_on_its_line(faults, tmp_path, old, new, line):
         'diff_drive_node:\n  ros__parameters:\n    publish_rat: 30.0\n',
         'ekf_filter_node:\n  ros__parameters:\n    frequency: 30.0\n    odom_frame: odom\n',
         '/**:\n  ros__parameters:\n    use_sim_tim: true\n',
-        '    use_stamped_vel: false\n    wheels_per_side: 1\n    qos_overrides: {}\n',
+        '    qos_overrides: {}\n',
     ],
 )
 def test_what_others_read_is_not_reported(faults, more):
     assert faults(GOOD + more) == []
+
+
+@pytest.mark.parametrize(
+    ('old', 'new', 'line'),
+    [
+        (
+            'wheel_radius: 0.08',
+            'wheel_radius: 1',
+            "warning: c.yaml:14: diff_drive_controller: parameter 'wheel_radius' is 1, an integer,"
+            ' where a double is declared: taken as 1.0; a node of rclcpp refuses it',
+        ),
+        (
+            'publish_rate: 50.0',
+            'use_stamped_vel: false',
+            "warning: c.yaml:15: diff_drive_controller: parameter 'use_stamped_vel' is false: it "
+            'is of Humble: plain Twist is taken on ~/cmd_vel_unstamped, besides TwistStamped on '
+            '~/cmd_vel; Jazzy takes TwistStamped only',
+        ),
+        (
+            'joint_state_broadcaster/JointStateBroadcaster',
+            'admittance_controller/AdmittanceController',
+            'warning: c.yaml:6: joint_state_broadcaster: controller type '
+            "'admittance_controller/AdmittanceController' is not there: move the joints by "
+            'joint_trajectory_controller/JointTrajectoryController; ~/wrench of a '
+            'force_torque_sensor_broadcaster tells the forces',
+        ),
+        (
+            'joint_state_broadcaster/JointStateBroadcaster',
+            'a_vendor_of_arms/ArmController',
+            "warning: c.yaml:6: joint_state_broadcaster: controller type 'a_vendor_of_arms/"
+            "ArmController' is not known, and cannot be imported as package.module/Class",
+        ),
+    ],
+)
+def test_what_is_taken_otherwise_or_not_there_is_a_warning_in_one_line(faults, old, new, line):
+    assert old in GOOD
+    assert faults(GOOD.replace(old, new, 1)) == [line]
+
+
+KEYED = """\
+controller_manager:
+  ros__parameters:
+    wheels: {type: pid_controller/PidController}
+    lights: {type: gpio_controllers/GpioCommandController}
+wheels:
+  ros__parameters:
+    dof_names: [left_wheel_joint]
+    command_interface: velocity
+    reference_and_state_interfaces: [velocity]
+    gains:
+      left_wheel_joint: {p: 0.5, antiwindup: true, my_own: 3.0}
+lights:
+  ros__parameters:
+    gpios: [lamp]
+    command_interfaces:
+      lamp:
+        - interfaces:
+          - 'on'
+"""
+
+
+def test_parameters_below_the_elements_of_a_list(faults):
+    assert faults(KEYED) == []
+    (line,) = faults(KEYED.replace('antiwindup:', 'antiwindupp:'))
+    assert line.endswith('did you mean "gains.left_wheel_joint.antiwindup"?')
+    (line,) = faults(KEYED.replace('p: 0.5', 'p: fast'))
+    assert "c.yaml:11: wheels: parameter 'gains.left_wheel_joint.p' must be of type" in line
 
 
 @pytest.mark.parametrize('manager', ['/**/controller_manager', '/robot/controller_manager'])
@@ -228,10 +295,12 @@ def test_an_ordinary_file_in_a_namespace_is_told_what_to_write(tmp_path):
     'kind',
     [
         'admittance_controller/AdmittanceController',
-        'swerve_drive_controller/SwerveDriveController',
+        'swerve_drive_controller/SwerveController',
         'my_diff_drive_controller/DiffDriveController',
         'my_package.drive/DiffDriveController',
+        'cartesian_motion_controller/CartesianMotionController',
         'acceleration_controllers/JointGroupAccelerationController',
+        'ur_controllers/ForceTorqueStateBroadcaster',
     ],
 )
 def test_types_of_others_are_not_corrected(kind):

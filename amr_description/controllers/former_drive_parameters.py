@@ -1,0 +1,90 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What parameter files of earlier releases say of drives, and what is made of it.
+
+From ros2_controllers' migration notes (Humble to Jazzy), and what Humble's controllers read.
+"""
+
+from collections.abc import Mapping
+import math
+from typing import Any
+
+from amr_description.former_parameters import FormerParameter, ignored, Reading, replaced
+
+
+def _stamped(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    if value is False and 'enable_cmd_vel_unstamped' not in given:
+        return Reading(
+            'it is of Humble: plain Twist is taken on ~/cmd_vel_unstamped, besides TwistStamped '
+            'on ~/cmd_vel; Jazzy takes TwistStamped only',
+            {'enable_cmd_vel_unstamped': True},
+        )
+    return None
+
+
+def _stamped_only(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    if value is False:
+        return Reading('it is of Humble, and has no effect: TwistStamped is all that is taken', {})
+    return None
+
+
+def _tilde(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    if value == '~':
+        return Reading(
+            'it is of releases after Jazzy: the namespace of the node, as an empty one is here',
+            {'tf_frame_prefix': ''},
+        )
+    return None
+
+
+def _lowest_acceleration(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    """
+    Read Humble's bounds of Δv/Δt, [min_acceleration, max_acceleration], whichever way it drives.
+
+    Without it, or if it is −max_acceleration, what the others say is the same.
+    """
+    names = ('max_deceleration', 'max_acceleration_reverse')
+    highest = given.get('max_acceleration', math.nan)
+    if not _is_number(value) or not _is_number(highest) or value > 0.0 or value == -highest:
+        return None
+    if any(name in given for name in names) or given.get('has_acceleration_limits') is False:
+        return None
+    return Reading(
+        f'it is of Humble: taken as {" and ".join(names)}', dict.fromkeys(names, float(value))
+    )
+
+
+def _jerk(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    if not _is_number(value) or value != 0.0 or given.get('has_jerk_limits') is False:
+        return None
+    return Reading(
+        'with it the robot would never move: taken as no limit, .nan',
+        {'max_jerk': math.nan, 'min_jerk': math.nan},
+    )
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, float | int) and not isinstance(value, bool) and value == value
+
+
+TF_PREFIX = (FormerParameter('tf_frame_prefix', _tilde),)
+STAMPED_ONLY = (FormerParameter('use_stamped_vel', _stamped_only),)
+SPEED_LIMITS = (
+    FormerParameter('min_acceleration', _lowest_acceleration),
+    FormerParameter('max_jerk', _jerk),
+)
+DIFF_DRIVE = (
+    *TF_PREFIX,
+    FormerParameter('use_stamped_vel', _stamped),
+    ignored('wheels_per_side', 'Foxy', 'the names of the wheels say how many there are'),
+    ignored('publish_wheel_data', 'ROS 1', '/joint_states has what the wheels do'),
+    ignored('publish_cmd', 'ROS 1', 'publish_limited_velocity is what publishes ~/cmd_vel_out'),
+    ignored('preserve_turning_radius', 'ROS 1', 'preserve_curvature keeps the arc here'),
+    replaced(
+        'wheel_radius_multiplier',
+        'ROS 1',
+        'left_wheel_radius_multiplier',
+        'right_wheel_radius_multiplier',
+    ),
+)

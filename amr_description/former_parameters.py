@@ -1,0 +1,147 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Parameters that an earlier release had, or another program of the name, and what is made of them.
+
+ROS ignores a parameter that no node declares, without a word. A table says what it makes of those
+that files still have, in a class attribute ``former``::
+
+    @dataclass(frozen=True)
+    class DriveParameters:
+        former: ClassVar = (ignored('wheels_per_side', 'Foxy', 'the wheels are counted'),)
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Any
+
+from amr_description.parameters import Spec, specs, tables, Value
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What is made of a parameter."""
+
+    text: str
+    values: Mapping[str, Value]
+    """Of parameters of the same table, in the place of what was given."""
+
+
+@dataclass(frozen=True, slots=True)
+class FormerParameter:
+    """
+    A parameter that is read otherwise than a table says, or that it has not.
+
+    ``read`` gets its value, and those of the table that were given, by name; it returns None where
+    there is nothing to say.
+    """
+
+    name: str
+    """Perhaps with wildcards, for what stands below."""
+    read: Callable[[Any, Mapping[str, Any]], Reading | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """What was given, as it is understood."""
+
+    values: dict[str, Any]
+    """By dotted name: only what is otherwise than given."""
+    texts: dict[str, str]
+    """What was made of it, by the name of the parameter in which it was found."""
+    known: set[str]
+    """The names of what was given that are former ones, whether or not there is a text."""
+
+
+def ignored(name: str, origin: str, instead: str) -> FormerParameter:
+    """Return one that has no effect: ``origin`` had it, ``instead`` is what does."""
+    text = f'it is of {origin}, and has no effect: {instead}'
+    return FormerParameter(name, lambda value, given: Reading(text, {}))
+
+
+def replaced(name: str, origin: str, *new: str) -> FormerParameter:
+    """Return one whose value is taken for others, where these are not given."""
+
+    def read(value: Any, given: Mapping[str, Any]) -> Reading | None:
+        values = {each: value for each in new if each not in given}
+        text = f'it is of {origin}: taken as {" and ".join(new)}'
+        return Reading(text, values) if values else None
+
+    return FormerParameter(name, read)
+
+
+def _clamp(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    if not isinstance(value, float | int) or 'i_clamp_max' in given or 'i_clamp_min' in given:
+        return None
+    limit = abs(float(value))
+    return Reading(
+        f'it is of earlier releases: taken as i_clamp_max {limit} and i_clamp_min {-limit}',
+        {'i_clamp_max': limit, 'i_clamp_min': -limit},
+    )
+
+
+CLAMP = FormerParameter('i_clamp', _clamp)
+"""Of the gains of a PID."""
+
+
+def understand(table: type, given: Mapping[str, Any]) -> Understanding:
+    """
+    Return how the parameters of a file or a command line are understood.
+
+    Args:
+        table: the parameters of the node.
+        given: by dotted name; others than those of the table, too.
+    """
+    found = Understanding({}, {}, set())
+    for prefix, former in _all_former(table, given):
+        local = _below(prefix, given)
+        for name, value in local.items():
+            if not fnmatchcase(name, former.name):
+                continue
+            found.known.add(prefix + name)
+            reading = former.read(value, local)
+            if reading is not None:
+                full = prefix + name
+                found.texts[full] = f"parameter '{full}' is {_shown(value)}: {reading.text}"
+                found.values.update({prefix + n: v for n, v in reading.values.items()})
+    for spec in specs(table, '', given):
+        value = found.values.get(spec.name, given.get(spec.name))
+        adopted = spec.adopt(value)
+        if adopted is not value:
+            if spec.name not in found.values:
+                found.texts[spec.name] = _adoption(spec, value, adopted)
+            found.values[spec.name] = adopted
+    return found
+
+
+def _all_former(table: type, given: Mapping[str, Any]) -> Iterator[tuple[str, FormerParameter]]:
+    for prefix, below in tables(table, given):
+        for former in getattr(below, 'former', ()):
+            yield prefix, former
+
+
+def _adoption(spec: Spec, value: Any, adopted: Any) -> str:
+    kind = 'integers' if isinstance(value, list | tuple) else 'an integer'
+    article = 'a'
+    if spec.type == 'integer':
+        kind, article = 'a double', 'an'
+    return (
+        f"parameter '{spec.name}' is {_shown(value)}, {kind}, where {article} {spec.type} is "
+        f'declared: taken as {_shown(adopted)}; a node of rclcpp refuses it'
+    )
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(list(value)) if isinstance(value, tuple) else str(value)
+
+
+def _below(prefix: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is given below a prefix, by the rest of its name."""
+    return {
+        name.removeprefix(prefix): value
+        for name, value in given.items()
+        if name.startswith(prefix)
+    }
