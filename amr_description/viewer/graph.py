@@ -123,6 +123,9 @@ def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None
     odometries = [
         topic for topic in own(names.published, ODOMETRY) if '/ground_truth/' not in topic
     ]
+    joint_states = [
+        topic for topic in own(names.published, JOINT_STATE) if topic.endswith('/joint_states')
+    ]
     joint_publishers = [
         topic.removesuffix('/set_joint_positions')
         for topic in own(names.subscribed, JOINT_STATE)
@@ -142,7 +145,7 @@ def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None
         odometry=_shortest(odometries, f'{namespace}/odom'),
         truth=_truth(names, robot),
         wheels=names.if_published(f'{namespace}/ground_truth/wheels', DYNAMIC_JOINT_STATE),
-        joint_states=names.if_published(f'{namespace}/joint_states', JOINT_STATE),
+        joint_states=_shortest(joint_states, f'{namespace}/joint_states'),
         joint_publisher=_shortest(joint_publishers) or None,
         manager=manager,
         activity=names.if_published(f'{manager}/activity', ACTIVITY),

@@ -62,11 +62,12 @@ export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Sh
   }
 
   // A description to look at, as in RViz, has no velocity: the place is for its joints.
-  store.watch(['graph', 'robot'], () => {
-    const { robot } = store;
+  store.watch(['graph', 'robot', 'controllers'], () => {
+    const { robot, movedJoints } = store;
     const moves = robot === null || robot.command !== null || robot.odometry !== null;
     document.body.classList.toggle('still', !moves);
-    if (robot !== null && robot.joint_publisher !== null) {
+    document.body.classList.toggle('armed', movedJoints.size > 0); // its joints want a STOP
+    if (robot?.joint_publisher != null || (!moves && movedJoints.size > 0)) {
       tabs.suggest('joints');
     }
   });

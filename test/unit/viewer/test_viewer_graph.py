@@ -51,6 +51,14 @@ def names(*places, published=None, subscribed=None, services=None):
     return GraphNames(*parts)
 
 
+def test_joint_states_may_have_another_place():
+    elsewhere = {'/platform/joint_states': [JOINT_STATE], '/joint_commands': [JOINT_STATE]}
+    (found,) = discover(GraphNames({'/robot_description': [STRING], **elsewhere})).robots
+    assert found.joint_states == '/platform/joint_states'
+    both = {'/robot_description': [STRING], **elsewhere, '/joint_states': [JOINT_STATE]}
+    assert discover(GraphNames(both)).robots[0].joint_states == '/joint_states'
+
+
 @pytest.mark.parametrize('place', ['', '/r1', '/fleet/r1'])
 def test_names_in_the_namespace_belong_to_the_robot(place):
     (found,) = discover(names(place)).robots

@@ -138,11 +138,11 @@ export class JointsPanel implements Panel {
     let movedAt = -Infinity;
     const set = (position: number): void => {
       slider.valueAsNumber = position;
-      field.value = position.toFixed(3);
+      field.value = plain(position);
     };
     slider.addEventListener('input', () => {
       movedAt = performance.now();
-      field.value = slider.valueAsNumber.toFixed(3);
+      field.value = plain(slider.valueAsNumber);
       this.want(name, slider.valueAsNumber);
     });
     field.addEventListener('change', () => {
@@ -197,6 +197,11 @@ export class JointsPanel implements Panel {
       delete this.wanted[sent];
     }
   }
+}
+
+/** A position as a field of numbers takes it, without the minus of a zero. */
+function plain(position: number): string {
+  return position.toFixed(3).replace(/^-(0\.0*)$/, '$1');
 }
 
 /** The limits of a joint, as text; a continuous one has none. */
