@@ -23,6 +23,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``base_servo.py``       moves the body of a robot over the ground
 ``actuator_modes.py``   which of a joint's actuators are active, and the force they exert
 
+``wheel_shapes.py``     which links are wheels, and the geoms with which they touch
 ``wheel_contact.py``    the contact of a wheel with the ground: the measured settings
 ``wheel_trim.py``       the same, trimmed so that each robot rests at its true height
 ``rollers.py``          the contacts of mecanum and omni wheels

@@ -213,7 +213,7 @@ class _DropTest:
                     continue
             hub = self._view.pose(joint.child).translation[2]
             if wheel is not None or hub > _MIDDLE:
-                self._wheels.append(wheel or Wheel(joint.child, joint.name, -1, hub, 0.0))
+                self._wheels.append(wheel or Wheel(joint.child, joint.name, hub, 0.0))
         names = quote_all([joint.name for joint in self._driven])
         if not self._driven:
             self._left_out.append(

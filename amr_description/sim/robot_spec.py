@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import mujoco
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.interfaces import EFFORT, POSITION, QUANTITIES, VELOCITY
+from amr_description.control.interfaces import POSITION, QUANTITIES, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo_physics import gazebo_physics_of
@@ -21,7 +21,7 @@ from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.rollers import described_rollers, Rollers
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
+from amr_description.model.wheels import Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
 from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
@@ -29,14 +29,12 @@ from amr_description.sim.gazebo_physics import apply_gazebo_physics, wheel_geom_
 from amr_description.sim.meshes import insert_meshes
 from amr_description.sim.prepared_xml import prepared_xml
 from amr_description.sim.spawning import SpawnCode
+from amr_description.sim.wheel_shapes import make_wheels
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """Of the equality constraint of a mimic joint: nearly rigid, as gears are."""
 
-_ROUND = (mujoco.mjtGeom.mjGEOM_CYLINDER, mujoco.mjtGeom.mjGEOM_SPHERE)
 _NO_ROLLERS: Mapping[str, Rollers] = {}
-_DRIVING_INTERFACES = {VELOCITY, EFFORT}
-"""The command interfaces by which a wheel is driven."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,11 +112,7 @@ def build_robot(
             if robot.joint(name).has_position:
                 add_actuators(spec, robot.joint(name), interfaces)
         _couple_mimics(spec, robot, controlled)
-        wheels = find_wheels(robot, [j for j, i in commands.items() if _DRIVING_INTERFACES & {*i}])
-        if wheels:
-            wheels += find_passive_wheels(robot, commands)
-        for wheel in wheels:
-            _make_wheel_geom(spec, wheel)
+        wheels = make_wheels(spec, robot, commands)
         casters = _name_casters(spec) if wheels else ()
         physics = gazebo_physics_of(robot)
         frictions = apply_gazebo_physics(spec, robot, physics, wheels, log)
@@ -208,27 +202,6 @@ def _couple_mimics(spec: mujoco.MjSpec, robot: Robot, controlled: Sequence[Compo
         else:
             coupling.solref = MIMIC_SOLREF
             coupling.solimp = MIMIC_SOLIMP
-
-
-def _make_wheel_geom(spec: mujoco.MjSpec, wheel: Wheel) -> None:
-    """
-    Replace the wheel's round collision geom by an ellipsoid of its size.
-
-    An ellipsoid touches flat ground in one point; the edge of a cylinder gives contacts that come
-    and go as the wheel turns.
-    """
-    # By its radius: a collision before it may have been left out.
-    geom = min(
-        (
-            each
-            for each in spec.body(wheel.link).geoms
-            if each.type in _ROUND and (each.contype or each.conaffinity)
-        ),
-        key=lambda each: abs(each.size[0] - wheel.radius),
-    )
-    geom.name = wheel_geom_name(wheel.link)
-    geom.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
-    geom.size = [wheel.radius, wheel.radius, wheel.half_width]
 
 
 def _name_casters(spec: mujoco.MjSpec) -> tuple[str, ...]:

@@ -5,8 +5,14 @@
 from fixtures.sim.driving import AMR, LEFT, RIGHT
 import pytest
 
+from amr_description.model.kinematics import link_poses
 from amr_description.model.urdf import parse
-from amr_description.model.wheels import find_passive_wheels, find_wheels, Wheel
+from amr_description.model.wheels import (
+    find_wheels,
+    is_passive_wheel_joint,
+    Wheel,
+    wheel_of,
+)
 
 ONE_WHEEL = """
 <robot name="cart">
@@ -47,12 +53,12 @@ def test_the_shipped_robot_has_four():
     ],
 )
 def test_cylinder_round_about_the_axle_is_a_wheel(options):
-    assert wheels_of(**options) == (Wheel('tyre', 'axle', 0, 0.1, 0.02),)
+    assert wheels_of(**options) == (Wheel('tyre', 'axle', 0.1, 0.02),)
 
 
 def test_sphere_is_a_wheel_about_any_axis():
     sphere = '<sphere radius="0.1"/>'
-    assert wheels_of(shape=sphere, axis='1 2 3') == (Wheel('tyre', 'axle', 0, 0.1, 0.1),)
+    assert wheels_of(shape=sphere, axis='1 2 3') == (Wheel('tyre', 'axle', 0.1, 0.1),)
 
 
 @pytest.mark.parametrize(
@@ -72,14 +78,25 @@ def test_links_that_are_not_wheels(options):
 
 def passive(commanded=(), **options):
     form = {'xyz': '0 0 0', 'rpy': '0 0 0', 'shape': CYLINDER, 'type': 'continuous'} | options
-    return find_passive_wheels(parse(ONE_WHEEL.format(**form)), commanded)
+    robot = parse(ONE_WHEEL.format(**form))
+    (joint,) = robot.joints
+    if not is_passive_wheel_joint(joint, link_poses(robot, {}), commanded):
+        return None
+    return wheel_of(robot, joint)
 
 
 def test_the_wheel_of_a_caster_is_a_passive_wheel():
     level = {'axis': '0 1 0', 'rpy': '-1.5708 0 0'}
-    assert passive(**level) == (Wheel('tyre', 'axle', 0, 0.1, 0.02),)
-    assert passive(['axle'], **level) == ()
+    assert passive(**level) == Wheel('tyre', 'axle', 0.1, 0.02)
+    assert passive(['axle'], **level) is None
 
 
 def test_what_turns_about_a_vertical_axis_is_no_passive_wheel():
-    assert passive(axis='0 0 1') == ()
+    assert passive(axis='0 0 1') is None
+
+
+def test_of_several_round_shapes_the_largest_rolls():
+    """A tyre is often drawn as a wide hub and a narrower tread that stands out."""
+    hub = '<cylinder radius="0.057" length="0.07"/>'
+    tread = '</geometry></collision><collision><geometry><cylinder radius="0.0625" length="0.04"/>'
+    assert wheels_of(shape=hub + tread) == (Wheel('tyre', 'axle', 0.0625, 0.02),)
