@@ -14,6 +14,7 @@ from typing import Any
 
 from rclpy.action import ActionServer
 from rclpy.action.server import GoalEvent, ServerGoalHandle
+from rclpy.clock import ROSClock
 from rclpy.executors import Executor
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -27,6 +28,7 @@ __all__ = [
     'cancel_tasks',
     'destroy_type_description_service',
     'end_goal',
+    'manual_clock',
     'NodeNameNonExistentError',
     'parameter_overrides',
     'RCLError',
@@ -55,6 +57,13 @@ def set_clock_by_hand(node: Node) -> None:
     source.ros_time_is_active = True
     node.destroy_subscription(source._clock_sub)
     source._clock_sub = None
+
+
+def manual_clock() -> ROSClock:
+    """Return a clock that stands at 0 until ``set_ros_time_override()`` is called."""
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+    return clock
 
 
 def parameter_overrides(node: Node) -> Mapping[str, Parameter]:

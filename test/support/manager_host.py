@@ -79,7 +79,8 @@ class Host:
         self.logs = LogThread()
         publisher = ClockedLoopPublisher(self.node)
         calls = CallQueue()
-        loop = Loop(Clockwork(), WallPacer(1.0, calls), calls, publisher, PERIOD)
+        self.stepper = Clockwork()
+        loop = Loop(self.stepper, WallPacer(1.0, calls), calls, publisher, PERIOD)
         self.loop_thread = LoopThread(calls, self.executor)
         self.loop_thread.loop = loop
         try:

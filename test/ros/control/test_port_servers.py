@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Services and actions of controllers, over a real rclpy client."""
 
+from collections import Counter
+
 from action_msgs.msg import GoalStatus
 from control_msgs.action import GripperCommand
 import pytest
 from rclpy.action import ActionClient
+from rclpy.time import Time
 from std_srvs.srv import SetBool
 from support.manager_host import ros_in_this_process, running_host
 from support.ros_processes import PATIENCE
@@ -87,6 +90,32 @@ def test_a_goal_is_followed_to_its_end(host, client):
     counts = [each.feedback.position for each in feedback]
     assert counts == sorted(set(counts))
     assert 0 < counts[0] <= 30
+
+
+def now(host):
+    return host.manager_node.node.get_clock().now()
+
+
+def test_goals_are_stamped_with_the_time_of_the_node(host, client):
+    before = now(host)
+    assert before <= Time.from_msg(send(host, client, 1).stamp) <= now(host)
+
+
+def test_the_executor_sleeps_between_goals_though_the_clock_runs(host, client):
+    result_of(host, send(host, client, 1))
+    beyond = 12 * 10**9  # ns, longer than results are kept
+
+    def jump():
+        host.stepper.time += beyond
+        host.loop_thread.loop.set_clock()
+
+    end = now(host).nanoseconds + beyond + 500 * 10**6
+    host.loop_thread.submit(jump)
+    seen = Counter()  # of each entity, at every turn of the executor
+    host.executor.can_execute = lambda entity: seen.update([id(entity)]) or True
+    wait_until(host.client_node, lambda: now(host).nanoseconds > end or None, timeout=PATIENCE)
+    del host.executor.can_execute
+    assert max(seen.values(), default=0) < 20  # and not at each of the fifty cycles
 
 
 def test_a_goal_is_rejected_with_the_reason_in_the_log(host, client, stderr):

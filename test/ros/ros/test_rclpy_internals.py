@@ -56,6 +56,13 @@ def test_a_clock_that_is_set_by_hand_does_not_follow_the_topic(node):
     assert node.get_parameter('use_sim_time').value is True
 
 
+def test_a_manual_clock_stands_until_it_is_set():
+    clock = rclpy_internals.manual_clock()
+    assert clock.now().nanoseconds == 0, BROKEN
+    clock.set_ros_time_override(Time(nanoseconds=7, clock_type=ClockType.ROS_TIME))
+    assert clock.now().nanoseconds == 7, BROKEN
+
+
 def test_a_plain_node_does_follow_the_topic(node):
     assert wait_until(node, lambda: node.count_subscribers('/clock') or None, timeout=PATIENCE)
 
