@@ -5,8 +5,7 @@
 import math
 
 from fixtures.sim.ackermann import ackermann, RADIUS, TRACK, WHEELBASE
-from fixtures.sim.mecanum import CORNERS, HALF_BASE, HALF_TRACK, mecanum
-from fixtures.sim.mecanum import RADIUS as MECANUM_RADIUS
+from fixtures.sim.mecanum import CORNERS, HALF_BASE, HALF_TRACK, mecanum, RADIUS as MECANUM_RADIUS
 import pytest
 from support.wheel_bench import WheelBench
 
