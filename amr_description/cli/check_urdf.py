@@ -223,7 +223,7 @@ def _drives(
     paths: list[str], text: str, source: str
 ) -> tuple[tuple[DriveSettings, ...], tuple[Finding, ...]]:
     """
-    Return the differential drives of parameter files, and what is wrong in these.
+    Return the differential drives of parameter files, and what is wrong in these and other drives.
 
     Without ``paths``, those that the URDF names. Raises ParameterError: one of ``paths`` cannot be
     read, or they list no controller.
@@ -234,20 +234,23 @@ def _drives(
         drives_named_by,
         examine_drive_files,
         manager_names,
+        named_files,
         no_drive,
     )
+    from amr_description.controllers.wheeled_drive_files import wheeled_drive_faults
 
     if paths:
         found = examine_drive_files(paths, manager_names(text, source))
         if not found.controllers and not found.faults:
             raise ParameterError(no_drive(paths))
-        return found.drives, found.faults
+        return found.drives, found.faults + wheeled_drive_faults(text, source, paths)
     try:
         found = drives_named_by(text, source)
     except ParameterError as error:  # it is no fault of the description
         _warn(one_line(str(error)))
         return (), ()
-    return found.drives, found.faults
+    others = wheeled_drive_faults(text, source, named_files(text, source))
+    return found.drives, found.faults + others
 
 
 def _drop(examination: Examination, wheels: list[str]) -> 'DropReport | None':

@@ -55,6 +55,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``parameter_sections.py``         the sections of parameter files, with their lines
 ``parameter_faults.py``           what is wrong in them, by its cause: misspelt names, types
 ``drive_files.py``                the differential drives of them, for ``check_urdf``
+``wheeled_drive_files.py``        the other wheeled drives of them, held against a robot
 ``roller_files.py``               the mecanum and omni wheels of them, for the simulator
 ``drive_calibration.py``          multipliers of a differential drive from runs of known motion
 ================================= ================================================================

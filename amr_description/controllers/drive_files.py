@@ -25,6 +25,7 @@ from amr_description.controllers.parameter_sections import (
     LocatedSection,
     read_sections,
 )
+from amr_description.controllers.wheeled_drive_files import wheeled_drive_findings
 from amr_description.errors import AmrError, ParameterError
 from amr_description.model.checks import examine_drives
 from amr_description.model.checks.context import DriveSettings
@@ -112,7 +113,7 @@ def no_drive(paths: Sequence[str]) -> str:
 
 def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     """
-    Return what is wrong with the differential drives of parameter files on a sound robot.
+    Return what is wrong with the wheeled drives of parameter files on a sound robot.
 
     Errors that keep a controller from running are left to the manager, which finds them when it
     loads the controller; wheels that turn about the wrong axle do not keep it from running. Drives
@@ -128,7 +129,7 @@ def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
         return ()
     return tuple(
         relocated(each, robot.text) if each.source == robot.source else each
-        for each in found
+        for each in (*found, *wheeled_drive_findings(robot, paths))
         if each.severity is Severity.WARNING or each.source == robot.source
     )
 
@@ -159,19 +160,21 @@ def drives_named_by(text: str, source: str) -> DriveExamination:
         ParameterError: as :func:`examine_drive_files`.
     """
     faults: list[Finding] = []
-    hosts = _hosts(text, source)
     xml = parse_xml(text, source, faults.append)
     if xml is None:
         return DriveExamination((), ())
     robot = read_robot(xml, text, source, faults.append)
-    found = examine_drive_files(
-        [path for each in hosts for path in files_of(each.parameters, source)],
-        manager_names(text, source),
-    )
+    found = examine_drive_files(named_files(text, source), manager_names(text, source))
     return DriveExamination(
         tuple(drive for drive in found.drives if all(map(robot.has_joint, drive.wheels))),
         tuple(replace(each, severity=Severity.WARNING) for each in found.faults),
     )
+
+
+def named_files(text: str, source: str) -> list[str]:
+    """Return the paths of the parameter files that a URDF names and that are there."""
+    hosts = _hosts(text, source)
+    return [path for each in hosts for path in files_of(each.parameters, source)]
 
 
 def manager_names(text: str, source: str) -> list[str]:

@@ -1,0 +1,330 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The mecanum, omni wheel and steering drives of parameter files, held against a robot.
+
+A wrong size, a wheel at another corner or an axle that points the other way keeps no controller
+from running: the robot goes elsewhere than its odometry. Everything here is a warning, at the line
+of the parameter. Drives with joints that the robot lacks are left out.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from amr_description.control.contracts import null_log
+from amr_description.controllers import CONTROLLERS
+from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
+from amr_description.controllers.omni_wheel_drive_controller import OmniWheelDriveParameters
+from amr_description.controllers.parameter_faults import (
+    controller_parameters,
+    ControllerParameters,
+)
+from amr_description.controllers.parameter_sections import listed_controllers, read_sections
+from amr_description.controllers.steering_parameters import SteeringParameters
+from amr_description.errors import ControllerError, ParameterError
+from amr_description.model.axles import vector_text
+from amr_description.model.findings import Finding, Severity
+from amr_description.model.frames import conjugate, rotate, Transform, Vector
+from amr_description.model.kinematics import link_poses
+from amr_description.model.robot import Joint, JointType, Robot
+from amr_description.model.urdf import read_robot
+from amr_description.model.wheels import find_wheels
+from amr_description.model.xml_reader import parse_xml
+from amr_description.parameters import build
+from amr_description.text import quote
+
+_TOLERANCE = 0.02
+"""Of a size, as for differential drives."""
+_ALIGNED = 0.9
+"""The least cosine between an axle and where it should point: 26°."""
+_NEARLY = math.radians(5.0)
+_UP: Vector = (0.0, 0.0, 1.0)
+_LEFT: Vector = (0.0, 1.0, 0.0)
+_CORNERS = {
+    'front_left_wheel': (1, 1),
+    'front_right_wheel': (1, -1),
+    'rear_right_wheel': (-1, -1),
+    'rear_left_wheel': (-1, 1),
+}
+
+
+def wheeled_drive_findings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
+    """
+    Return what is wrong with such drives of parameter files on a robot.
+
+    Args:
+        robot: the robot, its tree sound.
+        paths: of the parameter files; what cannot be read is left to others.
+    """
+    try:
+        found = read_sections(paths)
+    except ParameterError:
+        return ()
+    findings: list[Finding] = []
+    for each in listed_controllers(found):
+        try:
+            table = CONTROLLERS.find(each.type).parameters_type
+        except ControllerError:
+            continue
+        check = _check_of(table)
+        if check is None:
+            continue
+        read = controller_parameters(found, each.node, each.type, each.location)
+        if read.is_sound:
+            drive = _Drive(each.name, robot, read)
+            findings += check(drive, build(table, read.values))
+    return tuple(findings)
+
+
+def wheeled_drive_faults(text: str, source: str, paths: Sequence[str]) -> tuple[Finding, ...]:
+    """
+    Return :func:`wheeled_drive_findings` on a URDF whose faults are left to the checker.
+
+    Args:
+        text: the URDF; with faults of its own there are no findings.
+        source: names its file.
+        paths: of the parameter files.
+    """
+    faults: list[Finding] = []
+    xml = parse_xml(text, source, faults.append)
+    robot = None if xml is None else read_robot(xml, text, source, faults.append)
+    is_sound = not any(each.severity is Severity.ERROR for each in faults)
+    if robot is None or len(robot.roots) != 1 or not is_sound:
+        return ()
+    return wheeled_drive_findings(robot, paths)
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where the joint of a wheel is, m, and where its axis points, in the frame of the base."""
+
+    joint: str
+    x: float
+    y: float
+    axis: Vector
+
+
+class _Drive:
+    """One controller, and the robot."""
+
+    def __init__(self, name: str, robot: Robot, read: ControllerParameters) -> None:
+        self.robot = robot
+        self._name = name
+        self._read = read
+        self._poses = link_poses(robot, {})
+
+    def has(self, joints: Sequence[str]) -> bool:
+        """Return whether all of some joints are there and move."""
+        return all(self.robot.has_joint(j) and self.robot.joint(j).has_position for j in joints)
+
+    def places(self, joints: Sequence[str], base: str) -> list[_Place]:
+        """Return where joints are; ``base``: the link of the controller, else the root."""
+        frame = self._poses.get(base, Transform())
+        back = conjugate(frame.rotation)
+        found = []
+        for name in joints:
+            joint = self.robot.joint(name)
+            pose = self._poses[joint.child]
+            pairs = zip(pose.translation, frame.translation, strict=True)
+            dx, dy, dz = (a - b for a, b in pairs)
+            x, y, _ = rotate(back, (dx, dy, dz))
+            axis = rotate(back, rotate(pose.rotation, joint.axis))
+            found.append(_Place(name, x, y, axis))
+        return found
+
+    def warn(self, parameters: Sequence[str], what: str, **details: Any) -> Finding:
+        """Return a warning on the line of the first of some parameters that is set."""
+        locations = self._read.locations
+        place = next((locations[p] for p in parameters if p in locations), self._read.location)
+        return Finding.warning(*place, f'{self._name}: {what}', **details)
+
+    def size(self, parameter: str, found: float, true: float, of: str) -> Iterator[Finding]:
+        """Warn of a size that is not that of the robot; a true one of 0 is not known."""
+        if true > 0.0 and abs(found - true) > _TOLERANCE * true:
+            yield self.warn(
+                (parameter,),
+                f'{parameter} is not that of the robot',
+                found=f'{found:g} m',
+                expected=f'{true:.4g} m, {of}',
+                fix=f'write {parameter.rpartition(".")[2]}: {true:.4g}',
+            )
+
+    def radius(self, parameter: str, found: float, joints: Sequence[str]) -> Iterator[Finding]:
+        """Warn of a radius that is not that of the wheels."""
+        wheels = find_wheels(self.robot, joints)
+        radius = wheels[0].radius if wheels else 0.0
+        yield from self.size(parameter, found, radius, 'the radius of the collision shape')
+
+    def axles(self, places: Sequence[_Place], parameters: Sequence[str]) -> Iterator[Finding]:
+        """Warn of wheels that turn backwards, or not about y."""
+        for place in places:
+            along = math.sumprod(place.axis, _LEFT)
+            if along < _ALIGNED:
+                what = 'turns backwards' if along < -_ALIGNED else 'does not roll ahead'
+                yield self.warn(
+                    parameters,
+                    f'the wheel of joint {quote(place.joint)} {what}',
+                    found=f'an axis {vector_text(place.axis)} in the frame of the base',
+                    expected='(0, 1, 0): to the left',
+                )
+
+
+def _check_of(table: type) -> Callable[[_Drive, Any], Iterator[Finding]] | None:
+    if table is MecanumDriveParameters:
+        return _check_mecanum
+    if table is OmniWheelDriveParameters:
+        return _check_omni
+    return _check_steering if issubclass(table, SteeringParameters) else None
+
+
+def _check_mecanum(drive: _Drive, parameters: MecanumDriveParameters) -> Iterator[Finding]:
+    joints = parameters.command_joints
+    if not drive.has(joints):
+        return
+    places = drive.places(joints, parameters.base_frame_id)
+    xs, ys = [p.x for p in places], [p.y for p in places]
+    middle = 0.5 * (max(xs) + min(xs)), 0.5 * (max(ys) + min(ys))
+    for place, (name, corner) in zip(places, _CORNERS.items(), strict=True):
+        sides = place.x - middle[0], place.y - middle[1]
+        if sides[0] * corner[0] <= 0.0 or sides[1] * corner[1] <= 0.0:
+            yield drive.warn(
+                (f'{name}_command_joint_name',),
+                f'joint {quote(place.joint)} is not at the corner of {name}',
+                found=f'({sides[0]:.3g}, {sides[1]:.3g}) m from the middle of the wheels',
+                expected=f'x {_sign(corner[0])}, y {_sign(corner[1])}: x ahead, y to the left',
+            )
+            return
+    reach = 0.5 * (max(xs) - min(xs)) + 0.5 * (max(ys) - min(ys))
+    sizes = parameters.kinematics
+    yield from drive.radius('kinematics.wheels_radius', sizes.wheels_radius, joints)
+    yield from drive.size(
+        'kinematics.sum_of_robot_center_projection_on_X_Y_axis',
+        sizes.sum_of_robot_center_projection_on_X_Y_axis,
+        reach,
+        'half of the wheelbase and half of the track',
+    )
+    yield from drive.axles(places, [f'{name}_command_joint_name' for name in _CORNERS])
+
+
+def _check_omni(drive: _Drive, parameters: OmniWheelDriveParameters) -> Iterator[Finding]:
+    joints = parameters.wheel_names
+    if not drive.has(joints):
+        return
+    yield from drive.radius('wheel_radius', parameters.wheel_radius, joints)
+    places = drive.places(joints, parameters.base_frame_id)
+    far = sum(math.hypot(place.x, place.y) for place in places) / len(places)
+    yield from drive.size('robot_radius', parameters.robot_radius, far, 'as far as the wheels are')
+    for index, place in enumerate(places):
+        wanted = parameters.wheel_offset + math.tau * index / len(places)
+        angle = math.atan2(place.y, place.x)
+        if abs(math.remainder(angle - wanted, math.tau)) > _NEARLY:
+            yield drive.warn(
+                ('wheel_names',),
+                f'joint {quote(place.joint)} is not where wheel {index + 1} of {len(places)} is',
+                found=f'{math.degrees(angle):.0f} degrees from x',
+                expected=f'{math.degrees(math.remainder(wanted, math.tau)):.0f} degrees, '
+                'counter-clockwise from wheel_offset',
+            )
+            return
+        outwards = place.axis[0] * math.cos(angle) + place.axis[1] * math.sin(angle)
+        if outwards < _ALIGNED:
+            yield drive.warn(
+                ('wheel_names',),
+                f'the axle of joint {quote(place.joint)} does not point outwards',
+                found=f'an axis {vector_text(place.axis)} in the frame of the base',
+                expected=vector_text((math.cos(angle), math.sin(angle), 0.0)),
+            )
+
+
+def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[Finding]:
+    parameters = parameters.modernized(null_log)
+    traction, steering = parameters.traction_joints_names, parameters.steering_joints_names
+    if not (traction and steering and drive.has((*traction, *steering))):
+        return
+    driven = drive.places(traction, parameters.base_frame_id)
+    steered = drive.places(steering, parameters.base_frame_id)
+    base = abs(_mean(steered) - _mean(driven))
+    yield from drive.size('wheelbase', parameters.wheelbase, base, 'from axle to axle')
+    for name in ('traction_wheels_radius', 'traction_wheel_radius'):
+        if hasattr(parameters, name):
+            yield from drive.radius(name, getattr(parameters, name), traction)
+    names = ('traction_joints_names', 'rear_wheels_names', 'front_wheels_names')
+    yield from _check_pair(drive, driven, parameters, 'traction', names)
+    yield from drive.axles(driven, names)
+    names = ('steering_joints_names', 'front_wheels_names', 'rear_wheels_names')
+    yield from _check_pair(drive, steered, parameters, 'steering', names)
+    for place in steered:
+        if math.sumprod(place.axis, _UP) < _ALIGNED:
+            yield drive.warn(
+                names,
+                f'joint {quote(place.joint)} does not steer to the left where it is positive',
+                found=f'an axis {vector_text(place.axis)} in the frame of the base',
+                expected='(0, 0, 1): up',
+            )
+    yield from _check_rolling(drive, steering, names)
+
+
+def _check_pair(
+    drive: _Drive,
+    places: Sequence[_Place],
+    parameters: SteeringParameters,
+    kind: str,
+    names: Sequence[str],
+) -> Iterator[Finding]:
+    """Two joints are right before left, as far apart as their track."""
+    if len(places) != 2:
+        return
+    right, left = places
+    if right.y > left.y:
+        yield drive.warn(
+            names,
+            f'the {kind} joints are not in the order right, left',
+            found=f'{right.joint}, {left.joint}',
+            fix=f'write [{left.joint}, {right.joint}]',
+        )
+    track = getattr(parameters, f'{kind}_track_width', 0.0)
+    if track:
+        yield from drive.size(f'{kind}_track_width', track, abs(left.y - right.y), 'apart')
+
+
+def _check_rolling(
+    drive: _Drive, steering: Sequence[str], names: Sequence[str]
+) -> Iterator[Finding]:
+    """A wheel that is steered rolls on a joint of its own."""
+    robot = drive.robot
+    joints = [j for j in robot.joints if j.name in steering or _follows(j, steering)]
+    for joint in joints:
+        below = _below(robot, joint.child)
+        rolls = any(j.type is JointType.CONTINUOUS for j in robot.joints if j.parent in below)
+        if not rolls and any(robot.link(link).collisions for link in below):
+            yield drive.warn(
+                names,
+                f'the wheel on joint {quote(joint.name)} is steered and cannot roll: it slides',
+                found=f'no continuous joint below {quote(joint.child)}',
+                expected='a link for the wheel there, on a continuous joint',
+            )
+
+
+def _follows(joint: Joint, names: Sequence[str]) -> bool:
+    return joint.mimic is not None and joint.mimic.joint in names
+
+
+def _below(robot: Robot, link: str) -> set[str]:
+    """Return a link, and all links below it."""
+    found, waiting = {link}, [link]
+    while waiting:
+        parent = waiting.pop()
+        children = {j.child for j in robot.joints if j.parent == parent} - found
+        found |= children
+        waiting += children
+    return found
+
+
+def _mean(places: Sequence[_Place]) -> float:
+    return sum(place.x for place in places) / len(places)
+
+
+def _sign(value: int) -> str:
+    return '> 0' if value > 0 else '< 0'
