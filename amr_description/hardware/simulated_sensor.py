@@ -8,7 +8,8 @@ A ``<sensor>`` of a ``<ros2_control>`` block is mounted where the Gazebo sensor 
     <gazebo reference="base_link"><sensor name="imu" type="imu"/></gazebo>
 
 or else on the link that its parameter ``link``, ``frame``, ``frame_id`` or ``frame_name`` names,
-or on the link of its own name: ``imu``, ``imu_link`` or ``imu_frame``, also for ``imu_sensor``.
+or on the link of its own name: ``imu``, ``imu_link`` or ``imu_frame``, also for ``imu_sensor`` and
+``mujoco_sensor_name``.
 One whose name begins with ``tcp_`` is else at ``tool0`` or ``flange``, which end an arm by the
 names of ROS-Industrial. A joint stands for its child link.
 """
@@ -87,7 +88,7 @@ def mount_of(info: ComponentInfo, robot: Robot, gazebo: GazeboSensor | None) -> 
     named = [info.parameters[name] for name in _PARAMETERS if info.parameters.get(name)]
     if gazebo is not None:
         named.insert(0, gazebo.link)
-    for name in named[:1] or _guesses(info.name):
+    for name in named[:1] or _guesses(info):
         link = _link_of(name, robot)
         if link:
             return Mount(link, Transform() if gazebo is None else gazebo.pose, gazebo)
@@ -103,9 +104,10 @@ def mount_of(info: ComponentInfo, robot: Robot, gazebo: GazeboSensor | None) -> 
     )
 
 
-def _guesses(name: str) -> Iterator[str]:
-    """Yield the links or joints that a sensor of this name may be mounted on."""
-    for stem in (name, name.removesuffix('_sensor')):
+def _guesses(info: ComponentInfo) -> Iterator[str]:
+    """Yield the links or joints that a sensor may be mounted on, by its names."""
+    name, in_mujoco = info.name, info.parameters.get('mujoco_sensor_name', info.name)
+    for stem in (name, name.removesuffix('_sensor'), in_mujoco, in_mujoco.removesuffix('_sensor')):
         for suffix in ('', '_link', '_frame', '_joint'):
             yield stem + suffix
     if name.startswith(_TOOL):

@@ -8,13 +8,13 @@ ros2_control refuses and the simulator can live with says so (``Finding.taken``)
 reads over (a ``min`` that is no number, an unknown element in a joint) is a warning.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 import math
 
 from lxml import etree
 
-from amr_description.model.findings import Report
+from amr_description.model.findings import Finding, Report, Severity
 from amr_description.model.hardware_info import (
     ComponentInfo,
     ComponentType,
@@ -24,7 +24,7 @@ from amr_description.model.hardware_info import (
     TransmissionEnd,
     TransmissionInfo,
 )
-from amr_description.model.origins import raise_error_of
+from amr_description.model.origins import raise_error_of, relocated
 from amr_description.model.robot import Joint, JointType, Mimic, Robot
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
 from amr_description.text import closest_match, quote, quote_all
@@ -51,7 +51,9 @@ _FIRST_COUNTS = 'the first one counts'
 _SIMULATED = 'its joints and sensors are simulated'
 
 
-def hardware_of(robot: Robot, strict: bool = False) -> tuple[HardwareInfo, ...]:
+def hardware_of(
+    robot: Robot, strict: bool = False, warn: Callable[[str], object] | None = None
+) -> tuple[HardwareInfo, ...]:
     """
     Return the hardware components of a robot in the order of the file; () if it has none.
 
@@ -61,11 +63,18 @@ def hardware_of(robot: Robot, strict: bool = False) -> tuple[HardwareInfo, ...]:
         robot: the robot.
         strict: refuse all that ros2_control refuses, as real hardware has to; False: only what the
             simulator can make nothing of.
+        warn: gets a line for each thing that ros2_control reads over.
 
     Raises:
         DescriptionError: (``file:line: …``) the first fault of a block.
     """
-    report = raise_error_of(robot.text, strict)
+    raise_error = raise_error_of(robot.text, strict)
+
+    def report(finding: Finding) -> None:
+        raise_error(finding)
+        if warn is not None and finding.severity is Severity.WARNING:
+            warn(relocated(finding, robot.text).text)
+
     xml = parse_xml(robot.text, robot.source, report)
     return () if xml is None else (*read_hardware(xml, robot, report), *robot.plugin_hardware)
 

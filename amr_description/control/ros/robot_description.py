@@ -7,6 +7,7 @@ It takes the first one that can be used; until then it has no hardware and no se
 """
 
 from collections.abc import Awaitable, Callable, Sequence
+from functools import partial
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import Clock
@@ -88,7 +89,8 @@ class DescriptionSource:
         self._log(Severity.INFO, 'Received robot description from topic.')
         try:
             robot = parse(text, TOPIC)
-            hardware = hardware_of(robot, strict=True)
+            warn = partial(self._log, Severity.WARN)
+            hardware = hardware_of(robot, strict=True, warn=warn)
             if not hardware:
                 raise DescriptionError(
                     f"{TOPIC}: the robot '{robot.name}' has no <ros2_control> block, so there is "

@@ -54,6 +54,7 @@ def test_imu_with_some_interfaces_only():
         ({'parameters': '<param name="frame_id">c</param>'}, 'c'),
         ({'name': 'base'}, 'base'),
         ({'name': 'base_sensor'}, 'base'),
+        ({'parameters': '<param name="mujoco_sensor_name">a_sensor</param>'}, 'a'),
         ({'name': 'jb'}, 'b'),
         ({'mount': MOUNT, 'parameters': '<param name="link">a</param>'}, 'b'),
     ],

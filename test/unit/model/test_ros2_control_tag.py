@@ -310,7 +310,9 @@ WARNED = {
 @pytest.mark.parametrize(('blocks', 'message'), WARNED.values(), ids=WARNED)
 def test_what_ros2_control_reads_over_is_warned_of(blocks, message):
     robot = robot_of(blocks)
-    (info,) = hardware_of(robot, strict=True)
+    lines = []
+    (info,) = hardware_of(robot, strict=True, warn=lines.append)
+    assert any(line.startswith('f:2: ') and message in line for line in lines)
     assert not any(interface.min or interface.max for interface in interfaces(info))
     assert info.parameters.get('a', '2') == '2'
     assert any(message in str(finding) for finding in check(robot.text, 'f'))
