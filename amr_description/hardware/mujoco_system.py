@@ -47,7 +47,8 @@ COMMANDS = (POSITION, VELOCITY, EFFORT)
 STATES = (*COMMANDS, ACCELERATION)
 """What is measured of a joint."""
 _PID = '_pid'
-_GAINS = ('pos_k', 'vel_k')
+_GAINS = ('kp', 'ki', 'kd', 'pos_kp', 'vel_kp')
+"""Parameters of joints with gains, as MuJoCo's and Gazebo's hardware have them."""
 
 
 class MujocoSystem(HardwareComponent):
@@ -116,7 +117,7 @@ class MujocoSystem(HardwareComponent):
                 'and states are those of the joints',
             )
         host = ros2_control_host_of(self._world.description)
-        has_gains = any(key.startswith(_GAINS) for j in self.info.joints for key in j.parameters)
+        has_gains = any(key in joint.parameters for joint in self.info.joints for key in _GAINS)
         if has_gains or host.position_proportional_gain != GAZEBO_POSITION_GAIN:
             gains = 'gains of joints are' if has_gains else '<position_proportional_gain> is'
             self.log(
