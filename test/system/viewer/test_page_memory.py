@@ -75,11 +75,11 @@ class LongDrive(Backend):
         (robot,) = self.frame.robots
         turn = (0.0, 0.0, sin(angle / 2), cos(angle / 2))
         self.frame.poses[0] = (x, y, 0.0, *turn)
-        robot.odometry[:] = (x, y, 0.0, *turn, SPEED, SPEED / RADIUS)
-        robot.truth[:] = (0.99 * x, y, 0.0, *turn, SPEED, SPEED / RADIUS)
+        robot.odometry[:] = (x, y, 0.0, *turn, SPEED, SPEED / RADIUS, 0.0)
+        robot.truth[:] = (0.99 * x, y, 0.0, *turn, SPEED, SPEED / RADIUS, 0.0)
         for each in (robot.positions, robot.velocities, robot.commanded):
             each[:] = angle
-        robot.command[:] = (SPEED, SPEED / RADIUS)
+        robot.command[:] = (SPEED, SPEED / RADIUS, 0.0)
         robot.wheels[:] = (1.0, 17.0, 0.0, 0.01 * sin(self.time))
 
     def until(self, page, end):
