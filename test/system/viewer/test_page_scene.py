@@ -7,6 +7,7 @@ import io
 import json
 from pathlib import Path
 import signal
+import time
 
 from ament_index_python.packages import get_package_prefix
 import pytest
@@ -20,6 +21,7 @@ from test_viewer_pages import serving
 
 from amr_description.ros.service_calls import wait_until
 from amr_description.testing.program import own_domain
+from amr_description.viewer.protocol import ControllerInfo, Controllers
 
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 MESHED = TESTS / 'fixtures' / 'urdf_good' / 'meshed.urdf'
@@ -30,6 +32,7 @@ CONTROLS = {
 }  # fmt: skip
 TRIANGLES = 1202
 """What is drawn of it, twice for the shadows; 48 are of meshes, which come one after the other."""
+MOVED = 'joint_wheel_front_left'
 MOST_TABS = 40
 """Presses of the key until the stop button is reached."""
 
@@ -51,12 +54,16 @@ def display(browser):
 
 @pytest.fixture(scope='module')
 def driven(browser):
-    """The page of a robot that drives in circles, for a minute."""
+    """The page of a robot that drives in circles, for a minute, and has a joint to be moved."""
     drive = LongDrive()
     drive.end = 60.0
+    claims = (f'{MOVED}/position',)
+    movers = (ControllerInfo('mover', 'x/Mecanum', 'active', claims, moves=(MOVED,)),)
+    drive.known += (Controllers('/', movers, ()),)
     with serving(drive) as server:
         page = browser.open(server.url, pixels=1.0, is_beside=True)
         page.wait_until('amr.now.scene.frames > 0 && amr.now.time >= 60')
+        page.calls = drive.calls
         yield page
         assert page.errors == []
         page.close()
@@ -185,6 +192,36 @@ def test_samples_are_saved_as_a_table(driven):
     assert (last['command_linear_m_s'], last['odometry_linear_m_s']) == ('0.5', '0.5')
     assert float(last[f'{wheel}_rad_s']) == pytest.approx(6.0)
     assert last['real_time_factor'] == ''  # there is no simulator
+
+
+def test_a_slider_commands_the_controller_of_its_joint_and_a_button_goes_sideways(driven):
+    driven.click('#tab-joints')
+    driven.evaluate(
+        f"""(() => {{
+          const slider = document.querySelector('input[type=range][aria-label^={MOVED}]');
+          slider.value = '0.75';
+          slider.dispatchEvent(new Event('input'));
+        }})()"""
+    )
+    driven.wait_until("document.body.innerText.includes('Sliders command mover')")
+    driven.wait_until("document.querySelectorAll('.joint.slides').length === 1")
+    driven.evaluate(
+        """(() => {
+          const press = (kind) => document.querySelector('.sideways button')
+            .dispatchEvent(new PointerEvent(kind, {pointerId: 1}));
+          Element.prototype.setPointerCapture = () => {};
+          press('pointerdown');
+          setTimeout(() => press('pointerup'), 100);
+        })()"""
+    )
+    driven.wait_until('!amr.now.driving && amr.now.driver === null')
+    deadline = time.monotonic() + PATIENCE
+    while (0.0, 0.0) not in driven.calls:
+        assert time.monotonic() < deadline
+        driven.evaluate('new Promise(requestAnimationFrame)')
+    assert {MOVED: 0.75} in driven.calls
+    assert (0.0, 0.0, 0.5) in driven.calls
+    driven.click('#tab-model')
 
 
 def nameless(page):
