@@ -86,6 +86,31 @@ def _joint_command(
     )
 
 
+def _joint_trajectory(builder: Builder, plugin: PluginElement) -> None:
+    """New Gazebo's: trajectories on a topic; here with an action too, as ros2_control has it."""
+    movable = [each for each in builder.robot.joints if each.has_position and each.mimic is None]
+    joints = plugin.texts('joint_name') or [each.name for each in movable]
+    if not builder.can_drive(plugin, joints):
+        return
+    starts = plugin.numbers('initial_position')
+    for index, joint in enumerate(joints):
+        initial = starts[index] if index < len(starts) else None
+        builder.command([joint], 'position', initial=initial)
+    parameters: dict[str, Any] = {
+        'joints': joints,
+        'command_interfaces': ['position'],
+        'state_interfaces': ['position', 'velocity'],
+        'allow_partial_joints_goal': True,
+    }
+    builder.add(
+        'joint_trajectory_controller/JointTrajectoryController',
+        parameters,
+        {'~/joint_trajectory': gz_topic(plugin, 'topic', 'joint_trajectory')},
+        name='joint_trajectory_controller',
+        origin=origin_of(plugin),
+    )
+
+
 def _transmissions(builder: Builder, plugin: PluginElement) -> None:
     """ROS 1's host of controllers: its joints can be commanded as ``<transmission>`` says."""
     found: dict[str, list[str]] = {}
@@ -165,5 +190,6 @@ JOINTS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'joint-controller': _joint_velocity,
     'joint-position-controller': _joint_position,
     'joint-state-publisher': _joint_states,
+    'joint-trajectory-controller': _joint_trajectory,
 }
 """Kind of a plugin → what adds its controllers."""

@@ -15,6 +15,7 @@ p3d, OdometryPublisher, odometry of a drive  ``amr_description/GazeboOdometryPub
 that has the world as its source
 joint state publisher                        ``joint_state_broadcaster/JointStateBroadcaster``
 JointPositionController, JointController     ``amr_description/GazeboJointCommand``
+JointTrajectoryController                    ``joint_trajectory_controller/…``
 ros_control of ROS 1, with <transmission>    none: its joints can be commanded by ros2_control
 ``<sensor type="imu">``                      ``imu_sensor_broadcaster/IMUSensorBroadcaster``
 ============================================ ====================================================

@@ -338,6 +338,18 @@ def test_joints_that_are_commanded_by_a_number():
     assert [each.name for each in right.command_interfaces] == ['velocity']
 
 
+def test_trajectories_of_new_gazebo():
+    inside = '<joint_name>left_joint</joint_name><topic>/model/cart/arm</topic>'
+    kind = 'gz::sim::systems::JointTrajectoryController'
+    found = only(plugin('', kind, inside))['joint_trajectory_controller']
+    assert found.parameters['joints'] == ['left_joint'] and found.topics == {
+        '~/joint_trajectory': 'arm'
+    }
+    found = only(plugin('', kind))['joint_trajectory_controller']
+    assert found.parameters['joints'] == ['left_joint', 'right_joint']
+    assert found.topics == {'~/joint_trajectory': 'joint_trajectory'}
+
+
 def test_transmissions_of_ros_1():
     kinds = {'left': 'hardware_interface/VelocityJointInterface', 'right': 'EffortJointInterface'}
     transmissions = ''.join(
