@@ -30,6 +30,7 @@ from amr_description.sim.meshes import insert_meshes
 from amr_description.sim.prepared_xml import prepared_xml
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.wheel_shapes import make_wheels
+from amr_description.text import quote_all
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """Of the equality constraint of a mimic joint: nearly rigid, as gears are."""
@@ -100,6 +101,8 @@ def build_robot(
     hardware = hardware_of(robot)
     controlled = [joint for info in hardware for joint in info.joints]
     commands = _commands_of(controlled)
+    if not any(commands.values()):
+        commands |= _held_without_commands(robot, log)
     try:
         xml, meshes = prepared_xml(robot, log, strict=strict)
         spec = mujoco.MjSpec.from_string(xml)
@@ -155,6 +158,31 @@ def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ..
     for joint in controlled:
         commands[joint.name] = commands.get(joint.name, ()) + _quantities(joint)
     return commands
+
+
+def _held_without_commands(robot: Robot, log: Log) -> dict[str, tuple[str, ...]]:
+    """
+    Return the joints of a robot that nobody commands which are held where they begin.
+
+    They are those with a motor, by their effort limit, of a robot that stands on the ground and
+    has nothing that turns on and on: a legged one stays up. All others are free, as in Gazebo.
+    """
+    if robot.root.name == WORLD_LINK or any(
+        joint.type is JointType.CONTINUOUS for joint in robot.joints
+    ):
+        return {}
+    held = [
+        joint.name
+        for joint in robot.joints
+        if joint.type in (JointType.REVOLUTE, JointType.PRISMATIC)
+        and joint.mimic is None
+        and joint.limit is not None
+        and joint.limit.effort > 0.0
+    ]
+    if held:
+        names = quote_all(held)
+        log(Severity.INFO, f'{robot.source}: nothing commands its joints; held are: {names}')
+    return dict.fromkeys(held, (POSITION,))
 
 
 def _quantities(joint: ComponentInfo) -> tuple[str, ...]:

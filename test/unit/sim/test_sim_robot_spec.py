@@ -81,3 +81,24 @@ def test_a_warning_of_the_compiler_is_one_line_of_log(tmp_path):
         assert line.startswith(f"WARN world '{path}': MuJoCo: compiler attribute 'settotalmass'")
         world.spawn('amr', AMR)
     assert log.text.splitlines() == [line]
+
+
+LEGS = """<robot name="stool"><link name="seat"><inertial><mass value="2"/>
+<inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>{}</robot>"""
+LEG = """<link name="leg{n}"><inertial><origin xyz="0 0 -0.15"/><mass value="0.2"/>
+<inertia ixx="0.0015" iyy="0.0015" izz="0.0001" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="0 0 -0.3"/><geometry><sphere radius="0.02"/></geometry></collision></link>
+<joint name="hip{n}" type="revolute"><parent link="seat"/><child link="leg{n}"/>
+<origin xyz="{x} {y} 0"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" effort="{effort}" velocity="10"/></joint>"""
+
+
+@pytest.mark.parametrize(('effort', 'stands'), [(20, True), (0, False)])
+def test_a_robot_with_legs_that_nobody_commands_stands_on_its_motors(effort, stands):
+    corners = [(x, y) for x in (-0.2, 0.2) for y in (-0.2, 0.2)]
+    legs = (LEG.format(n=n, x=x, y=y, effort=effort) for n, (x, y) in enumerate(corners))
+    world = MujocoWorld('empty')
+    push = Transform.from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.1, 0.0))
+    stool = world.spawn('stool', LEGS.format(''.join(legs)), push, lift=True)
+    world.step(1500)
+    assert (stool.pose('seat').translation[2] > 0.3) is stands
