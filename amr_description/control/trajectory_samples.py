@@ -3,14 +3,15 @@
 """
 The samples of joint trajectories: plain values, no ROS messages.
 
-Units are SI: rad or m, and their derivatives; N·m or N. Times are integer nanoseconds.
+Units are SI: rad or m, and their derivatives; N·m or N. Times are integer nanoseconds. What is
+made at every update is a named tuple, in half the time of a frozen dataclass.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class TrajectoryPoint:
+class TrajectoryPoint(NamedTuple):
     """
     A trajectory_msgs/JointTrajectoryPoint without its time: one value a joint, in one order.
 
@@ -64,8 +65,7 @@ class FollowTrajectoryResult:
     error_string: str = ''
 
 
-@dataclass(frozen=True, slots=True)
-class FollowTrajectoryFeedback:
+class FollowTrajectoryFeedback(NamedTuple):
     """Its feedback."""
 
     stamp: int
@@ -75,8 +75,7 @@ class FollowTrajectoryFeedback:
     error: TrajectoryPoint
 
 
-@dataclass(frozen=True, slots=True)
-class TrajectoryStateSample:
+class TrajectoryStateSample(NamedTuple):
     """A control_msgs/JointTrajectoryControllerState."""
 
     stamp: int

@@ -152,6 +152,7 @@ class JointTrajectoryController(Controller):
         self._feed_forward = [each.ff_velocity_scale for each in gains]
         self._period = int(NANOSECONDS / self.context.update_rate)
         self._scaling = parameters.speed_scaling.initial_scaling_factor
+        self._has_wraps = any(layout.wraps)
         self._has_splines = parameters.interpolation_method == 'splines'
         self._has_velocity_error = VELOCITY in layout.states and not {VELOCITY, EFFORT}.isdisjoint(
             layout.commands
@@ -356,7 +357,7 @@ class JointTrajectoryController(Controller):
     def _error_of(self, desired: TrajectoryPoint, actual: TrajectoryPoint) -> TrajectoryPoint:
         wraps = self._layout.wraps
         pairs = zip(desired.positions, actual.positions, strict=True)
-        if any(wraps):
+        if self._has_wraps:
             positions = tuple(
                 [
                     shortest_angular_distance(a, d) if wrap else d - a

@@ -143,6 +143,10 @@ class Pid:
             return math.nan
         self.error, self.error_rate = error, error_rate
         gains = self._gains
+        if gains.i == 0.0 and self.integral == 0.0:  # most arms: there is nothing to integrate
+            wanted = gains.p * error + gains.d * error_rate
+            self._command = command = min(max(wanted, gains.u_min), gains.u_max)
+            return command
         is_integrated = abs(error) > gains.error_deadband
         integral = self._legacy(error, period, is_integrated)
         wanted = gains.p * error + integral + gains.d * error_rate

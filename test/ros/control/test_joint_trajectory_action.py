@@ -104,6 +104,16 @@ def test_the_topic_moves_the_joints_too(host):
     assert wait_until(host.client_node, is_there, timeout=PATIENCE)
 
 
+def test_a_wrong_message_is_named_in_the_log(host, stderr):
+    publisher = host.client_node.create_publisher(JointTrajectory, '/arm/joint_trajectory', 10)
+    wait_until(
+        host.client_node, lambda: publisher.get_subscription_count() or None, timeout=PATIENCE
+    )
+    publisher.publish(JointTrajectory(joint_names=JOINTS))
+    text = 'Empty trajectory received.'
+    assert wait_until(host.client_node, lambda: text in stderr() or None, timeout=PATIENCE)
+
+
 def test_a_wrong_goal_is_rejected_with_its_reason_in_the_log(host, client, stderr):
     assert not send(host, client, [0.0, 0.0], names=['nobody', JOINTS[1]]).accepted
     text = "Incoming joint nobody doesn't match the controller's joints."
