@@ -6,7 +6,7 @@ The differential drives of parameter files, with the lines on which their parame
 As for a node, the last of several sections that set a parameter counts.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -72,6 +72,7 @@ def examine_drive_files(
     listed = listed_controllers(found)
     nodes = _manager_nodes(found, managers)
     faults = [fault for node in nodes for fault in manager_faults(found, node)]
+    names = tuple(each.name for each in listed)
     drives = []
     for each in listed:
         kind, fault = type_fault(each.name, each.type, each.location)
@@ -79,8 +80,7 @@ def examine_drive_files(
         read = controller_parameters(found, each.node, kind, each.location)
         faults += read.faults + read.readings
         if kind == DIFF_DRIVE and read.is_sound:
-            drives.append(_settings(each.name, read))
-    names = tuple(each.name for each in listed)
+            drives.append(_settings(each.name, read, names))
     return DriveExamination(tuple(drives), tuple(dict.fromkeys(faults)), names)
 
 
@@ -210,13 +210,21 @@ def _manager_nodes(found: Sequence[LocatedSection], managers: Sequence[str]) -> 
     return list(dict.fromkeys(named or (f'/{name}' for name in managers)))
 
 
-def _settings(name: str, read: ControllerParameters) -> DriveSettings:
+def _settings(
+    name: str, read: ControllerParameters, controllers: Collection[str]
+) -> DriveSettings:
+    """Return the settings of a drive; a wheel behind one of ``controllers`` by its joint."""
+
+    def joints(wheels: Sequence[str]) -> tuple[str, ...]:
+        split = ((wheel, *wheel.partition('/')) for wheel in wheels)
+        return tuple(below if above in controllers else all_ for all_, above, _, below in split)
+
     drive = build(DiffDriveParameters, read.values)
     return DriveSettings(
         name=name,
         location=read.location,
-        left_wheels=drive.left_wheel_names,
-        right_wheels=drive.right_wheel_names,
+        left_wheels=joints(drive.left_wheel_names),
+        right_wheels=joints(drive.right_wheel_names),
         separation=drive.wheel_separation,
         radius=drive.wheel_radius,
         separation_multiplier=drive.wheel_separation_multiplier,

@@ -56,6 +56,10 @@ def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
             for other in tuple(geometry.iterchildren(etree.Element))[1:]:
                 geometry.remove(other)
     _set_inertials(root, robot)
+    for limit in root.iterfind('joint/limit'):
+        # MuJoCo takes the amount of a negative one, which elsewhere means that there is none.
+        if float(limit.get('effort', '0')) < 0.0:
+            limit.set('effort', '0')
     for joint in robot.joints:
         if joint.limit is not None and joint.limit.lower == joint.limit.upper:
             _keep_limit(root, joint)

@@ -48,6 +48,8 @@ type _Point = tuple[float, float]
 # A hollow sphere has 5/3 of the moment of a solid one, a thin ring twice that of a disc, a heavy
 # core a fraction; typing errors (g or mm, a diameter for a radius) exceed this factor.
 _FACTOR = 3.0
+# The collision of a link that is drawn by a mesh is a sketch of it, often much slimmer.
+_FACTOR_OF_A_SKETCH = 10.0
 # Moments that agree this closely after two axes are exchanged, and not before, were swapped.
 _SWAPPED, _NOT_SWAPPED = 1.1, 1.5
 # kg and kg·m²; solvers fail beyond.
@@ -60,9 +62,17 @@ def inertial_is_present(context: CheckContext) -> Iterator[Finding]:
     robot = context.robot
     static = context.fixed_links
     massive = _bodies_with_inertial(context)
+    weighed = {
+        context.bodies.get(link.name)
+        for link in robot.links
+        if link.inertial is not None
+        and not (link.visuals or link.collisions or robot.child_joints(link.name))
+    }
     for link in robot.links:
         if link.inertial is not None or link.name in static:
             continue
+        if context.bodies.get(link.name) in weighed & massive:
+            continue  # a link of its own stands for the mass of all of it
         joint = robot.parent_joint(link.name)
         if link.collisions:
             # A part fixed to one with mass moves with it, but its own mass is missing.
@@ -173,7 +183,8 @@ def inertia_fits_the_shape(context: CheckContext) -> Iterator[Finding]:
         if not all(0.0 < moment < math.inf for moment in given):
             continue
         name = quote(link.name)
-        if _factor(given, solid) > _FACTOR:
+        is_sketch = any(isinstance(visual.geometry, Mesh) for visual in link.visuals)
+        if _factor(given, solid) > (_FACTOR_OF_A_SKETCH if is_sketch else _FACTOR):
             what = f'link {name}: the inertia is not that of its collision shape'
         elif _is_swapped(given, solid):
             what = f'link {name}: the moments of inertia stand on the wrong axes'

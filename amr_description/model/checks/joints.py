@@ -51,19 +51,24 @@ def limits_are_ordered(context: CheckContext) -> Iterator[Finding]:
 
 
 def limits_let_it_move(context: CheckContext) -> Iterator[Finding]:
-    """Limits of effort and velocity are above 0."""
+    """Limits of effort and velocity are above 0, but for a joint that a spring moves."""
+    springs = {
+        element.get('reference')
+        for element in context.xml.iterchildren('gazebo')
+        if element.find('springStiffness') is not None
+    }
     for joint in context.robot.joints:
-        if joint.limit is None or not joint.is_moving:
+        if joint.limit is None or not joint.is_moving or joint.name in springs:
             continue
         for name in ('effort', 'velocity'):
             value = getattr(joint.limit, name)
             if value <= 0.0:
-                report = context.error if value < 0.0 else context.warning
-                yield report(
+                yield context.warning(
                     joint.line,
                     f'joint {quote(joint.name)}: the {name} limit leaves nothing to move it with',
                     found=f'{value:g}',
                     expected='a number above 0',
+                    taken='there is no such limit' if value < 0.0 else '',
                 )
 
 

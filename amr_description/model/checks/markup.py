@@ -29,6 +29,8 @@ TOUCHES_NOTHING = "the shape of the link's visual is taken, or none"
 """What the simulator makes of a collision whose mesh cannot be had."""
 # Elements whose unknown children are refused where they are read.
 _READ_STRICTLY = ('ros2_control', 'geometry')
+# The names of links are much alike: others than these are other parts.
+_MISSPELT_REFERENCE = 0.8
 _ODD = re.compile(r'\A/|\s')
 
 
@@ -229,7 +231,7 @@ def gazebo_refers_to_something(context: CheckContext) -> Iterator[Finding]:
         name = element.get('reference')
         if name is None or robot.has_link(name) or robot.has_joint(name):
             continue
-        meant = closest_match(name, known)
+        meant = closest_match(name, known, _MISSPELT_REFERENCE)
         yield context.warning(
             line_of(element),
             '<gazebo> refers to what is not there, and is ignored',

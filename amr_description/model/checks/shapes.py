@@ -48,15 +48,35 @@ def _sizes(geometry: Geometry) -> tuple[float, ...]:
 
 
 def collision_is_present(context: CheckContext) -> Iterator[Finding]:
-    """A link with mass and a visual shape has a collision shape."""
+    """
+    A link with mass and a visual shape has a collision shape.
+
+    So has its rigid body, or what it carries: trim and a caster's fork need none of their own.
+    """
+    touching = _with_what_carries_them(context)
     for link in context.robot.links:
-        if link.inertial is not None and link.visuals and not link.collisions:
+        if link.inertial is None or not link.visuals or link.collisions:
+            continue
+        if context.bodies.get(link.name, link.name) not in touching:
             yield context.warning(
                 link.line,
                 f'link {quote(link.name)} has mass and is seen, but has no <collision>',
-                expected='a shape that touches; without one it falls through the ground',
+                expected='a shape that touches; without one it passes through everything',
                 fix='add <collision> with the <geometry> of its <visual>',
             )
+
+
+def _with_what_carries_them(context: CheckContext) -> set[str]:
+    """Return the topmost links of the bodies that touch, or carry one that does."""
+    robot = context.robot
+    found: set[str] = set()
+    for link in robot.links:
+        body = context.bodies.get(link.name) if link.collisions else None
+        while body is not None and body not in found:
+            found.add(body)
+            joint = robot.parent_joint(body)
+            body = None if joint is None else context.bodies.get(joint.parent)
+    return found
 
 
 def colors_are_visible(context: CheckContext) -> Iterator[Finding]:
@@ -94,8 +114,9 @@ def shapes_do_not_overlap(context: CheckContext) -> Iterator[Finding]:
     """
     Collision shapes of links that are not neighbours are apart, all joints at 0.
 
-    Links of one rigid body, and of two that one joint connects, may overlap: a wheel reaches into
-    the chassis. Meshes are left out.
+    Links of one rigid body may overlap, and of two that are connected by a joint, or by several
+    with nothing that touches between: a wheel reaches into the chassis, on a suspension too.
+    Meshes are left out.
     """
     reported: set[tuple[str, str]] = set()
     neighbours = _neighbours(context)
@@ -129,11 +150,19 @@ def _placed_solids(context: CheckContext) -> list[_Placed]:
 
 
 def _neighbours(context: CheckContext) -> set[tuple[str, str]]:
-    """Return the pairs of rigid bodies that a joint connects, either way round."""
-    pairs = {
-        (context.bodies.get(joint.parent, ''), context.bodies.get(joint.child, ''))
-        for joint in context.robot.joints
-    }
+    """Return the pairs of rigid bodies with no other that touches between, either way round."""
+    touching = {context.bodies.get(link.name) for link in context.robot.links if link.collisions}
+    pairs = set()
+    for joint in context.robot.joints:
+        child = context.bodies.get(joint.child, '')
+        parent = context.bodies.get(joint.parent, '')
+        pairs.add((parent, child))
+        for _ in context.robot.links:  # at most so many, in a tree that is none too
+            above = context.robot.parent_joint(parent)
+            if parent in touching or above is None:
+                break
+            parent = context.bodies.get(above.parent, '')
+            pairs.add((parent, child))
     return pairs | {(child, parent) for parent, child in pairs}
 
 

@@ -444,3 +444,48 @@ def test_every_rule_stands_on_its_page_in_the_order_of_the_tables():
     named = re.findall(r'^\| `(\w+)` \| \S', page, re.MULTILINE)
     rules = (*checks.RULES, *checks.RULES_OF_THE_WHOLE)
     assert named == [rule.__name__ for rule in rules]
+
+
+def wheeled(between, wheel=''):
+    """A box with a wheel inside, ``between`` them a link that carries it."""
+    box = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    return robot_text(
+        f'<link name="a">{SOLID}{box}</link><link name="k">{SOLID}{between}</link>'
+        f'<link name="w">{SOLID}<collision>{BALL}</collision>{wheel}</link>'
+        + joint_text('a', 'k')
+        + joint_text('k', 'w')
+    )
+
+
+def test_a_wheel_on_a_suspension_may_reach_into_the_chassis():
+    assert not any('overlap' in line for line in findings(wheeled('')))
+    touching = wheeled(f'<collision>{BALL}</collision>')
+    assert any('"a" and "w" overlap' in line for line in findings(touching))
+
+
+def test_what_is_fixed_to_a_body_that_touches_or_carries_one_needs_no_collision():
+    visual = f'<visual>{BALL}</visual>'
+
+    def is_told(text):
+        return any('passes through' in line for line in findings(robot_text(text)))
+
+    assert not any('no <collision>' in line for line in findings(wheeled(visual)))
+    links = f'<link name="a">{SOLID}<collision>{BALL}</collision></link>'
+    links += f'<link name="b">{SOLID}{visual}</link>'
+    assert not is_told(links + joint_text('a', 'b', 'fixed'))
+    assert is_told(links + joint_text('a', 'b'))
+
+
+def test_a_link_of_its_own_may_stand_for_the_mass_of_a_body():
+    shapes = f'<link name="a"><collision>{BALL}</collision></link>'
+    text = robot_text(f'{shapes}<link name="m">{SOLID}</link>' + joint_text('a', 'm', 'fixed'))
+    assert not any('no <inertial>' in line for line in findings(text))
+
+
+def test_a_joint_that_a_spring_moves_may_have_no_effort():
+    limit = '<limit lower="0" upper="1" effort="0" velocity="0"/>'
+    text = f'<link name="a">{SOLID}</link><link name="b">{SOLID}</link>'
+    text += joint_text('a', 'b', 'prismatic', limit)
+    spring = '<gazebo reference="a_b"><springStiffness>9</springStiffness></gazebo>'
+    assert any('leaves nothing' in line for line in findings(robot_text(text)))
+    assert not any('leaves nothing' in line for line in findings(robot_text(text + spring)))

@@ -188,7 +188,7 @@ def test_the_file_that_the_urdf_names_counts_without_an_option(check, tmp_path):
     assert check(named.replace('c.yaml', 'other.yaml')) == (0, []), 'the wheels of another robot'
     (tmp_path / 'arm.yaml').write_text('arm:\n  ros__parameters:\n    rate: 1\n')
     assert check(named.replace('c.yaml', 'arm.yaml')) == (0, []), 'it has no wheels'
-    (tmp_path / 'bad.yaml').write_text(DRIVE.replace('0.1', '1'))
+    (tmp_path / 'bad.yaml').write_text(DRIVE.replace('0.1', "'1'"))
     code, (line,) = check(named.replace('c.yaml', 'bad.yaml'))
     assert code == 0
     assert line.startswith("warning: bad.yaml:10: drive: parameter 'wheel_radius' must be of type")

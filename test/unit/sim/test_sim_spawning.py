@@ -231,6 +231,14 @@ def test_shapes_without_a_volume_are_left_out():
     assert collision_geoms(world) == []
 
 
+def test_a_negative_limit_of_effort_is_none():
+    """MuJoCo would take its amount."""
+    limit = '<axis xyz="0 0 -1"/><limit effort="-1" velocity="-1"/>'
+    world = MujocoWorld('empty')
+    world.spawn('amr', AMR.replace('<axis xyz="0 0 -1"/>', limit))
+    assert not world.engine.model.jnt_actfrclimited.any()
+
+
 def test_a_robot_without_any_mass_is_spawned_and_each_link_is_told():
     log = Lines()
     world = MujocoWorld('empty', log=log)
