@@ -5,10 +5,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 from amr_description.control.interfaces import ACCELERATION, EFFORT, POSITION, VELOCITY
 from amr_description.controllers.pid import PidGains, STRATEGIES
+from amr_description.former_parameters import FormerParameter, ignored
 from amr_description.parameters import group, keyed_group, parameter
 
 _ANY: dict[str, Any] = {'nan': True}
@@ -19,6 +20,9 @@ _ANY: dict[str, Any] = {'nan': True}
 class JointGains:
     """The PID of one joint, where velocity or effort alone is commanded."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = (
+        ignored('angle_wraparound', 'Humble', 'joints that the URDF calls continuous wrap around'),
+    )
     p: float = parameter(0.0, 'Proportional gain')
     i: float = parameter(0.0, 'Integral gain')
     d: float = parameter(0.0, 'Derivative gain')
@@ -106,6 +110,11 @@ class SpeedScaling:
 class JointTrajectoryParameters:
     """The table of joint_trajectory_controller/JointTrajectoryController."""
 
+    former: ClassVar[tuple[FormerParameter, ...]] = (
+        ignored('start_with_holding', 'Humble', 'it always holds the position at activation'),
+        ignored('state_publish_rate', 'Humble', '~/controller_state has every update'),
+        ignored('interface_name', 'forward_command_controller', 'command_interfaces says it'),
+    )
     joints: tuple[str, ...] = parameter(
         (), 'Joints of the trajectories', read_only=True, not_empty=True, unique=True
     )

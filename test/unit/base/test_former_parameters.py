@@ -9,6 +9,7 @@ import pytest
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.controllers.force_torque_sensor_broadcaster import ForceTorqueParameters
 from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
+from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
 from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
 from amr_description.controllers.pid_controller import PidParameters
 from amr_description.controllers.tricycle_controller import TricycleParameters
@@ -85,6 +86,13 @@ NO_JERK = {'linear.x.max_jerk': math.nan, 'linear.x.min_jerk': math.nan}
             {},
             "parameter 'sensor_filter_chain.filter1.type' is a/b: it is of the original, and has "
             'no effect: there are no filters here, nor ~/wrench_filtered',
+        ),
+        (
+            JointTrajectoryParameters,
+            {'joints': ['a'], 'gains.a.angle_wraparound': True},
+            {},
+            "parameter 'gains.a.angle_wraparound' is true: it is of Humble, and has no effect: "
+            'joints that the URDF calls continuous wrap around',
         ),
         (
             PidParameters,
