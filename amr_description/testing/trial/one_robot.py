@@ -29,7 +29,7 @@ from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active, BringUp, find_manager, logged
-from amr_description.testing.trial.driving import Drive
+from amr_description.testing.trial.driving import Drive, TOLERANCE
 from amr_description.testing.trial.findings import (
     Check,
     Findings,
@@ -217,7 +217,8 @@ class Trial:
                 self._fault(f'{each.name} ({each.type}) is {each.state}: {one_line(each.reason)}')
         for motion in self.found.motions:
             if not motion.is_fine:
-                self._fault(describe(motion))
+                said = [line for line in logged(sim.log) if motion.controller in line]
+                self._fault('; '.join([describe(motion), cause_of(motion), *said]))
 
     def _move(self, sim: Simulation, robot: Robot, active: list[Active]) -> None:
         """Move what can be moved of the active controllers, the last of them."""
@@ -243,7 +244,8 @@ class Trial:
         if self.found.motions:
             return
         drive = _DRIVE_PLUGIN.search(text)
-        if drive or '<ros2_control' in text:
+        listed = [each for each in self.found.controllers if 'roadcaster' not in each.type]
+        if drive or listed:
             what = f'its {drive[1]}' if drive else 'its <ros2_control>'
             why = '; '.join(self.found.undriven) or 'no active controller is one that moves'
             self._fault(f'nothing has moved by {what}: {why}')
@@ -279,6 +281,20 @@ def describe(motion: Motion) -> str:
     odometry = '' if motion.odometry is None else f', odometry {number(motion.odometry)}'
     line = f'{motion.controller}: {motion.what} {motion.asked:.3f}: truth {number(motion.truth)}'
     return f'{line}{odometry}' + (f' ({motion.note})' if motion.note else '')
+
+
+def cause_of(motion: Motion) -> str:
+    """Return what truth and odometry of a motion that is not as it should be have in common."""
+    asked, truth, odometry = motion.asked, motion.truth, motion.odometry
+    if truth is None or not asked:
+        return 'not measured'
+    if abs(truth + asked) <= TOLERANCE * asked:
+        return 'the other way: wheels are swapped, or an axis is upside down'
+    if odometry is None:
+        return 'no odometry to compare with'
+    if abs(odometry - asked) > TOLERANCE * asked:
+        return 'by its odometry, too: a limit, or a wrong radius or separation'
+    return 'not by its odometry: wheels slip, or roll otherwise than the parameters say'
 
 
 def without_path(found: Findings, path: str) -> Findings:

@@ -24,7 +24,7 @@ from amr_description.testing.trial.findings import (
     to_json,
 )
 from amr_description.testing.trial.moving import offset_of
-from amr_description.testing.trial.one_robot import check_of
+from amr_description.testing.trial.one_robot import cause_of, check_of
 
 FOUND = Findings(
     'cart',
@@ -99,6 +99,21 @@ def test_warnings_and_errors_of_a_log_are_told_once():
 )
 def test_a_check_that_fails_is_not_one_that_finds_errors(code, out, err, expected):
     assert check_of(code, out, err) == expected
+
+
+@pytest.mark.parametrize(
+    ('truth', 'odometry', 'expected'),
+    [
+        (None, None, 'not measured'),
+        (-0.99, 1.0, 'the other way'),
+        (0.5, None, 'no odometry'),
+        (0.5, 0.52, 'by its odometry, too'),
+        (0.5, 1.0, 'not by its odometry'),
+    ],
+)
+def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
+    motion = Motion('a', 'forward', 1.0, truth, odometry, is_fine=False)
+    assert cause_of(motion).startswith(expected)
 
 
 def at(x, y, yaw):
