@@ -14,6 +14,8 @@ from amr_description.controllers.mecanum_drive_parameters import MecanumDrivePar
 from amr_description.controllers.parameter_faults import controller_parameters
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ParameterError
+from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo_drives import CORNERS, MECANUM
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers
 from amr_description.parameters import build
@@ -47,12 +49,26 @@ def rollers_of_controllers(robot: Robot, paths: Sequence[str]) -> dict[str, Roll
     return {joint: each for joint, each in rollers.items() if robot.has_joint(joint)}
 
 
+def mecanum_rollers(joints: Sequence[str]) -> dict[str, Rollers]:
+    """Return the rollers of four wheels: front left, front right, rear right, rear left."""
+    return {joint: Rollers(sign * _EIGHTH) for joint, sign in zip(joints, _SIGNS, strict=True)}
+
+
 def _rollers(kind: str, values: dict[str, object]) -> Iterator[tuple[str, Rollers]]:
     if kind == MECANUM_DRIVE:
-        joints = build(MecanumDriveParameters, values).command_joints
-        for joint, sign in zip(joints, _SIGNS, strict=True):
-            yield joint, Rollers(sign * _EIGHTH)
+        yield from mecanum_rollers(build(MecanumDriveParameters, values).command_joints).items()
     else:
         names = values.get('wheel_names')
         for joint in names if isinstance(names, Sequence) else ():
             yield joint, Rollers(0.0)
+
+
+def rollers_of_plugins(translation: GazeboTranslation) -> dict[str, Rollers]:
+    """Return the rollers of wheels, by joint, that a mecanum drive of Gazebo names."""
+    found: dict[str, Rollers] = {}
+    for each in translation.controllers:
+        if each.type == MECANUM:
+            found |= mecanum_rollers(
+                [each.parameters[f'{corner}_wheel_command_joint_name'] for corner in CORNERS]
+            )
+    return found

@@ -16,10 +16,12 @@ from amr_description.model.wheels import find_wheels
 from amr_description.text import quote, quote_all
 
 _ACKERMANN = 'amr_description/GazeboAckermannDrive'
-_MECANUM = 'amr_description/GazeboMecanumDrive'
+MECANUM = 'amr_description/GazeboMecanumDrive'
+CORNERS = ('front_left', 'front_right', 'rear_right', 'rear_left')
+"""Its wheels, as the parameters of its controller name them."""
 _DRIVE = 'amr_description/GazeboDiffDrive'
 _MOVE = 'amr_description/GazeboPlanarMove'
-_DRIVES = (_ACKERMANN, _DRIVE, _MECANUM)
+_DRIVES = (_ACKERMANN, _DRIVE, MECANUM)
 """They publish the transform from odom to base."""
 _ODOMETRY = 'amr_description/GazeboOdometryPublisher'
 _UNKNOWN_VARIANCE = 1e12
@@ -98,14 +100,13 @@ def _mecanum(builder: Builder, plugin: PluginElement) -> None:
         plugin.note('it cannot work: distances and size of the wheels must be above 0')
         return
     builder.command(wheels, 'velocity')
-    ours = ('front_left', 'front_right', 'rear_right', 'rear_left')
     parameters: dict[str, Any] = {
-        **{f'{n}_wheel_command_joint_name': j for n, j in zip(ours, wheels, strict=True)},
+        **{f'{n}_wheel_command_joint_name': j for n, j in zip(CORNERS, wheels, strict=True)},
         'kinematics.wheels_radius': radius,
         'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5 * (separation + base),
         **_limits(plugin, ('linear.x', 'linear.y', 'angular.z')),
     }
-    _gz_drive(builder, plugin, parameters, _MECANUM, 'mecanum_drive')
+    _gz_drive(builder, plugin, parameters, MECANUM, 'mecanum_drive')
 
 
 def _ackermann(builder: Builder, plugin: PluginElement) -> None:

@@ -26,7 +26,7 @@ from amr_description.control.ros.controller_manager_node import (
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.controllers.drive_files import drive_warnings
-from amr_description.controllers.roller_files import rollers_of_controllers
+from amr_description.controllers.roller_files import rollers_of_controllers, rollers_of_plugins
 from amr_description.errors import RequestError, SpawnError
 from amr_description.model.controller_files import files_of, missing_files, named_files
 from amr_description.model.frames import Transform
@@ -174,7 +174,9 @@ class EntityManager:
         hardware = hardware_of(robot)
         translation = translate(robot)
         prepared = self._prepare(robot, hardware, namespace, translation) if hardware else None
-        rollers = self._rollers_of(robot) if hardware else {}
+        rollers: Mapping[str, Rollers] = {}
+        if hardware:
+            rollers = self._rollers_of(robot) | rollers_of_plugins(translation)
 
         def insert() -> tuple[str, ControllerManager | None]:
             given = free_name(name, self._world.names) if allow_renaming else name
@@ -191,10 +193,11 @@ class EntityManager:
         log_translation(given, translation, namespace, self._log)
         if prepared is not None:
             running, thread = self._serve(prepared, manager, given)
-            starting = start_controllers(running, translation.controllers, self._log)
-            await run_in(thread.executor, starting, self._executor)
         self._ground_truth.add(given, namespace)
         self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
+        if running is not None and thread is not None:
+            starting = start_controllers(running, translation.controllers, self._log)
+            await run_in(thread.executor, starting, self._executor)
         return given
 
     async def remove(self, name: str) -> None:
@@ -344,7 +347,7 @@ class EntityManager:
             self._log(Severity.WARN, finding.text)
         return [argument for path in paths for argument in ('--params-file', path)]
 
-    def _rollers_of(self, robot: Robot) -> Mapping[str, Rollers]:
+    def _rollers_of(self, robot: Robot) -> dict[str, Rollers]:
         """Return the rollers of wheels of which only the parameters of a controller tell."""
         paths = [self._controllers] if self._controllers else files_of(robot)
         return rollers_of_controllers(robot, [str(path) for path in paths])

@@ -102,12 +102,12 @@ def run_in(executor: Executor, work: Coroutine[Any, Any, None], waiting: Executo
     async def run() -> None:
         try:
             await work
-        except BaseException as error:
+        except Exception as error:  # raised again where the future is awaited
             done.set_exception(error)
-            waiting.wake()
-            raise
-        done.set_result(None)
-        waiting.wake()  # a task that awaits is looked at only when the executor wakes
+        finally:  # it may be cancelled, as its robot is removed
+            if not done.done():
+                done.set_result(None)
+            waiting.wake()  # a task that awaits is looked at only when the executor wakes
 
     executor.create_task(run())
     return done

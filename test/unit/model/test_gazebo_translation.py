@@ -6,6 +6,7 @@ from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plu
 import pytest
 
 from amr_description.controllers import CONTROLLERS
+from amr_description.controllers.roller_files import rollers_of_plugins
 from amr_description.model.gazebo_plugins import kind_of
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
@@ -143,12 +144,14 @@ def test_mecanum_wheels_of_new_gazebo():
     sizes = """<wheelbase>0.8</wheelbase><wheel_separation>0.6</wheel_separation>
     <wheel_radius>0.1</wheel_radius><max_linear_velocity>2</max_linear_velocity>"""
     one = plugin('', 'gz::sim::systems::MecanumDrive', joints + sizes)
-    drive, _ = four_wheels(one).controllers
+    found = four_wheels(one)
+    drive, _ = found.controllers
     assert drive.type == 'amr_description/GazeboMecanumDrive'
     assert drive.parameters['rear_right_wheel_command_joint_name'] == 'rr_joint'
     reach = drive.parameters['kinematics.sum_of_robot_center_projection_on_X_Y_axis']
     assert reach == pytest.approx(0.7)
     assert drive.parameters['linear.y.max_velocity'] == 2.0
+    assert [*rollers_of_plugins(found)] == ['fl_joint', 'fr_joint', 'rr_joint', 'rl_joint']
     assert drive.topics == {'~/cmd_vel': 'cmd_vel', '~/odometry': 'odom', '/tf': '/tf'}
 
 
