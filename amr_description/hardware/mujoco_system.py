@@ -87,7 +87,14 @@ class MujocoSystem(HardwareComponent):
             if states:
                 group = world.joints([state.prefix for state in states])
                 self._sources.append((states, _reader(group, quantity)))
-        self._modes = CommandModes([c for c in self._commands if _quantity(c) in COMMANDS])
+        following = {joint.name for joint in self.info.joints if joint.mimic is not None}
+        self._modes = CommandModes(
+            [
+                command
+                for command in self._commands
+                if _quantity(command) in COMMANDS and command.prefix not in following
+            ]
+        )
         self._commanded: list[_CommandedGroup] = []
         self._idle: tuple[str, ...] = ()
         self._idle_group = world.joints(self._modes.joints)

@@ -212,7 +212,7 @@ def _read_joints(
 def _read_joint(
     element: etree._Element, joint: Joint, robot: Robot, reader: ElementReader
 ) -> ComponentInfo:
-    """Return a ``<joint>``; one that follows another has no command interfaces."""
+    """Return a ``<joint>``, with how it follows another one."""
     component = _read_component(element, ComponentType.JOINT, reader)
     mimic = joint.mimic
     if mimic is None and not component.command_interfaces:
@@ -232,9 +232,8 @@ def _read_joint(
             f"Joint '{joint.name}' has mimic attribute not set to false: activated mimic joints "
             'cannot have command interfaces',
             fix='remove its command interfaces or write mimic="false"',
-            taken='its command interfaces are left out',
+            taken='it follows the other joint, and its commands have no effect',
         )
-        component = replace(component, command_interfaces=())
     return replace(component, mimic=mimic)
 
 

@@ -186,7 +186,13 @@ def _held_without_commands(robot: Robot, log: Log) -> dict[str, tuple[str, ...]]
 
 
 def _quantities(joint: ComponentInfo) -> tuple[str, ...]:
-    """Return what a joint is commanded by; one whose commands are not simulated is held."""
+    """
+    Return what a joint is commanded by.
+
+    One whose commands are not simulated is held; one that follows another has no commands.
+    """
+    if joint.mimic is not None:
+        return ()
     names = [QUANTITIES.get(interface.name, '') for interface in joint.command_interfaces]
     known = tuple(name for name in names if name in COMMANDS)
     return known or ((VELOCITY,) if names else ())

@@ -163,6 +163,19 @@ def test_torque_and_force_are_other_names_of_effort(world):
     assert system.log.lines == []
 
 
+def test_commands_of_a_joint_that_follows_another_can_be_claimed_and_have_no_effect(world):
+    follow = '<child link="b"/><mimic joint="ja"/></joint>'
+    urdf = URDF.replace('<child link="b"/></joint>', follow)
+    system = MujocoSystem(info_of(urdf), Lines(), FakeWorld(urdf))
+    system.configure()
+    system.activate()
+    switch(system, ['jb/velocity', 'ja/velocity'])
+    for command in system.command_interfaces():
+        command.value = 2.0
+    system.write(0, PERIOD)
+    assert system.world.commands == {'ja': velocity(2.0)}
+
+
 def test_interfaces_with_gains_are_exported_without_as_gazebo_does(world):
     urdf = URDF.replace(
         '<command_interface name="velocity"/>',

@@ -230,7 +230,7 @@ TAKEN = {
     ),
     'mimic commanded': (
         f'{PLUGIN}<joint name="m">{VELOCITY}{STATE}</joint>',
-        lambda info: info.joints[0].mimic and not info.joints[0].command_interfaces,
+        lambda info: info.joints[0].mimic and info.joints[0].command_interfaces,
     ),
     'mimicked absent': (
         f'{PLUGIN}<joint name="m">{STATE}</joint>',

@@ -6,7 +6,7 @@ from fixtures.sim.arm import ARM, arm, follow
 from fixtures.sim.driving import Lines
 import pytest
 
-from amr_description.errors import SpawnError
+from amr_description.errors import SimulationError, SpawnError
 
 
 def with_initial(joint, interface, value, urdf=ARM):
@@ -77,6 +77,8 @@ def test_mimics_by_parameters_of_the_block_follow_too():
     urdf = urdf[:start] + urdf[urdf.index('</joint>', start) + len('</joint>') :]
     world, robot = arm(with_initial('shoulder', 'position', 0.3, urdf))
     group = robot.joints(['shoulder', 'spindle'])
+    with pytest.raises(SimulationError, match="joint 'spindle' takes no velocity command"):
+        robot.joints(['spindle']).command('velocity', [1.0])
     assert group.positions() == pytest.approx([0.3, 0.7])
     follow(world, robot.joints(['shoulder']), [-0.5], 1.0)
     assert group.positions() == pytest.approx([-0.5, -0.9], abs=2e-3)
