@@ -15,6 +15,7 @@ from typing import Any
 
 from amr_description.control.contracts import null_log
 from amr_description.controllers import CONTROLLERS
+from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
 from amr_description.controllers.omni_wheel_drive_controller import OmniWheelDriveParameters
 from amr_description.controllers.parameter_faults import (
@@ -27,8 +28,10 @@ from amr_description.errors import ControllerError, ParameterError
 from amr_description.model.axles import vector_text
 from amr_description.model.findings import Finding, Severity
 from amr_description.model.frames import conjugate, rotate, Transform, Vector
+from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Joint, JointType, Robot
+from amr_description.model.rollers import described_rollers
 from amr_description.model.urdf import read_robot
 from amr_description.model.wheels import find_wheels
 from amr_description.model.xml_reader import parse_xml
@@ -119,6 +122,10 @@ class _Drive:
         """Return whether all of some joints are there and move."""
         return all(self.robot.has_joint(j) and self.robot.joint(j).has_position for j in joints)
 
+    def link_of(self, joint: str) -> str:
+        """Return the link that a joint moves."""
+        return self.robot.joint(joint).child
+
     def places(self, joints: Sequence[str], base: str) -> list[_Place]:
         """Return where joints are; ``base``: the link of the controller, else the root."""
         frame = self._poses.get(base, Transform())
@@ -176,6 +183,8 @@ def _check_of(table: type) -> Callable[[_Drive, Any], Iterator[Finding]] | None:
         return _check_mecanum
     if table is OmniWheelDriveParameters:
         return _check_omni
+    if table is DiffDriveParameters:
+        return _check_rollers
     return _check_steering if issubclass(table, SteeringParameters) else None
 
 
@@ -236,6 +245,31 @@ def _check_omni(drive: _Drive, parameters: OmniWheelDriveParameters) -> Iterator
                 found=f'an axis {vector_text(place.axis)} in the frame of the base',
                 expected=vector_text((math.cos(angle), math.sin(angle), 0.0)),
             )
+
+
+def _check_rollers(drive: _Drive, parameters: DiffDriveParameters) -> Iterator[Finding]:
+    """A differential drive on mecanum wheels turns as these do."""
+    joints = (*parameters.left_wheel_names, *parameters.right_wheel_names)
+    if not drive.has(joints):
+        return
+    told = described_rollers(drive.robot, gazebo_physics_of(drive.robot))
+    angles = [told[link].angle for link in map(drive.link_of, joints) if link in told]
+    if len(angles) < len(joints) or any(abs(math.sin(2.0 * angle)) < _ALIGNED for angle in angles):
+        return
+    places = drive.places(joints, parameters.base_frame_id)
+    xs, ys = [p.x for p in places], [p.y for p in places]
+    wanted = max(xs) - min(xs) + max(ys) - min(ys)
+    found = parameters.wheel_separation * parameters.wheel_separation_multiplier
+    if abs(found - wanted) > _TOLERANCE * wanted:
+        factor = wanted / parameters.wheel_separation
+        yield drive.warn(
+            ('wheel_separation_multiplier', 'wheel_separation'),
+            'its wheels have rollers, and turn the robot as those of a mecanum drive do',
+            found=f'an effective separation of {found:.3g} m',
+            expected=f'{wanted:.3g} m: wheelbase and track',
+            fix=f'write wheel_separation_multiplier: {factor:.3g}, or use the '
+            'mecanum_drive_controller',
+        )
 
 
 def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[Finding]:

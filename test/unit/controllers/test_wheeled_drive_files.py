@@ -152,6 +152,23 @@ def test_a_steered_wheel_that_cannot_roll_is_named(texts, follows):
     assert 'the wheel on joint "steer_left" is steered and cannot roll: it slides' in text
 
 
+def test_a_differential_drive_on_mecanum_wheels_is_told_its_separation(texts):
+    parameters = (
+        HEAD % 'diff_drive_controller/DiffDriveController'
+        + """    left_wheel_names: [front_left_joint, rear_left_joint]
+    right_wheel_names: [front_right_joint, rear_right_joint]
+    wheel_separation: 0.26
+    wheel_radius: 0.05
+    wheel_separation_multiplier: 1.0
+"""
+    )
+    [text] = texts(mecanum(), parameters)
+    assert 'found an effective separation of 0.26 m, expected 0.56 m' in text
+    assert 'write wheel_separation_multiplier: 2.15' in text
+    assert texts(mecanum(), parameters.replace('1.0', '2.1538')) == []
+    assert texts(mecanum(''), parameters) == []
+
+
 def test_drives_of_other_robots_are_left_out(texts):
     assert texts(omni(), MECANUM) == texts(omni(), ACKERMANN) == texts(mecanum(), OMNI) == []
     assert texts(mecanum(), '') == []
