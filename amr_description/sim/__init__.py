@@ -26,7 +26,8 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``wheel_shapes.py``     which links are wheels, and the geoms with which they touch
 ``wheel_contact.py``    the contact of a wheel with the ground: the measured settings
 ``wheel_trim.py``       the same, trimmed so that each robot rests at its true height
-``rollers.py``          the contacts of mecanum and omni wheels
+``roller_wheels.py``    which wheels have rollers: mecanum and omni wheels
+``rollers.py``          … their contacts
 ``wheel_slip.py``       load and slip of wheels: ground truth
 
 ``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log

@@ -25,9 +25,10 @@ from amr_description.model.wheels import Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
 from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
-from amr_description.sim.gazebo_physics import apply_gazebo_physics, wheel_geom_name
+from amr_description.sim.gazebo_physics import apply_gazebo_physics
 from amr_description.sim.meshes import insert_meshes
 from amr_description.sim.prepared_xml import prepared_xml
+from amr_description.sim.roller_wheels import rollers_of
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.wheel_shapes import make_wheels
 from amr_description.text import quote_all
@@ -119,7 +120,8 @@ def build_robot(
         casters = _name_casters(spec) if wheels else ()
         physics = gazebo_physics_of(robot)
         frictions = apply_gazebo_physics(spec, robot, physics, wheels, log)
-        rollers = _rollers_of(wheels, described_rollers(robot, physics), named_rollers)
+        told = described_rollers(robot, physics)
+        rollers = rollers_of(wheels, told, named_rollers, frictions, log)
         if any(gpio.name == BASE for info in hardware for gpio in info.gpios):
             add_base_servo(spec, root_joint(robot))
         # Compiled alone first: a robot that MuJoCo rejects never gets into the world.
@@ -142,14 +144,6 @@ def _refuse_massless(robot: Robot) -> None:
             'with <mass value="…"/> (kg) and <inertia …/> (kg·m²)',
             SpawnCode.RESOURCE_PARSE_ERROR,
         )
-
-
-def _rollers_of(
-    wheels: Iterable[Wheel], described: Mapping[str, Rollers], named: Mapping[str, Rollers]
-) -> dict[str, Rollers]:
-    """Return the rollers of wheels by geom, from those by link and by joint."""
-    found = ((w, described.get(w.link) or named.get(w.joint)) for w in wheels)
-    return {wheel_geom_name(w.link): rollers for w, rollers in found if rollers is not None}
 
 
 def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ...]]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from amr_description.model.frames import cross, Vector
 from amr_description.sim.engine import Engine
-from amr_description.sim.robot_spec import wheel_geom_name
+from amr_description.sim.gazebo_physics import wheel_geom_name
 from amr_description.sim.robot_view import RobotView
 
 _NO_CONTACT = -1

@@ -25,7 +25,8 @@ import numpy as np
 from amr_description.control.contracts import null_log
 from amr_description.sim.engine import compiler_warnings
 from amr_description.sim.faults import collect_mujoco_warnings
-from amr_description.sim.robot_spec import RobotSpec, wheel_geom_name
+from amr_description.sim.gazebo_physics import wheel_geom_name
+from amr_description.sim.robot_spec import RobotSpec
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
 from amr_description.sim.world_file import apply_settings, WorldSettings
 

@@ -4,7 +4,7 @@
 
 import math
 
-from fixtures.sim.driving import AMR
+from fixtures.sim.driving import AMR, Lines
 from fixtures.sim.mecanum import CORNERS, HALF_BASE, HALF_TRACK, mecanum, OMNI, omni, RADIUS
 import pytest
 
@@ -99,6 +99,18 @@ def test_a_controller_may_say_which_wheels_have_rollers():
     world, robot = world_with(mecanum(''), X_OF_ROLLERS)
     found = driven(world, robot, WHEELS, MECANUM.wheels(twist))
     assert found == pytest.approx(twist, rel=0.02, abs=0.002)
+
+
+def test_hardly_any_friction_is_that_across_the_rollers_of_a_driven_wheel():
+    """As for a base that is pushed by a plugin of Gazebo, driven by a controller instead."""
+    lines = Lines()
+    slippery = '<gazebo reference="{name}_wheel"><mu1>0.01</mu1><mu2>0.01</mu2></gazebo>'
+    robot = read_description(mecanum(slippery), 'robot')
+    model = build_robot(robot, lines, named_rollers=X_OF_ROLLERS)
+    assert model.rollers['front_left_wheel/wheel'] == Rollers(-math.pi / 4, 1.0, 0.01)
+    assert 'a friction of 0.01 in the description' in lines.text
+    plain = build_robot(robot, lines)
+    assert plain.rollers == {}
 
 
 def test_without_rollers_it_does_not_go_sideways():
