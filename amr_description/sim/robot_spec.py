@@ -18,7 +18,7 @@ from amr_description.errors import SpawnError
 from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
-from amr_description.model.robot import JointType, Robot, WORLD_LINK
+from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.rollers import described_rollers, Rollers
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import Wheel
@@ -271,7 +271,8 @@ def initial_states(
         for interface in part.state_interfaces:
             if interface.name in given and interface.initial_value is not None:
                 given[interface.name][part.name] = interface.initial_value
-    given[POSITION] = _within_limits(robot, given[POSITION], log, strict=strict)
+    leading = [joint for joint in robot.joints if mimics[joint.name] is None]
+    given[POSITION] = _within_limits(robot, leading, given[POSITION], log, strict=strict)
 
     def state_of(joint: str) -> JointState:
         return JointState(given[POSITION].get(joint, 0.0), given[VELOCITY].get(joint, 0.0))
@@ -292,13 +293,19 @@ def initial_states(
 
 
 def _within_limits(
-    robot: Robot, positions: Mapping[str, float], log: Log, *, strict: bool
+    robot: Robot,
+    joints: Iterable[Joint],
+    positions: Mapping[str, float],
+    log: Log,
+    *,
+    strict: bool,
 ) -> dict[str, float]:
     """
-    Return the initial positions of all joints that do not begin at 0.
+    Return the initial positions of those joints that do not begin at 0.
 
     Args:
-        robot: The joints and their limits.
+        robot: Names the description in messages.
+        joints: Those that follow no other one.
         positions: What the description asks for, by joint.
         log: Gets what is not within the limits.
         strict: Refuse that, if it was asked for.
@@ -308,7 +315,7 @@ def _within_limits(
     """
     moved: dict[str, float] = {}
     elsewhere = []
-    for joint in robot.joints:
+    for joint in joints:
         asked = positions.get(joint.name, 0.0)
         bounds = command_bounds(joint, POSITION)
         begin = asked
