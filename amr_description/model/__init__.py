@@ -21,7 +21,6 @@ module                   what it holds
 ``ros2_control_tag.py``  ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
 ``fixing.py``            a robot bolted to the ground
 ``gazebo.py``            ``<gazebo>`` plugins and sensors
-``controller_files.py``  parameter files: which are a robot's, what controllers they have types for
 ``gazebo_plugins.py``    … the plugins that drive a robot without ros2_control, and what they say
 ``gazebo_drives.py``     … what drives and odometry become
 ``gazebo_joints.py``     … what plugins of single joints, and sensors, become
@@ -29,6 +28,8 @@ module                   what it holds
 ``gazebo_translation.py``  … of a robot: ``translate(robot)``
 ``base_interfaces.py``   the interfaces of a simulated robot's body as a whole
 ``gazebo_physics.py``    <gazebo reference="…">: friction, springs, gravity, self-collision
+``controller_files.py``  parameter files: which are a robot's, what controllers they have types for
+``parameter_substitutions.py``  … the values of ``$(var …)`` in them, which the robot tells
 ``findings.py``          Finding: severity, line, what, found, expected, fix
 ``xml_reader.py``        XML of unknown origin, and attributes with true line numbers
 

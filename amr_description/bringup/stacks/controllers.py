@@ -105,7 +105,7 @@ def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) ->
         note = f'urdf:={urdf}: it has no <ros2_control>, and so no controller manager of its own'
         note += f'; controllers:={controllers} has no effect' if controllers else ''
         return ControllerPlan((), files=tuple(given), notes=(('INFO', note),))
-    files, notes = (given, []) if given else _files_of(urdf, robot)
+    files, notes = _given_files(given, robot) if given else _files_of(urdf, robot)
     namespace, manager = manager_of(robot)
     if plugins.controllers:
         named = ', '.join(each.name for each in plugins.controllers)
@@ -135,6 +135,14 @@ def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) ->
         tuple(notes),
         plugins.twist_topic(namespace),
     )
+
+
+def _given_files(given: Sequence[Path], robot: 'Robot') -> tuple[list[Path], list[Note]]:
+    """Return the files that are given with the values of their variables, and what these are."""
+    from amr_description.model.parameter_substitutions import substituted_file
+
+    found = [substituted_file(path, robot) for path in given]
+    return [path for path, _ in found], [('INFO', what) for _, what in found if what]
 
 
 def _files_of(urdf: str, robot: 'Robot') -> tuple[list[Path], list[Note]]:
