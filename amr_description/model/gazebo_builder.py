@@ -61,6 +61,16 @@ class PluginController:
     namespace: str
     origin: str
 
+    def topics_in_use(self, namespace: str) -> list[str]:
+        """Return the full names of the topics that it has, by its parameters."""
+        unused = set()
+        if not self.parameters.get('enable_odom_tf', True):
+            unused.add('/tf')
+        if not self.parameters.get('publish_odom', True):
+            unused.update(ODOMETRY)
+        names = self.names_of_topics(namespace)
+        return list(dict.fromkeys(names[each] for each in names if each not in unused))
+
     def names_of_topics(self, namespace: str) -> dict[str, str]:
         """
         Return what it calls its topics → their full names.
@@ -242,11 +252,13 @@ class Builder:
             name='joint_state_broadcaster'
             if plugin is None
             else node_name(plugin.name, 'joint_state_publisher'),
-            origin='no plugin, but the transforms of moving links need it'
-            if plugin is None
-            else origin_of(plugin),
-            namespace='' if plugin is None else plugin.namespace,
+            origin='the transforms of its joints' if plugin is None else origin_of(plugin),
+            namespace=self._namespace() if plugin is None else plugin.namespace,
         )
+
+    def _namespace(self) -> str:
+        """Return the namespace of the first plugin."""
+        return next((each.namespace for each in self.controllers), '')
 
     def build(self) -> GazeboTranslation:
         """Return the whole."""

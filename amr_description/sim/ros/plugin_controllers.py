@@ -74,11 +74,11 @@ def node_arguments(controller: PluginController, namespace: str, update_rate: in
 def log_translation(robot: str, translation: GazeboTranslation, namespace: str, log: Log) -> None:
     """Log what was made of a robot's plugins: a line each, and one of what is not simulated."""
     for each in translation.controllers:
-        topics = ', '.join(dict.fromkeys(each.names_of_topics(namespace).values()))
+        controller = f'{each.name} ({each.type})'
+        topics = ', '.join(each.topics_in_use(namespace))
         log(
             Severity.INFO,
-            f"'{robot}': {each.origin} is simulated by the controller {each.name} ({each.type}): "
-            f'{topics}',
+            f"'{robot}': for {each.origin} runs the controller {controller}: {topics}",
         )
     for remark in translation.remarks:
         log(Severity.INFO, f"'{robot}': {remark}")

@@ -1,0 +1,71 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is logged of Gazebo's plugins at spawn, and the ROS arguments of their controllers."""
+
+from fixtures.sim.plugin_robot import cart, classic_drive, plugin
+import pytest
+from support.control_fakes import FakeLog
+
+from amr_description.control.contracts import Severity
+from amr_description.model.gazebo_translation import translate
+from amr_description.model.urdf import parse
+from amr_description.sim.ros.plugin_controllers import log_translation, node_arguments
+
+RULES = '<ros><namespace>/r1</namespace><remapping>odom:=wheel/odom</remapping></ros>'
+
+
+def translated(*plugins, reference=''):
+    return translate(parse(cart(*plugins, reference=reference)))
+
+
+@pytest.mark.parametrize(
+    'namespace, inside, states',
+    [('/', '/r1', '/r1/joint_states'), ('/r2', '/r2', '/r2/joint_states')],
+)
+def test_a_line_for_each_plugin_and_one_for_all_that_is_not_simulated(namespace, inside, states):
+    found = translated(
+        classic_drive(f'<publish_odom>1</publish_odom>{RULES}'),
+        plugin('libmaker.so', 'maker'),
+        reference='<sensor name="eye" type="camera"/><sensor name="laser" type="ray"/>',
+    )
+    log = FakeLog()
+    log_translation('cart', found, namespace, log)
+    assert log.lines == [
+        (
+            Severity.INFO,
+            '\'cart\': for plugin "drive" runs the controller drive '
+            f'(amr_description/GazeboDiffDrive): {inside}/cmd_vel',
+        ),
+        (
+            Severity.INFO,
+            '\'cart\': for plugin "drive" runs the controller drive_odometry '
+            f'(amr_description/GazeboOdometryPublisher): {inside}/wheel/odom',
+        ),
+        (
+            Severity.INFO,
+            "'cart': for the transforms of its joints runs the controller joint_state_broadcaster "
+            f'(joint_state_broadcaster/JointStateBroadcaster): '
+            f'{states}',
+        ),
+        (
+            Severity.WARN,
+            "'cart': declared for Gazebo and not simulated: sensors camera (eye), ray (laser); "
+            'plugin libmaker.so (maker)',
+        ),
+    ]
+
+
+def test_arguments_of_a_node():
+    sensor = """<sensor name="unit" type="imu"><update_rate>200</update_rate>
+    <topic>imu/data</topic></sensor>"""
+    (unit,) = translated(reference=sensor).controllers
+    assert node_arguments(unit, '/r2', 100) == [
+        '-p',
+        'sensor_name:="unit"',
+        '-p',
+        'frame_id:="base_link"',
+        '-p',
+        'update_rate:=100',
+        '-r',
+        '~/imu:=/r2/imu/data',
+    ]
