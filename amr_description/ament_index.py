@@ -27,6 +27,10 @@ _OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
 _INDEX = 'share/ament_index/resource_index/packages'
 _SOURCE_TREE = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
+MODEL_VARIABLES = (
+    'GZ_SIM_RESOURCE_PATH', 'IGN_GAZEBO_RESOURCE_PATH', 'GAZEBO_MODEL_PATH', 'SDF_PATH'
+)  # fmt: skip
+"""Where Gazebo looks for ``model://``: lists of folders."""
 _FIND = re.compile(r'\$\((?:find|find-pkg-share)\s+([\w-]+)\s*\)(.*)')
 
 
@@ -161,9 +165,13 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     """
     Return the path of a URI in a description; the file need not exist.
 
+    A package that is not installed is looked for beside the description too, where it lies in the
+    sources: among the folders above, those with its name or with its ``package.xml`` in them.
+
     Args:
-        uri: ``package://<package>/<path>``, ``file://<path>`` or a plain path.
-        folder: the base of a relative plain path, usually the folder of the description.
+        uri: ``package://<package>/<path>``, ``model://<model>/<path>``, ``file://<path>`` or a
+            plain path. A model is a folder of one of :data:`MODEL_VARIABLES`, else a package.
+        folder: the base of a relative path, usually the folder of the description.
 
     Raises:
         ResourceError: the package is not installed, or the scheme is not known.
@@ -177,15 +185,47 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     path = unquote(parts.path)
     match parts.scheme:
         case 'package':
-            return shared_file(parts.netloc, path.lstrip('/'))
+            return _in_package(parts.netloc, path.lstrip('/'), folder)
+        case 'model':
+            return _of_model(uri, unquote(parts.netloc), path.lstrip('/'), folder)
+        case 'file' if parts.netloc not in ('', 'localhost'):
+            return (folder or Path()) / f'{unquote(parts.netloc)}{path}'
         case 'file':
-            return Path(path)
+            return (folder or Path()) / path
         case '':
             return (folder or Path()) / uri
         case scheme:
             raise ResourceError(
                 f"'{uri}': scheme '{scheme}' is not known; package://, file:// or a path will do"
             )
+
+
+def _in_package(package: str, below: str, folder: Path | None) -> Path:
+    """Return a path in the share folder of a package, or in its sources. Raises ResourceError."""
+    try:
+        return shared_file(package, below)
+    except ResourceError:
+        for above in () if folder is None else (folder.absolute(), *folder.absolute().parents):
+            if above.name == package and above.is_dir():
+                return above / below
+            if (above / package / 'package.xml').is_file():
+                return above / package / below
+        raise
+
+
+def _of_model(uri: str, model: str, below: str, folder: Path | None) -> Path:
+    """Return a path of a model where Gazebo would find it, else of the package. ResourceError."""
+    for variable in MODEL_VARIABLES:
+        for each in filter(None, os.environ.get(variable, '').split(os.pathsep)):
+            path = Path(each, model, below)
+            if path.is_file():
+                return path
+    try:
+        return _in_package(model, below, folder)
+    except ResourceError as error:
+        raise ResourceError(
+            f"'{uri}': no folder of {MODEL_VARIABLES[0]} has it, and there is no package '{model}'"
+        ) from error
 
 
 def parameter_path(text: str, folder: Path | None = None) -> Path:

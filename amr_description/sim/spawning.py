@@ -19,6 +19,8 @@ from amr_description.model.frames import Quaternion, Transform
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
 
+_QUOTED = re.compile(r'"[^"]*"')
+_MOST_ALIKE = 3
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
 
 
@@ -106,6 +108,20 @@ def read_description(text: str, source: str, log: Log = null_log, strict: bool =
         robot, warnings = require_sound(text, source, strict)
     except DescriptionError as cause:
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
-    for warning in warnings:
-        log(Severity.WARN, warning.text)
+    for line in _lines(warnings):
+        log(Severity.WARN, line)
     return translate(robot).robot
+
+
+def _lines(warnings: Iterable[Finding]) -> Iterator[str]:
+    """Yield a line for each warning, but one for many alike that change nothing in the physics."""
+    alike: dict[str, list[Finding]] = {}
+    for warning in warnings:
+        # What is taken as something else is told with its link and value.
+        kind = warning.text if warning.taken else _QUOTED.sub('', warning.what)
+        alike.setdefault(kind, []).append(warning)
+    for first, *others in alike.values():
+        if len(others) < _MOST_ALIKE:
+            yield from (each.text for each in (first, *others))
+        else:
+            yield f'{first.text} (and {len(others)} more like it; check_urdf lists them)'

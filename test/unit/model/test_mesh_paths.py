@@ -51,6 +51,36 @@ def test_other_names_stay(folder, name):
     assert with_absolute_paths(text, folder) == text
 
 
+def test_a_package_that_is_not_installed_is_found_in_its_sources(tmp_path, monkeypatch):
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path / 'nothing'))
+    mesh = tmp_path / 'src' / 'my_robot' / 'meshes' / 'a.stl'
+    folder = tmp_path / 'src' / 'my_robot_bringup' / 'urdf'
+    for each in (mesh.parent, folder):
+        each.mkdir(parents=True)
+    mesh.write_text('x')
+    text = '<robot><mesh filename="package://my_robot/meshes/a.stl"/></robot>'
+    assert with_absolute_paths(text, folder) == text, 'no package is beside it'
+    (tmp_path / 'src' / 'my_robot' / 'package.xml').touch()
+    assert names(with_absolute_paths(text, folder)) == [f'file://{mesh}']
+    assert names(with_absolute_paths(text, mesh.parents[1] / 'urdf')) == [f'file://{mesh}']
+    model = text.replace('package', 'model')
+    assert names(with_absolute_paths(model, folder)) == [f'file://{mesh}']
+
+
+def test_a_model_is_found_where_gazebo_looks(tmp_path, monkeypatch):
+    (tmp_path / 'crate' / 'meshes').mkdir(parents=True)
+    (tmp_path / 'crate' / 'meshes' / 'a.stl').write_text('x')
+    monkeypatch.setenv('GZ_SIM_RESOURCE_PATH', f'/nowhere:{tmp_path}')
+    assert resolve_uri('model://crate/meshes/a.stl') == tmp_path / 'crate' / 'meshes' / 'a.stl'
+
+
+def test_a_relative_file_uri_is_beside_the_description(folder):
+    for uri in ('file://meshes/a.stl', 'file:meshes/a.stl', 'file://./meshes/a.stl'):
+        assert resolve_uri(uri, folder).is_file()
+        text = f'<robot><mesh filename="{uri}"/></robot>'
+        assert names(with_absolute_paths(text, folder)) == [f'file://{folder}/meshes/a.stl']
+
+
 @given(st.text(st.sampled_from('<mesh filename="\'/> a=\n\0'), max_size=200))
 def test_any_text_is_passed_on(tmp_path_factory, text):
     assert with_absolute_paths(text, tmp_path_factory.getbasetemp() / 'gone') == text

@@ -89,6 +89,15 @@ def test_warnings_of_the_checker_are_logged():
     assert 'drives the robot backwards' in log.text
 
 
+@pytest.mark.parametrize('count, lines', [(3, 3), (4, 1), (20, 1)])
+def test_many_warnings_alike_are_one_line(count, lines):
+    log = Lines()
+    blocks = ''.join(f'<gazebo reference="part_{number}"/>' for number in range(count))
+    read_description(AMR.replace('</robot>', f'{blocks}</robot>'), 'amr.urdf', log)
+    assert log.text.count('<gazebo> refers to what is not there') == lines
+    assert ('more like it; check_urdf lists them)' in log.text) == (lines < count)
+
+
 def test_free_name():
     assert free_name('amr', ()) == 'amr'
     assert free_name('amr', ('amr',)) == 'amr_1'

@@ -181,8 +181,10 @@ def test_uris(source_tree, tmp_path):
     assert str(resolve_uri('file:///a%20b/c.stl')) == '/a b/c.stl'
     assert resolve_uri('meshes/c.stl', tmp_path) == tmp_path / 'meshes' / 'c.stl'
     assert str(resolve_uri('/meshes/c.stl', tmp_path)) == '/meshes/c.stl'
-    with pytest.raises(ResourceError, match="scheme 'model' is not known"):
-        resolve_uri('model://sun')
+    with pytest.raises(ResourceError, match="scheme 'robot' is not known"):
+        resolve_uri('robot://sun')
+    with pytest.raises(ResourceError, match="RESOURCE_PATH has it, and there is no package 'sun'"):
+        resolve_uri('model://sun/a.stl')
 
 
 def test_the_description_at_a_uri_is_expanded_with_its_arguments(source_tree, tmp_path):
