@@ -136,7 +136,7 @@ export class DrivePanel implements Panel {
       const name = h('th', { scope: 'row' }, h('i', { class: `swatch ${source}` }), WORDS[source]);
       return h('tr', {}, name, cells.linear, cells.sideways, cells.angular);
     });
-    const left = h('th', { scope: 'col', class: 'of-sideways' }, 'm/s left');
+    const left = h('th', { scope: 'col', class: 'of-sideways', title: 'm/s to the left' }, 'left');
     return h(
       'table',
       { class: 'readout' },
