@@ -239,6 +239,15 @@ def keyed_group(prefix: str, keys: str, table: Callable[[], Any]) -> Any:
     return dataclasses.field(default_factory=dict, metadata={_KEY: _Keys(prefix, keys, table)})
 
 
+def numbered_group(prefix: str, table: Callable[[], Any]) -> Any:
+    """
+    Make a field, a mapping, that holds other tables by their numbers, from '1' on.
+
+    As many as are given: ``<prefix>1.<name>``, ``<prefix>2.<name>`` …
+    """
+    return dataclasses.field(default_factory=dict, metadata={_KEY: _Numbers(prefix, table)})
+
+
 def specs(table: type, prefix: str = '', values: Mapping[str, Any] = _NO_VALUES) -> Iterator[Spec]:
     """
     Yield the rows of a table, groups flattened, in the order of its fields.
@@ -250,7 +259,7 @@ def specs(table: type, prefix: str = '', values: Mapping[str, Any] = _NO_VALUES)
         match row:
             case _Group():
                 yield from specs(row.table, row.prefix, values)
-            case _KeyedGroup():
+            case _KeyedGroup() | _NumberedGroup():
                 for each in row.groups(values).values():
                     yield from specs(each.table, each.prefix, values)
             case _:
@@ -265,7 +274,7 @@ def tables(
     for _, row in _rows(table, prefix):
         if isinstance(row, _Group):
             yield from tables(row.table, values, row.prefix)
-        elif isinstance(row, _KeyedGroup):
+        elif isinstance(row, _KeyedGroup | _NumberedGroup):
             for each in row.groups(values).values():
                 yield from tables(each.table, values, each.prefix)
 
@@ -291,7 +300,7 @@ def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = ''
         match row:
             case _Group():
                 arguments[field] = build(row.table, values, row.prefix)
-            case _KeyedGroup():
+            case _KeyedGroup() | _NumberedGroup():
                 groups = row.groups(values)
                 arguments[field] = {
                     key: build(each.table, values, each.prefix) for key, each in groups.items()
@@ -333,7 +342,33 @@ class _KeyedGroup:
         return {str(key): _Group(self.table, f'{self.prefix}{key}.') for key in keys}
 
 
-def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group | _KeyedGroup]]:
+@dataclass(frozen=True, slots=True)
+class _Numbers:
+    """What :func:`numbered_group` was given."""
+
+    prefix: str
+    table: Any
+
+
+@dataclass(frozen=True, slots=True)
+class _NumberedGroup:
+    table: Any
+    prefix: str
+
+    def groups(self, values: Mapping[str, Any]) -> dict[str, _Group]:
+        """Return the group of each number."""
+        found: dict[str, _Group] = {}
+        names = [name for name in values if name.startswith(self.prefix)]
+        while any(name.startswith(f'{self.prefix}{len(found) + 1}.') for name in names):
+            number = str(len(found) + 1)
+            found[number] = _Group(self.table, f'{self.prefix}{number}.')
+        return found
+
+
+type _Row = Spec | _Group | _KeyedGroup | _NumberedGroup
+
+
+def _rows(table: type, prefix: str) -> Iterator[tuple[str, _Row]]:
     """Yield (field, row). Raises ParameterError for a type that no ROS parameter has."""
     types = get_type_hints(
         table
@@ -342,6 +377,8 @@ def _rows(table: type, prefix: str) -> Iterator[tuple[str, Spec | _Group | _Keye
         row, kind = field.metadata[_KEY], types[field.name]
         if isinstance(row, str):
             yield field.name, _Group(field.default_factory, f'{prefix}{row}.')
+        elif isinstance(row, _Numbers):
+            yield field.name, _NumberedGroup(row.table, prefix + row.prefix)
         elif isinstance(row, _Keys):
             inner = f'{prefix}{row.prefix}.' if row.prefix else prefix
             yield field.name, _KeyedGroup(row.table, inner, prefix + row.keys)

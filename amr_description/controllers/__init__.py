@@ -42,6 +42,8 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``battery_state_broadcaster.py``  … batteries → ``~/battery_state``
 ``state_interfaces_broadcaster.py`` … any states, as numbers
 ``gpio_command_controller.py``    GPIOs: commands from a topic, states on one
+``filters.py``                    … filters of numbers, and chains of them
+``chained_filter_controller.py``  states, filtered, for other controllers
 ``gripper_action_controller.py``  goals of a gripper: position, effort, stalling
 ``pid_controller.py``             a PID for each degree of freedom, alone or in a chain
 ``gazebo_diff_drive.py``          a differential drive as Gazebo's plugins drive one
@@ -94,6 +96,9 @@ CONTROLLERS = Registry(
         ),
         'bicycle_steering_controller/BicycleSteeringController': (
             'amr_description.controllers.steering_controllers:BicycleSteeringController'
+        ),
+        'chained_filter_controller/ChainedFilter': (
+            'amr_description.controllers.chained_filter_controller:ChainedFilter'
         ),
         'diff_drive_controller/DiffDriveController': (
             'amr_description.controllers.diff_drive_controller:DiffDriveController'

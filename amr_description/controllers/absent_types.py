@@ -11,7 +11,6 @@ ABSENT: dict[str, str] = {
     'admittance_controller/AdmittanceController': (
         f'{_JOINTS}; ~/wrench of a force_torque_sensor_broadcaster tells the forces'
     ),
-    'chained_filter_controller/ChainedFilter': 'read the states that it filters as they are',
     'joint_state_controller/JointStateController': (
         'joint_state_broadcaster/JointStateBroadcaster is its name since Galactic'
     ),

@@ -8,22 +8,22 @@ The sensor is one of the ``<ros2_control>`` block with the six states ``force.x`
 NaN. What is published is (measured + offset) · multiplier, which other controllers may read as
 ``<controller>/<sensor>/force.x`` …, or as ``<controller>/<interface>``.
 
-Difference from force_torque_sensor_broadcaster 4.x: there is no ``sensor_filter_chain``, and with
-it no ``~/wrench_filtered``.
+With ``sensor_filter_chain`` (:mod:`amr_description.controllers.filters`), ``~/wrench_filtered``
+has the filtered wrench, too.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import itertools
 import math
-from typing import ClassVar
 
 from amr_description.control.contracts import ControllerContext, Output, Port
-from amr_description.control.interfaces import StateInterface
+from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.sensor_samples import WrenchSample
+from amr_description.controllers.filters import FilterChain, FilterParameters
 from amr_description.controllers.sensor_broadcaster import axes, below, SensorBroadcaster
 from amr_description.errors import ControllerError
-from amr_description.former_parameters import FormerParameter, ignored
-from amr_description.parameters import group, parameter
+from amr_description.parameters import group, numbered_group, parameter
 
 _AXES = (*axes('force'), *axes('torque'))
 
@@ -89,18 +89,14 @@ class WrenchMultipliers:
 class ForceTorqueParameters:
     """The table of force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster."""
 
-    former: ClassVar[tuple[FormerParameter, ...]] = (
-        ignored(
-            'sensor_filter_chain.*.type',
-            'the original',
-            'there are no filters here, nor ~/wrench_filtered',
-        ),
-    )
     frame_id: str = parameter('', 'Frame in which the values are', not_empty=True)
     sensor_name: str = parameter('', 'Name of the sensor in <ros2_control>, or interface_names')
     interface_names: WrenchNames = group('interface_names', WrenchNames)
     offset: WrenchOffsets = group('offset', WrenchOffsets)
     multiplier: WrenchMultipliers = group('multiplier', WrenchMultipliers)
+    filters: Mapping[str, FilterParameters] = numbered_group(
+        'sensor_filter_chain.filter', FilterParameters
+    )
 
 
 class ForceTorqueSensorBroadcaster(SensorBroadcaster):
@@ -144,11 +140,24 @@ class ForceTorqueSensorBroadcaster(SensorBroadcaster):
         self._wrench: Output[WrenchSample] = Output(
             Port('~/wrench', 'geometry_msgs/msg/WrenchStamped', sample=WrenchSample)
         )
-        self._read_from(filter(None, interfaces), self._wrench)
+        self._filtered: Output[WrenchSample] = Output(
+            Port('~/wrench_filtered', 'geometry_msgs/msg/WrenchStamped', sample=WrenchSample)
+        )
+        self._filters = parameters.filters
+        self._make_chains()
+        outputs = (self._wrench, self._filtered) if self._filters else (self._wrench,)
+        self._read_from(filter(None, interfaces), *outputs)
 
     def exported_states(self) -> tuple[StateInterface, ...]:
         """Return the corrected values, under the names of those that they are made of."""
         return self._exports
+
+    def activate(
+        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
+    ) -> None:
+        """Begin to filter. Raises ControllerError: a state is missing."""
+        super().activate(commands, states, time)
+        self._make_chains()
 
     def update(self, time: int, period: int) -> None:
         """Correct the values, publish and export them."""
@@ -164,3 +173,18 @@ class ForceTorqueSensorBroadcaster(SensorBroadcaster):
         for state, value in zip(self._exports, known, strict=True):
             state.value = value
         self._wrench.send(WrenchSample(time, self._frame_id, wrench[:3], wrench[3:]))
+        if self._filters:
+            filtered = tuple(
+                [chain.update(value) for chain, value in zip(self._chains, wrench, strict=True)]
+            )
+            self._filtered.send(WrenchSample(time, self._frame_id, filtered[:3], filtered[3:]))
+
+    def reset(self, time: int) -> None:
+        """Forget what was before: the simulation was reset."""
+        self._make_chains()
+
+    def set_clock(self, time: int) -> None:
+        """Do nothing: it has no stamps."""
+
+    def _make_chains(self) -> None:
+        self._chains = [FilterChain(self._filters) for _ in _AXES]

@@ -22,6 +22,7 @@ from amr_description.control.manager_parameters import (
 )
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.parameter_sections import (
+    gives_type,
     listed_controllers,
     LocatedSection,
 )
@@ -234,7 +235,7 @@ def _is_whole(section: LocatedSection, rows: dict[str, Spec]) -> bool:
 
 
 def _lists_controllers(section: LocatedSection) -> bool:
-    return any(name.endswith(_TYPE) for name in section.values)
+    return any(map(gives_type, section.values))
 
 
 def _names(nodes: Sequence[str]) -> list[str]:

@@ -100,10 +100,15 @@ def listed_controllers(found: Sequence[LocatedSection]) -> tuple[ListedControlle
             listed[each.node] = ListedController(each.node, kind, place, None)
         namespace = each.node.rpartition('/')[0]
         for name, value in each.values.items():
-            if name.endswith(_TYPE) and isinstance(value, str):
+            if gives_type(name) and isinstance(value, str):
                 node = f'{"" if "*" in namespace else namespace}/{name.removesuffix(_TYPE)}'
                 listed[node] = ListedController(node, value, each.locations[name], each)
     return tuple(listed.values())
+
+
+def gives_type(name: str) -> bool:
+    """Return whether a parameter of a manager gives a controller its type: ``<name>.type``."""
+    return name.endswith(_TYPE) and '.' not in name.removesuffix(_TYPE)
 
 
 def _read(path: str) -> tuple[LocatedSection, ...]:

@@ -129,7 +129,11 @@ def values[Table](
 
 
 class _PresentValues(Mapping[str, Any]):
-    """The values of a node's parameters, by name, as they are when they are asked for."""
+    """
+    The values of a node's parameters, by name, as they are when they are asked for.
+
+    Its names are also those that the node was given, and has not declared.
+    """
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -140,10 +144,13 @@ class _PresentValues(Mapping[str, Any]):
         return self._node.get_parameter(name).value
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._node.get_parameters_by_prefix(''))
+        return iter(parameter_overrides(self._node).keys() | self._declared())
 
     def __len__(self) -> int:
-        return len(self._node.get_parameters_by_prefix(''))
+        return len(list(iter(self)))
+
+    def _declared(self) -> set[str]:
+        return set(self._node.get_parameters_by_prefix(''))
 
 
 def add_validation_callback(node: Node, *tables: type) -> None:

@@ -7,7 +7,6 @@ import math
 import pytest
 
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
-from amr_description.controllers.force_torque_sensor_broadcaster import ForceTorqueParameters
 from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
 from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
 from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
@@ -79,13 +78,6 @@ NO_JERK = {'linear.x.max_jerk': math.nan, 'linear.x.min_jerk': math.nan}
             {},
             "parameter 'publish_rate' is 50: it is of ROS 1, and has no effect: update_rate, in "
             'Hz, is how often it publishes',
-        ),
-        (
-            ForceTorqueParameters,
-            {'sensor_filter_chain.filter1.type': 'a/b', 'sensor_filter_chain.filter1.name': 'c'},
-            {},
-            "parameter 'sensor_filter_chain.filter1.type' is a/b: it is of the original, and has "
-            'no effect: there are no filters here, nor ~/wrench_filtered',
         ),
         (
             JointTrajectoryParameters,

@@ -242,6 +242,7 @@ KEYED = """\
 controller_manager:
   ros__parameters:
     wheels: {type: pid_controller/PidController}
+    forces: {type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster}
     lights: {type: gpio_controllers/GpioCommandController}
 wheels:
   ros__parameters:
@@ -250,6 +251,12 @@ wheels:
     reference_and_state_interfaces: [velocity]
     gains:
       left_wheel_joint: {p: 0.5, antiwindup: true, my_own: 3.0}
+forces:
+  ros__parameters:
+    frame_id: tool
+    sensor_name: cell
+    sensor_filter_chain:
+      filter1: {name: smooth, type: filters/MeanFilterWrench}
 lights:
   ros__parameters:
     gpios: [lamp]
@@ -265,7 +272,7 @@ def test_parameters_below_the_elements_of_a_list(faults):
     (line,) = faults(KEYED.replace('antiwindup:', 'antiwindupp:'))
     assert line.endswith('did you mean "gains.left_wheel_joint.antiwindup"?')
     (line,) = faults(KEYED.replace('p: 0.5', 'p: fast'))
-    assert "c.yaml:11: wheels: parameter 'gains.left_wheel_joint.p' must be of type" in line
+    assert "c.yaml:12: wheels: parameter 'gains.left_wheel_joint.p' must be of type" in line
 
 
 @pytest.mark.parametrize('manager', ['/**/controller_manager', '/robot/controller_manager'])
