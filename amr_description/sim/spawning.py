@@ -7,7 +7,7 @@ What is rejected raises a SpawnError with the ``result`` code of
 ``simulation_interfaces/srv/SpawnEntity``.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Iterator
 import enum
 import math
 import re
@@ -15,6 +15,7 @@ import re
 from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import DescriptionError, SpawnError
 from amr_description.model.checks import require_sound
+from amr_description.model.findings import Finding
 from amr_description.model.frames import Quaternion, Transform
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
