@@ -22,6 +22,7 @@ Differences from joint_trajectory_controller 4.x:
 - a goal that ``cmd_timeout`` ends is aborted, not reached;
 - the PIDs begin anew on activation;
 - points with accelerations, but no velocities, are joined linearly, not at zero;
+- where positions are not known on activation, it holds as soon as they are;
 - when the simulation is reset, the goal is aborted, and the joints are held where they are.
 """
 
@@ -248,6 +249,7 @@ class JointTrajectoryController(Controller):
         self._next: Trajectory | None = None
         self._trajectory = Trajectory.holding(TrajectoryPoint(state.positions))
         self._is_holding = True
+        self._is_blind = not all(map(math.isfinite, state.positions))
         for pid in self._pids:
             pid.reset()
 
@@ -260,7 +262,7 @@ class JointTrajectoryController(Controller):
             return
         self._last_update = time
         self._actual = handles.measured(self._desired.effort)
-        if self._trajectory is None:
+        if self._trajectory is None or (self._is_blind and self._is_holding):
             self._begin_at(self._actual)
         self._scale(handles)
         self._accept(handles)

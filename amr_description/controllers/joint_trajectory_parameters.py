@@ -14,6 +14,7 @@ from amr_description.parameters import group, keyed_group, parameter
 
 _ANY: dict[str, Any] = {'nan': True}
 """Numbers that may be infinite."""
+_CONTINUOUS = 'joints that the URDF calls continuous wrap around'
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,8 @@ class JointGains:
     """The PID of one joint, where velocity or effort alone is commanded."""
 
     former: ClassVar[tuple[FormerParameter, ...]] = (
-        ignored('angle_wraparound', 'Humble', 'joints that the URDF calls continuous wrap around'),
+        ignored('angle_wraparound', 'Humble', _CONTINUOUS),
+        ignored('normalize_error', 'Humble', _CONTINUOUS),
     )
     p: float = parameter(0.0, 'Proportional gain')
     i: float = parameter(0.0, 'Integral gain')
@@ -114,6 +116,8 @@ class JointTrajectoryParameters:
         ignored('start_with_holding', 'Humble', 'it always holds the position at activation'),
         ignored('state_publish_rate', 'Humble', '~/controller_state has every update'),
         ignored('interface_name', 'forward_command_controller', 'command_interfaces says it'),
+        ignored('stop_trajectory_duration', 'ROS 1', 'see constraints.decelerate_on_cancel'),
+        ignored('hold_trajectory_duration', 'ROS 1', 'see constraints.decelerate_on_cancel'),
     )
     joints: tuple[str, ...] = parameter(
         (), 'Joints of the trajectories', read_only=True, not_empty=True, unique=True

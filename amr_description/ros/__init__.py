@@ -24,6 +24,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``local_participants.py`` DDS participants on this host, from the UDP ports in use
 ``type_mismatch.py``      endpoints of one topic with different types; Twist or TwistStamped
 
+``standing_clock.py``     the clock of an action server, which wakes nobody between goals
 ``messages.py``           stamps, poses and velocities ↔ messages
 ``message_types.py``      classes of messages, services and actions by their names
 ``cdr.py``                serialized messages, read without making messages of them

@@ -14,7 +14,7 @@ from typing import Any
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import GoalEvent, ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.clock import Clock, ROSClock
+from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from rclpy.timer import Timer
@@ -24,7 +24,8 @@ from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.registry import resolve
 from amr_description.ros.message_types import action_type, service_type
-from amr_description.ros.rclpy_internals import begin_goal, end_goal, manual_clock
+from amr_description.ros.rclpy_internals import begin_goal, end_goal
+from amr_description.ros.standing_clock import StandingClockNode
 
 _RESULT_TIMEOUT = 10
 """s for which the result of an ended goal is kept, as by rclcpp_action; rclpy: 900."""
@@ -81,33 +82,6 @@ class ServiceServer:
         return response
 
 
-class _StandingNode:
-    """
-    A node for an action server, with a clock that stands between its goals.
-
-    rcl wakes the executor whenever a clock of an action server is set: for that of a simulated
-    robot 100 times a second, which costs 4 % of a core. Goals are stamped with the node's time all
-    the same; results are dropped by the clock of the goals that follow.
-    """
-
-    def __init__(self, node: Node) -> None:
-        self._node = node
-        self._clock = manual_clock()
-        self.set_time()
-
-    def set_time(self) -> None:
-        """Take over the node's time."""
-        self._clock.set_ros_time_override(self._node.get_clock().now())
-
-    def get_clock(self) -> ROSClock:
-        """Return the clock that stands."""
-        return self._clock
-
-    def __getattr__(self, name: str) -> Any:
-        """Return all else of the node."""
-        return getattr(self._node, name)
-
-
 class GoalServer:
     """One action of a controller."""
 
@@ -134,7 +108,7 @@ class GoalServer:
         self._live: dict[bytes, tuple[Goal[Any, Any, Any], ServerGoalHandle]] = {}
         self._timer: Timer | None = None
         self._clock = Clock(clock_type=ClockType.STEADY_TIME)
-        self._standing = _StandingNode(node)
+        self._standing = StandingClockNode(node)
         self._server = ActionServer(
             self._standing,
             self._type,

@@ -19,7 +19,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from rclpy.action import ActionServer, CancelResponse
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
@@ -42,6 +42,7 @@ from simulation_interfaces.srv import (
 from amr_description.ament_index import resolve_uri
 from amr_description.control.contracts import Severity
 from amr_description.errors import RequestError, ResourceError, SimulationError
+from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, SimulationState
@@ -100,11 +101,13 @@ class SimulationServices:
                 (ResetSimulation, self._reset_simulation),
             ),
         )
+        self._action_node = StandingClockNode(node)
         self._action = ActionServer(
-            node,
+            self._action_node,
             SimulateSteps,
             '~/simulate_steps',
             self._simulate_steps,
+            goal_callback=self._accept_steps,
             callback_group=ReentrantCallbackGroup(),
             cancel_callback=lambda _goal: CancelResponse.ACCEPT,
         )
@@ -112,6 +115,10 @@ class SimulationServices:
     def close(self) -> None:
         """Destroy the action server; the services are destroyed with the node."""
         self._action.destroy()
+
+    def _accept_steps(self, _: SimulateSteps.Goal) -> GoalResponse:
+        self._action_node.set_time()
+        return GoalResponse.ACCEPT
 
     def _get_simulator_features(
         self, _: GetSimulatorFeatures.Request, response: GetSimulatorFeatures.Response

@@ -22,6 +22,7 @@ from amr_description.control.trajectory_samples import (
 from amr_description.controllers.joint_trajectory_controller import JointTrajectoryController
 from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.former_parameters import understand
 from amr_description.model.urdf import parse
 from amr_description.parameters import build
 
@@ -130,6 +131,13 @@ def test_it_holds_the_last_command_where_there_is_one():
     for handle in arm.commands:
         handle.value = 0.5
     assert arm.activate().run(0.01) == [[1.0, 2.0]]
+
+
+def test_it_holds_as_soon_as_positions_are_known():
+    arm = Arm(positions=(math.nan, math.nan)).activate()
+    assert all(math.isnan(value) for row in arm.run(0.02) for value in row)
+    arm.place(1.0, 2.0)
+    assert arm.run(0.02) == [[1.0, 2.0]] * 2
 
 
 def test_a_goal_is_followed_and_reached():
@@ -612,6 +620,23 @@ def test_integral_clamps_of_older_and_newer_files_are_understood(gains, limits):
     arm = Arm(**{f'gains__a__{name}': value for name, value in gains.items()})
     pid = arm.parameters.gains['a'].pid()
     assert (pid.i_min, pid.i_max) == limits
+
+
+def test_parameters_of_earlier_releases_are_understood():
+    given = {
+        'joints': ['a'],
+        'state_publish_rate': 50.0,
+        'start_with_holding': True,
+        'constraints.goal_time': 1,
+        'gains.a.normalize_error': True,
+    }
+    found = understand(JointTrajectoryParameters, given)
+    assert found.values == {'constraints.goal_time': 1.0}
+    assert found.texts['gains.a.normalize_error'] == (
+        "parameter 'gains.a.normalize_error' is true: it is of Humble, and has no effect: joints "
+        'that the URDF calls continuous wrap around'
+    )
+    assert len(found.texts) == 4
 
 
 def test_what_is_set_up_is_logged():
