@@ -37,7 +37,7 @@ from amr_description.model.urdf import read_robot
 from amr_description.model.xml_reader import parse_xml
 from amr_description.parameter_files import KEY
 from amr_description.parameters import build
-from amr_description.text import quote_all
+from amr_description.text import quote, quote_all
 
 DIFF_DRIVE = 'diff_drive_controller/DiffDriveController'
 
@@ -73,6 +73,8 @@ def examine_drive_files(
     nodes = _manager_nodes(found, managers)
     faults = [fault for node in nodes for fault in manager_faults(found, node)]
     names = tuple(each.name for each in listed)
+    if not listed:
+        faults += [_no_controllers(each) for each in found if each.name in managers]
     drives = []
     for each in listed:
         kind, fault = type_fault(each.name, each.type, each.location)
@@ -201,6 +203,15 @@ def files_of(parameters: Sequence[str], source: str) -> list[str]:
             continue
         paths += [str(path)] if path.is_file() else []
     return paths
+
+
+def _no_controllers(section: LocatedSection) -> Finding:
+    """Return the warning about the section of a manager that gives no controller its type."""
+    return Finding.warning(
+        *section.location,
+        f'the section {quote(section.label)} names no controller, so none can be spawned',
+        fix=f'add NAME: {{type: joint_state_broadcaster/JointStateBroadcaster}} below its {KEY}',
+    )
 
 
 def _manager_nodes(found: Sequence[LocatedSection], managers: Sequence[str]) -> list[str]:

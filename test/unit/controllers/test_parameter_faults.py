@@ -285,6 +285,15 @@ def test_other_namespaces_and_names_of_managers_are_right(faults, manager):
     assert faults(named, 'controller_manager', 'controller_manager_left') == []
 
 
+def test_a_manager_without_controllers_is_a_warning(faults):
+    """They may be loaded by other files."""
+    assert faults('controller_manager:\n  ros__parameters:\n    update_rate: 100\n') == [
+        'warning: c.yaml:1: the section "controller_manager" names no controller, so none can be '
+        'spawned; add NAME: {type: joint_state_broadcaster/JointStateBroadcaster} below its '
+        'ros__parameters'
+    ]
+
+
 def test_an_ordinary_file_in_a_namespace_is_told_what_to_write(tmp_path):
     path = tmp_path / 'c.yaml'
     path.write_text(GOOD)
