@@ -67,6 +67,9 @@ def simulation(
     lift: Annotated[
         bool, 'whether a robot that would touch the world is lifted until it is free'
     ] = True,
+    strict: Annotated[
+        bool, 'whether a robot that has to be taken as something else is refused'
+    ] = False,
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
     description = robot_description(urdf, xacro_args)
@@ -75,7 +78,7 @@ def simulation(
     plan = plan_controllers(urdf, description, controllers, activate)
 
     # 1. The simulated world, empty so far; it publishes /clock.
-    mujoco_sim = _simulator(world, rtf, paused, plan.parameter, lift)
+    mujoco_sim = _simulator(world, rtf, paused, plan.parameter, lift, strict)
 
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
@@ -103,7 +106,9 @@ def simulation(
     )
 
 
-def _simulator(world: str, rtf: float, paused: bool, controllers: str, lift: bool) -> Node:
+def _simulator(
+    world: str, rtf: float, paused: bool, controllers: str, lift: bool, strict: bool
+) -> Node:
     if not rtf >= 0:
         raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
     parameters: dict[str, ParameterValue] = {
@@ -114,6 +119,8 @@ def _simulator(world: str, rtf: float, paused: bool, controllers: str, lift: boo
     }
     if not lift:
         parameters['lift'] = False
+    if strict:
+        parameters['strict'] = True
     return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
 
 

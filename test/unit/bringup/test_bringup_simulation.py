@@ -77,6 +77,8 @@ def test_parameters(installed):
             'paused': False,
         }
     ]
+    strict, *_ = stack(strict='true').nodes
+    assert strict.parameters[0]['strict'] is True
     assert publisher.parameters == [
         {
             'robot_description': with_file(
