@@ -92,7 +92,7 @@ class SimulatorProcess:
     def _describe_end(self, code: int) -> str:
         if code < 0:
             return f'the simulator was killed by {signal.Signals(-code).name}'
-        lines = _LINE.findall(self.log) or self.log.split('\n') or ['']
+        lines = _LINE.findall(self.log) or self.log.strip().splitlines() or ['without a word']
         return f'the simulator ended with {code}: {lines[-1].strip()}'
 
     def stop(self) -> None:

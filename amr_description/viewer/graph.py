@@ -10,7 +10,7 @@ name belongs to the robot with the longest namespace that contains it.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from amr_description.viewer.joint_groups import is_joint_command, POSITIONS, TRAJECTORY
+from amr_description.viewer.joint_groups import ACTIONS, is_joint_command, POSITIONS, TRAJECTORY
 from amr_description.viewer.protocol import Command
 
 STRING = 'std_msgs/msg/String'
@@ -25,6 +25,8 @@ ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 STATISTICS_VALUES = 'pal_statistics_msgs/msg/StatisticsValues'
 LIST_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
 SET_SIMULATION_STATE = 'simulation_interfaces/srv/SetSimulationState'
+
+_GOALS = '/_action/send_goal'
 
 type NamesAndTypes = Mapping[str, Iterable[str]]
 """Name of a topic or service -> its types."""
@@ -60,7 +62,7 @@ class FoundRobot:
     introspection: str | None
     """``…/introspection_data`` of its controller manager, with ``/names`` and ``/values``."""
     joint_commands: tuple[Command, ...]
-    """Topics by which controllers may move joints."""
+    """Topics and actions by which controllers may move joints."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,12 +154,7 @@ def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None
         introspection=introspection
         if names.if_published(f'{introspection}/values', STATISTICS_VALUES)
         else None,
-        joint_commands=tuple(
-            Command(topic, message)
-            for message in (TRAJECTORY, POSITIONS)
-            for topic in sorted(own(names.subscribed, message))
-            if is_joint_command(topic, message)
-        ),
+        joint_commands=_joint_commands(names, own),
     )
 
 
@@ -172,6 +169,24 @@ def _command(names: GraphNames, own: Callable[[NamesAndTypes, str], list[str]]) 
         return None
     _, rank, _, topic = min(choices)
     return Command(topic, TWISTS[rank])
+
+
+def _joint_commands(
+    names: GraphNames, own: Callable[[NamesAndTypes, str], list[str]]
+) -> tuple[Command, ...]:
+    found = [
+        Command(topic, message)
+        for message in (TRAJECTORY, POSITIONS)
+        for topic in sorted(own(names.subscribed, message))
+    ]
+    # An action is, among others, a service for its goals.
+    found += [
+        Command(service.removesuffix(_GOALS), action)
+        for action in ACTIONS
+        for service in sorted(own(names.services, f'{action}_SendGoal'))
+        if service.endswith(_GOALS)
+    ]
+    return tuple(each for each in found if is_joint_command(each.topic, each.message))
 
 
 def _truth(names: GraphNames, robot: str) -> str | None:

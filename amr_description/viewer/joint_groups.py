@@ -3,9 +3,9 @@
 """
 The joints that a page can move by the controllers of a robot: which, by what topic, to where.
 
-Pure: a list of controllers and topics in, messages as plain numbers out. Two kinds of controller
-are known by what they hear: ``~/joint_trajectory`` (a trajectory of all its joints) and
-``~/commands`` (one position for each of its joints, in their order).
+Pure: a list of controllers and topics in, messages as plain numbers out. Three kinds of controller
+are known by what they hear: ``~/joint_trajectory`` (a trajectory of all joints), ``~/commands``
+(one position for each joint, in their order) and the action ``~/gripper_cmd`` (one joint).
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,7 +16,15 @@ from amr_description.viewer.protocol import Command, ControllerInfo, Controllers
 
 TRAJECTORY = 'trajectory_msgs/msg/JointTrajectory'
 POSITIONS = 'std_msgs/msg/Float64MultiArray'
-_TOPICS = {TRAJECTORY: 'joint_trajectory', POSITIONS: 'commands'}
+GRIPPER = 'control_msgs/action/GripperCommand'
+PARALLEL_GRIPPER = 'control_msgs/action/ParallelGripperCommand'
+ACTIONS = (GRIPPER, PARALLEL_GRIPPER)
+_TOPICS = {
+    TRAJECTORY: 'joint_trajectory',
+    POSITIONS: 'commands',
+    GRIPPER: 'gripper_cmd',
+    PARALLEL_GRIPPER: 'gripper_cmd',
+}
 _POSITION = 'position'
 
 SPEED = 1.0
@@ -34,7 +42,7 @@ a slider that is being dragged, the other joints would creep down under their we
 
 @dataclass(frozen=True, slots=True)
 class JointGroup:
-    """The joints of an active controller, in its order, and the topic that moves them."""
+    """The joints of an active controller, in its order, and the topic or action for them."""
 
     controller: str
     topic: str
@@ -60,7 +68,7 @@ def joint_groups(
             if topic.topic.split('/')[-2:-1] != [controller.name]:
                 continue
             interfaces = {claim[-1] for claim in claims}
-            if topic.message == TRAJECTORY or interfaces == {_POSITION}:
+            if topic.message != POSITIONS or interfaces == {_POSITION}:
                 # joint/position, or pid_controller/joint/position of one that is chained
                 joints = tuple(dict.fromkeys(claim[-2] for claim in claims if len(claim) > 1))
                 found.append(JointGroup(controller.name, topic.topic, topic.message, joints))

@@ -1,43 +1,98 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The topics by which pages move the joints of a robot that controllers command.
+The topics and actions by which pages move the joints of a robot that controllers command.
 
-Publishers are created and destroyed on the ROS thread, and used on the server's thread.
+Publishers and clients are created and destroyed on the ROS thread, and used on the server's
+thread.
 """
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 import time
+from typing import Any
 
+from control_msgs.action import GripperCommand, ParallelGripperCommand
+from rclpy.action import ActionClient
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from amr_description.errors import ViewerError
 from amr_description.text import quote_all
 from amr_description.viewer.joint_groups import (
+    GRIPPER,
     GroupTargets,
     JointGroup,
+    PARALLEL_GRIPPER,
     POSITIONS,
     SHORTEST,
     TRAJECTORY,
 )
 
 _TYPES = {TRAJECTORY: JointTrajectory, POSITIONS: Float64MultiArray}
+_ACTIONS: dict[str, Any] = {GRIPPER: GripperCommand, PARALLEL_GRIPPER: ParallelGripperCommand}
 
 
-class _Commanded:
-    """A group of joints, its publisher, and where pages have put them."""
+class _Mover:
+    """A group of joints, what moves it, and where pages have put it."""
 
     def __init__(self, node: Node, group: JointGroup) -> None:
+        self._node = node
+        self.group = group
         self.targets = GroupTargets(group)
-        self.publisher: Publisher = node.create_publisher(_TYPES[group.message], group.topic, 10)
         self.is_moved = False
         """Whether a page has moved it since it was last held."""
+        self._publisher: Publisher | None = None
+        self._action: ActionClient | None = None
+        if group.message in _ACTIONS:
+            self._action = ActionClient(node, _ACTIONS[group.message], group.topic)
+        else:
+            self._publisher = node.create_publisher(_TYPES[group.message], group.topic, 10)
+
+    def destroy(self) -> None:
+        """Destroy publisher and client; on the ROS thread."""
+        if self._publisher is not None:
+            self._node.destroy_publisher(self._publisher)
+        if self._action is not None:
+            self._action.destroy()
+
+    def send(self, targets: Sequence[float], duration: float) -> None:
+        """
+        Command positions, rad or m, of all joints; a trajectory takes ``duration`` s.
+
+        Raises ViewerError: the controller is just going.
+        """
+        try:
+            if self._publisher is not None:
+                self._publisher.publish(self._message(targets, duration))
+            elif self._action is not None:
+                self._action.send_goal_async(self._goal(targets))
+        except InvalidHandle:  # the ROS thread has destroyed it in the meantime
+            raise ViewerError(f'{self.group.controller} is just going') from None
+
+    def _message(
+        self, targets: Sequence[float], duration: float
+    ) -> JointTrajectory | Float64MultiArray:
+        if self.group.message == POSITIONS:
+            return Float64MultiArray(data=targets)
+        from_start = Duration(seconds=duration).to_msg()
+        point = JointTrajectoryPoint(positions=targets, time_from_start=from_start)
+        # Without a stamp it begins when it comes.
+        return JointTrajectory(joint_names=list(self.group.joints), points=[point])
+
+    def _goal(self, targets: Sequence[float]) -> Any:
+        """Return a goal, in place of the one that the controller is after."""
+        goal = _ACTIONS[self.group.message].Goal()
+        if self.group.message == GRIPPER:
+            goal.command.position = targets[0]
+        else:
+            goal.command = JointState(name=list(self.group.joints[:1]), position=targets[:1])
+        return goal
 
 
 class JointCommands:
@@ -46,17 +101,15 @@ class JointCommands:
     def __init__(self, node: Node, robot: str) -> None:
         self._node = node
         self._robot = robot
-        self._commanded: tuple[_Commanded, ...] = ()
+        self._movers: tuple[_Mover, ...] = ()
 
     def set_groups(self, groups: Sequence[JointGroup]) -> None:
-        """Have publishers for these groups and no others; on the ROS thread."""
-        before = {each.targets.group: each for each in self._commanded}
-        self._commanded = tuple(
-            before.get(group) or _Commanded(self._node, group) for group in groups
-        )
+        """Have publishers and clients for these groups and no others; on the ROS thread."""
+        before = {each.group: each for each in self._movers}
+        self._movers = tuple(before.get(group) or _Mover(self._node, group) for group in groups)
         for group, each in before.items():
             if group not in groups:
-                self._node.destroy_publisher(each.publisher)
+                each.destroy()
 
     def destroy(self) -> None:
         """Destroy the publishers; on the ROS thread."""
@@ -80,39 +133,26 @@ class JointCommands:
             ViewerError: no active controller takes one of them.
         """
         left = dict(asked)
-        for each in self._commanded:
-            joints = each.targets.group.joints
+        for each in self._movers:
+            joints = each.group.joints
             mine = {joint: left.pop(joint) for joint in joints if joint in left}
             if mine:
                 targets = each.targets.targets(mine, measured, time.monotonic())
-                self._publish(each, targets, each.targets.duration(measured, speeds))
+                each.send(targets, each.targets.duration(measured, speeds))
                 each.is_moved = True
         if left:
             raise ViewerError(
                 f'no active controller of {self._robot} takes positions of {quote_all([*left])}; '
-                'one with a topic ~/joint_trajectory or ~/commands does, for its own joints'
+                'one with ~/joint_trajectory, ~/commands or ~/gripper_cmd does, for its own joints'
             )
 
     def hold(self, measured: Mapping[str, float]) -> None:
         """Let the joints that pages have moved stay where they are, rad or m."""
-        for each in self._commanded:
-            joints = each.targets.group.joints
+        for each in self._movers:
+            joints = each.group.joints
             if each.is_moved and all(joint in measured for joint in joints):
                 each.is_moved = False
                 each.targets.positions = {}
                 targets = each.targets.targets({}, measured, time.monotonic())
                 with suppress(ViewerError):  # it is just going: who stops, stops the others too
-                    self._publish(each, targets, SHORTEST)
-
-    def _publish(self, each: _Commanded, targets: Sequence[float], duration: float) -> None:
-        group = each.targets.group
-        message: JointTrajectory | Float64MultiArray = Float64MultiArray(data=targets)
-        if group.message == TRAJECTORY:
-            from_start = Duration(seconds=duration).to_msg()
-            point = JointTrajectoryPoint(positions=targets, time_from_start=from_start)
-            # Without a stamp it begins when it comes.
-            message = JointTrajectory(joint_names=list(group.joints), points=[point])
-        try:
-            each.publisher.publish(message)
-        except InvalidHandle:  # the ROS thread has destroyed it in the meantime
-            raise ViewerError(f'{group.controller} is just going') from None
+                    each.send(targets, SHORTEST)

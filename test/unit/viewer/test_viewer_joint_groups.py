@@ -11,6 +11,7 @@ from amr_description.viewer.joint_groups import (
     joint_groups,
     JointGroup,
     MEMORY,
+    PARALLEL_GRIPPER,
     POSITIONS,
     TRAJECTORY,
     with_moves,
@@ -19,6 +20,7 @@ from amr_description.viewer.protocol import Command, ControllerInfo, Controllers
 
 ARM = Command('/r1/arm/joint_trajectory', TRAJECTORY)
 GRIPPER = Command('/r1/gripper/commands', POSITIONS)
+HAND = Command('/r1/hand/gripper_cmd', PARALLEL_GRIPPER)
 
 
 def controller(name, *claims, state='active'):
@@ -32,8 +34,14 @@ def test_topics_that_move_joints_are_found_by_name_and_type():
         '/r1/lights': [POSITIONS],
         '/r1/arm/commands': [TRAJECTORY],
     }
-    (found,) = discover(GraphNames({'/r1/robot_description': [STRING]}, subscribed)).robots
-    assert found.joint_commands == (ARM, GRIPPER)
+    services = {
+        '/r1/hand/gripper_cmd/_action/send_goal': [f'{PARALLEL_GRIPPER}_SendGoal'],
+        '/r1/hand/gripper_cmd/_action/get_result': [f'{PARALLEL_GRIPPER}_GetResult'],
+        '/r1/hand/wave/_action/send_goal': [f'{PARALLEL_GRIPPER}_SendGoal'],
+    }
+    names = GraphNames({'/r1/robot_description': [STRING]}, subscribed, services)
+    (found,) = discover(names).robots
+    assert found.joint_commands == (ARM, GRIPPER, HAND)
 
 
 def test_groups_are_the_joints_of_active_controllers_in_their_order():
@@ -67,8 +75,8 @@ def test_what_is_no_position_of_an_active_controller_is_not_moved(listed):
 
 
 def test_a_trajectory_may_be_followed_by_speed_or_effort():
-    (group,) = joint_groups([controller('arm', 'a/effort')], [ARM])
-    assert group.joints == ('a',)
+    listed = [controller('arm', 'a/effort'), controller('hand', 'b/effort', 'b/max_effort')]
+    assert [each.joints for each in joint_groups(listed, [ARM, HAND])] == [('a',), ('b',)]
 
 
 def test_joints_that_are_not_asked_stay_and_do_not_creep():
