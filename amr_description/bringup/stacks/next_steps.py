@@ -63,14 +63,16 @@ def how_to_drive(viewer: bool, topic: VelocityTopic = AMR_TOPIC) -> str:
     """Return the next steps with a robot that drives; ``viewer``: whether the page is served."""
     page = 'open the page whose address comes below, or ' if viewer else ''
     stamped = '-p stamped:=true ' if topic.is_stamped else ''
+    arguments = f' --ros-args {stamped}\\\n        -r /cmd_vel:={topic.name}'
+    if topic == VelocityTopic('/cmd_vel', is_stamped=False):
+        arguments = ''  # what it publishes anyway
     kind = STAMPED if topic.is_stamped else 'geometry_msgs/msg/Twist'
     twist = '{linear: {x: 0.5}, angular: {z: 0.0}}'
     if topic.is_stamped:
         twist = f'{{header: {{frame_id: base_link}}, twist: {twist}}}'
     return f"""{page}drive with, in another shell,
     {setup_command('amr_description', os.environ)}
-    ros2 run amr_description teleop_twist_keyboard --ros-args {stamped}\\
-        -r /cmd_vel:={topic.name}
+    ros2 run amr_description teleop_twist_keyboard{arguments}
 or for one command
     ros2 topic pub --once {topic.name} {kind} \\
         "{twist}"

@@ -314,5 +314,7 @@ def test_a_robot_for_gazebo_needs_no_spawner(tmp_path):
         found.next_steps
     )
     assert '--once /base/cmd_vel geometry_msgs/msg/Twist \\\n        "{linear:' in found.next_steps
+    path.write_text(plugin_robot.cart(plugin_robot.gz_drive()))
+    assert 'teleop_twist_keyboard\n' in stack(urdf=str(path)).next_steps
     said = f"urdf:={path}: Gazebo's plugins, active from the start: diff_drive, "
     assert ('INFO', f'{said}joint_state_broadcaster') in found.notes
