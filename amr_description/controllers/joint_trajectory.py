@@ -261,7 +261,7 @@ class Trajectory:
 
     def begin(
         self, time: int, state: TrajectoryPoint, wraps: Sequence[bool] = (), *, start: int = 0
-    ) -> None:
+    ) -> tuple[float, ...]:
         """
         Set the point before the first one.
 
@@ -271,6 +271,10 @@ class Trajectory:
             wraps: whether each joint is continuous; such a joint takes the shortest way to the
                 first point. Empty: none is.
             start: begin of a trajectory without a time of its own, ns; 0: ``time``.
+
+        Returns:
+            By how much each joint's position is ahead of that by which the trajectory knows it,
+            rad: whole turns.
         """
         first = self._point(0)
         zeros = (0.0,) * len(state.positions)
@@ -288,6 +292,7 @@ class Trajectory:
         self._time_before = time
         self.start = self.start or start or time
         self.is_begun = True
+        return tuple([p - q for p, q in zip(state.positions, positions, strict=True)])
 
     def shift(self, delay: int) -> None:
         """Have all of it happen ``delay`` ns later: the clock was set."""

@@ -21,6 +21,7 @@ Differences from joint_trajectory_controller 4.x:
 - a trajectory from the topic has the tolerances of the parameters, not those of the last goal;
 - a goal that ``cmd_timeout`` ends is aborted, not reached;
 - the PIDs begin anew on activation;
+- position commands of a joint that wraps around go on from where it is, without whole turns back;
 - points with accelerations, but no velocities, are joined linearly, not at zero;
 - where positions are not known on activation, it holds as soon as they are;
 - when the simulation is reset, the goal is aborted, and the joints are held where they are.
@@ -28,6 +29,7 @@ Differences from joint_trajectory_controller 4.x:
 
 from collections.abc import Sequence
 import math
+from operator import add
 from typing import Any, NamedTuple
 
 from amr_description.clock import NANOSECONDS
@@ -243,8 +245,8 @@ class JointTrajectoryController(Controller):
             zeros, zeros if VELOCITY in has else (), zeros if ACCELERATION in has else ()
         )
         self._output = TrajectoryPoint()
-        self._commanded_for = 0
-        self._clock = 0
+        self._commanded_for = self._clock = 0
+        self._turns = zeros
         self._upcoming: tuple[Trajectory, int, TrajectoryPoint] | None = None
         self._next: Trajectory | None = None
         self._trajectory = Trajectory.holding(TrajectoryPoint(state.positions))
@@ -343,9 +345,10 @@ class JointTrajectoryController(Controller):
         wraps = self._layout.wraps
         if self._parameters.interpolate_from_desired_state or self._parameters.open_loop_control:
             since = min(self._commanded_for or time, time)
-            trajectory.begin(since, self._last_command, wraps, start=time)
+            turns = trajectory.begin(since, self._last_command, wraps, start=time)
+            self._turns = tuple(map(add, self._turns, turns))
         else:
-            trajectory.begin(time, self._actual, wraps)
+            self._turns = trajectory.begin(time, self._actual, wraps)
         self._clock = time
         return trajectory, True
 
@@ -394,7 +397,10 @@ class JointTrajectoryController(Controller):
         none: tuple[float, ...] = ()
         positions = velocities = accelerations = effort = none
         if POSITION in kinds:
-            positions = handles.write(POSITION, upcoming.positions)
+            positions = upcoming.positions
+            if self._has_wraps:
+                positions = tuple(map(add, positions, self._turns))
+            positions = handles.write(POSITION, positions)
         if VELOCITY in kinds:
             velocities = handles.write(VELOCITY, controlled or upcoming.velocities)
         if ACCELERATION in kinds:
@@ -501,8 +507,7 @@ class JointTrajectoryController(Controller):
 
     def _log_violations(self, violations: Sequence[Violation]) -> None:
         for each in violations:
-            name = self._layout.joints[each.joint]
-            kind = each.kind.capitalize()
+            name, kind = self._layout.joints[each.joint], each.kind.capitalize()
             self.log(
                 Severity.ERROR,
                 f'State tolerances failed for joint {each.joint} ({name}): '

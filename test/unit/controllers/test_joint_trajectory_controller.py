@@ -396,12 +396,29 @@ def test_a_continuous_joint_takes_the_shortest_way_and_a_revolute_one_does_not()
     arm.run()
     goal = arm.send((-3.0, -3.0))
     begin = arm.run(0.02)[-1]
-    assert begin[0] == pytest.approx(3.0 - math.tau, abs=0.01)
+    assert begin[0] == pytest.approx(3.0, abs=0.01)
     assert begin[1] == pytest.approx(2.9, abs=0.05)
+    assert arm.sent[-1].reference.positions[0] == pytest.approx(3.0 - math.tau, abs=0.01)
     arm.is_following = False
     arm.place(-3.0 + 3 * math.tau, -3.0)  # turns later, but in the same place
     arm.run(1.1)
     assert goal.outcome[0] is GoalStatus.SUCCEEDED
+
+
+@given(
+    st.lists(st.tuples(st.floats(-9.0, 9.0), st.integers(5, 150)), min_size=1, max_size=4),
+    st.booleans(),
+)
+def test_a_continuous_joint_is_never_commanded_back_by_a_turn(goals, from_desired):
+    arm = Arm(parse(URDF), interpolate_from_desired_state=from_desired).activate()
+    commands = arm.run()
+    for angle, moment in goals:
+        arm.send((angle, 0.0))
+        commands += arm.run(moment / 100.0)
+    steps = [abs(two[0] - one[0]) for one, two in zip(commands, commands[1:], strict=False)]
+    assert max(steps) < math.pi * 0.02 + 1e-6  # half a turn in 1 s, at most two periods of it
+    arm.run(1.0)
+    assert math.remainder(arm.values()[0] - goals[-1][0], math.tau) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_velocity_alone_is_commanded_by_a_pid_with_feed_forward():
