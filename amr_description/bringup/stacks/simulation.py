@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stack ``simulation``: the robot in MuJoCo, its controllers active, ready to drive."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 import math
 from typing import Annotated
@@ -37,6 +38,10 @@ from amr_description.text import plain_name
 ABOUT_CONTROLLERS = (
     'parameters of the controllers; empty: the file that the URDF names, for amr the shipped one'
 )
+ABOUT_FIXED = 'whether the root link is fixed to the world, as that of an arm'
+ABOUT_LIFT = 'whether a robot that would touch the world is lifted until it is free'
+ABOUT_STRICT = 'whether a robot that has to be taken as something else is refused'
+ABOUT_MOCKS = 'mock_components is simulated as other hardware (simulate), or stays a mock (mock)'
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,15 +66,10 @@ def simulation(
     y: Annotated[float, 'm'] = 0.0,
     z: Annotated[str, 'm; empty: on the ground, amr 0.2 above it'] = '',
     yaw: Annotated[float, 'its heading, rad'] = 0.0,
-    fixed: Annotated[
-        bool, 'whether the root link is fixed to the world, as that of an arm'
-    ] = False,
-    lift: Annotated[
-        bool, 'whether a robot that would touch the world is lifted until it is free'
-    ] = True,
-    strict: Annotated[
-        bool, 'whether a robot that has to be taken as something else is refused'
-    ] = False,
+    fixed: Annotated[bool, ABOUT_FIXED] = False,
+    lift: Annotated[bool, ABOUT_LIFT] = True,
+    strict: Annotated[bool, ABOUT_STRICT] = False,
+    mock_hardware: Annotated[str, ABOUT_MOCKS] = 'simulate',
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
     description = robot_description(urdf, xacro_args)
@@ -78,7 +78,13 @@ def simulation(
     plan = plan_controllers(urdf, description, controllers, activate)
 
     # 1. The simulated world, empty so far; it publishes /clock.
-    mujoco_sim = _simulator(world, rtf, paused, plan.parameter, lift, strict)
+    mujoco_sim = _simulator(
+        world,
+        rtf,
+        paused,
+        plan.parameter,
+        {'lift': lift, 'strict': strict, 'mock_hardware': mock_hardware},
+    )
 
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
@@ -106,8 +112,20 @@ def simulation(
     )
 
 
+# Parameters of the simulator with the values that they have there when they are not given.
+_OPTIONS: Mapping[str, ParameterValue] = {
+    'lift': True,
+    'strict': False,
+    'mock_hardware': 'simulate',
+}
+
+
 def _simulator(
-    world: str, rtf: float, paused: bool, controllers: str, lift: bool, strict: bool
+    world: str,
+    rtf: float,
+    paused: bool,
+    controllers: str,
+    options: Mapping[str, ParameterValue],
 ) -> Node:
     if not rtf >= 0:
         raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
@@ -117,10 +135,9 @@ def _simulator(
         'paused': paused,
         'controllers': controllers,
     }
-    if not lift:
-        parameters['lift'] = False
-    if strict:
-        parameters['strict'] = True
+    if options['mock_hardware'] not in ('simulate', 'mock'):
+        raise UsageError(f'mock_hardware:={options["mock_hardware"]}: it is simulate or mock')
+    parameters.update({key: each for key, each in options.items() if each != _OPTIONS[key]})
     return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
 
 

@@ -119,6 +119,31 @@ def test_the_pose_is_as_asked(given, words):
     assert create.arguments == ['-topic', 'robot_description', '-name', 'amr', *words]
 
 
+@pytest.mark.parametrize(
+    ('given', 'parameters'),
+    [
+        ({}, {}),
+        ({'lift': 'true', 'strict': 'false', 'mock_hardware': 'simulate'}, {}),
+        ({'lift': 'false'}, {'lift': False}),
+        (
+            {'strict': 'true', 'mock_hardware': 'mock'},
+            {'strict': True, 'mock_hardware': 'mock'},
+        ),
+    ],
+)
+def test_the_simulator_is_told_what_differs_from_its_defaults(given, parameters):
+    (told,) = stack(**given).nodes[0].parameters
+    assert {key: told[key] for key in told.keys() & OPTIONS} == parameters
+
+
+def test_mock_hardware_is_simulated_or_a_mock():
+    with pytest.raises(AmrError, match='^mock_hardware:=fake: it is simulate or mock'):
+        stack(mock_hardware='fake')
+
+
+OPTIONS = {'lift', 'strict', 'mock_hardware'}
+
+
 def cart(folder, types, more=''):
     """Write a cart that is no amr, and a parameter file; return the arguments of the stack."""
     text = (ROOT / 'test/fixtures/urdf_good/cart.urdf').read_text()
