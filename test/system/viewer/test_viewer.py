@@ -6,6 +6,7 @@ from contextlib import contextmanager
 import signal
 import struct
 
+from control_msgs.action import GripperCommand
 from controller_manager_msgs.msg import ControllerState
 from controller_manager_msgs.srv import ListControllers, ListHardwareComponents
 from fixtures.sim.driving import AMR
@@ -14,6 +15,8 @@ from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
 import rclpy
+from rclpy.action import ActionServer, GoalResponse
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
@@ -375,49 +378,68 @@ def test_sliders_move_the_joints_of_a_joint_state_publisher(host, url, tmp_path)
         assert program.end(signal.SIGINT) == 0
 
 
+@contextmanager
+def manager_of(node, *controllers):
+    """A controller manager ``/arm/controller_manager`` that lists these as active."""
+    listed = [
+        ControllerState(name=name, state='active', claimed_interfaces=claims)
+        for name, claims in controllers
+    ]
+
+    def list_controllers(_request, response):
+        response.controller = listed
+        return response
+
+    place = '/arm/controller_manager'
+    services = [
+        node.create_service(ListControllers, f'{place}/list_controllers', list_controllers),
+        node.create_service(
+            ListHardwareComponents,
+            f'{place}/list_hardware_components',
+            lambda _, response: response,
+        ),
+    ]
+    yield
+    for service in services:
+        node.destroy_service(service)
+
+
 def test_sliders_move_joints_by_controllers_and_a_stop_holds_them(host, url):
     robot = Robot(host.node, '/arm')
-    left, right = WHEELS[0], WHEELS[2]
-    listed = ControllerState(
-        name='mover', state='active', claimed_interfaces=[f'{left}/position', f'{right}/position']
-    )
-    services = [
-        host.node.create_service(
-            kind, f'/arm/controller_manager/{name}', lambda _, response, fill=fill: fill(response)
-        )
-        for kind, name, fill in (
-            (
-                ListControllers,
-                'list_controllers',
-                lambda r: setattr(r, 'controller', [listed]) or r,
-            ),
-            (ListHardwareComponents, 'list_hardware_components', lambda r: r),
-        )
-    ]
-    heard = []
+    left, right, finger, _ = WHEELS
+    heard, grips = [], []
+    arm = ('mover', [f'{left}/position', f'{right}/position'])
+    hand = ('hand', [f'{finger}/position'])
     host.node.create_subscription(JointTrajectory, '/arm/mover/joint_trajectory', heard.append, 10)
-    with Page(url) as page:
-        host.until(
-            lambda: (page.last('controllers') or {'controllers': [{'moves': []}]})['controllers'][
-                0
-            ]['moves']
-        )
-        positions = JointState(name=[left, right], position=[0.25, -0.5])
+    server = ActionServer(
+        host.node,
+        GripperCommand,
+        '/arm/hand/gripper_cmd',
+        lambda _: GripperCommand.Result(),
+        goal_callback=lambda goal: grips.append(goal.command.position) or GoalResponse.REJECT,
+    )
+    with manager_of(host.node, arm, hand), Page(url) as page:
+
+        def moves():
+            listed = page.last('controllers')
+            return [each['moves'] for each in listed['controllers']] if listed else []
+
+        host.until(lambda: moves() == [[left, right], [finger]])
 
         def moved():
-            robot.joint_states.publish(positions)
-            page.say('set_joints', robot='/arm', positions={left: 1.0})
-            return heard
+            robot.joint_states.publish(
+                JointState(name=[left, right, finger], position=[0.25, -0.5, 0.0])
+            )
+            page.say('set_joints', robot='/arm', positions={left: 1.0, finger: 0.5})
+            return heard and 0.5 in grips
 
         host.until(moved)
         (point,) = heard[-1].points
         assert (heard[-1].joint_names, [*point.positions]) == ([left, right], [1.0, -0.5])
-        duration = point.time_from_start.sec + point.time_from_start.nanosec * 1e-9
-        assert duration == pytest.approx(0.75)
+        assert Duration.from_msg(point.time_from_start).nanoseconds == pytest.approx(0.75e9)
         page.say('stop', robot=None)
-        host.until(lambda: [*heard[-1].points[0].positions] == [0.25, -0.5])
-    for service in services:
-        host.node.destroy_service(service)
+        host.until(lambda: [*heard[-1].points[0].positions] == [0.25, -0.5] and grips[-1] == 0.0)
+    server.destroy()
     robot.vanish()
 
 

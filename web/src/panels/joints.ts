@@ -206,7 +206,9 @@ function plain(position: number): string {
 
 /** The limits of a joint, as text; a continuous one has none. */
 function range({ kind, lower, upper }: JointInfo): string {
-  return kind === 'continuous' ? 'no limits' : `${fixed(lower, 2)} … ${fixed(upper, 2)}`;
+  const digits = kind === 'prismatic' ? 3 : 2;
+  const limits = `${fixed(lower, digits)} … ${fixed(upper, digits)}`;
+  return kind === 'continuous' ? 'no limits' : limits;
 }
 
 function about(joint: JointInfo, unit: string): string {
