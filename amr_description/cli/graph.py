@@ -17,7 +17,7 @@ from amr_description.cli.names import full_name
 from amr_description.cli.session import Session
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
-from amr_description.ros.local_participants import count_local_participants
+from amr_description.ros.local_participants import local_participants
 from amr_description.ros.transport import reaches_other_hosts
 from amr_description.text import did_you_mean
 
@@ -52,9 +52,10 @@ def wait_for_discovery(
     """
     Wait until the graph is complete.
 
-    It is complete when all participants of this host are found, and nothing has changed for 0.4 s.
-    On a busy machine changes come in batches, so after late changes the wait is longer; and times
-    are those of the session's clock, so that it is longer where this process has to wait its turn.
+    It is complete when all participants of this host are found, and nothing has changed for 0.4 s:
+    a participant that has just ended may still count as found, and hide one that is not. On a busy
+    machine changes come in batches, so after late changes the wait is longer; and times are those
+    of the session's clock, so that it is longer where this process has to wait its turn.
 
     Args:
         session: of the verb.
@@ -64,17 +65,24 @@ def wait_for_discovery(
     """
     start = last_change = session.clock.now()
     known = None
+    domain = session.node.context.get_domain_id()
+    there = local_participants(domain)
     least = _QUIET_WITH_SERVER if os.environ.get('ROS_DISCOVERY_SERVER') else _QUIET
 
     def is_complete() -> bool:
-        nonlocal known, last_change
+        nonlocal known, last_change, there
         now = session.clock.now()
         snapshot = _snapshot(session.node)
         if snapshot != known:
             known, last_change = snapshot, now
         quiet = max(least, (last_change - start) * 0.5)
-        is_quiet = now - start >= at_least and now - last_change >= quiet
-        return is_quiet and _all_local_found(session.node)
+        if now - start < at_least or now - last_change < quiet:
+            return False
+        before, there = there, local_participants(domain)
+        if before - there:
+            last_change = now
+            return False
+        return _all_found(session.node, len(there))
 
     session.spin(is_complete, max(at_least, _LONGEST_DISCOVERY))
     if found is not None:
@@ -110,19 +118,18 @@ def _snapshot(node: Node) -> object:
     return sorted(node.get_node_names_and_namespaces()), topics, endpoints, services
 
 
-def _all_local_found(node: Node) -> bool:
+def _all_found(node: Node, count: int) -> bool:
     """
-    Return whether all participants of this host are found, with their endpoints.
+    Return whether as many participants as are on this host are found, with their endpoints.
 
     Fast DDS discovers a participant and its endpoints separately, either up to a second later than
     the other. Each participant of ROS both publishes and subscribes to the lists of nodes.
     """
-    there = count_local_participants(node.context.get_domain_id())
     ends = (
         node.get_publishers_info_by_topic(_NODE_LISTS, no_mangle=True),
         node.get_subscriptions_info_by_topic(_NODE_LISTS, no_mangle=True),
     )
-    if any(len(found) < there for found in ends):
+    if any(len(found) < count for found in ends):
         return False
     announcers = node.get_publishers_info_by_topic(_PARAMETER_EVENTS)
     return all(endpoint_node(publisher) is not None for publisher in announcers)

@@ -31,11 +31,23 @@ _PARTICIPANTS = range(120)
 _SOCKET = re.compile(r'socket:\[(\d+)\]')
 
 
-def count_local_participants(domain: int) -> int:
-    """Return how many participants of a domain run on this host, ours included."""
-    with suppress(OSError):
-        return len(participant_ids(udp_sockets(), domain))
-    return 0
+def local_participants(domain: int) -> set[tuple[int, int]]:
+    """
+    Return the participants of a domain on this host, ours included.
+
+    Each is its number and the inode of its discovery socket: another one that has the number later
+    has another inode. The set is empty where the system shows no table of sockets.
+    """
+    try:
+        sockets = udp_sockets()
+    except OSError:
+        return set()
+    first = _discovery_ports(domain)[1]
+    return {
+        (each, inode)
+        for each in participant_ids(sockets, domain)
+        for inode in sockets[first + _PARTICIPANT_GAIN * each]
+    }
 
 
 def participant_ids(ports: Collection[int], domain: int) -> set[int]:
