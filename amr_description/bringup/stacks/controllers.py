@@ -61,7 +61,7 @@ class ControllerPlan:
 
 
 def plan_controllers(
-    urdf: str, description: str, controllers: str = '', activate: str = ''
+    urdf: str, description: str, controllers: str = '', activate: str = '', namespace: str = ''
 ) -> ControllerPlan:
     """
     Return what is spawned for a robot.
@@ -72,6 +72,7 @@ def plan_controllers(
         controllers: the parameter file as given; '': that which the URDF names, else the shipped
             one, if it is for this robot.
         activate: the names as given; '': all.
+        namespace: that of the robot, absolute; '': that of its URDF.
 
     Raises:
         ResourceError, ParameterError: there is no such file, or it is no parameter file.
@@ -84,12 +85,14 @@ def plan_controllers(
 
     try:
         robot = parse(description, urdf)
-        return _plan(urdf, robot, controllers, wanted)
+        return _plan(urdf, robot, controllers, wanted, namespace)
     except DescriptionError:  # the node that reads it says where, and what would do
         return ControllerPlan(files=(controllers_file(controllers, urdf, description),))
 
 
-def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) -> ControllerPlan:
+def _plan(
+    urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str], inside: str
+) -> ControllerPlan:
     from amr_description.model.controller_files import (
         declared_controllers,
         manager_of,
@@ -106,7 +109,8 @@ def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) ->
         note += f'; controllers:={controllers} has no effect' if controllers else ''
         return ControllerPlan((), files=tuple(given), notes=(('INFO', note),))
     files, notes = _given_files(given, robot) if given else _files_of(urdf, robot)
-    namespace, manager = manager_of(robot)
+    own_namespace, manager = manager_of(robot)
+    namespace = inside or own_namespace
     if plugins.controllers:
         named = ', '.join(each.name for each in plugins.controllers)
         notes.append(('INFO', f"urdf:={urdf}: Gazebo's plugins, active from the start: {named}"))
@@ -122,7 +126,7 @@ def _plan(urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str]) ->
                 f'{quote_all(names)}{suggestion(name, names)}'
             )
     chosen = tuple(wanted) or tuple(names)
-    if robot.name == AMR and chosen == PAIR and namespace == '/':
+    if robot.name == AMR and chosen == PAIR and own_namespace == '/':
         return ControllerPlan(files=tuple(files), notes=tuple(notes))
     by_name = {each.name: each for each in found}
     return ControllerPlan(
@@ -165,7 +169,7 @@ def _files_of(urdf: str, robot: 'Robot') -> tuple[list[Path], list[Note]]:
     return files, [('WARNING', f'urdf:={urdf}: {why}')]
 
 
-def spawners(plan: ControllerPlan, start_when: Condition) -> list[Node]:
+def spawners(plan: ControllerPlan, start_when: Condition | None) -> list[Node]:
     """
     Return the nodes that spawn the controllers of a plan; [] where there are none.
 
@@ -181,10 +185,17 @@ def spawners(plan: ControllerPlan, start_when: Condition) -> list[Node]:
         return nodes
     if not plan.names:
         return []
+    words = words_of(plan)
+    return [Node('spawner', namespace=namespace, arguments=words, start_when=start_when)]
+
+
+def words_of(plan: ControllerPlan) -> list[str]:
+    """Return the words of one spawner for all controllers of a plan."""
+    if plan.is_that_of_amr:
+        return list(plan.names)
     from amr_description.model.controller_files import spawner_words
 
     words = spawner_words(plan.declared)
     if plan.manager != 'controller_manager':
         words += ['--controller-manager', plan.manager]
-    words.append('--continue-on-error')
-    return [Node('spawner', namespace=namespace, arguments=words, start_when=start_when)]
+    return [*words, '--continue-on-error']

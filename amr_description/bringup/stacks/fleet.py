@@ -25,6 +25,12 @@ from amr_description.bringup import (
 )
 from amr_description.bringup.controller_files import controllers_file, require_namespaces, URDF
 from amr_description.bringup.environment import setup_command
+from amr_description.bringup.stacks.controllers import (
+    ControllerPlan,
+    plan_controllers,
+    words_of,
+)
+from amr_description.bringup.stacks.next_steps import velocity_topic
 from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
@@ -33,8 +39,6 @@ from amr_description.model.urdf import parse
 
 _GAP = 1.0
 """m between two robots, whatever their headings."""
-
-_CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
 
 type _Position = tuple[float, float]
 
@@ -64,10 +68,15 @@ def fleet(
     positions = dict(_positions(robots, spacing or needed + _GAP))
     file = controllers_file(controllers, urdf, description)
     require_namespaces(file, list(positions))
+    plan = plan_controllers(
+        urdf, description, controllers and str(file), namespace=f'/{next(iter(positions))}'
+    )
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = Node(
         'mujoco_sim',
-        parameters=[{'world': world, 'real_time_factor': rtf, 'controllers': str(file)}],
+        parameters=[
+            {'world': world, 'real_time_factor': rtf, 'controllers': plan.parameter or str(file)}
+        ],
         on_exit='shutdown',
     )
     # 2. The origins of the odometry frames: they join the robots in one tree of frames.
@@ -78,8 +87,8 @@ def fleet(
         parameters=[{'robot_description': _map_of(positions), 'use_sim_time': True}],
     )
     # 3. The robots, side by side.
-    members = [_robot(name, position, description) for name, position in positions.items()]
-    up = all_of(*(exited_cleanly(spawner) for *_, spawner in members))
+    members = [_robot(name, place, description, plan) for name, place in positions.items()]
+    up = all_of(*(exited_cleanly(last) for *_, last in members))
     return Stack(
         [
             mujoco_sim,
@@ -88,12 +97,14 @@ def fleet(
             *page(viewer, up),
         ],
         ready_when=up,
-        next_steps=_how_to_drive(list(positions)),
-        notes=notes_on([path_of(urdf), file]),
+        next_steps=_how_to_drive(list(positions), plan),
+        notes=[*notes_on([path_of(urdf), file]), *plan.notes],
     )
 
 
-def _robot(name: str, position: _Position, description: str) -> tuple[Node, Node, Node]:
+def _robot(
+    name: str, position: _Position, description: str, plan: ControllerPlan
+) -> tuple[Node, ...]:
     """Return the nodes that publish a robot's URDF, spawn it and spawn its controllers."""
     robot_state_publisher = Node(
         'robot_state_publisher',
@@ -107,14 +118,17 @@ def _robot(name: str, position: _Position, description: str) -> tuple[Node, Node
         ],
     )
     x, y = position
+    height = ['-z', '0.2'] if plan.is_that_of_amr else []  # else on the ground
     create = Node(
         'create',
         namespace=name,
-        arguments=['-topic', 'robot_description', '-name', name, '-x', x, '-y', y, '-z', '0.2'],
+        arguments=['-topic', 'robot_description', '-name', name, '-x', x, '-y', y, *height],
     )
-    # One process for both controllers: with ten robots, starting processes takes the time.
+    if not plan.names:
+        return robot_state_publisher, create
+    # One process for all controllers: with ten robots, starting processes takes the time.
     spawner = Node(
-        'spawner', namespace=name, arguments=_CONTROLLERS, start_when=exited_cleanly(create)
+        'spawner', namespace=name, arguments=words_of(plan), start_when=exited_cleanly(create)
     )
     return robot_state_publisher, create, spawner
 
@@ -146,15 +160,19 @@ def _map_of(positions: dict[str, _Position]) -> str:
     return '\n'.join([*lines, '</robot>'])
 
 
-def _how_to_drive(names: list[str]) -> str:
-    """Return the next steps of a user."""
+def _how_to_drive(names: list[str], plan: ControllerPlan) -> str:
+    """Return the next steps of a user; ``plan``: that of the first robot."""
     first, last = names[0], names[-1]
+    topic = velocity_topic(plan)
+    if topic is None:
+        return 'Ctrl-C stops all.'
+    local = topic.name.removeprefix(f'/{first}')
     return f"""drive {first} with, in another shell,
     {setup_command('amr_description', os.environ)}
     ros2 run amr_description teleop_twist_keyboard --ros-args -p stamped:=true \\
-        -r /cmd_vel:=/{first}/diff_drive_controller/cmd_vel
+        -r /cmd_vel:=/{first}{local}
 or {last} in a circle
-    ros2 topic pub -r 10 /{last}/diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \\
+    ros2 topic pub -r 10 /{last}{local} geometry_msgs/msg/TwistStamped \\
         "{{twist: {{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}}}"
 Ctrl-C stops all."""
 

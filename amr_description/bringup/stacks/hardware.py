@@ -24,11 +24,13 @@ from amr_description.bringup import (
     path_of,
     robot_description,
     Stack,
+    started,
 )
 from amr_description.bringup.conditions import Condition
 from amr_description.bringup.controller_files import controllers_file, URDF
 from amr_description.bringup.input_files import Note
-from amr_description.bringup.stacks.next_steps import how_to_drive
+from amr_description.bringup.stacks.controllers import plan_controllers, spawners
+from amr_description.bringup.stacks.next_steps import next_steps_of
 from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import DescriptionError
@@ -59,8 +61,7 @@ def mock(
         'mock_components/GenericSystem',
         {'calculate_dynamics': 'true'},
     )
-    file = controllers_file(controllers, urdf, description)
-    return _controlled(description, [path_of(urdf), file], viewer)
+    return _controlled(urdf, description, controllers, viewer)
 
 
 def serial(
@@ -90,14 +91,14 @@ def serial(
         {'port': port, 'left_joints': left, 'right_joints': right}
         | (_SIMULATED_BOARD if is_simulated else {}),
     )
-    file = controllers_file(controllers, urdf, description)
-    files = [path_of(urdf), file]
-    return _controlled(description, files, viewer, boards, path_exists(port), timeout)
+    ready = path_exists(port)
+    return _controlled(urdf, description, controllers, viewer, boards, ready, timeout)
 
 
 def _controlled(
+    urdf: str,
     description: str,
-    files: Sequence[Path],
+    controllers: str,
     viewer: bool,
     before: Sequence[Node] = (),
     start_when: Condition | None = None,
@@ -107,16 +108,21 @@ def _controlled(
     Return the stack of a controller manager with its hardware, and the controllers in order.
 
     Args:
-        description: the URDF.
-        files: that of the description and that of the controllers' parameters.
+        urdf: the description as given.
+        description: its text.
+        controllers: the parameter file as given.
         viewer: whether to serve the page.
         before: nodes that are started first.
         start_when: what the controller manager waits for.
         timeout: of that wait, s; None: the default.
     """
+    file = controllers_file(controllers, urdf, description)
+    # A manager of its own node: in no namespace that a plugin of Gazebo has.
+    plan = plan_controllers(urdf, description, controllers and str(file), namespace='/')
+    files = [path_of(urdf), *(plan.files or [file])]
     ros2_control_node = Node(
         'ros2_control_node',
-        parameters=[files[1], _SYSTEM_CLOCK],
+        parameters=[*files[1:], _SYSTEM_CLOCK],
         on_exit='shutdown',
         start_when=start_when,
         timeout=timeout,
@@ -124,26 +130,13 @@ def _controlled(
     robot_state_publisher = Node(
         'robot_state_publisher', parameters=[{'robot_description': description}]
     )
-    joint_state_broadcaster = Node(
-        'spawner', arguments=['joint_state_broadcaster'], start_when=start_when
-    )
-    diff_drive_controller = Node(
-        'spawner',
-        arguments=['diff_drive_controller'],
-        start_when=exited_cleanly(joint_state_broadcaster),
-    )
+    controlled = spawners(plan, start_when)
+    up = exited_cleanly(controlled[-1]) if controlled else started(ros2_control_node)
     return Stack(
-        [
-            *before,
-            ros2_control_node,
-            robot_state_publisher,
-            joint_state_broadcaster,
-            diff_drive_controller,
-            *page(viewer, exited_cleanly(diff_drive_controller)),
-        ],
-        ready_when=exited_cleanly(diff_drive_controller),
-        next_steps=how_to_drive(viewer),
-        notes=[*notes_on(files), *_notes_on_clock(files[1])],
+        [*before, ros2_control_node, robot_state_publisher, *controlled, *page(viewer, up)],
+        ready_when=up,
+        next_steps=next_steps_of(viewer, plan, description),
+        notes=[*notes_on(files), *_notes_on_clock(files[1]), *plan.notes],
     )
 
 

@@ -79,19 +79,21 @@ or for one command
 {_END}"""
 
 
-def how_to_go_on(viewer: bool, plan: ControllerPlan, robot: 'Robot | None') -> str:
-    """
-    Return the next steps with any robot.
+def next_steps_of(viewer: bool, plan: ControllerPlan, description: str) -> str:
+    """Return the next steps with the robot of a description; ``viewer``: whether it is served."""
+    if plan.is_that_of_amr:
+        return how_to_drive(viewer)
+    from amr_description.model.urdf import parse
 
-    Args:
-        viewer: whether the page is served.
-        plan: its controllers.
-        robot: its description; None: it cannot be read.
-    """
+    return how_to_go_on(viewer, plan, parse(description))
+
+
+def how_to_go_on(viewer: bool, plan: ControllerPlan, robot: 'Robot') -> str:
+    """Return the next steps with any robot; ``viewer``: whether the page is served."""
     topic = velocity_topic(plan)
     if topic is not None:
         return how_to_drive(viewer, topic)
-    commands = [] if robot is None else [*_commands(plan, robot)]
+    commands = [*_commands(plan, robot)]
     page = 'open the page whose address comes below' if viewer else ''
     if not commands:
         return f'{page or "look around with  ros2 topic list"}\n{_END}'

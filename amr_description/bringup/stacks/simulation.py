@@ -21,13 +21,11 @@ from amr_description.bringup.description import ParameterValue
 from amr_description.bringup.stacks.controllers import (
     ABOUT_ACTIVATE,
     AMR,
-    ControllerPlan,
     plan_controllers,
     spawners,
 )
 from amr_description.bringup.stacks.next_steps import (
-    how_to_drive,
-    how_to_go_on,
+    next_steps_of,
     velocity_topic,
     VelocityTopic,
 )
@@ -106,7 +104,7 @@ def simulation(
     return SimulatedRobot(
         [mujoco_sim, robot_state_publisher, create, *controlled, *page(viewer, up)],
         ready_when=up,
-        next_steps=_next_steps(viewer, plan, description),
+        next_steps=next_steps_of(viewer, plan, description),
         notes=[*notes_on([path_of(urdf), *plan.files]), *plan.notes],
         velocity_topic=velocity_topic(plan),
     )
@@ -171,11 +169,3 @@ def _fixed(description: str, urdf: str) -> str:
         return fixed_to_world(description)
     except DescriptionError as error:
         raise UsageError(f'fixed:=true: urdf:={urdf}: {error}') from None
-
-
-def _next_steps(viewer: bool, plan: ControllerPlan, description: str) -> str:
-    if plan.is_that_of_amr:
-        return how_to_drive(viewer)
-    from amr_description.model.urdf import parse
-
-    return how_to_go_on(viewer, plan, parse(description))

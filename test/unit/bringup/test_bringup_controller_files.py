@@ -152,3 +152,22 @@ def test_a_file_that_is_not_there_is_one_line_with_its_argument(share):
     path = share / 'config/cart.yam'
     with pytest.raises(ResourceError, match=r'^controllers:=.*/cart.yam: no such file: /.*; did'):
         stack(simulation, urdf=urdf(share), controllers=str(path))
+
+
+def test_mock_hardware_and_a_fleet_have_the_controllers_of_the_file(share):
+    file = share / 'config/cart.yaml'
+    file.write_text(
+        YAML.replace('controller_manager:', '/**/controller_manager:').replace(
+            'diff_drive_controller: {', 'base: {'
+        )
+    )
+    given = {'urdf': urdf(share), 'controllers': str(file)}
+    for function, namespaces in ((mock, [None]), (fleet, ['robot1', 'robot2', 'robot3'])):
+        made = stack(function, **given)
+        found = [node for node in made.nodes if node.executable == 'spawner']
+        assert [node.namespace for node in found] == namespaces
+        assert all(list(node.arguments) == ['base', '--continue-on-error'] for node in found)
+        topic = f'/{namespaces[0]}/base/cmd_vel' if namespaces[0] else '/base/cmd_vel'
+        assert f'-r /cmd_vel:={topic}\n' in made.next_steps
+    create = next(node for node in made.nodes if node.executable == 'create')
+    assert '-z' not in create.arguments
