@@ -58,9 +58,11 @@ def make_wheels(
         commands: The command interfaces of joints.
     """
     driving = {joint for joint, names in commands.items() if _DRIVING_INTERFACES & {*names}}
+    driving |= {j.name for j in robot.joints if j.mimic is not None and j.mimic.joint in driving}
     driven = [j for j in robot.joints if is_driven_wheel_joint(j, driving)]
     poses = link_poses(robot, {})
-    free = [j for j in robot.joints if is_passive_wheel_joint(j, poses, commands)]
+    commanded = {joint for joint, names in commands.items() if names}  # others are only read
+    free = [j for j in robot.joints if is_passive_wheel_joint(j, poses, commanded)]
     found = {joint.name: _find(spec, robot, joint) for joint in (*driven, *free)}
     wheels = [each for joint in driven if (each := found[joint.name]) is not None]
     passive = [each for joint in free if (each := found[joint.name]) is not None]

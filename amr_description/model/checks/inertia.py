@@ -177,7 +177,7 @@ def inertia_fits_the_shape(context: CheckContext) -> Iterator[Finding]:
         solid = _solid_moments(link)
         if link.inertial is None or solid is None:
             continue
-        if is_in_millimetres(link) or is_in_grams(link):
+        if is_in_millimetres(link) or is_in_grams(link) or _taken(context, link.name):
             continue  # which is reported, and explains it
         given = moments_along_axes(link.inertial.inertia, link.inertial.origin)
         if not all(0.0 < moment < math.inf for moment in given):

@@ -65,6 +65,16 @@ def test_a_mesh_with_corners_is_no_wheel(tmp_path):
     assert robot.wheels == ()
 
 
+def test_a_wheel_that_follows_a_driven_one_is_one_too(tmp_path):
+    """Its twin in <ros2_control> has the command of both."""
+    left, right = TWO_WHEELS.split('<joint name="right" type="continuous">')
+    twin = f'{left}<joint name="right" type="continuous"><mimic joint="left"/>{right}'
+    begin = twin.rindex('<joint name="right">')
+    end = twin.index('</joint>', begin) + len('</joint>')
+    _, robot = spawned(tmp_path, twin[:begin] + twin[end:])
+    assert {wheel.link for wheel in robot.wheels} == {'left_wheel', 'right_wheel'}
+
+
 def without_drive(urdf):
     return urdf[: urdf.index('<ros2_control')] + '</robot>'
 
@@ -74,6 +84,12 @@ def test_a_robot_that_nothing_drives_stands_on_its_wheels(tmp_path):
     assert {wheel.link for wheel in robot.wheels} == {'left_wheel', 'right_wheel'}
     world.step(1000)
     assert robot.pose('base_link').translation[2] == pytest.approx(0.1, abs=1e-4)
+
+
+def test_wheels_that_are_only_read_turn_freely(tmp_path):
+    silent = TWO_WHEELS.replace('<command_interface name="velocity"/>', '')
+    _, robot = spawned(tmp_path, silent)
+    assert {wheel.link for wheel in robot.wheels} == {'left_wheel', 'right_wheel'}
 
 
 def test_wheels_at_different_heights_are_parts_that_turn(tmp_path):
