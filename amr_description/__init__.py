@@ -23,6 +23,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``errors.py``           every error that is raised on purpose
 ``parameters.py``       tables of parameters: type, default, unit, bounds
 ``former_parameters.py`` parameters of earlier releases, and what is made of them
+``launch_variables.py`` ``$(var …)`` of launch files in parameters
 ``parameter_files.py``  ROS parameter files: read, searched for a node's sections, written
 ``registry.py``         names of plugins → ``module:attribute``, imported when used
 ``ament_index.py``      packages, executables, ``package://`` and ``file://``

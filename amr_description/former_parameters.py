@@ -11,11 +11,16 @@ that files still have, in a class attribute ``former``::
         former: ClassVar = (ignored('wheels_per_side', 'Foxy', 'the wheels are counted'),)
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
+from amr_description.launch_variables import (
+    has_variables,
+    replaced as replaced_variables,
+    variables_as,
+)
 from amr_description.parameters import Spec, specs, tables, Value
 
 
@@ -85,15 +90,24 @@ CLAMP = FormerParameter('i_clamp', _clamp)
 """Of the gains of a PID."""
 
 
-def understand(table: type, given: Mapping[str, Any]) -> Understanding:
+def understand(
+    table: type, given: Mapping[str, Any], joints: Collection[str] = ()
+) -> Understanding:
     """
     Return how the parameters of a file or a command line are understood.
 
     Args:
         table: the parameters of the node.
         given: by dotted name; others than those of the table, too.
+        joints: of the robot, if it is known.
     """
     found = Understanding({}, {}, set())
+    given = dict(given)
+    variables = variables_as(given, joints)
+    for name, value in given.items():
+        if joints and has_variables(value):
+            given[name] = found.values[name] = replaced_variables(value, variables)
+            found.texts[name] = _launched(name, value, given[name])
     for prefix, former in _all_former(table, given):
         local = _below(prefix, given)
         for name, value in local.items():
@@ -130,6 +144,13 @@ def _adoption(spec: Spec, value: Any, adopted: Any) -> str:
         f"parameter '{spec.name}' is {_shown(value)}, {kind}, where {article} {spec.type} is "
         f'declared: taken as {_shown(adopted)}; a node of rclcpp refuses it'
     )
+
+
+def _launched(name: str, value: Any, made: Any) -> str:
+    what = 'what a launch file puts in is not known: write the names of the joints'
+    if not has_variables(made):
+        what = f'taken as {_shown(made)}, which are joints of the robot'
+    return f"parameter '{name}' is {_shown(value)}, for a launch file to complete: {what}"
 
 
 def _shown(value: Any) -> str:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of a ROS node from a table of :mod:`amr_description.parameters`."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from copy import copy
 import dataclasses
 from typing import Any
@@ -76,9 +76,11 @@ def declare_missing(
             _declare(node, dataclasses.replace(spec, default=default))
 
 
-def adopt_overrides(node: Node, *tables: type) -> list[str]:
+def adopt_overrides(node: Node, *tables: type, joints: Collection[str] = ()) -> list[str]:
     """
     Have what a node was given taken as it is meant, before the tables are declared.
+
+    ``joints``: of the robot, if it is known.
 
     Returns:
         One line for each parameter that is of an earlier release, or a number of another type.
@@ -86,7 +88,8 @@ def adopt_overrides(node: Node, *tables: type) -> list[str]:
     overrides = parameter_overrides(node)
     lines: list[str] = []
     for table in tables:
-        found = understand(table, {name: each.value for name, each in overrides.items()})
+        given = {name: each.value for name, each in overrides.items()}
+        found = understand(table, given, joints)
         lines += found.texts.values()
         for name, value in found.values.items():
             set_parameter_override(node, Parameter(name, value=value))

@@ -25,8 +25,8 @@ MOST_LINES_OF_A_FILE = 600
 MOST_LINES_OF_A_FUNCTION = 60
 
 BASE = {
-    'ament_index', 'clock', 'colors', 'entry', 'errors', 'former_parameters', 'parameter_files',
-    'parameters', 'registry', 'streams', 'text',
+    'ament_index', 'clock', 'colors', 'entry', 'errors', 'former_parameters', 'launch_variables',
+    'parameter_files', 'parameters', 'registry', 'streams', 'text',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {

@@ -115,7 +115,8 @@ class ControllerNode:
             self._table = controller_class.parameters_type
             self.log = context.logs.log_of(self.node.get_logger())
             self.publish_transition = TransitionEvents(self.node)
-            common = self._declare(update_rate)
+            joints = () if robot is None else [joint.name for joint in robot.joints]
+            common = self._declare(update_rate, joints)
             self.controller = controller_class(
                 ControllerContext(
                     name=name,
@@ -171,9 +172,9 @@ class ControllerNode:
 
     # --- parameters ---------------------------------------------------------------------------
 
-    def _declare(self, manager_rate: int) -> CommonParameters:
+    def _declare(self, manager_rate: int, joints: Sequence[str]) -> CommonParameters:
         """Declare both tables; what is set later counts at the next configure."""
-        for line in adopt_overrides(self.node, self._table, CommonParameters):
+        for line in adopt_overrides(self.node, self._table, CommonParameters, joints=joints):
             self.log(Severity.WARN, line)
         declare(self.node, self._table)
         common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.forward_command_controller import ForwardCommandParameters
 from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
 from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
 from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
@@ -144,3 +145,23 @@ def test_what_says_the_same_in_jazzy_or_nothing_plain_is_left_alone(given):
     found = understand(DiffDriveParameters, given)
     assert found.values == {}
     assert found.texts == {}
+
+
+def test_a_variable_of_a_launch_file_is_what_makes_names_of_joints_of_it():
+    joints = ['arm_1', 'arm_2', 'hand_1', 'base']
+    given = {'joints': ['$(var prefix)1', '$(var prefix)2'], 'interface_name': 'position'}
+    found = understand(ForwardCommandParameters, given, joints)
+    assert found.values == {'joints': ['arm_1', 'arm_2']}
+    assert list(found.texts.values()) == [
+        "parameter 'joints' is ['$(var prefix)1', '$(var prefix)2'], for a launch file to "
+        "complete: taken as ['arm_1', 'arm_2'], which are joints of the robot"
+    ]
+    assert understand(ForwardCommandParameters, given).texts == {}
+
+
+@pytest.mark.parametrize('joints', [['$(var side)_1'], ['$(var a)_$(var b)'], ['$(var x)3']])
+def test_a_variable_that_may_be_several_texts_or_none_is_left(joints):
+    found = understand(ForwardCommandParameters, {'joints': joints}, ['arm_1', 'hand_1'])
+    assert found.values == {'joints': joints}
+    (text,) = found.texts.values()
+    assert 'what a launch file puts in is not known: write the names of the joints' in text
