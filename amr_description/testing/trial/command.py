@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 import os
 from pathlib import Path
+import signal
+import subprocess
 import sys
 
 from amr_description.errors import AmrError
@@ -35,7 +37,10 @@ def main(arguments: Sequence[str]) -> int:
         for name, file in zip(robot_names(files), files, strict=True)
         if not options.only or any(word in name for word in options.only)
     ]
-    found = _try_all(jobs, options.jobs, options.timeout)
+    try:
+        found = _try_all(jobs, options.jobs, options.timeout)
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
     text = table(found, details=not options.brief)
     print(text, flush=True)
     if options.json:
@@ -45,17 +50,22 @@ def main(arguments: Sequence[str]) -> int:
 
 def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[Findings]:
     """Try robots, ``count`` of them side by side; say on stderr how far it is."""
+    running: set[subprocess.Popen[bytes]] = set()
 
     def one(job: Job) -> Findings:
-        found = try_robot(job, timeout)
+        found = try_robot(job, timeout, running)
         word = 'fine' if found.is_fine else found.faults[0]
         print(f'{job.robot}: {word} ({found.seconds:.0f} s)', file=sys.stderr, flush=True)
         return found
 
-    if count == 1:
-        return [one(job) for job in jobs]
     with ThreadPoolExecutor(count) as pool:
-        return list(pool.map(one, jobs))
+        try:
+            return list(pool.map(one, jobs))
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in [*running]:  # they were not meant: each is in a session of its own
+                process.send_signal(signal.SIGINT)
+            raise
 
 
 def _replacement(text: str) -> tuple[str, str]:

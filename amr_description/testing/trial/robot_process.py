@@ -27,8 +27,12 @@ _STOP_TIMEOUT = 25.0
 """s from SIGINT to SIGKILL: a simulator may take 15 of them."""
 
 
-def try_robot(job: Job, timeout: float) -> Findings:
-    """Try a robot; end its process after ``timeout`` s of the wall clock."""
+def try_robot(job: Job, timeout: float, running: set[subprocess.Popen[bytes]]) -> Findings:
+    """
+    Try a robot; end its process after ``timeout`` s of the wall clock.
+
+    ``running`` has the process while it runs, so that who is interrupted can end it.
+    """
     with tempfile.TemporaryDirectory(prefix='amr-try-') as name:
         folder = Path(name)
         file, result, log = folder / 'job.json', folder / 'found.json', folder / 'log'
@@ -42,7 +46,11 @@ def try_robot(job: Job, timeout: float) -> Findings:
                 stderr=stream,
                 start_new_session=True,
             )
-        is_late, cpu_seconds = _wait(process, timeout)
+        running.add(process)
+        try:
+            is_late, cpu_seconds = _wait(process, timeout)
+        finally:
+            running.discard(process)
         found = Findings(job.robot, job.file)
         if result.is_file():
             found = from_json(result.read_text(encoding='utf-8'))
@@ -74,10 +82,6 @@ def _wait(process: subprocess.Popen[bytes], timeout: float) -> tuple[bool, float
         timer.start()
     try:
         _, status, usage = os.wait4(process.pid, 0)
-    except BaseException:  # Ctrl-C: the robot under trial ends, too
-        process.send_signal(signal.SIGINT)
-        _, status, usage = os.wait4(process.pid, 0)
-        raise
     finally:
         for timer in timers:
             timer.cancel()
