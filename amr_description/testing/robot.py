@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot of a simulation in lock-step: spawned, controlled, and read by its topics."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
 import math
 from pathlib import Path
 from typing import Any
@@ -254,11 +254,17 @@ def spawn_controllers(
         odometry=topic(drive, publishers, 'nav_msgs/msg/Odometry'),
         joints=topic(broadcaster, publishers, 'sensor_msgs/msg/JointState'),
     )
-    return topics if topics.command else _with_plugins(topics, translate(description), inside)
+    return _with_plugins(topics, translate(description), [name for _, name in active], inside)
 
 
-def _with_plugins(topics: Topics, plugins: GazeboTranslation, namespace: str) -> Topics:
-    """Return topics with those of Gazebo's plugins in place of what is missing."""
+def _with_plugins(
+    topics: Topics, plugins: GazeboTranslation, active: Collection[str], namespace: str
+) -> Topics:
+    """Return topics with those of Gazebo's plugins, if active, in place of what is missing."""
+    if topics.command:
+        return topics
+    running = tuple(each for each in plugins.controllers if each.name in active)
+    plugins = replace(plugins, controllers=running)
     return Topics(
         command=plugins.twist_topic(namespace),
         is_stamped=False,
