@@ -119,8 +119,9 @@ def understand(
                 full = prefix + name
                 found.texts[full] = f"parameter '{full}' is {_shown(value)}: {reading.text}"
                 found.values.update({prefix + n: v for n, v in reading.values.items()})
-    for spec in specs(table, '', given):
-        value = found.values.get(spec.name, given.get(spec.name))
+    meant = given | found.values
+    for spec in specs(table, '', meant):
+        value = meant.get(spec.name)
         adopted = spec.adopt(value)
         if adopted is not value:
             if spec.name not in found.values:
