@@ -56,6 +56,8 @@ _MAX_ASIDE = 0.05
 """The share of that way by which the middle of the wheels may be off the robot's heading."""
 _MIN_TURN = 0.05
 """Of the yaw of two wheels that do not slip; six in a row on each side reach about 0.1."""
+_AHEAD = 0.9
+"""The least cosine of the angle of rollers that point ahead; those of mecanum wheels have 0.7."""
 _PAIRED = 0.01
 """m; joints of a pair are mirror images of each other within this distance."""
 _MIDDLE = 0.001
@@ -156,7 +158,9 @@ class _DropTest:
                 self._rest()
                 self._find_wheels()
                 self._push()
-                if self._wheels:
+                if self._has_omni_wheels():
+                    self._left_out.append('not driven: its wheels roll in several directions')
+                elif self._wheels:
                     self._roll()
                     self._turn()
         except (_FailedError, SimulationError) as failure:
@@ -167,6 +171,10 @@ class _DropTest:
             left_out=tuple(self._left_out),
             failures=tuple(self._failures),
         )
+
+    def _has_omni_wheels(self) -> bool:
+        """Whether rollers point ahead: such wheels stand at angles, and take other speeds."""
+        return any(abs(math.cos(each.angle)) > _AHEAD for each in self._view.rollers.values())
 
     def _log(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
         """Keep the errors that the world logs: a lost state, a robot below the ground."""

@@ -63,6 +63,8 @@ class RobotView:
         self.description = description
         self.wheels = model.wheels
         """The links that touch the ground as wheels."""
+        self.rollers = model.rollers
+        """Those of mecanum and omni wheels, by geom."""
         self._spawn_pose = pose
         self._log = log
         self._engine = engine

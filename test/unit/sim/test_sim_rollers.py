@@ -13,6 +13,7 @@ from amr_description.controllers.mecanum_drive_controller import MecanumKinemati
 from amr_description.controllers.omni_wheel_drive_controller import OmniKinematics
 from amr_description.model.frames import Transform
 from amr_description.model.rollers import Rollers
+from amr_description.sim.drop_test import drop_test
 from amr_description.sim.robot_spec import build_robot
 from amr_description.sim.spawning import read_description
 from amr_description.sim.world import MujocoWorld
@@ -197,3 +198,11 @@ def test_of_two_sources_the_description_counts():
     )
     assert model.rollers['front_left_wheel/wheel'].angle == pytest.approx(-math.pi / 4)
     assert build_robot(read_description(AMR, 'robot'), null_log).rollers == {}
+
+
+@pytest.mark.parametrize(('urdf', 'is_driven'), [(mecanum(), True), (omni(), False)])
+def test_the_drop_test_does_not_drive_omni_wheels_like_others(urdf, is_driven):
+    report = drop_test(read_description(urdf, 'robot'))
+    assert report.failures == ()
+    left_out = 'not driven: its wheels roll in several directions'
+    assert (left_out in report.left_out) is not is_driven
