@@ -107,6 +107,8 @@ class Port:
     convert: str = ''
     qos: Qos = SYSTEM_DEFAULT
     sample: type | None = None
+    is_optional: bool = False
+    """An output that is left out, with a warning, where its message package is not installed."""
 
 
 class Input[Sample]:

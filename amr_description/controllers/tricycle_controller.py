@@ -11,7 +11,8 @@ At v = 0 the wheel is turned by a right angle, and the base turns on the spot. T
 while the measured angle is off by more than 30 degrees, then both are limited.
 
 Differences from tricycle_controller 4.x: ``cmd_vel_timeout`` 0 means never; a command that is not
-finite is warned of, and is none; the warnings of stamps are those of the diff_drive_controller.
+finite is warned of, and is none; the warnings of stamps are those of the diff_drive_controller;
+without the package ackermann_msgs, which is not part of this one, ``~/cmd_ackermann`` is left out.
 """
 
 from collections.abc import Sequence
@@ -268,7 +269,12 @@ class TricycleController(Controller):
             Port('/tf', 'tf2_msgs/msg/TFMessage', sample=OdometrySample)
         )
         self._command_out: Output[AckermannSample] = Output(
-            Port('~/cmd_ackermann', 'ackermann_msgs/msg/AckermannDrive', sample=AckermannSample)
+            Port(
+                '~/cmd_ackermann',
+                'ackermann_msgs/msg/AckermannDrive',
+                sample=AckermannSample,
+                is_optional=True,
+            )
         )
         self._reset_odometry: Service[EmptySample, EmptySample] = Service(
             ServicePort('~/reset_odometry', 'std_srvs/srv/Empty', EmptySample, EmptySample),

@@ -38,6 +38,7 @@ from amr_description.control.ros.port_servers import (
     ServiceServer,
     writer_of,
 )
+from amr_description.errors import AmrError
 from amr_description.model.robot import Robot
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
@@ -147,7 +148,9 @@ class ControllerNode:
         """
         self.disconnect()
         self._endpoints += map(self._subscribe, self.controller.inputs())
-        self._endpoints += map(self._advertise, self.controller.outputs())
+        self._endpoints += [
+            self._advertise(each) for each in self.controller.outputs() if self._is_possible(each)
+        ]
         for service in self.controller.services():
             self._servers.append(ServiceServer(self.node, service, self._context))
         for action in self.controller.actions():
@@ -217,6 +220,17 @@ class ControllerNode:
             _message_type(port.port), port.port.name, receive, qos(port.port.qos)
         )
         return subscription
+
+    def _is_possible(self, output: Output[Any]) -> bool:
+        """Return whether an output can be published; one that is optional is warned of if not."""
+        try:
+            _message_type(output.port)
+        except AmrError as error:
+            if not output.port.is_optional:
+                raise
+            self.log(Severity.WARN, f"'{output.port.name}' is not published: {error}")
+            return False
+        return True
 
     def _advertise(self, port: Output[Any]) -> Publisher:
         fill = writer_of(port.port)

@@ -344,6 +344,17 @@ def test_a_controller_whose_topics_cannot_be_made_is_not_configured(host):
     assert host.client.states() == {'lost': 'unconfigured'}
 
 
+def test_an_optional_topic_without_its_message_package_is_left_out(host, stderr):
+    host.client.set_parameters('modest', {'type': 'third_party/Modest'})
+    host.activate('modest')
+    assert host.client.states() == {'modest': 'active'}
+
+    def warned():
+        return "'~/said' is not published: " in stderr() or None
+
+    assert wait_until(host.client_node, warned, lambda: None, timeout=5.0)
+
+
 def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):
     def break_down(*_):
         raise ZeroDivisionError('a third party')
