@@ -124,8 +124,12 @@ class Drive:
         full = command[axis]
         reached = self._start(command, axis)
         if reached < _SLOWEST:
+            truth, odometry = (
+                None if each is None else _speed_of(each, axis) for each in self._readings()
+            )
             self._stop()
-            note = f'commanded {full:g}, it does not move'
+            found = 'none' if odometry is None else f'{odometry:.3f}'
+            note = f'commanded {full:g}, it does not move: truth {truth:.3f}, odometry {found}'
             return self._motion(what, far, 0.0, None, note)
         note = ''
         if reached < _NOWHERE_NEAR * full:
@@ -171,12 +175,11 @@ class Drive:
 
     def _speed(self, axis: int) -> float:
         """Return the amount of the speed along an axis: the lesser of odometry and truth."""
-        readings = (self._read_odometry(), self._sim.truth)
-        return min(
-            abs((each.linear[0], each.linear[1], each.angular[2])[axis])
-            for each in readings
-            if each is not None
-        )
+        return min(abs(_speed_of(each, axis)) for each in self._readings() if each is not None)
+
+    def _readings(self) -> tuple[Reading, Reading | None]:
+        """Return truth and odometry."""
+        return self._sim.truth, self._read_odometry()
 
     def _read_odometry(self) -> Reading | None:
         message = self._odometry.take() if self._odometry is not None else None
@@ -202,6 +205,10 @@ class Drive:
         twist = message.twist if self._type is TwistStamped else message
         twist.linear.x, twist.linear.y, twist.angular.z = command
         return message
+
+
+def _speed_of(reading: Reading, axis: int) -> float:
+    return (reading.linear[0], reading.linear[1], reading.angular[2])[axis]
 
 
 def _along(way: Travel, axis: int) -> float:

@@ -67,6 +67,8 @@ class Motion:
     odometry: float | None = None
     is_fine: bool = True
     note: str = ''
+    said: str = ''
+    """What the simulator has said that explains why it is not fine: then it is no fault."""
 
 
 @dataclass
@@ -86,6 +88,8 @@ class Findings:
     rest: Rest | None = None
     controllers: list[ControllerFinding] = field(default_factory=list)
     motions: list[Motion] = field(default_factory=list)
+    explained: list[str] = field(default_factory=list)
+    """Motions that are off for a reason that the simulator has named."""
     undriven: list[str] = field(default_factory=list)
     """Active controllers that were not tried, and why."""
     warnings: list[str] = field(default_factory=list)
@@ -152,7 +156,7 @@ def _rest(rest: Rest | None) -> str:
 
 
 def _motion(motion: Motion) -> str:
-    sign = '' if motion.is_fine else '!'
+    sign = '' if motion.is_fine else '~' if motion.said else '!'
     if motion.truth is None or not motion.asked:
         return f'{sign}{motion.what}'
     return f'{sign}{motion.what} {100.0 * motion.truth / motion.asked:.0f}%'
@@ -168,6 +172,7 @@ def table(findings: Sequence[Findings], *, details: bool = True) -> str:
         lines.append('  '.join(map(str.ljust, cells, widths)).rstrip() + f'  {mark}'.rstrip())
         if details:
             lines += [_shortened(f'    fault: {fault}') for fault in found.faults]
+            lines += [_shortened(f'    explained: {each}') for each in found.explained]
             lines += [_shortened(f'    {warning}') for warning in _short_list(found.warnings)]
     fine = sum(each.is_fine for each in findings)
     return '\n'.join([*lines, f'{fine} of {len(findings)} fine'])

@@ -61,6 +61,7 @@ _DRIVE_PLUGIN = re.compile(
     r'<plugin\b[^>]*\b(?:filename|name)="([^"]*(?:drive|Drive|steering|Steering|planar_move)[^"]*)"'
 )
 """A plugin of Gazebo that drives."""
+_OF_TURNS = re.compile(r'swapped|inverted|steer to the left|in the order|turn the robot')
 _STRAIGHT_UP = (0.0, 0.0, 1.0)
 
 
@@ -216,9 +217,14 @@ class Trial:
             if each.state != 'active':
                 self._fault(f'{each.name} ({each.type}) is {each.state}: {one_line(each.reason)}')
         for motion in self.found.motions:
-            if not motion.is_fine:
-                said = [line for line in logged(sim.log) if motion.controller in line]
-                self._fault('; '.join([describe(motion), cause_of(motion), *said]))
+            if motion.is_fine:
+                continue
+            motion.said = '; '.join(explanations(motion, logged(sim.log)))
+            text = f'{describe(motion)}; {cause_of(motion)}'
+            if motion.said:
+                self.found.explained.append(f'{text}: {motion.said}')
+            else:
+                self._fault(text)
 
     def _move(self, sim: Simulation, robot: Robot, active: list[Active]) -> None:
         """Move what can be moved of the active controllers, the last of them."""
@@ -295,6 +301,22 @@ def cause_of(motion: Motion) -> str:
     if abs(odometry - asked) > TOLERANCE * asked:
         return 'by its odometry, too: a limit, or a wrong radius or separation'
     return 'not by its odometry: wheels slip, or roll otherwise than the parameters say'
+
+
+def explanations(motion: Motion, logged_lines: Sequence[str]) -> list[str]:
+    """
+    Return what was said of the controller of a motion that explains why it is off.
+
+    What turns a robot the other way does not keep it from going straight on.
+    """
+    named = re.compile(rf'(?<![\w/]){re.escape(motion.controller)}: ')
+    return [
+        line
+        for line in logged_lines
+        if line.startswith('WARN')
+        and named.search(line)
+        and (motion.what == 'turn' or not _OF_TURNS.search(line))
+    ]
 
 
 def without_path(found: Findings, path: str) -> Findings:

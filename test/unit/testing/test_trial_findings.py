@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is said of a robot that was tried: rows, verdict, JSON."""
 
+from dataclasses import replace
 import json
 import math
 
@@ -24,7 +25,7 @@ from amr_description.testing.trial.findings import (
     to_json,
 )
 from amr_description.testing.trial.moving import offset_of
-from amr_description.testing.trial.one_robot import cause_of, check_of
+from amr_description.testing.trial.one_robot import cause_of, check_of, explanations
 
 FOUND = Findings(
     'cart',
@@ -114,6 +115,23 @@ def test_a_check_that_fails_is_not_one_that_finds_errors(code, out, err, expecte
 def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
     motion = Motion('a', 'forward', 1.0, truth, odometry, is_fine=False)
     assert cause_of(motion).startswith(expected)
+
+
+def test_only_what_was_said_of_the_controller_explains_its_motion():
+    lines = [
+        'WARN: c.yaml:9: drive: left and right wheels are swapped: turns are inverted',
+        'WARN: c.yaml:9: drive: the wheel cannot roll: it slides',
+        'WARN: c.yaml:9: overdrive: the wheel cannot roll: it slides',
+        'ERROR: drive: no',
+        'WARN: thin',
+    ]
+    turn = Motion('drive', 'turn', 1.0, -1.0, 1.0, is_fine=False)
+    assert explanations(turn, lines) == lines[:2]
+    ahead = replace(turn, what='forward')
+    assert explanations(ahead, lines) == [lines[1]]
+    marked = replace(FOUND, motions=[replace(turn, said='x')], explained=['drive: x'])
+    assert row(marked)[5] == '~turn -100%'
+    assert '    explained: drive: x' in table([marked]).splitlines()
 
 
 def at(x, y, yaw):
