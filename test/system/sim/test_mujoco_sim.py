@@ -16,6 +16,7 @@ from simulation_interfaces.srv import GetEntityState, ResetSimulation, SpawnEnti
 from support.ros_processes import command, environment, PATIENCE, ROOT, run, running
 from support.running_programs import Program
 
+from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import call, wait_until
 from amr_description.sim.spawning import SpawnCode
 from amr_description.testing.program import own_domain
@@ -353,3 +354,16 @@ def test_a_stop_during_the_start_ends_it_too(library):
     finally:
         process.kill()
         process.wait()
+
+
+def test_create_fixes_the_root_in_the_air_where_that_is_asked(sim, node):
+    words = ('-string', URDF, '-name', 'amr', '-z', '0.5')
+    assert run('create', *words, '-fixed').returncode == 0
+    begin = nanoseconds(state(node, 'amr').state.header.stamp)
+
+    def later():
+        found = state(node, 'amr').state
+        return found if nanoseconds(found.header.stamp) - begin > 300_000_000 else None
+
+    found = wait_until(node, later, timeout=PATIENCE)
+    assert found.pose.position.z == 0.5
