@@ -91,7 +91,10 @@ CLAMP = FormerParameter('i_clamp', _clamp)
 
 
 def understand(
-    table: type, given: Mapping[str, Any], joints: Collection[str] = ()
+    table: type,
+    given: Mapping[str, Any],
+    joints: Collection[str] = (),
+    others: Collection[str] = (),
 ) -> Understanding:
     """
     Return how the parameters of a file or a command line are understood.
@@ -100,10 +103,11 @@ def understand(
         table: the parameters of the node.
         given: by dotted name; others than those of the table, too.
         joints: of the robot, if it is known.
+        others: the links, sensors and GPIOs of the robot.
     """
     found = Understanding({}, {}, set())
     given = dict(given)
-    variables = variables_as(given, joints)
+    variables = variables_as(given, joints, others)
     for name, value in given.items():
         if joints and has_variables(value):
             given[name] = found.values[name] = replaced_variables(value, variables)
@@ -148,9 +152,9 @@ def _adoption(spec: Spec, value: Any, adopted: Any) -> str:
 
 
 def _launched(name: str, value: Any, made: Any) -> str:
-    what = 'what a launch file puts in is not known: write the names of the joints'
+    what = 'what a launch file puts in is not known: write the names of the robot'
     if not has_variables(made):
-        what = f'taken as {_shown(made)}, which are joints of the robot'
+        what = f'taken as {_shown(made)}, which are names of the robot'
     return f"parameter '{name}' is {_shown(value)}, for a launch file to complete: {what}"
 
 

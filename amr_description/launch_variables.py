@@ -4,8 +4,8 @@
 ``$(var name)`` in parameter files: what a launch file would replace, before a node reads it.
 
 launch_ros does so for ``ParameterFile(…, allow_substs=True)``. Without that launch file, a
-variable in the names of joints is what makes them names of the robot, if there is only one such
-text.
+variable in the names of joints, links and sensors is what makes them names of the robot, if there
+is only one such text.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -15,26 +15,32 @@ from typing import Any
 _VARIABLE = re.compile(r'\$\(var\s+([^)\s]+)\s*\)')
 
 
-def variables_as(given: Mapping[str, Any], names: Collection[str]) -> dict[str, str]:
+def variables_as(
+    given: Mapping[str, Any], joints: Collection[str], others: Collection[str] = ()
+) -> dict[str, str]:
     """
-    Return the text of each variable with which all names that hold it are known ones.
+    Return the text of each variable with which the texts that hold it are names of the robot.
 
     Args:
         given: parameters, by dotted name.
-        names: those of the robot's joints.
+        joints: the names of the robot's joints.
+        others: those of its links, sensors and GPIOs, for texts that are names of no joints.
 
     Returns:
-        The text by variable; variables for which there is none, or more than one, are left out.
+        The text by variable, of a prefix perhaps empty; variables for which there is none, or more
+        than one, are left out.
     """
     templates: dict[str, list[str]] = {}
     for text in _texts(given):
         for variable in dict.fromkeys(_VARIABLE.findall(text)):
             templates.setdefault(variable, []).append(text)
-    found = {
-        variable: set.intersection(*(_fits(text, names) for text in texts))
-        for variable, texts in templates.items()
-    }
-    return {variable: fits.pop() for variable, fits in found.items() if len(fits) == 1}
+    found = {}
+    for variable, texts in templates.items():
+        fits = [_fits(text, joints) or _fits(text, others) for text in texts]
+        common = set.intersection(*(filter(None, fits))) if any(fits) else set()
+        if len(common) == 1 or '' in common:
+            found[variable] = min(common)
+    return found
 
 
 def replaced(value: Any, variables: Mapping[str, str]) -> Any:

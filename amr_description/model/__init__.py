@@ -29,7 +29,6 @@ module                   what it holds
 ``base_interfaces.py``   the interfaces of a simulated robot's body as a whole
 ``gazebo_physics.py``    <gazebo reference="…">: friction, springs, gravity, self-collision
 ``controller_files.py``  parameter files: which are a robot's, what controllers they have types for
-``parameter_substitutions.py``  … the values of ``$(var …)`` in them, which the robot tells
 ``findings.py``          Finding: severity, line, what, found, expected, fix
 ``xml_reader.py``        XML of unknown origin, and attributes with true line numbers
 

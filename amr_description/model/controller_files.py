@@ -16,7 +16,6 @@ from typing import Any
 from amr_description.ament_index import own_share, parameter_path
 from amr_description.errors import ResourceError
 from amr_description.model.gazebo import gazebo_plugins_of, ros2_control_host_of
-from amr_description.model.parameter_substitutions import substituted_file
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameter_files import dotted, flatten, read_parameter_file, Section, sections
@@ -76,11 +75,10 @@ def files_of(robot: Robot) -> list[Path]:
     """
     Return the files that a URDF names, else the shipped one, if that is for this robot.
 
-    The values of ``$(var …)`` are in them. The shipped one is for none without ``<ros2_control>``,
-    even if plugins of Gazebo drive it.
+    It is for none without ``<ros2_control>``, even if plugins of Gazebo drive it.
     """
     shipped = own_share() / 'config' / 'controllers.yaml'
-    found = [substituted_file(path, robot)[0] for path in existing_files(named_files(robot))]
+    found = existing_files(named_files(robot))
     is_for_it = hardware_of(robot) and not foreign_wheels(robot, shipped)
     return found or ([shipped] if is_for_it else [])
 

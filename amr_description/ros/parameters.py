@@ -76,11 +76,17 @@ def declare_missing(
             _declare(node, dataclasses.replace(spec, default=default))
 
 
-def adopt_overrides(node: Node, *tables: type, joints: Collection[str] = ()) -> list[str]:
+def adopt_overrides(
+    node: Node, *tables: type, joints: Collection[str] = (), others: Collection[str] = ()
+) -> list[str]:
     """
     Have what a node was given taken as it is meant, before the tables are declared.
 
-    ``joints``: of the robot, if it is known.
+    Args:
+        node: has the overrides.
+        *tables: of its parameters.
+        joints: of the robot, if it is known.
+        others: the links, sensors and GPIOs of the robot.
 
     Returns:
         One line for each parameter that is of an earlier release, or a number of another type.
@@ -89,7 +95,7 @@ def adopt_overrides(node: Node, *tables: type, joints: Collection[str] = ()) -> 
     lines: list[str] = []
     for table in tables:
         given = {name: each.value for name, each in overrides.items()}
-        found = understand(table, given, joints)
+        found = understand(table, given, joints, others)
         lines += found.texts.values()
         for name, value in found.values.items():
             set_parameter_override(node, Parameter(name, value=value))

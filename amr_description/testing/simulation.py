@@ -45,7 +45,6 @@ from amr_description.model.controller_files import files_of
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_translation import translate
-from amr_description.model.parameter_substitutions import substituted_file
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
 from amr_description.ros.discovery import use_whole_graph
@@ -201,7 +200,7 @@ class Simulation:
         """Return the parameter files that the simulator reads, by the same rule."""
         given = self._parameters['controllers']
         if given:
-            return [substituted_file(Path(given), self._robot_model)[0]]
+            return [Path(given)]
         return files_of(self._robot_model)
 
     def _spawn(self, name: str, pose: Transform) -> Robot:

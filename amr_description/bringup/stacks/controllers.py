@@ -108,7 +108,7 @@ def _plan(
         note = f'urdf:={urdf}: it has no <ros2_control>, and so no controller manager of its own'
         note += f'; controllers:={controllers} has no effect' if controllers else ''
         return ControllerPlan((), files=tuple(given), notes=(('INFO', note),))
-    files, notes = _given_files(given, robot) if given else _files_of(urdf, robot)
+    files, notes = (given, []) if given else _files_of(urdf, robot)
     own_namespace, manager = manager_of(robot)
     namespace = inside or own_namespace
     if plugins.controllers:
@@ -139,14 +139,6 @@ def _plan(
         tuple(notes),
         plugins.twist_topic(namespace),
     )
-
-
-def _given_files(given: Sequence[Path], robot: 'Robot') -> tuple[list[Path], list[Note]]:
-    """Return the files that are given with the values of their variables, and what these are."""
-    from amr_description.model.parameter_substitutions import substituted_file
-
-    found = [substituted_file(path, robot) for path in given]
-    return [path for path, _ in found], [('INFO', what) for _, what in found if what]
 
 
 def _files_of(urdf: str, robot: 'Robot') -> tuple[list[Path], list[Note]]:

@@ -40,6 +40,7 @@ from amr_description.control.ros.port_servers import (
 )
 from amr_description.errors import AmrError
 from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
@@ -116,8 +117,7 @@ class ControllerNode:
             self._table = controller_class.parameters_type
             self.log = context.logs.log_of(self.node.get_logger())
             self.publish_transition = TransitionEvents(self.node)
-            joints = () if robot is None else [joint.name for joint in robot.joints]
-            common = self._declare(update_rate, joints)
+            common = self._declare(update_rate, *_names_of(robot))
             self.controller = controller_class(
                 ControllerContext(
                     name=name,
@@ -175,9 +175,13 @@ class ControllerNode:
 
     # --- parameters ---------------------------------------------------------------------------
 
-    def _declare(self, manager_rate: int, joints: Sequence[str]) -> CommonParameters:
+    def _declare(
+        self, manager_rate: int, joints: Sequence[str], others: Sequence[str]
+    ) -> CommonParameters:
         """Declare both tables; what is set later counts at the next configure."""
-        for line in adopt_overrides(self.node, self._table, CommonParameters, joints=joints):
+        for line in adopt_overrides(
+            self.node, self._table, CommonParameters, joints=joints, others=others
+        ):
             self.log(Severity.WARN, line)
         declare(self.node, self._table)
         common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})
@@ -313,6 +317,15 @@ def _end_of(transition: Transition, *, succeeded: bool) -> Transition:
     if succeeded:
         return Transition(id=number, label='transition_success')
     return Transition(id=number + 1, label='transition_failure')
+
+
+def _names_of(robot: Robot | None) -> tuple[list[str], list[str]]:
+    """Return the joints of a robot, and its links, sensors and GPIOs: what parameters may name."""
+    if robot is None:
+        return [], []
+    parts = [part.name for info in hardware_of(robot) for part in (*info.sensors, *info.gpios)]
+    joints = [joint.name for joint in robot.joints]
+    return joints, [link.name for link in robot.links] + parts
 
 
 def node_name(component: str) -> str:

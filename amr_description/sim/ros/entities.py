@@ -10,7 +10,6 @@ namespace.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 import enum
-import math
 from pathlib import Path
 
 from rclpy.executors import Executor
@@ -35,7 +34,6 @@ from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
-from amr_description.model.parameter_substitutions import substituted_file
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers
 from amr_description.model.ros2_control_tag import hardware_of
@@ -342,7 +340,7 @@ class EntityManager:
 
     def _parameter_files(self, robot: Robot) -> Sequence[str]:
         """Return ``--params-file`` arguments: of the parameter, else the URDF, else shipped."""
-        paths = [self._given_file(robot)] if self._controllers else self._files_of(robot)
+        paths = [self._controllers] if self._controllers else self._files_of(robot)
         for path in paths:
             read_parameter_file(Path(path))  # its errors have a line number, rcl's have none
         for finding in drive_warnings(robot, paths):
@@ -351,15 +349,8 @@ class EntityManager:
 
     def _rollers_of(self, robot: Robot) -> dict[str, Rollers]:
         """Return the rollers of wheels of which only the parameters of a controller tell."""
-        paths = [self._given_file(robot)] if self._controllers else files_of(robot)
+        paths = [self._controllers] if self._controllers else files_of(robot)
         return rollers_of_controllers(robot, [str(path) for path in paths])
-
-    def _given_file(self, robot: Robot) -> str:
-        """Return the parameter file of the simulator, with the values that this robot tells."""
-        path, what = substituted_file(Path(self._controllers), robot)
-        if what:
-            self._log(Severity.INFO, what, throttle=math.inf)
-        return str(path)
 
     def _files_of(self, robot: Robot) -> list[str]:
         """Return the parameter files of a robot for which none is given; say if it has none."""

@@ -154,9 +154,24 @@ def test_a_variable_of_a_launch_file_is_what_makes_names_of_joints_of_it():
     assert found.values == {'joints': ['arm_1', 'arm_2']}
     assert list(found.texts.values()) == [
         "parameter 'joints' is ['$(var prefix)1', '$(var prefix)2'], for a launch file to "
-        "complete: taken as ['arm_1', 'arm_2'], which are joints of the robot"
+        "complete: taken as ['arm_1', 'arm_2'], which are names of the robot"
     ]
     assert understand(ForwardCommandParameters, given).texts == {}
+
+
+@pytest.mark.parametrize(
+    ('texts', 'made'),
+    [
+        (['$(var p)tool0', '$(var p)map'], ['tool0', 'map']),
+        (['$(var p)arm_1', '$(var p)tool0'], ['arm_1', 'tool0']),
+        (['$(var p)1'], ['arm_1']),
+    ],
+)
+def test_links_and_sensors_count_where_no_joint_is_meant(texts, made):
+    """Links that a variable would make of it, too, are not meant where joints are."""
+    others = ['tool0', 'left_tool0', 'link_1']
+    found = understand(ForwardCommandParameters, {'joints': texts}, ['arm_1'], others)
+    assert found.values == {'joints': made}
 
 
 @pytest.mark.parametrize('joints', [['$(var side)_1'], ['$(var a)_$(var b)'], ['$(var x)3']])
@@ -164,4 +179,4 @@ def test_a_variable_that_may_be_several_texts_or_none_is_left(joints):
     found = understand(ForwardCommandParameters, {'joints': joints}, ['arm_1', 'hand_1'])
     assert found.values == {'joints': joints}
     (text,) = found.texts.values()
-    assert 'what a launch file puts in is not known: write the names of the joints' in text
+    assert 'what a launch file puts in is not known: write the names of the robot' in text

@@ -13,10 +13,6 @@ from amr_description.model.controller_files import (
     spawner_words,
 )
 from amr_description.model.fixing import fixed_to_world
-from amr_description.model.parameter_substitutions import (
-    substituted_file,
-    values_of_variables,
-)
 from amr_description.model.robot import WORLD_LINK
 from amr_description.model.urdf import parse
 
@@ -132,44 +128,3 @@ def test_a_robot_is_fixed_by_a_link_world():
     assert fixed_to_world(fixed) == fixed
     taken = fixed.replace(f'"{WORLD_LINK}"', '"table"')
     assert parse(fixed_to_world(taken)).joint('fixed_to_world_').child == 'table'
-
-
-@pytest.mark.parametrize(
-    ('text', 'values'),
-    [
-        ('a: [$(var p)1, $(var p)2]', {'p': 'joint'}),
-        ('a: $(var p)joint1', {'p': ''}),
-        ('a: {b: [{c: $(var p)tool}]}', {'p': 'left_'}),
-        ('a: joint$(var p)', {}),
-        ('a: $(var p)_$(var q)\nb: $(var p)_gripper', {'p': 'left'}),
-        ('a: $(var p)$(var p)', {}),
-        ('a: $(var p)', {}),
-        ('a: $(var p)nowhere', {}),
-        ('a: [$(var p)1', {}),
-    ],
-)
-def test_the_values_of_variables_are_those_with_which_texts_are_names(text, values):
-    joints = ['joint1', 'joint2', 'left_tool', 'left_gripper']
-    assert values_of_variables(text, joints, ['link1', 'link2']) == values
-
-
-def test_a_file_with_variables_is_used_as_a_copy(tmp_path, monkeypatch):
-    monkeypatch.setenv('ROS_HOME', str(tmp_path / 'home'))
-    path = tmp_path / 'cart.yaml'
-    path.write_text(
-        'a: {ros__parameters: {joints: [$(var side)_joint, $(var side)_wheel], x: $(var other)}}'
-    )
-    robot = parse(CART.replace('right_joint', 'l_joint').replace('lift_joint', 'up'))
-    copy, what = substituted_file(path, robot)
-    assert copy.parent == tmp_path / 'home/parameters'
-    assert copy.read_text() == path.read_text().replace('$(var side)', 'left')
-    assert what == (
-        f'{path} is used with its substitutions made: $(var side) is "left", by the names of the '
-        f'robot: {copy}'
-    )
-    assert substituted_file(copy, robot) == (copy, '')
-    path.write_text('a: {ros__parameters: {joints: [$(var prefix)lift_joint]}}')
-    (copy,) = files_of(hosted(f'<parameters>{path}</parameters>'))
-    assert copy.read_text() == 'a: {ros__parameters: {joints: [lift_joint]}}'
-    path.write_text('a: {ros__parameters: {joints: [left_joint]}}')
-    assert substituted_file(path, robot) == (path, '')
