@@ -124,12 +124,13 @@ class Drive:
         full = command[axis]
         reached = self._start(command, axis)
         if reached < _SLOWEST:
-            truth, odometry = (
-                None if each is None else _speed_of(each, axis) for each in self._readings()
+            speeds = ', '.join(
+                f'{name} {_speed_of(reading, axis):.3f}'
+                for name, reading in zip(('truth', 'odometry'), self._readings(), strict=True)
+                if reading is not None
             )
             self._stop()
-            found = 'none' if odometry is None else f'{odometry:.3f}'
-            note = f'commanded {full:g}, it does not move: truth {truth:.3f}, odometry {found}'
+            note = f'commanded {full:g}, it does not move: {speeds}'
             return self._motion(what, far, 0.0, None, note)
         note = ''
         if reached < _NOWHERE_NEAR * full:
