@@ -207,7 +207,9 @@ def in_order_of_chains(
     """Return names so that each comes after those whose interfaces it needs, else as they are."""
 
     def needs(name: str) -> set[str]:
-        state = controllers[name]
+        state = controllers.get(name)
+        if state is None:  # somebody has unloaded it: its activation will say so
+            return set()
         interfaces = (*state.required_command_interfaces, *state.required_state_interfaces)
         return {interface.partition('/')[0] for interface in interfaces} & {*names} - {name}
 
@@ -224,7 +226,8 @@ def claimed_by_others(
     name: str, controllers: Mapping[str, ControllerState]
 ) -> tuple[str, list[str]]:
     """Return who has claimed command interfaces that a controller needs, and which; '': nobody."""
-    wanted = controllers[name].required_command_interfaces
+    state = controllers.get(name)  # None: somebody has unloaded it
+    wanted = state.required_command_interfaces if state else ()
     for other in controllers.values():
         common = [each for each in wanted if each in other.claimed_interfaces]
         if other.name != name and common:

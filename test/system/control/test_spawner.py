@@ -13,7 +13,7 @@ from support.manager_host import ros_in_this_process, running_host
 from support.ros_processes import command, environment, PATIENCE, run
 from support.running_programs import Program
 
-from amr_description.control.ros.spawner import in_order_of_chains, Spawner
+from amr_description.control.ros.spawner import claimed_by_others, in_order_of_chains, Spawner
 from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.ros.service_calls import call, NoAnswerError
@@ -280,6 +280,11 @@ def test_controllers_are_activated_after_those_that_they_are_chained_to():
     }
     ordered = in_order_of_chains(list(given), given)
     assert ordered == ['left', 'right', 'drive', 'filter', 'ring_a', 'ring_b']
+
+
+def test_a_controller_that_somebody_has_unloaded_needs_and_claims_nothing():
+    assert in_order_of_chains(['gone'], {}) == ['gone']
+    assert claimed_by_others('gone', {}) == ('', [])
 
 
 def test_two_spawners_of_one_controller_take_turns(host):
