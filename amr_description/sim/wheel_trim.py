@@ -15,20 +15,21 @@ and the wheels slip by 10 %; so it gets the contact of a wheel too.
 """
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 import hashlib
 import math
 
 import mujoco
 import numpy as np
 
-from amr_description.control.contracts import null_log
+from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.sim.engine import compiler_warnings
 from amr_description.sim.faults import collect_mujoco_warnings
 from amr_description.sim.gazebo_physics import wheel_geom_name
 from amr_description.sim.robot_spec import RobotSpec
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
 from amr_description.sim.world_file import apply_settings, WorldSettings
+from amr_description.text import quote_all
 
 type Contacts = Mapping[str, ContactSettings]
 """Name of a geom → its contact with static surfaces."""
@@ -41,7 +42,21 @@ _STEP = 0.002
 _STILL = 0.01
 """m/s and rad/s; a robot that moves faster is not at rest, and its heights are not used."""
 
-_KNOWN: dict[tuple[bytes, bytes, bytes], Mapping[str, float]] = {}
+_HOLDS = 0.9
+"""The share of what the wheels can pull from which on they slip."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """How a geom rests on flat ground."""
+
+    height: float
+    """Above the ground, m."""
+    load: float
+    """N."""
+
+
+_KNOWN: dict[tuple[bytes, bytes, bytes], Mapping[str, Rest]] = {}
 """
 How robots have settled in this process, by all that it follows from: the compiled model, and the
 positions and commands at the start. The same robot in another world need not settle again.
@@ -49,7 +64,9 @@ positions and commands at the start. The same robot in another world need not se
 _MOST_KNOWN = 100
 
 
-def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float) -> Contacts:
+def trimmed_contacts(
+    model: RobotSpec, settings: ContactSettings, gravity: float, log: Log = null_log
+) -> Contacts:
     """
     Return the contact of each wheel, and of each caster on which the robot rests.
 
@@ -58,6 +75,7 @@ def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float
         settings: The contact whose margin is trimmed; a wheel that does not come to rest on the
             ground keeps it as it is.
         gravity: m/s².
+        log: Gets a warning if what slides holds the robot as hard as its wheels can pull.
 
     Raises:
         ValueError: MuJoCo's.
@@ -66,10 +84,40 @@ def trimmed_contacts(model: RobotSpec, settings: ContactSettings, gravity: float
         geom: _settings_of(geom, model, settings)
         for geom in (wheel_geom_name(wheel.link) for wheel in model.wheels)
     }
-    for geom, height in _rest_heights(model, settings, gravity).items():
+    rests = _rests(model, settings, gravity)
+    for geom, rest in rests.items():
         contact = _settings_of(geom, model, settings)
-        contacts[geom] = replace(contact, margin=max(0.0, settings.margin - height))
+        contacts[geom] = replace(contact, margin=max(0.0, settings.margin - rest.height))
+    held = held_by(model, rests)
+    if held:
+        log(Severity.WARN, held)
     return contacts
+
+
+def held_by(model: RobotSpec, rests: Mapping[str, Rest]) -> str:
+    """
+    Return a line if what slides on the ground holds a robot about as hard as its wheels can pull.
+
+    By Coulomb, on ground as rough as the default of links: the sum of friction times load over
+    what slides, and over the driven wheels. Empty: the wheels can pull it.
+    """
+    driven = {wheel_geom_name(w.link) for w in model.wheels if model.commands.get(w.joint)}
+    sliding = {geom: rest.load for geom, rest in rests.items() if geom in model.casters}
+
+    def force(loads: Mapping[str, float]) -> float:
+        own = model.frictions
+        return math.fsum(min(1.0, own.get(geom, 1.0)) * load for geom, load in loads.items())
+
+    pull = force({geom: rest.load for geom, rest in rests.items() if geom in driven})
+    drag = force(sliding)
+    if not driven or not sliding or drag < _HOLDS * pull:
+        return ''
+    links = list(dict.fromkeys(geom.rpartition('/')[0] for geom in sliding))
+    return (
+        f'{quote_all(links)} slide on the ground and hold the robot with {drag:.3g} N, its wheels '
+        f'pull with {pull:.3g} N at most: they slip; as a ball that rolls, write <gazebo '
+        f'reference="{links[0]}"><mu1>0.01</mu1></gazebo>'
+    )
 
 
 def _settings_of(geom: str, model: RobotSpec, settings: ContactSettings) -> ContactSettings:
@@ -82,10 +130,8 @@ def _with_friction_of(geom: str, model: RobotSpec, settings: ContactSettings) ->
     return replace(settings, sliding_friction=model.frictions.get(geom, math.inf))
 
 
-def _rest_heights(
-    model: RobotSpec, settings: ContactSettings, gravity: float
-) -> Mapping[str, float]:
-    """Return the heights above the ground of the wheels and casters that rest on it, m."""
+def _rests(model: RobotSpec, settings: ContactSettings, gravity: float) -> Mapping[str, Rest]:
+    """Return how the wheels and casters rest that are on the ground."""
     if not model.wheels or model.free_joint is None:
         return {}
     spec = mujoco.MjSpec()
@@ -104,32 +150,39 @@ def _rest_heights(
         compiled = spec.compile()
     data = mujoco.MjData(compiled)
     _place_on_ground(compiled, data, model)
-    depths = _depths(compiled, data)
-    return {geom: depths[f'robot/{geom}'] for geom in geoms if f'robot/{geom}' in depths}
+    rests = _known_rests(compiled, data)
+    return {geom: rests[f'robot/{geom}'] for geom in geoms if f'robot/{geom}' in rests}
 
 
-def _depths(compiled: mujoco.MjModel, data: mujoco.MjData) -> Mapping[str, float]:
-    """Return the heights of the geoms that touch the ground at rest, m; none: no rest."""
+def _known_rests(compiled: mujoco.MjModel, data: mujoco.MjData) -> Mapping[str, Rest]:
+    """Return the geoms that touch the ground at rest; none: no rest."""
     packed = np.empty(mujoco.mj_sizeModel(compiled), np.uint8)
     mujoco.mj_saveModel(compiled, None, packed)
     start = (hashlib.sha256(packed).digest(), data.qpos.tobytes(), data.ctrl.tobytes())
-    depths = _KNOWN.get(start)
-    if depths is None:
+    rests = _KNOWN.get(start)
+    if rests is None:
         if len(_KNOWN) >= _MOST_KNOWN:
             _KNOWN.clear()
-        depths = _KNOWN[start] = _settle(compiled, data)
-    return depths
+        rests = _KNOWN[start] = _settle(compiled, data)
+    return rests
 
 
-def _settle(compiled: mujoco.MjModel, data: mujoco.MjData) -> Mapping[str, float]:
+def _settle(compiled: mujoco.MjModel, data: mujoco.MjData) -> Mapping[str, Rest]:
     # Faults here will occur in the world too and be logged then.
     mujoco.set_mju_user_warning(lambda text: None)
     mujoco.mj_step(compiled, data, _STEPS)
     collect_mujoco_warnings()
     if not np.abs(data.qvel).max() < _STILL:
         return {}
+    rests: dict[str, Rest] = {}
+    force = np.empty(6)
     contacts = zip(data.contact.geom.tolist(), data.contact.dist.tolist(), strict=True)
-    return {compiled.geom(max(geoms)).name: height for geoms, height in contacts}
+    for contact, (geoms, height) in enumerate(contacts):
+        mujoco.mj_contactForce(compiled, data, contact, force)
+        name = compiled.geom(max(geoms)).name
+        before = rests[name].load if name in rests else 0.0
+        rests[name] = Rest(height, before + float(force[0]))
+    return rests
 
 
 def _place_on_ground(compiled: mujoco.MjModel, data: mujoco.MjData, model: RobotSpec) -> None:

@@ -238,7 +238,11 @@ class MujocoWorld:
         key = robot.text, tuple(model.rollers.values())
         if key not in self._contacts:
             gravity = float(np.linalg.norm(self.engine.spec.option.gravity))
-            self._contacts[key] = trimmed_contacts(model, self._contact, gravity)
+
+            def log(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+                self._log(severity, f'{robot.source}: {text}', throttle=throttle)
+
+            self._contacts[key] = trimmed_contacts(model, self._contact, gravity, log)
         return self._contacts[key]
 
     def _add_rollers(self, name: str, model: RobotSpec) -> None:

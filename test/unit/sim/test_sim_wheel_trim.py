@@ -148,6 +148,28 @@ def test_a_robot_that_does_not_stand_on_wheels_keeps_its_contacts():
     assert set(settings.values()) == {WHEEL_CONTACT}
 
 
+def warnings_about(urdf):
+    log = Lines()
+    trimmed_contacts(
+        build_robot(read_description(urdf, 'robot'), null_log), WHEEL_CONTACT, 9.81, log
+    )
+    return log.text
+
+
+def test_a_caster_that_slides_and_bears_more_than_the_wheels_is_told():
+    """By Coulomb they cannot pull it; loads by the moments about the axle."""
+    assert warnings_about(TWO_WHEELS) == ''
+    assert warnings_about(AMR) == ''
+    back = TWO_WHEELS.replace('<mass value="4"/>', '<origin xyz="-0.08 0 0"/><mass value="4"/>')
+    load = 9.81 * (4 * 0.1 + 0.1 * 0.14) / 0.14
+    told = warnings_about(back)
+    assert told.startswith('WARN "caster" slide on the ground and hold the robot with ')
+    drag, pull = map(float, re.findall(r'with ([\d.]+) N', told))
+    assert (drag, pull) == pytest.approx((load, 9.81 * 4.7 - load), rel=0.01)
+    rolls = '<gazebo reference="caster"><mu1>0.01</mu1></gazebo></robot>'
+    assert warnings_about(back.replace('</robot>', rolls)) == ''
+
+
 def test_the_same_robot_settles_once_and_any_other_anew(monkeypatch):
     monkeypatch.setattr(wheel_trim, '_KNOWN', {})
     settled = []
