@@ -101,6 +101,11 @@ class MujocoSystem(HardwareComponent):
         sensors = sensors_of(self.info, world, self.log)
         self._sensors = sensors.instruments
         self._gpios = [MockPart(gpio) for gpio in self.info.gpios]
+        # One list, as most robots have neither: a second loop would cost each cycle 1 %.
+        self._updates = [
+            *(sensor.read for sensor in self._sensors),
+            *(_follower(gpio) for gpio in self._gpios),
+        ]
         self._states += sensors.states
         self._states += [state for gpio in self._gpios for state in gpio.states.values()]
         if self.info.type is not HardwareType.SENSOR:
@@ -208,10 +213,8 @@ class MujocoSystem(HardwareComponent):
         for states, read in self._sources:
             for state, value in zip(states, read(), strict=True):
                 state.value = value
-        for sensor in self._sensors:
-            sensor.read(period / NANOSECONDS)
-        for gpio in self._gpios:
-            gpio.follow()
+        for update in self._updates:
+            update(period / NANOSECONDS)
 
     def write(self, time: int, period: int) -> None:
         """Command the joints; NaN keeps the previous command."""
@@ -368,6 +371,11 @@ class _CommandedGroup:
     def targets(self) -> Iterable[tuple[str, float]]:
         """Return the command in force, by name."""
         return zip((command.name for command in self._commands), self._targets, strict=True)
+
+
+def _follower(gpio: MockPart) -> Callable[[float], None]:
+    """Return what lets the states of a GPIO follow its commands."""
+    return lambda period: gpio.follow()
 
 
 def _reader(group: JointGroup, quantity: str) -> Callable[[], list[float]]:
