@@ -101,7 +101,9 @@ def held_by(model: RobotSpec, rests: Mapping[str, Rest]) -> str:
     By Coulomb, on ground as rough as the default of links: the sum of friction times load over
     what slides, and over the driven wheels. Empty: the wheels can pull it.
     """
-    driven = {wheel_geom_name(w.link) for w in model.wheels if model.commands.get(w.joint)}
+    moved = {joint for joint, names in model.commands.items() if names}
+    moved |= {each.name1 for each in model.spec.equalities if each.name2 in moved}  # mimics
+    driven = {wheel_geom_name(wheel.link) for wheel in model.wheels if wheel.joint in moved}
     sliding = {geom: rest.load for geom, rest in rests.items() if geom in model.casters}
 
     def force(loads: Mapping[str, float]) -> float:
