@@ -61,7 +61,8 @@ _DRIVE_PLUGIN = re.compile(
     r'<plugin\b[^>]*\b(?:filename|name)="([^"]*(?:drive|Drive|steering|Steering|planar_move)[^"]*)"'
 )
 """A plugin of Gazebo that drives."""
-_OF_TURNS = re.compile(r'swapped|inverted|steer to the left|in the order|turn the robot')
+_OF_TURNS = re.compile(r'swapped|inverted|steer to the left|in the order|turn the robot|scrub')
+_OF_SLIP = re.compile(r'they slip|scrub')
 _STRAIGHT_UP = (0.0, 0.0, 1.0)
 
 
@@ -305,7 +306,7 @@ def cause_of(motion: Motion) -> str:
 
 def explanations(motion: Motion, logged_lines: Sequence[str]) -> list[str]:
     """
-    Return what was said of the controller of a motion that explains why it is off.
+    Return what was said of the controller of a motion, or of slip, that explains why it is off.
 
     What turns a robot the other way does not keep it from going straight on.
     """
@@ -314,7 +315,7 @@ def explanations(motion: Motion, logged_lines: Sequence[str]) -> list[str]:
         line
         for line in logged_lines
         if line.startswith('WARN')
-        and named.search(line)
+        and (named.search(line) or _OF_SLIP.search(line))
         and (motion.what == 'turn' or not _OF_TURNS.search(line))
     ]
 

@@ -124,11 +124,12 @@ def test_only_what_was_said_of_the_controller_explains_its_motion():
         'WARN: c.yaml:9: overdrive: the wheel cannot roll: it slides',
         'ERROR: drive: no',
         'WARN: thin',
+        'WARN: cart.urdf: "caster" slides and holds the robot: its wheels pull less: they slip',
     ]
     turn = Motion('drive', 'turn', 1.0, -1.0, 1.0, is_fine=False)
-    assert explanations(turn, lines) == lines[:2]
+    assert explanations(turn, lines) == [*lines[:2], lines[-1]]
     ahead = replace(turn, what='forward')
-    assert explanations(ahead, lines) == [lines[1]]
+    assert explanations(ahead, lines) == [lines[1], lines[-1]]
     marked = replace(FOUND, motions=[replace(turn, said='x')], explained=['drive: x'])
     assert row(marked)[5] == '~turn -100%'
     assert '    explained: drive: x' in table([marked]).splitlines()
