@@ -16,7 +16,6 @@ from pathlib import Path
 from lxml import etree
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from amr_description.ament_index import resolve_uri
 from amr_description.control.contracts import Log, Severity
@@ -93,15 +92,16 @@ def insert_meshes(spec: mujoco.MjSpec, meshes: Meshes) -> None:
         triangles = meshes.get(mesh.file)
         if triangles is None:
             continue
+        triangles = _with_shared_corners(triangles)
         if f'/{_TOUCHED},' in mesh.file:
             triangles = thickened(triangles)
         # It weighs nothing, and needs no volume so.
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         mesh.file = ''
-        vertices, faces = _shared_corners(triangles)
+        vertices = triangles.vertices.astype(np.float32)
         lacking = max(0, _FEWEST_VERTICES - len(vertices))
         mesh.uservert = np.vstack((vertices, *vertices[:1].repeat(lacking, axis=0))).reshape(-1)
-        mesh.userface = faces.astype(np.int32).reshape(-1)
+        mesh.userface = triangles.faces.astype(np.int32).reshape(-1)
 
 
 def thickened(mesh: TriangleMesh) -> TriangleMesh:
@@ -113,7 +113,8 @@ def thickened(mesh: TriangleMesh) -> TriangleMesh:
     """
     used = mesh.vertices[np.unique(mesh.faces)]
     middle = used.mean(axis=0)
-    _, _, axes = np.linalg.svd(used - middle, full_matrices=len(used) < len(middle))
+    _, columns = np.linalg.eigh((used - middle).T @ (used - middle))
+    axes = columns.T
     along = (used - middle) @ axes.T
     extents = np.ptp(along, axis=0)
     is_thin = extents < max(_FLAT, _FLAT * float(extents.max()))
@@ -128,14 +129,14 @@ def thickened(mesh: TriangleMesh) -> TriangleMesh:
     return TriangleMesh((low + _CORNERS * (high - low)) @ axes + middle, _SIDES)
 
 
-def _shared_corners(mesh: TriangleMesh) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
-    """Return vertices and faces; STL has each corner as often as it has triangles there."""
-    vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float32)
-    if len(vertices) < 3 * len(mesh.faces):
-        return vertices, mesh.faces
-    rows = vertices.view([('x', 'f4'), ('y', 'f4'), ('z', 'f4')]).reshape(-1)
-    _, first, corner = np.unique(rows, return_index=True, return_inverse=True)
-    return vertices[first], corner[mesh.faces]
+def _with_shared_corners(mesh: TriangleMesh) -> TriangleMesh:
+    """Return a mesh whose triangles share corners; STL gives each its own."""
+    if len(mesh.vertices) < 3 * len(mesh.faces):
+        return mesh
+    rows = np.ascontiguousarray(mesh.vertices, dtype=np.float32)
+    keys = rows.view([('x', 'f4'), ('y', 'f4'), ('z', 'f4')]).reshape(-1)
+    _, first, corner = np.unique(keys, return_index=True, return_inverse=True)
+    return TriangleMesh(mesh.vertices[first], corner[mesh.faces])
 
 
 def _is_without_size(part: etree._Element) -> bool:

@@ -20,7 +20,7 @@ from amr_description.model.xml_reader import line_of
 from amr_description.text import closest_match, one_line, quote, quote_all
 
 _SHARE = re.compile(r'/share/[^/]+/')
-_ABSOLUTE = re.compile(r'(?:file://)?/|file:/|~|[A-Za-z]:[\\/]')
+_ABSOLUTE = re.compile(r'(?:file://)?/|file:/(?!/)|~|[A-Za-z]:[\\/]')
 _XACRO = ('http://www.ros.org/wiki/xacro', 'http://ros.org/wiki/xacro')
 # Elements that only set values; some expanded files keep a few.
 _MAKES_NOTHING = ('arg', 'property')

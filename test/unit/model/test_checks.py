@@ -489,3 +489,18 @@ def test_a_joint_that_a_spring_moves_may_have_no_effort():
     spring = '<gazebo reference="a_b"><springStiffness>9</springStiffness></gazebo>'
     assert any('leaves nothing' in line for line in findings(robot_text(text)))
     assert not any('leaves nothing' in line for line in findings(robot_text(text + spring)))
+
+
+@pytest.mark.parametrize(
+    ('path', 'is_told'),
+    [
+        ('file://meshes/a.stl', False),
+        ('file:///home/me/a.stl', True),
+        ('file:/home/me/a.stl', True),
+    ],
+)
+def test_a_relative_file_uri_is_no_path_of_this_machine(path, is_told):
+    part = f'<visual><geometry><mesh filename="{path}"/></geometry></visual>'
+    text = robot_text(f'<link name="a">{SOLID}{part}</link>')
+    found = checks.examine(text, 'f', CheckInputs(file_exists=lambda uri: True)).findings
+    assert any('this machine only' in str(each) for each in found) == is_told

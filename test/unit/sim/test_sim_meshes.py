@@ -38,11 +38,11 @@ def urdf(name, visual=None, scale='1 1 1'):
 </link></robot>"""
 
 
-def spawned(folder, text, log=None):
+def spawned(folder, text, log=None, height=0.25):
     source = write(folder / 'crate.urdf', text)
     world = MujocoWorld('empty', log=log or Lines())
     robot = read_description(text, str(source))
-    world.spawn('crate', robot, Transform((0.0, 0.0, 0.25)))
+    world.spawn('crate', robot, Transform((0.0, 0.0, height)))
     return world
 
 
@@ -94,6 +94,34 @@ def test_a_robot_of_meshes_may_go_and_come_again(tmp_path):
     assert world.engine.model.nmesh == 0
     world.spawn('crate', urdf(str(tmp_path / 'a.obj')), Transform((0.0, 0.0, 0.25)))
     assert world.engine.model.nmesh == count > 0
+
+
+@pytest.mark.parametrize('name', ['metres.dae', 'binary.stl', 'a.obj'])
+def test_a_mirrored_mesh_stands_on_its_other_end(tmp_path, name):
+    write(tmp_path / name, CRATES[name])
+    mirrored = urdf(name, scale='1 -1 -1').replace('0 0 0.1', '0 0 -0.1')
+    world = spawned(tmp_path, mirrored, height=0.45)
+    world.step(1000)
+    assert world.robot('crate').pose('base_link').translation[2] == pytest.approx(0.4, abs=1e-3)
+
+
+def test_names_in_any_script_are_names(tmp_path):
+    folder = tmp_path / 'möbel'
+    folder.mkdir()
+    write(folder / 'größe ж.stl', CRATES['binary.stl'])
+    text = urdf('möbel/größe ж.stl').replace('base_link', 'короб')
+    world = spawned(tmp_path, text)
+    world.step(1000)
+    assert world.robot('crate').pose('короб').translation[2] == pytest.approx(0.2, abs=1e-3)
+
+
+def test_meshes_of_one_name_in_two_folders_are_two(tmp_path):
+    for folder, corners in (('seen', BOX), ('touched', box((0.2, 0.2, 0.2)))):
+        (tmp_path / folder).mkdir()
+        write(tmp_path / folder / 'base.stl', binary_stl(corners))
+    world = spawned(tmp_path, urdf('touched/base.stl', 'seen/base.stl'))
+    world.step(1000)
+    assert world.robot('crate').pose('base_link').translation[2] == pytest.approx(0.1, abs=1e-3)
 
 
 def prepared(folder, text):
