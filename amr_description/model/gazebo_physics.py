@@ -19,7 +19,7 @@ from amr_description.model.frames import Vector
 from amr_description.model.origins import place_in
 from amr_description.model.robot import Robot
 from amr_description.model.xml_reader import line_of, parse_number, parse_xml
-from amr_description.text import quote, truth
+from amr_description.text import quote, quote_all, truth
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,18 +63,26 @@ class GazeboPhysics:
     """One line about settings of Gazebo's solver, which has no counterpart; empty: none."""
     unknown: str = ''
     """One line about elements that are not known here; empty: none."""
+    slip: str = ''
+    """One line about links that Gazebo lets slip in proportion to the force; empty: none."""
 
 
 _MU1 = ('mu1', 'mu', 'collision/surface/friction/ode/mu')
 _MU2 = ('mu2', 'collision/surface/friction/ode/mu2')
 _FDIR1 = ('fdir1', 'collision/surface/friction/ode/fdir1')
+_SLIP = tuple(f'{path}slip{n}' for path in ('', 'collision/surface/friction/ode/') for n in (1, 2))
 _SELF_COLLIDE = ('selfCollide', 'self_collide')
 _SOLVER = frozenset(
     ('kp', 'kd', 'maxVel', 'max_vel', 'minDepth', 'min_depth', 'maxContacts', 'max_contacts')
     + ('stopCfm', 'stopErp', 'stopKp', 'stopKd', 'fudgeFactor', 'cfmDamping', 'dampingFactor')
     + ('velocity_decay', 'physics', 'soft_cfm', 'soft_erp', 'dampingThreshold')
 )
-_READ = frozenset((*_MU1, *_MU2, *_FDIR1, *_SELF_COLLIDE, 'gravity', 'turnGravityOff'))
+_READ = frozenset((*_MU1, *_MU2, *_FDIR1, *_SLIP, *_SELF_COLLIDE, 'gravity', 'turnGravityOff'))
+SCRUBBING = (
+    'so wheels one behind the other scrub in a turn, and the robot turns less than in Gazebo, and '
+    'less than its odometry says'
+)
+"""What follows where Gazebo's slip of wheels, in proportion to the force, is not simulated."""
 _READ_OF_JOINTS = frozenset(('springStiffness', 'springReference'))
 # Colours, what is read elsewhere, and what is so here anyway: fixed joints keep their links.
 _OTHERS = frozenset(
@@ -103,6 +111,7 @@ class _Reader:
         self._joints: dict[str, GazeboJoint] = {}
         self._faults: list[str] = []
         self._self_collides = False
+        self._slipping: list[str] = []
         self._solver: dict[str, int] = {}
         self._unknown: dict[str, int] = {}
 
@@ -131,7 +140,14 @@ class _Reader:
                 "set contacts and stops of Gazebo's solver; this one has its own",
             ),
             unknown=self._line(self._unknown, 'are not known here, and are left out'),
+            slip=self._slip_line(),
         )
+
+    def _slip_line(self) -> str:
+        if not self._slipping:
+            return ''
+        links = quote_all(self._slipping)
+        return f'{self._robot.source}: <slip1>, <slip2> of {links} are not simulated; {SCRUBBING}'
 
     def _line(self, counts: Mapping[str, int], what: str) -> str:
         if not counts:
@@ -157,6 +173,9 @@ class _Reader:
             values['has_gravity'] = not self._truth(
                 block, ('turnGravityOff',), owner, default=False
             )
+        slips = [parse_number(_text(found)) for tag in _SLIP for found in block.findall(tag)]
+        if any(slip > 0.0 for slip in slips):
+            self._slipping.append(name)
         if values:
             self._links[name] = replace(self._links.get(name, GazeboLink()), **values)
 

@@ -31,6 +31,7 @@ What the ``<ros2_control>`` blocks have stays theirs: joints, and sensors by the
 from amr_description.model.gazebo_builder import Builder, GazeboTranslation
 from amr_description.model.gazebo_drives import DRIVES, FIRST
 from amr_description.model.gazebo_joints import add_imu, JOINTS
+from amr_description.model.gazebo_physics import SCRUBBING
 from amr_description.model.gazebo_plugins import plugins_of, sensors_of
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
@@ -54,6 +55,8 @@ def translate(robot: Robot) -> GazeboTranslation:
     for plugin in sorted(plugins_of(xml, builder.notes), key=lambda each: each.kind not in FIRST):
         if plugin.kind in _TRANSLATORS:
             _TRANSLATORS[plugin.kind](builder, plugin)
+        elif plugin.kind == 'wheel-slip':
+            builder.notes.append(f"Gazebo's WheelSlip is not simulated; {SCRUBBING}")
         elif not plugin.is_world_matter:
             builder.lacking.append(('plugin', plugin.name or plugin.filename, plugin.library))
     for sensor, link in sensors_of(xml):

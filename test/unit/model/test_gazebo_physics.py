@@ -102,3 +102,13 @@ def test_colours_and_blocks_of_nothing_say_nothing():
         '<gazebo reference="nobody"><mu1>x</mu1><glow/></gazebo>',
     )
     assert (found.faults, found.solver, found.unknown) == ((), '', '')
+
+
+def test_slip_in_proportion_to_the_force_is_told():
+    surface = '<surface><friction><ode><slip1>{}</slip1></ode></friction></surface>'
+    ode = f'<collision>{surface}</collision>'
+    told = read(f'<gazebo reference="a">{ode.format(0.035)}</gazebo>')
+    assert told.slip.startswith('r.urdf: <slip1>, <slip2> of "a" are not simulated; so wheels one')
+    assert 'scrub in a turn' in told.slip
+    assert not told.unknown
+    assert not read(f'<gazebo reference="a">{ode.format(0)}</gazebo>').slip

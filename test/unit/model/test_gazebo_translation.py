@@ -423,3 +423,9 @@ def test_what_ros2_control_has_stays_its_own():
     )
     (info,) = found.robot.plugin_hardware
     assert not info.joints and [each.name for each in info.sensors] == ['other']
+
+
+def test_slip_of_wheels_is_told_with_what_follows():
+    found = translated(plugin('libgz-sim-wheel-slip-system.so', 'gz::sim::systems::WheelSlip'))
+    assert not found.not_simulated
+    assert found.notes[0].startswith("Gazebo's WheelSlip is not simulated; so wheels one behind")
