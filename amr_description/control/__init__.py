@@ -3,6 +3,7 @@
 """
 ros2_control without ROS: no ROS, no simulator, no clock. One thread, the control thread, runs it.
 
+============================ =====================================================================
 ``contracts.py``             the page to read: Controller, HardwareComponent, Port, Log
 ``world.py``                 … the simulated world of a hardware component: World, JointGroup
 ``interfaces.py``            the terms: interface names, state and command interfaces, lifecycle
@@ -34,4 +35,5 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 ``loop.py``                  the control loop: queued calls → managers → publish → step → pace
 
 ``ros/``                     controller manager node, services, topics, client, spawner
+============================ =====================================================================
 """

@@ -6,61 +6,61 @@ The controllers, by their type.
 A new controller is a module here and an entry in :data:`CONTROLLERS`. One of another package needs
 neither: its type is ``my_package.my_module/MyClass``.
 
-================================= ================================================================
-``diff_drive_controller.py``      a twist → wheel speeds; wheel states → odometry
-``diff_drive_parameters.py``      … its parameters
-``command_reception.py``          … which velocity command is in force
-``rate_limiter.py``               … limits of velocity, acceleration and jerk
-``odometry.py``                   … wheel speeds ↔ velocity of the base; the pose
-``mecanum_drive_controller.py``   a twist → four mecanum wheels; wheel states → odometry
-``mecanum_drive_parameters.py``   … its parameters
-``omni_wheel_drive_controller.py`` a twist → three or more omni wheels; wheel states → odometry
-``holonomic_odometry.py``         … the pose of a robot that can go sideways
-``steering_controllers.py``       a twist → driven and steered wheels; their states → odometry
-``steering_parameters.py``        … their parameters
-``steering_kinematics.py``        … bicycle, tricycle, Ackermann steering
-``reference_ports.py``            … topics shared with the mecanum drive controller
-``joint_trajectory_controller.py`` joints follow trajectories, from an action or a topic
-``joint_trajectory_parameters.py`` … its parameters
-``joint_trajectory_interfaces.py`` … interfaces of its joints, and their combinations
-``joint_trajectory_ports.py`` … its topics, service and action
-``joint_trajectory.py``           … splines between points in time
-``trajectory_tolerances.py``      … how far a joint may be from them
-``trajectory_checks.py``          … why a trajectory is not accepted
-``pid.py``                        control_toolbox's PID, with its anti-windup strategies
-``tricycle_controller.py``        a twist → one wheel that is driven and steered; odometry
-``tricycle_limiters.py``          … its limits
-``forward_command_controller.py`` commands from a topic, forwarded; the joint group controllers
-``joint_state_broadcaster.py``    joint states → ``/joint_states``
-``sensor_broadcaster.py``         what the broadcasters below have in common
-``imu_sensor_broadcaster.py``     an inertial measurement unit → ``~/imu``
+====================================== ============================================================
+``diff_drive_controller.py``           a twist → wheel speeds; wheel states → odometry
+``diff_drive_parameters.py``           … its parameters
+``command_reception.py``               … which velocity command is in force
+``rate_limiter.py``                    … limits of velocity, acceleration and jerk
+``odometry.py``                        … wheel speeds ↔ velocity of the base; the pose
+``drive_ports.py``                     … topics that controllers of wheeled robots share
+``mecanum_drive_controller.py``        a twist → four mecanum wheels; wheel states → odometry
+``mecanum_drive_parameters.py``        … its parameters
+``omni_wheel_drive_controller.py``     a twist → three or more omni wheels; wheel states → odometry
+``holonomic_odometry.py``              … the pose of a robot that can go sideways
+``steering_controllers.py``            a twist → driven and steered wheels; their states → odometry
+``steering_parameters.py``             … their parameters
+``steering_kinematics.py``             … bicycle, tricycle, Ackermann steering
+``tricycle_controller.py``             a twist → one wheel that is driven and steered; odometry
+``tricycle_limiters.py``               … its limits
+``joint_trajectory_controller.py``     joints follow trajectories, from an action or a topic
+``joint_trajectory_parameters.py``     … its parameters
+``joint_trajectory_interfaces.py``     … interfaces of its joints, and their combinations
+``joint_trajectory_ports.py``          … its topics, service and action
+``joint_trajectory.py``                … splines between points in time
+``trajectory_tolerances.py``           … how far a joint may be from them
+``trajectory_checks.py``               … why a trajectory is not accepted
+``pid.py``                             control_toolbox's PID, with its anti-windup strategies
+``forward_command_controller.py``      commands from a topic, forwarded; joint group controllers
+``joint_state_broadcaster.py``         joint states → ``/joint_states``
+``sensor_broadcaster.py``              what the broadcasters below have in common
+``imu_sensor_broadcaster.py``          an inertial measurement unit → ``~/imu``
 ``force_torque_sensor_broadcaster.py`` … a wrench → ``~/wrench``
-``pose_broadcaster.py``           … a pose → ``~/pose``, ``/tf``
-``range_sensor_broadcaster.py``   … a distance → ``~/range``
-``gps_sensor_broadcaster.py``     … a satellite fix → ``~/gps/fix``
-``magnetometer_broadcaster.py``   … a magnetic field → ``~/magnetic_field``
-``battery_state_broadcaster.py``  … batteries → ``~/battery_state``
-``state_interfaces_broadcaster.py`` … any states, as numbers
-``gpio_command_controller.py``    GPIOs: commands from a topic, states on one
-``filters.py``                    … filters of numbers, and chains of them
-``chained_filter_controller.py``  states, filtered, for other controllers
-``gripper_action_controller.py``  goals of a gripper: position, effort, stalling
-``pid_controller.py``             a PID for each degree of freedom, alone or in a chain
-``gazebo_diff_drive.py``          a differential drive as Gazebo's plugins drive one
-``gazebo_wheels.py``              mecanum wheels and a car, likewise
-``gazebo_planar_move.py``         a body that moves as commanded, whatever its wheels do
-``gazebo_joint_command.py``       one number for a joint, or for several alike
-``gazebo_odometry_publisher.py``  the true pose of a link as odometry
+``pose_broadcaster.py``                … a pose → ``~/pose``, ``/tf``
+``range_sensor_broadcaster.py``        … a distance → ``~/range``
+``gps_sensor_broadcaster.py``          … a satellite fix → ``~/gps/fix``
+``magnetometer_broadcaster.py``        … a magnetic field → ``~/magnetic_field``
+``battery_state_broadcaster.py``       … batteries → ``~/battery_state``
+``state_interfaces_broadcaster.py``    … any states, as numbers
+``gpio_command_controller.py``         GPIOs: commands from a topic, states on one
+``filters.py``                         … filters of numbers, and chains of them
+``chained_filter_controller.py``       states, filtered, for other controllers
+``gripper_action_controller.py``       goals of a gripper: position, effort, stalling
+``pid_controller.py``                  a PID for each degree of freedom, alone or in a chain
+``gazebo_diff_drive.py``               a differential drive as Gazebo's plugins drive one
+``gazebo_wheels.py``                   mecanum wheels and a car, likewise
+``gazebo_planar_move.py``              a body that moves as commanded, whatever its wheels do
+``gazebo_joint_command.py``            one number for a joint, or for several alike
+``gazebo_odometry_publisher.py``       the true pose of a link as odometry
 
-``absent_types.py``               public types that are not here, and what would do
-``former_drive_parameters.py``    what files of earlier releases say of drives
-``parameter_sections.py``         the sections of parameter files, with their lines
-``parameter_faults.py``           what is wrong in them, by its cause: misspelt names, types
-``drive_files.py``                the differential drives of them, for ``check_urdf``
-``wheeled_drive_files.py``        the other wheeled drives of them, held against a robot
-``roller_files.py``               the mecanum and omni wheels of them, for the simulator
-``drive_calibration.py``          multipliers of a differential drive from runs of known motion
-================================= ================================================================
+``absent_types.py``                    public types that are not here, and what would do
+``former_drive_parameters.py``         what files of earlier releases say of drives
+``parameter_sections.py``              the sections of parameter files, with their lines
+``parameter_faults.py``                what is wrong in them, by its cause: misspelt names, types
+``drive_files.py``                     the differential drives of them, for ``check_urdf``
+``wheeled_drive_files.py``             the other wheeled drives of them, held against a robot
+``roller_files.py``                    the mecanum and omni wheels of them, for the simulator
+``drive_calibration.py``               multipliers of a differential drive from known motion
+====================================== ============================================================
 """
 
 from amr_description.controllers.absent_types import ABSENT

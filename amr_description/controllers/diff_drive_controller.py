@@ -49,14 +49,17 @@ from amr_description.control.interfaces import (
     StateInterface,
     VELOCITY,
 )
-from amr_description.control.samples import Frames, OdometrySample, TwistSample
+from amr_description.control.samples import Frames, TwistSample
 from amr_description.controllers.command_reception import CommandReception, ignore_commands
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters, SpeedLimits
+from amr_description.controllers.drive_ports import (
+    odometry_outputs,
+    STAMPED_TWIST,
+    stamped_twist_input,
+)
 from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelSide
 from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
 from amr_description.errors import ControllerError
-
-_STAMPED = 'geometry_msgs/msg/TwistStamped'
 
 _UNSTAMPED = 'geometry_msgs/msg/Twist'
 
@@ -202,16 +205,7 @@ class DiffDriveController(Controller):
 
     def _publish(self, time: int, linear: float, angular: float) -> None:
         if self._gate.passes(time):
-            odometry = self._reckoning.odometry
-            sample = OdometrySample(
-                stamp=time,
-                x=odometry.x,
-                y=odometry.y,
-                heading=odometry.heading,
-                linear=odometry.linear,
-                angular=odometry.angular,
-                frames=self._frames,
-            )
+            sample = self._reckoning.odometry.sample(time, self._frames)
             self._odom.send(sample)
             if self._parameters.enable_odom_tf:
                 self._transform.send(sample)
@@ -254,18 +248,13 @@ class DiffDriveController(Controller):
             parameters.pose_covariance_diagonal,
             parameters.twist_covariance_diagonal,
         )
-        self._command: Input[TwistSample] = Input(Port('~/cmd_vel', _STAMPED, sample=TwistSample))
+        self._command = stamped_twist_input()
         self._unstamped: Input[TwistSample] = Input(
             Port('~/cmd_vel_unstamped', _UNSTAMPED, sample=TwistSample)
         )
-        self._odom: Output[OdometrySample] = Output(
-            Port('~/odom', 'nav_msgs/msg/Odometry', sample=OdometrySample)
-        )
-        self._transform: Output[OdometrySample] = Output(
-            Port('/tf', 'tf2_msgs/msg/TFMessage', sample=OdometrySample)
-        )
+        self._odom, self._transform = odometry_outputs('~/odom', '/tf')
         self._command_out: Output[TwistSample] = Output(
-            Port('~/cmd_vel_out', _STAMPED, sample=TwistSample)
+            Port('~/cmd_vel_out', STAMPED_TWIST, sample=TwistSample)
         )
 
 

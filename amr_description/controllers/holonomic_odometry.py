@@ -4,6 +4,8 @@
 
 import math
 
+from amr_description.control.samples import Frames, OdometrySample
+
 _SMALL_TURN = 1e-6
 """rad: below it the radius of the arc is ill-conditioned."""
 
@@ -54,3 +56,16 @@ class HolonomicOdometry:
         cosine, sine = math.cos(self.heading), math.sin(self.heading)
         self.x += (self.linear * cosine - self.lateral * sine) * dt
         self.y += (self.linear * sine + self.lateral * cosine) * dt
+
+    def sample(self, time: int, frames: Frames) -> OdometrySample:
+        """Return what to publish at ``time``, ns."""
+        return OdometrySample(
+            stamp=time,
+            x=self.x,
+            y=self.y,
+            heading=self.heading,
+            linear=self.linear,
+            angular=self.angular,
+            frames=frames,
+            lateral=self.lateral,
+        )

@@ -45,7 +45,6 @@ from amr_description.control.interfaces import (
 from amr_description.control.samples import (
     Frames,
     MecanumStateSample,
-    OdometrySample,
     TwistSample,
 )
 from amr_description.controllers.command_reception import (
@@ -53,18 +52,18 @@ from amr_description.controllers.command_reception import (
     ignore_commands,
     ReferenceReception,
 )
+from amr_description.controllers.drive_ports import (
+    odometry_outputs,
+    reference_input,
+    warn_of_one_shot_reference,
+)
 from amr_description.controllers.holonomic_odometry import HolonomicOdometry
 from amr_description.controllers.mecanum_drive_parameters import (
     MecanumDriveParameters,
     MecanumKinematicsParameters,
 )
+from amr_description.controllers.odometry import LEAST_PERIOD
 from amr_description.controllers.rate_limiter import AxisLimiter
-from amr_description.controllers.reference_ports import (
-    LEAST_PERIOD,
-    odometry_outputs,
-    reference_input,
-    warn_of_one_shot_reference,
-)
 
 type Twist = tuple[float, float, float]
 """m/s along x and y, rad/s about z."""
@@ -247,17 +246,7 @@ class MecanumDriveController(Controller):
             limiter.forget()
 
     def _publish(self, time: int, wheels: tuple[float, ...], reference: tuple[float, ...]) -> None:
-        odometry = self._odometry
-        sample = OdometrySample(
-            stamp=time,
-            x=odometry.x,
-            y=odometry.y,
-            heading=odometry.heading,
-            linear=odometry.linear,
-            angular=odometry.angular,
-            frames=self._frames,
-            lateral=odometry.lateral,
-        )
+        sample = self._odometry.sample(time, self._frames)
         self._odom.send(sample)
         if self._parameters.enable_odom_tf:
             self._transform.send(sample)
@@ -270,7 +259,7 @@ class MecanumDriveController(Controller):
             parameters.twist_covariance_diagonal,
         )
         self._command = reference_input()
-        self._odom, self._transform = odometry_outputs(parameters.tf_odometry_topic)
+        self._odom, self._transform = odometry_outputs('~/odometry', parameters.tf_odometry_topic)
         self._state: Output[MecanumStateSample] = Output(
             Port(
                 '~/controller_state',

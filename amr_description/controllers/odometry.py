@@ -19,13 +19,14 @@ import sys
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.interfaces import CommandInterface, StateInterface
+from amr_description.control.samples import Frames, OdometrySample
 from amr_description.errors import ControllerError
 
 _SMALL_TURN = 1e-6
 """rad: below it the radius of the arc is ill-conditioned."""
 
-_LEAST_STEP = 100_000
-"""ns: an update sooner after the previous one is skipped."""
+LEAST_PERIOD = 100_000
+"""ns: a shorter time since the previous update is no basis of odometry, and skipped."""
 
 _GREATEST = sys.float_info.max
 
@@ -63,6 +64,18 @@ class PlanarOdometry:
         self._integrate(linear * dt, angular * dt)
         self.linear = linear
         self.angular = angular
+
+    def sample(self, time: int, frames: Frames) -> OdometrySample:
+        """Return what to publish at ``time``, ns."""
+        return OdometrySample(
+            stamp=time,
+            x=self.x,
+            y=self.y,
+            heading=self.heading,
+            linear=self.linear,
+            angular=self.angular,
+            frames=frames,
+        )
 
     def _integrate(self, distance: float, turn: float) -> None:
         before = self.heading
@@ -193,7 +206,7 @@ class DeadReckoning:
         if self._has_positions and self._last_travel is None:
             self._last_travel = travel
         elapsed = time - self._last_time
-        if elapsed < _LEAST_STEP:
+        if elapsed < LEAST_PERIOD:
             return
         self._last_time = time
         dt = elapsed / NANOSECONDS

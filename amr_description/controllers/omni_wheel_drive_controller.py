@@ -21,7 +21,7 @@ import math
 from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Port
+from amr_description.control.contracts import Controller, ControllerContext, Input, Output
 from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
@@ -30,7 +30,7 @@ from amr_description.control.interfaces import (
     StateInterface,
     VELOCITY,
 )
-from amr_description.control.samples import Frames, OdometrySample, TwistSample
+from amr_description.control.samples import Frames, TwistSample
 from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import (
     CommandReception,
@@ -38,8 +38,9 @@ from amr_description.controllers.command_reception import (
     ignore_commands,
 )
 from amr_description.controllers.diff_drive_parameters import LENGTH, tf_prefix
+from amr_description.controllers.drive_ports import odometry_outputs, stamped_twist_input
 from amr_description.controllers.holonomic_odometry import HolonomicOdometry
-from amr_description.controllers.reference_ports import LEAST_PERIOD
+from amr_description.controllers.odometry import LEAST_PERIOD
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
@@ -283,17 +284,7 @@ class OmniWheelDriveController(Controller):
             reference.value = value
 
     def _publish(self, time: int) -> None:
-        odometry = self._odometry
-        sample = OdometrySample(
-            stamp=time,
-            x=odometry.x,
-            y=odometry.y,
-            heading=odometry.heading,
-            linear=odometry.linear,
-            angular=odometry.angular,
-            frames=self._frames,
-            lateral=odometry.lateral,
-        )
+        sample = self._odometry.sample(time, self._frames)
         self._odom.send(sample)
         if self._parameters.enable_odom_tf:
             self._transform.send(sample)
@@ -314,12 +305,5 @@ class OmniWheelDriveController(Controller):
             parameters.diagonal_covariance.pose,
             parameters.diagonal_covariance.twist,
         )
-        self._command: Input[TwistSample] = Input(
-            Port('~/cmd_vel', 'geometry_msgs/msg/TwistStamped', sample=TwistSample)
-        )
-        self._odom: Output[OdometrySample] = Output(
-            Port('~/odom', 'nav_msgs/msg/Odometry', sample=OdometrySample)
-        )
-        self._transform: Output[OdometrySample] = Output(
-            Port('/tf', 'tf2_msgs/msg/TFMessage', sample=OdometrySample)
-        )
+        self._command = stamped_twist_input()
+        self._odom, self._transform = odometry_outputs('~/odom', '/tf')

@@ -38,7 +38,6 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.samples import (
     Frames,
-    OdometrySample,
     SteeringStateSample,
     TwistSample,
 )
@@ -47,13 +46,12 @@ from amr_description.controllers.command_reception import (
     PLANAR,
     ReferenceReception,
 )
-from amr_description.controllers.odometry import PlanarOdometry
-from amr_description.controllers.reference_ports import (
-    LEAST_PERIOD,
+from amr_description.controllers.drive_ports import (
     odometry_outputs,
     reference_input,
     warn_of_one_shot_reference,
 )
+from amr_description.controllers.odometry import LEAST_PERIOD, PlanarOdometry
 from amr_description.controllers.steering_parameters import (
     AckermannSteeringParameters,
     BicycleSteeringParameters,
@@ -217,16 +215,7 @@ class SteeringController(Controller):
             reference.value = value
 
     def _publish(self, time: int) -> None:
-        odometry = self._odometry
-        sample = OdometrySample(
-            stamp=time,
-            x=odometry.x,
-            y=odometry.y,
-            heading=odometry.heading,
-            linear=odometry.linear,
-            angular=odometry.angular,
-            frames=self._frames,
-        )
+        sample = self._odometry.sample(time, self._frames)
         self._odom.send(sample)
         if self._parameters.enable_odom_tf:
             self._transform.send(sample)
@@ -270,7 +259,7 @@ class SteeringController(Controller):
             parameters.twist_covariance_diagonal,
         )
         self._command = reference_input()
-        self._odom, self._transform = odometry_outputs(parameters.tf_odometry_topic)
+        self._odom, self._transform = odometry_outputs('~/odometry', parameters.tf_odometry_topic)
         self._state: Output[SteeringStateSample] = Output(
             Port(
                 '~/controller_state',

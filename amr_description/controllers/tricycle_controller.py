@@ -16,7 +16,7 @@ without the package ackermann_msgs, which is not part of this one, ``~/cmd_acker
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import math
 from typing import Any, ClassVar
 
@@ -41,14 +41,13 @@ from amr_description.control.samples import (
     AckermannSample,
     EmptySample,
     Frames,
-    OdometrySample,
     TwistSample,
 )
 from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import CommandReception
 from amr_description.controllers.diff_drive_parameters import LENGTH
-from amr_description.controllers.odometry import PlanarOdometry
-from amr_description.controllers.reference_ports import LEAST_PERIOD
+from amr_description.controllers.drive_ports import odometry_outputs, stamped_twist_input
+from amr_description.controllers.odometry import LEAST_PERIOD, PlanarOdometry
 from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
@@ -219,22 +218,11 @@ class TricycleController(Controller):
             command.value = value
 
     def _publish(self, time: int) -> None:
-        odometry = self._odometry
-        sample = OdometrySample(
-            stamp=time,
-            x=odometry.x,
-            y=odometry.y,
-            heading=odometry.heading,
-            linear=odometry.linear,
-            angular=odometry.angular,
-            frames=self._frames,
-        )
+        sample = self._odometry.sample(time, self._frames)
         if self._parameters.enable_odom_tf:
             self._transform.send(sample)
         if self._parameters.odom_only_twist:
-            sample = OdometrySample(
-                time, 0.0, 0.0, 0.0, odometry.linear, odometry.angular, self._frames
-            )
+            sample = replace(sample, x=0.0, y=0.0, heading=0.0)
         self._odom.send(sample)
 
     # --- made at configure -------------------------------------------------------------------
@@ -259,15 +247,8 @@ class TricycleController(Controller):
             parameters.pose_covariance_diagonal,
             parameters.twist_covariance_diagonal,
         )
-        self._command: Input[TwistSample] = Input(
-            Port('~/cmd_vel', 'geometry_msgs/msg/TwistStamped', sample=TwistSample)
-        )
-        self._odom: Output[OdometrySample] = Output(
-            Port('~/odom', 'nav_msgs/msg/Odometry', sample=OdometrySample)
-        )
-        self._transform: Output[OdometrySample] = Output(
-            Port('/tf', 'tf2_msgs/msg/TFMessage', sample=OdometrySample)
-        )
+        self._command = stamped_twist_input()
+        self._odom, self._transform = odometry_outputs('~/odom', '/tf')
         self._command_out: Output[AckermannSample] = Output(
             Port(
                 '~/cmd_ackermann',

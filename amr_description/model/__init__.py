@@ -3,47 +3,47 @@
 """
 What a robot is, in frozen dataclasses, and how it is read and checked. No ROS, no simulator.
 
-=======================  =========================================================================
+========================= =========================================================================
 module                   what it holds
-=======================  =========================================================================
-``frames.py``            rigid transforms (SE(3)), quaternions, rotation conventions
-``robot.py``             Robot, Link, Joint, Inertial, shapes: the result of reading a URDF
-``kinematics.py``        forward kinematics: the poses of links for joint positions
-``hardware_info.py``     HardwareInfo and its interfaces: the result of reading ``<ros2_control>``
+========================= =========================================================================
+``frames.py``             rigid transforms (SE(3)), quaternions, rotation conventions
+``robot.py``              Robot, Link, Joint, Inertial, shapes: the result of reading a URDF
+``kinematics.py``         forward kinematics: the poses of links for joint positions
+``hardware_info.py``      HardwareInfo and its interfaces: the result of reading ``<ros2_control>``
 
-``description_file.py``  file -> URDF text, xacro expanded
-``xacro_markup.py``      … whether it is xacro, by what is in it
-``xacro_lines.py``       … the lines that its elements come from
-``origins.py``           … how these travel with the text, and findings name them
-``urdf.py``              URDF -> Robot: ``parse(text, source)``, ``load(path)``
-``urdf_links.py``        its ``<link>`` and ``<material>`` elements
-``urdf_joints.py``       its ``<joint>`` elements
-``ros2_control_tag.py``  ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
-``fixing.py``            a robot bolted to the ground
-``gazebo.py``            ``<gazebo>`` plugins and sensors
-``gazebo_plugins.py``    … the plugins that drive a robot without ros2_control, and what they say
-``gazebo_drives.py``     … what drives and odometry become
-``gazebo_joints.py``     … what plugins of single joints, and sensors, become
-``gazebo_builder.py``    … collects it: hardware, controllers, lines to say
-``gazebo_translation.py``  … of a robot: ``translate(robot)``
-``base_interfaces.py``   the interfaces of a simulated robot's body as a whole
-``gazebo_physics.py``    <gazebo reference="…">: friction, springs, gravity, self-collision
-``controller_files.py``  parameter files: which are a robot's, what controllers they have types for
-``findings.py``          Finding: severity, line, what, found, expected, fix
-``xml_reader.py``        XML of unknown origin, and attributes with true line numbers
+``description_file.py``   file -> URDF text, xacro expanded
+``xacro_markup.py``       … whether it is xacro, by what is in it
+``xacro_lines.py``        … the lines that its elements come from
+``origins.py``            … how these travel with the text, and findings name them
+``urdf.py``               URDF -> Robot: ``parse(text, source)``, ``load(path)``
+``urdf_links.py``         its ``<link>`` and ``<material>`` elements
+``urdf_joints.py``        its ``<joint>`` elements
+``ros2_control_tag.py``   ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
+``fixing.py``             a robot bolted to the ground
+``gazebo.py``             ``<gazebo>`` plugins and sensors
+``gazebo_plugins.py``     … the plugins that drive a robot without ros2_control, and what they say
+``gazebo_drives.py``      … what drives and odometry become
+``gazebo_joints.py``      … what plugins of single joints, and sensors, become
+``gazebo_builder.py``     … collects it: hardware, controllers, lines to say
+``gazebo_translation.py`` … of a robot: ``translate(robot)``
+``base_interfaces.py``    the interfaces of a simulated robot's body as a whole
+``gazebo_physics.py``     <gazebo reference="…">: friction, springs, gravity, self-collision
+``controller_files.py``   parameter files: those of a robot, and the controllers that they name
+``findings.py``           Finding: severity, line, what, found, expected, fix
+``xml_reader.py``         XML of unknown origin, and attributes with true line numbers
 
-``wheels.py``            which links are wheels
-``rollers.py``           which of them have rollers: mecanum and omni wheels
-``axles.py``             where their axles point, and what would mend it
-``shapes.py``            primitive shapes as solids: inertia, extent, overlap
-``meshes.py``            mesh files as triangles: ``load_mesh(path, scale)``
-``collada.py``           what meshes.py needs to know of COLLADA files
-``mesh_solids.py``       meshes as solids: closed or not, mass, inertia, hull
-``convex_hull.py``       the volume of a convex hull
-``mended_inertials.py``  mass and inertia as a solver needs them, where a file has others
-``mesh_paths.py``        relative mesh paths made absolute
-``mesh_uses.py``         the meshes of a robot, each file read once
+``wheels.py``             which links are wheels
+``rollers.py``            which of them have rollers: mecanum and omni wheels
+``axles.py``              where their axles point, and what would mend it
+``shapes.py``             primitive shapes as solids: inertia, extent, overlap
+``meshes.py``             mesh files as triangles: ``load_mesh(path, scale)``
+``collada.py``            what meshes.py needs to know of COLLADA files
+``mesh_solids.py``        meshes as solids: closed or not, mass, inertia, hull
+``convex_hull.py``        the volume of a convex hull
+``mended_inertials.py``   mass and inertia as a solver needs them, where a file has others
+``mesh_paths.py``         relative mesh paths made absolute
+``mesh_uses.py``          the meshes of a robot, each file read once
 
-``checks/``              the checker: ``RULES``, ``examine``, ``require_sound``
-=======================  =========================================================================
+``checks/``               the checker: ``RULES``, ``examine``, ``require_sound``
+========================= =========================================================================
 """

@@ -3,7 +3,7 @@
 """
 The server of the browser page, without ROS; the only package that imports websockets.
 
-==================  ============================================================================
+=================== ===============================================================================
 ``server.py``       :class:`Server`: one port for the page and its WebSocket; start reading here
 ``backend.py``      :class:`Backend`: what the server needs to know about the robots
 ``sessions.py``     the connected pages, and what becomes of their messages
@@ -17,7 +17,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``joint_groups.py`` the joints that controllers let a page move, and to where
 ``client.py``       a page without a browser, for measurements and tests
 ``ros/``            the backend for the ROS graph
-==================  ============================================================================
+=================== ===============================================================================
 
 The built page is in ``static/``; its sources are in ``web/`` at the top.
 """

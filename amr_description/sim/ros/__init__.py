@@ -3,21 +3,21 @@
 """
 The simulator over ROS: the services of ``simulation_interfaces``, robots, and topics.
 
-===========================  =====================================================================
-``simulation.py``            the simulation in a process: world, robots, control thread, ``/clock``
-``entities.py``              robots are spawned and removed, each with its controller manager
-``plugin_controllers.py``     starts the controllers that stand for Gazebo's plugins
-``other_clock.py``           ends, or warns, where another simulator publishes ``/clock``
-``loop_timing.py``           warns when real time is not kept, with the slow stage of the loop
+=========================== =======================================================================
+``simulation.py``           the simulation in a process: world, robots, control thread, ``/clock``
+``entities.py``             robots are spawned and removed, each with its controller manager
+``plugin_controllers.py``   starts the controllers that stand for Gazebo's plugins
+``other_clock.py``          ends, or warns, where another simulator publishes ``/clock``
+``loop_timing.py``          warns when real time is not kept, with the slow stage of the loop
 
-``service_replies.py``       services from handlers that raise
-``simulation_services.py``   state, steps, reset, world
-``spawn_services.py``        spawn, delete, list spawnables
-``entity_services.py``       states, info and bounds of entities; filters
-``posix_regex.py``           the regular expressions of these filters
+``service_replies.py``      services from handlers that raise
+``simulation_services.py``  state, steps, reset, world
+``spawn_services.py``       spawn, delete, list spawnables
+``entity_services.py``      states, info and bounds of entities; filters
+``posix_regex.py``          the regular expressions of these filters
 
-``names.py``                 names of its topics and frames
-``ground_truth.py``          ``ground_truth/odom`` and ``ground_truth/wheels`` of every robot
-``world_markers.py``         ``~/world``: the static geometry as markers
-===========================  =====================================================================
+``names.py``                names of its topics and frames
+``ground_truth.py``         ``ground_truth/odom`` and ``ground_truth/wheels`` of every robot
+``world_markers.py``        ``~/world``: the static geometry as markers
+=========================== =======================================================================
 """

@@ -6,7 +6,7 @@ Try robots as they are: ``scripts/try_robots FOLDER|FILE…``.
 Each robot in a process, a simulator and a ROS domain of its own: checked, spawned, left alone for
 three seconds, its controllers brought up, driven and moved, and compared with the truth.
 
-===================  =============================================================================
+==================== ==============================================================================
 ``command.py``       the options, the robots one after the other, the table and the exit code
 ``inputs.py``        descriptions of a folder; the parameter file of a robot; texts replaced
 ``robot_process.py`` one robot in a process with a time limit
@@ -16,5 +16,5 @@ three seconds, its controllers brought up, driven and moved, and compared with t
 ``driving.py``       a metre forward, a quarter turn, sideways
 ``moving.py``        joints, by commands and trajectories
 ``findings.py``      what is found, as data; the verdict; the row of the table
-===================  =============================================================================
+==================== ==============================================================================
 """

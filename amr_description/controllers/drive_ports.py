@@ -1,27 +1,31 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics that the mecanum drive and the steering controllers share."""
+"""The topics that controllers of wheeled robots share."""
 
 from amr_description.control.contracts import Controller, Input, Output, Port, Qos, Severity
 from amr_description.control.samples import OdometrySample, TwistSample
 
+STAMPED_TWIST = 'geometry_msgs/msg/TwistStamped'
 REFERENCE_QOS = Qos(depth=1, reliability='best_effort')
 """Of ``~/reference``."""
 
-LEAST_PERIOD = 100_000
-"""ns: a shorter period is no basis of odometry."""
+
+def stamped_twist_input() -> Input[TwistSample]:
+    """Return ``~/cmd_vel``."""
+    return Input(Port('~/cmd_vel', STAMPED_TWIST, sample=TwistSample))
 
 
 def reference_input() -> Input[TwistSample]:
     """Return ``~/reference``, of which only the latest message counts."""
-    port = Port('~/reference', 'geometry_msgs/msg/TwistStamped', '', REFERENCE_QOS, TwistSample)
-    return Input(port, capacity=1)
+    return Input(Port('~/reference', STAMPED_TWIST, '', REFERENCE_QOS, TwistSample), capacity=1)
 
 
-def odometry_outputs(tf_topic: str) -> tuple[Output[OdometrySample], Output[OdometrySample]]:
-    """Return ``~/odometry``, and the topic of its transform."""
+def odometry_outputs(
+    topic: str, tf_topic: str
+) -> tuple[Output[OdometrySample], Output[OdometrySample]]:
+    """Return the topics of odometry and of its transform."""
     return (
-        Output(Port('~/odometry', 'nav_msgs/msg/Odometry', sample=OdometrySample)),
+        Output(Port(topic, 'nav_msgs/msg/Odometry', sample=OdometrySample)),
         Output(Port(tf_topic, 'tf2_msgs/msg/TFMessage', sample=OdometrySample)),
     )
 
