@@ -149,18 +149,27 @@ class ForkServer:
             output: the file descriptor of its stdout and stderr.
 
         Raises:
-            OSError: the server has ended or does not answer.
+            OSError: the server has ended or does not answer; it has started nothing then.
         """
         packet = json.dumps(_Request(command, dict(environment))).encode()
         try:
             socket.send_fds(self._socket, [packet], [output])
-            answer = self._socket.recv(_LARGEST_PACKET)
+            answer = self._answer()
             if not answer:
                 raise ConnectionResetError('the fork server has ended')
         except OSError:
             self.is_over = True
             raise
         return ForkedProcess(int(answer))
+
+    def _answer(self) -> bytes:
+        """Return the server's answer; one that is too late ends it, lest it starts a program."""
+        try:
+            return self._socket.recv(_LARGEST_PACKET)
+        except TimeoutError:
+            self._process.kill()
+            self._process.wait()
+            return self._socket.recv(_LARGEST_PACKET)  # what came meanwhile, or b'': its end
 
     def end(self) -> None:
         """End the server, if it runs; what it has forked goes on."""
@@ -242,7 +251,8 @@ def _serve_requests(connection: socket.socket) -> _Request | None:
             pid = os.fork()
             if pid == 0:
                 tracing.after_fork_in_child()
-                os.read(gate, 1)  # until the parent is the right one
+                if not os.read(gate, 1):  # the server was ended before the parent was right
+                    os._exit(1)
                 for fd in (gate, reader, writer):
                     os.close(fd)
                 for standard in (1, 2):
@@ -254,9 +264,9 @@ def _serve_requests(connection: socket.socket) -> _Request | None:
             os._exit(0)
         tracing.after_fork_in_parent()
         os.waitpid(between, 0)
-        os.close(opened)
         connection.send(os.read(reader, 32))
-        for fd in (gate, reader, writer, output):
+        os.write(opened, b'1')
+        for fd in (gate, opened, reader, writer, output):
             os.close(fd)
 
 

@@ -142,6 +142,18 @@ def test_without_its_server_a_program_is_executed(tmp_path, environment, inherit
     assert not server.can_start(command, environment)
 
 
+def test_a_server_that_does_not_answer_starts_nothing_later(
+    tmp_path, environment, inherited, server
+):
+    command = [program(tmp_path, REPORT)]
+    server._socket.settimeout(0.1)
+    os.kill(server.pid, signal.SIGSTOP)
+    [line], code = asyncio.run(outcome(command, environment, inherited, server))
+    assert code == 0
+    assert not json.loads(line)['loaded']
+    assert not Path(f'/proc/{server.pid}').exists()
+
+
 def test_a_server_ends_with_its_orchestrator(tmp_path, environment):
     code = (
         'import os, select, sys; from amr_description.bringup.fork_server import ForkServer; '
