@@ -11,14 +11,14 @@ Units are SI: position rad or m, velocity rad/s or m/s, acceleration rad/s² or 
 m/s³, effort N·m or N.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 import enum
 import math
 from typing import Self, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS as NANOSECONDS
-from amr_description.errors import InterfaceError
+from amr_description.errors import ControllerError, InterfaceError
 
 if TYPE_CHECKING:
     from amr_description.model.hardware_info import ComponentInfo, InterfaceInfo
@@ -174,6 +174,22 @@ class InterfaceRequest:
     def individual(cls, names: Iterable[str]) -> 'InterfaceRequest':
         """Request exactly these interfaces, to be handed over in this order."""
         return cls(Claim.INDIVIDUAL, tuple(names))
+
+    def require_all(self, handles: Sequence['Handle'], kind: str) -> None:
+        """
+        Check that as many interfaces were handed over as were requested individually.
+
+        Args:
+            handles: those that a controller gets when it is activated.
+            kind: ``command`` or ``state``, for the message.
+
+        Raises:
+            ControllerError: they are more, or fewer.
+        """
+        if len(handles) != len(self.names):
+            raise ControllerError(
+                f'Expected {len(self.names)} {kind} interfaces, got {len(handles)}'
+            )
 
 
 NO_INTERFACES = InterfaceRequest()

@@ -95,9 +95,7 @@ class ForwardControllersBase(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the interfaces; their values stay until the first command."""
-        wanted = len(self._request.names)
-        if len(commands) != wanted:
-            raise ControllerError(f'Expected {wanted} command interfaces, got {len(commands)}')
+        self._request.require_all(commands, 'command')
         for handle in commands:
             if handle.data_type != 'double':
                 raise ControllerError(

@@ -43,7 +43,11 @@ class GazeboDiffDriveParameters(DiffDriveParameters):
     tf_frame_prefix_enable: bool = parameter(False, 'Put a prefix before the frame ids')
     publish_odom: bool = parameter(True, 'Publish odometry on ~/odom')
     max_wheel_acceleration: float = parameter(
-        math.nan, 'Of the rim of a wheel; .nan: no limit', unit='m/s^2', above=0.0, nan=True
+        math.nan,
+        'Largest acceleration of the rim of a wheel; .nan: no limit',
+        unit='m/s^2',
+        above=0.0,
+        nan=True,
     )
 
 

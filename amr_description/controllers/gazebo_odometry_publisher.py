@@ -18,7 +18,6 @@ from amr_description.control.contracts import Controller, Output, Port
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, StateInterface
 from amr_description.control.samples import BodyOdometrySample, Frames
 from amr_description.controllers.diff_drive_controller import PublishGate
-from amr_description.errors import ControllerError
 from amr_description.model.base_interfaces import TRUTH, truth_prefix
 from amr_description.model.frames import (
     multiply,
@@ -109,8 +108,7 @@ class GazeboOdometryPublisher(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the states. Raises ControllerError: some are missing."""
-        if len(states) != len(TRUTH):
-            raise ControllerError(f'Expected {len(TRUTH)} state interfaces, got {len(states)}')
+        self.state_interfaces().require_all(states, 'state')
         self._states = states
         self._gate.reset()
 

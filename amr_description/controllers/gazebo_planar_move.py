@@ -15,7 +15,6 @@ import math
 from amr_description.control.contracts import Controller, Input, Port, Severity
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, StateInterface
 from amr_description.control.samples import TwistSample
-from amr_description.errors import ControllerError
 from amr_description.model.base_interfaces import BASE, COMMAND_AXES
 from amr_description.parameters import parameter
 
@@ -54,10 +53,7 @@ class GazeboPlanarMove(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Hold the base at rest until the first command. Raises ControllerError: it lacks one."""
-        if len(commands) != len(COMMAND_AXES):
-            raise ControllerError(
-                f'Expected {len(COMMAND_AXES)} command interfaces, got {len(commands)}'
-            )
+        self._request.require_all(commands, 'command')
         self._commands = commands
         self._move(0.0, 0.0, 0.0)
 

@@ -64,7 +64,7 @@ class GazeboAckermannDriveParameters(AckermannSteeringParameters):
         False, 'angular.z of a command is the angle of the tyres, as in Gazebo Classic'
     )
     max_steer: float = parameter(
-        math.nan, 'Largest such angle; .nan: no limit', unit='rad', above=0.0, nan=True
+        math.nan, 'Largest angle of the tyres; .nan: no limit', unit='rad', above=0.0, nan=True
     )
 
 

@@ -45,7 +45,9 @@ _MESSAGE = 'control_msgs/msg/DynamicInterfaceGroupValues'
 class GpioInterfaces:
     """Interfaces of one GPIO."""
 
-    interfaces: tuple[str, ...] = parameter((), 'Their names', unique=True, read_only=True)
+    interfaces: tuple[str, ...] = parameter(
+        (), 'Names of the interfaces', unique=True, read_only=True
+    )
 
 
 @dataclass(frozen=True)

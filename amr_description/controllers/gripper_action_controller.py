@@ -59,14 +59,14 @@ class GripperParameters:
         0.01, 'Distance at which a goal is reached', unit='rad or m', minimum=0.0
     )
     max_effort: float = parameter(
-        0.0, 'Greatest effort without a goal', unit='N m or N', minimum=0.0
+        0.0, 'Greatest effort until a goal gives one', unit='N m or N', minimum=0.0
     )
     allow_stalling: bool = parameter(False, 'A goal succeeds when the gripper stalls')
     stall_velocity_threshold: float = parameter(
-        0.001, 'A slower gripper does not move', unit='rad/s or m/s'
+        0.001, 'Velocity below which the gripper stands still', unit='rad/s or m/s'
     )
     stall_timeout: float = parameter(
-        1.0, 'How long it does not move until it has stalled', unit='s'
+        1.0, 'Time at standstill after which it has stalled', unit='s'
     )
 
 
@@ -103,16 +103,18 @@ class ParallelGripperParameters:
     )
     allow_stalling: bool = parameter(False, 'A goal succeeds when the gripper stalls')
     stall_velocity_threshold: float = parameter(
-        0.001, 'A slower gripper does not move', unit='rad/s or m/s'
+        0.001, 'Velocity below which the gripper stands still', unit='rad/s or m/s'
     )
     stall_timeout: float = parameter(
-        1.0, 'How long it does not move until it has stalled', unit='s', minimum=0.0
+        1.0, 'Time at standstill after which it has stalled', unit='s', minimum=0.0
     )
-    max_effort_interface: str = parameter('', 'Command interface of the greatest effort')
+    max_effort_interface: str = parameter('', 'Command interface that gets the greatest effort')
     max_effort: float = parameter(
         10.0, 'Greatest effort, unless a goal has one', unit='N', minimum=0.0
     )
-    max_velocity_interface: str = parameter('', 'Command interface of the greatest velocity')
+    max_velocity_interface: str = parameter(
+        '', 'Command interface that gets the greatest velocity'
+    )
     max_velocity: float = parameter(
         0.1, 'Greatest velocity, unless a goal has one', unit='m/s', minimum=0.0
     )
@@ -187,14 +189,8 @@ class GripperBase(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the interfaces, and hold. Raises ControllerError: some are missing."""
-        for kind, request, handles in (
-            ('command', self.command_interfaces(), commands),
-            ('state', self.state_interfaces(), states),
-        ):
-            if len(handles) != len(request.names):
-                raise ControllerError(
-                    f'Expected {len(request.names)} {kind} interfaces, got {len(handles)}'
-                )
+        self.command_interfaces().require_all(commands, 'command')
+        self.state_interfaces().require_all(states, 'state')
         self._handles = tuple(commands)
         self._states = {state.interface: state for state in states}
         self._goal = self._command = None

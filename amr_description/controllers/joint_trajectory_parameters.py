@@ -38,10 +38,10 @@ class JointGains:
     u_clamp_min: float = parameter(-math.inf, 'Lower output clamp', **_ANY)
     antiwindup: bool = parameter(False, 'Clamp the integral itself; of the strategy legacy')
     antiwindup_strategy: str = parameter(
-        'legacy', 'What keeps the integral from growing', choices=STRATEGIES
+        'legacy', 'Anti-windup strategy of the integral', choices=STRATEGIES
     )
     tracking_time_constant: float = parameter(
-        0.0, 'Of back_calculation; 0: from the gains', unit='s'
+        0.0, 'Time constant of back_calculation; 0: from the gains', unit='s'
     )
     error_deadband: float = parameter(1e-16, 'Errors up to this size are not integrated')
 
@@ -83,7 +83,10 @@ class Constraints:
         0.01, 'Velocity tolerance at the goal; 0: none', unit='rad/s or m/s'
     )
     goal_time: float = parameter(
-        0.0, 'Time in which the goal is reached after its own; 0: any', unit='s', minimum=0.0
+        0.0,
+        'Time after the end of a trajectory in which its goal is reached; 0: any',
+        unit='s',
+        minimum=0.0,
     )
     decelerate_on_cancel: bool = parameter(
         False,
@@ -166,14 +169,14 @@ class JointTrajectoryParameters:
         read_only=True,
     )
     interpolation_method: str = parameter(
-        'splines', 'What is between points', choices=('splines', 'none'), read_only=True
+        'splines', 'Interpolation between points', choices=('splines', 'none'), read_only=True
     )
     allow_nonzero_velocity_at_trajectory_end: bool = parameter(
         False, 'Accept trajectories that do not end at rest'
     )
     cmd_timeout: float = parameter(
         0.0,
-        'Time after its end in which a trajectory holds, greater than goal_time; 0: any',
+        'How long the end of a trajectory is held; more than goal_time; 0: for ever',
         unit='s',
         minimum=0.0,
     )

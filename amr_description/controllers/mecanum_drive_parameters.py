@@ -35,9 +35,11 @@ def _state_joint(wheel: str) -> Any:
 class BaseFrameOffset:
     """Where the centre of the wheels is, from the base frame."""
 
-    x: float = parameter(0.0, 'Along x of the base', unit='m', read_only=True)
-    y: float = parameter(0.0, 'Along y of the base', unit='m', read_only=True)
-    theta: float = parameter(0.0, 'About z of the base', unit='rad', read_only=True)
+    x: float = parameter(0.0, 'Centre of the wheels along x of the base', unit='m', read_only=True)
+    y: float = parameter(0.0, 'Centre of the wheels along y of the base', unit='m', read_only=True)
+    theta: float = parameter(
+        0.0, 'Turn of the wheels about z of the base', unit='rad', read_only=True
+    )
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ class MecanumDriveParameters:
     kinematics: MecanumKinematicsParameters = group('kinematics', MecanumKinematicsParameters)
     tf_frame_prefix_enable: bool = parameter(True, 'Put a prefix before the frame ids')
     tf_frame_prefix: str = parameter(
-        '', 'That prefix, ~ being the namespace of the node; empty: the namespace', read_only=True
+        '', 'Prefix of the frame ids; ~, or empty: the namespace of the node', read_only=True
     )
     base_frame_id: str = parameter('base_link', 'Frame whose pose is given', read_only=True)
     odom_frame_id: str = parameter('odom', 'Frame in which the pose is given', read_only=True)

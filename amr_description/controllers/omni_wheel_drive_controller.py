@@ -90,7 +90,7 @@ class OmniWheelDriveParameters:
         True, 'Put a prefix before the frame ids', read_only=True
     )
     tf_frame_prefix: str = parameter(
-        '', 'That prefix, ~ being the namespace of the node; empty: the namespace', read_only=True
+        '', 'Prefix of the frame ids; ~, or empty: the namespace of the node', read_only=True
     )
     odom_frame_id: str = parameter('odom', 'Frame in which the pose is given', read_only=True)
     base_frame_id: str = parameter('base_link', 'Frame whose pose is given', read_only=True)

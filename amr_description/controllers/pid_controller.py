@@ -81,9 +81,11 @@ class DofGains:
     )
     i_clamp_max: float = parameter(math.inf, 'Deprecated: highest integral term', nan=True)
     i_clamp_min: float = parameter(-math.inf, 'Deprecated: lowest integral term', nan=True)
-    antiwindup_strategy: str = parameter('legacy', 'What bounds the integral', choices=STRATEGIES)
+    antiwindup_strategy: str = parameter(
+        'legacy', 'Anti-windup strategy of the integral', choices=STRATEGIES
+    )
     tracking_time_constant: float = parameter(
-        0.0, 'Of back_calculation; 0: from the gains', unit='s'
+        0.0, 'Time constant of back_calculation; 0: from the gains', unit='s'
     )
     error_deadband: float = parameter(1e-16, 'Errors up to this size are not integrated')
     feedforward_gain: float = parameter(0.0, 'Gain of the feed-forward')
@@ -117,7 +119,7 @@ class PidParameters:
     )
     reference_and_state_dof_names: tuple[str, ...] = parameter(
         (),
-        'Those that have references and states, if a following controller has other names',
+        'Degrees of freedom of references and states; empty: dof_names',
         unique=True,
         read_only=True,
     )
@@ -296,14 +298,8 @@ class PidController(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the interfaces. Raises ControllerError: some are missing."""
-        for kind, request, handles in (
-            ('command', self.command_interfaces(), commands),
-            ('state', self.state_interfaces(), states),
-        ):
-            if len(handles) != len(request.names):
-                raise ControllerError(
-                    f'Expected {len(request.names)} {kind} interfaces, got {len(handles)}'
-                )
+        self.command_interfaces().require_all(commands, 'command')
+        self.state_interfaces().require_all(states, 'state')
         self._handles, self._states = tuple(commands), tuple(states)
         self._start_over()
 

@@ -20,7 +20,7 @@ class RangeParameters:
     field_of_view: float = parameter(0.52, 'Angle in which an object is seen', unit='rad')
     min_range: float = parameter(0.52, 'Shortest distance that is measured', unit='m')
     max_range: float = parameter(4.0, 'Longest distance that is measured', unit='m')
-    variance: float = parameter(0.0, 'Of the distance', unit='m^2')
+    variance: float = parameter(0.0, 'Variance of the distance', unit='m^2')
 
 
 class RangeSensorBroadcaster(SensorBroadcaster):

@@ -7,7 +7,6 @@ from typing import Any
 
 from amr_description.control.contracts import Controller, ControllerContext, Output
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, StateInterface
-from amr_description.errors import ControllerError
 
 
 class SensorBroadcaster(Controller):
@@ -45,9 +44,7 @@ class SensorBroadcaster(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the interfaces. Raises ControllerError: some are missing."""
-        wanted = len(self._request.names)
-        if len(states) != wanted:
-            raise ControllerError(f'Expected {wanted} state interfaces, got {len(states)}')
+        self._request.require_all(states, 'state')
         self._states = tuple(states)
 
     def deactivate(self, time: int) -> None:

@@ -1,12 +1,17 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What waits in ports between other threads and the control thread: samples, and goals."""
+"""
+What waits in ports between other threads and the control thread: samples, and goals; and what a
+controller requests.
+"""
 
 import threading
 
 import pytest
 
 from amr_description.control.contracts import Action, ActionPort, Goal, GoalStatus, Input, Port
+from amr_description.control.interfaces import InterfaceRequest, StateInterface
+from amr_description.errors import ControllerError
 
 PORT = Port('~/input', 'std_msgs/msg/Empty', 'nowhere:nothing')
 
@@ -130,3 +135,11 @@ def test_no_goal_of_another_thread_is_lost_or_doubled():
     writer.join()
     received += action.drain()
     assert [goal.request for goal in received] == list(range(5_000))
+
+
+def test_as_many_interfaces_as_were_requested_are_required():
+    request = InterfaceRequest.individual(['a/position', 'b/position'])
+    handles = [StateInterface('a', 'position'), StateInterface('b', 'position')]
+    request.require_all(handles, 'state')
+    with pytest.raises(ControllerError, match='Expected 2 state interfaces, got 1'):
+        request.require_all(handles[:1], 'state')
