@@ -20,6 +20,17 @@ from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameter_files import dotted, flatten, read_parameter_file, Section, sections
 
+VELOCITY_TOPICS = {
+    'AckermannSteeringController': '~/reference',
+    'BicycleSteeringController': '~/reference',
+    'DiffDriveController': '~/cmd_vel',
+    'MecanumDriveController': '~/reference',
+    'OmniWheelDriveController': '~/cmd_vel',
+    'TricycleController': '~/cmd_vel',
+    'TricycleSteeringController': '~/reference',
+}
+"""The controllers that drive a robot, by their class, and the topics of their TwistStamped."""
+
 _TYPE = '.type'
 
 
@@ -40,6 +51,16 @@ class DeclaredController:
     def is_broadcaster(self) -> bool:
         """Whether it only publishes states."""
         return self.type.lower().endswith('broadcaster')
+
+    @property
+    def class_name(self) -> str:
+        """The class in its type."""
+        return class_of(self.type)
+
+
+def class_of(controller_type: str) -> str:
+    """Return the class in the type of a controller, ``package/Class`` or ``package::Class``."""
+    return controller_type.replace('::', '/').rpartition('/')[2]
 
 
 def manager_of(robot: Robot) -> tuple[str, str]:

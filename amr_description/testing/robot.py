@@ -21,10 +21,12 @@ from amr_description.control.ros.spawner import Spawner
 from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import SimulationError
 from amr_description.model.controller_files import (
+    class_of,
     declared_controllers,
     DeclaredController,
     manager_of,
     spawner_words,
+    VELOCITY_TOPICS,
 )
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_builder import GazeboTranslation
@@ -43,8 +45,6 @@ from amr_description.testing.tracebacks import is_for_the_test
 
 __tracebackhide__ = is_for_the_test
 
-DRIVE = 'DiffDriveController'
-"""The end of the type of the controllers whose odometry and command topics are used."""
 _BROADCASTER = 'JointStateBroadcaster'
 _STILL = 1e-3
 """m/s and rad/s; a slower robot counts as standing."""
@@ -58,7 +58,7 @@ class Topics:
     """Topics of the active controllers, after remapping; empty: there is none."""
 
     command: str = ''
-    """geometry_msgs/msg/TwistStamped, of the first diff_drive_controller."""
+    """geometry_msgs/msg/TwistStamped, of the first controller that drives."""
     is_stamped: bool = True
     """Whether it is; Twist without a stamp drives a plugin of Gazebo."""
     odometry: str = ''
@@ -82,7 +82,7 @@ class Robot:
         """The name of the entity."""
         self.namespace = namespace
         self.command_topic = topics.command
-        """Of the diff_drive_controller, or of a plugin of Gazebo; empty: there is none."""
+        """Of the controller that drives, or of a plugin of Gazebo; empty: there is none."""
         self._is_stamped = topics.is_stamped
         self._lock_step = lock_step
         self._odometry = _latest(readings, Odometry, topics.odometry)
@@ -102,7 +102,7 @@ class Robot:
     @property
     def odometry(self) -> Motion:
         """The last odometry of the drive, with its own stamp (:attr:`Motion.time`)."""
-        return motion_of_odometry(self._newest(self._odometry, DRIVE))
+        return motion_of_odometry(self._newest(self._odometry, 'drive'))
 
     @property
     def joints(self) -> dict[str, Joint]:
@@ -229,7 +229,7 @@ def spawn_controllers(
     _spawn_in(manager, lock_step.node, declared_controllers(files, inside, manager_name), names)
     listed = manager.query(ListControllers).controller
     active = [(each.type, each.name) for each in listed if each.state == 'active']
-    drive = next((name for kind, name in active if kind.endswith(DRIVE)), None)
+    drive = next((name for kind, name in active if _drives(kind)), None)
     broadcaster = next((name for kind, name in active if kind.endswith(_BROADCASTER)), None)
     node = lock_step.node
 
@@ -255,6 +255,11 @@ def spawn_controllers(
         joints=topic(broadcaster, publishers, 'sensor_msgs/msg/JointState'),
     )
     return _with_plugins(topics, translate(description), [name for _, name in active], inside)
+
+
+def _drives(controller_type: str) -> bool:
+    """Return whether a type is that of a drive, or ends with it: ``my_package/MyDiffDrive…``."""
+    return class_of(controller_type).endswith(tuple(VELOCITY_TOPICS))
 
 
 def _with_plugins(

@@ -53,7 +53,7 @@ from amr_description.ros.transport import udp_only
 from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
-from amr_description.testing.robot import DRIVE, Robot, spawn, spawn_controllers, Topics
+from amr_description.testing.robot import Robot, spawn, spawn_controllers, Topics
 from amr_description.testing.tracebacks import is_for_the_test, without_frames
 
 __tracebackhide__ = is_for_the_test
@@ -342,7 +342,7 @@ class Simulation:
         for robot in commands:
             if not robot.command_topic:
                 raise SimulationError(
-                    f"no {DRIVE} of '{robot.name}' is active; send() commands other controllers"
+                    f"no controller that drives '{robot.name}' is active; send() commands others"
                 )
         steps = max(1, self._steps_in(_COMMAND_PERIOD))
         while count > 0:

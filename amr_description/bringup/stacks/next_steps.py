@@ -15,16 +15,6 @@ if TYPE_CHECKING:  # see controllers.py
     from amr_description.model.robot import Robot
 
 STAMPED = 'geometry_msgs/msg/TwistStamped'
-_DRIVES = {
-    'AckermannSteeringController': '~/reference',
-    'BicycleSteeringController': '~/reference',
-    'DiffDriveController': '~/cmd_vel',
-    'MecanumDriveController': '~/reference',
-    'OmniWheelDriveController': '~/cmd_vel',
-    'TricycleController': '~/cmd_vel',
-    'TricycleSteeringController': '~/reference',
-}
-"""The topics of velocity commands, by the class of the controller."""
 _GROUPS = (
     'ForwardCommandController',
     'JointGroupEffortController',
@@ -52,8 +42,10 @@ def velocity_topic(plan: ControllerPlan) -> VelocityTopic | None:
     """Return the topic that drives the robot; None: none of its controllers drives."""
     if plan.is_that_of_amr:
         return AMR_TOPIC
+    from amr_description.model.controller_files import VELOCITY_TOPICS
+
     for each in plan.declared:
-        local = _DRIVES.get(_class_of(each))
+        local = VELOCITY_TOPICS.get(each.class_name)
         if local is not None:
             return VelocityTopic(_topic(plan, each, local))
     return VelocityTopic(plan.plugin_twist, is_stamped=False) if plan.plugin_twist else None
@@ -109,7 +101,7 @@ def _commands(plan: ControllerPlan, robot: 'Robot') -> Iterator[str]:
     """Yield a command for the first controller of each kind that moves joints."""
     kinds = set()
     for each in plan.declared:
-        kind = _class_of(each)
+        kind = each.class_name
         if kind in kinds:
             continue
         kinds.add(kind)
@@ -153,11 +145,6 @@ def _target(robot: 'Robot', name: str) -> float:
 
 def _list_of(numbers: Iterator[float]) -> str:
     return f'[{", ".join(f"{number:g}" for number in numbers)}]'
-
-
-def _class_of(controller: 'DeclaredController') -> str:
-    """Return the class in a type, ``package/Class`` or ``package::Class``."""
-    return controller.type.replace('::', '/').rpartition('/')[2]
 
 
 def _topic(plan: ControllerPlan, controller: 'DeclaredController', local: str) -> str:

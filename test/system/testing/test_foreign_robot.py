@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot that somebody else wrote: its own name, pose and controllers, nothing of amr's."""
 
+from fixtures.sim.ackermann import ackermann
 import pytest
 from support.paths import ROOT
 
 from amr_description.control.ros.client import ManagerClient
 from amr_description.errors import SimulationError
+from amr_description.model.frames import Transform
 from amr_description.testing.simulation import Simulation
 
 CART = (ROOT / 'test/fixtures/urdf_good/cart.urdf').read_text()
@@ -21,6 +23,18 @@ controller_manager:
     other: {type: diff_drive_controller/DiffDriveController}
 states:
   ros__parameters: {type: joint_state_broadcaster/JointStateBroadcaster}
+"""
+CAR = """
+controller_manager:
+  ros__parameters:
+    car: {type: ackermann_steering_controller/AckermannSteeringController}
+car:
+  ros__parameters:
+    traction_joints_names: [rear_right, rear_left]
+    steering_joints_names: [steer_right, steer_left]
+    wheelbase: 0.4
+    traction_track_width: 0.3
+    traction_wheels_radius: 0.06
 """
 DRIVE = """
 {}:
@@ -46,7 +60,7 @@ def test_without_parameters_it_stands_there_without_controllers():
         assert sim.truth.z == pytest.approx(0.1, abs=0.003)
         assert "'a_cart' is lifted by 0.100 m: its link " in sim.log
         assert 'a parameter file that it names is not there: "/gone/cart.yaml"; anoth' in sim.log
-        with pytest.raises(SimulationError, match=r"no DiffDriveController of 'a_cart' is active"):
+        with pytest.raises(SimulationError, match="no controller that drives 'a_cart' is"):
             sim.drive(0.1, 0.0, seconds=0.1)
 
 
@@ -67,3 +81,12 @@ def test_it_drives_by_its_own_controllers_and_what_cannot_be_is_a_warning(tmp_pa
     assert other.startswith('other stays inactive: drive has claimed left_joint/velocity, ')
     with pytest.raises(SimulationError, match="name is 'x', and robots have the names of robots"):
         Simulation(CART, name='x', robots={})
+
+
+def test_a_car_drives_by_its_steering_controller(tmp_path):
+    file = tmp_path / 'car.yaml'
+    file.write_text(CAR)
+    with Simulation(ackermann(), file, pose=Transform((0.0, 0.0, 0.06))) as sim:
+        sim.drive(0.3, 0.2, seconds=1)
+        assert sim.truth.x == pytest.approx(0.3, rel=0.15)
+        assert sim.odometry.x == pytest.approx(sim.truth.x, rel=0.05)

@@ -211,7 +211,7 @@ def test_nothing_is_said_at_time_zero(sim):
 
 def test_the_end_of_the_simulator_is_told_and_another_is_started(simulation):
     first = simulation(URDF, activate=[])
-    with pytest.raises(SimulationError, match='no DiffDriveController of .* is active'):
+    with pytest.raises(SimulationError, match='no controller that drives .* is active'):
         first.drive(1.0, 0.0, seconds=1.0)
     first._simulator.process.kill()
     with pytest.raises(SimulationError, match='the simulator was killed by SIGKILL'):
