@@ -122,8 +122,7 @@ def _plan(
     for name in wanted:
         if name not in names:
             raise UsageError(
-                f'activate:={name}: no parameter file has a type for it; there are: '
-                f'{quote_all(names)}{suggestion(name, names)}'
+                f'activate:={name}: no parameter file has a type for it{suggestion(name, names)}'
             )
     chosen = tuple(wanted) or tuple(names)
     if robot.name == AMR and chosen == PAIR and own_namespace == '/':
