@@ -344,7 +344,9 @@ def _names_of(lacking: Sequence[tuple[str, str, str]]) -> str:
         kinds: dict[str, list[str]] = {}
         for each, name, kind in lacking:
             if each == what:
-                kinds.setdefault(kind or 'without a type', []).append(name or 'without a name')
+                names = kinds.setdefault(kind or 'without a type', [])
+                if (known := name or 'without a name') not in names:  # one plugin may stand often
+                    names.append(known)
         if kinds:
             named = ', '.join(f'{kind} ({", ".join(names)})' for kind, names in kinds.items())
             count = sum(map(len, kinds.values()))

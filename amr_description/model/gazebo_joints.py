@@ -158,7 +158,10 @@ def add_imu(builder: Builder, sensor: etree._Element, link: str) -> bool:
     if rate > 0.0:
         parameters['update_rate'] = max(1, round(min(rate, HIGHEST_RATE)))
     if rate > HIGHEST_RATE:
-        builder.notes.append(f'sensor {quote(name)}: {HIGHEST_RATE} Hz for the {rate:g} Hz asked')
+        builder.notes.append(
+            f'sensor {quote(name)} asks for {rate:g} Hz, and is published at {HIGHEST_RATE} Hz, '
+            'the most that sensors have here'
+        )
     builder.add(
         'imu_sensor_broadcaster/IMUSensorBroadcaster',
         parameters,

@@ -293,6 +293,16 @@ def test_inertial_measurement_units(inside, name, topic, frame):
     assert not found.not_simulated
 
 
+def test_a_rate_above_the_highest_is_told():
+    found = translated(
+        reference='<sensor name="unit" type="imu"><update_rate>1000</update_rate></sensor>'
+    )
+    assert found.notes == (
+        'sensor "unit" asks for 1000 Hz, and is published at 200 Hz, '
+        'the most that sensors have here',
+    )
+
+
 def test_what_is_not_simulated_is_named_once():
     sensors = """<sensor name="eye" type="camera"/><sensor name="laser" type="gpu_lidar"/>
     <sensor name="rear" type="camera">
@@ -303,6 +313,7 @@ def test_what_is_not_simulated_is_named_once():
         plugin('gz-sim-sensors-system', 'gz::sim::systems::Sensors'),
         plugin('gz-sim-imu-system', 'gz::sim::systems::Imu'),
         plugin('gz_ros2_control-system', 'gz_ros2_control::GazeboSimROS2ControlPlugin'),
+        plugin('libmaker_suspension.so', 'maker::Suspension'),
         plugin('libmaker_suspension.so', 'maker::Suspension'),
         reference=sensors,
     )
