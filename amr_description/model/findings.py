@@ -93,7 +93,7 @@ class Finding:
 
     def as_taken(self) -> 'Finding':
         """Return the warning that says what the simulator makes of this error."""
-        return replace(self, severity=Severity.WARNING, fix=self.taken, taken='')
+        return replace(self, severity=Severity.WARNING, fix='')
 
     def __str__(self) -> str:
         return f'{self.severity}: {self.text}'

@@ -7,7 +7,7 @@ What is rejected raises a SpawnError with the ``result`` code of
 ``simulation_interfaces/srv/SpawnEntity``.
 """
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 import enum
 import math
 import re
@@ -21,7 +21,7 @@ from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
 
 _QUOTED = re.compile(r'"[^"]*"')
-_MOST_ALIKE = 3
+_MOST_KINDS = 6
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
 
 
@@ -109,20 +109,39 @@ def read_description(text: str, source: str, log: Log = null_log, strict: bool =
         robot, warnings = require_sound(text, source, strict)
     except DescriptionError as cause:
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
-    for line in _lines(warnings):
+    for line in _lines(warnings, source):
         log(Severity.WARN, line)
     return translate(robot).robot
 
 
-def _lines(warnings: Iterable[Finding]) -> Iterator[str]:
-    """Yield a line for each warning, but one for many alike that change nothing in the physics."""
-    alike: dict[str, list[Finding]] = {}
+def _lines(warnings: Iterable[Finding], source: str) -> Iterator[str]:
+    """
+    Yield a line for each fault with what is made of it, then one line for all others.
+
+    Those are for :program:`check_urdf`, which lists them; one that is alone is told as it is.
+    """
+    others: dict[str, list[Finding]] = {}
     for warning in warnings:
-        # What is taken as something else is told with its link and value.
-        kind = warning.text if warning.taken else _QUOTED.sub('', warning.what)
-        alike.setdefault(kind, []).append(warning)
-    for first, *others in alike.values():
-        if len(others) < _MOST_ALIKE:
-            yield from (each.text for each in (first, *others))
+        if warning.taken:
+            yield warning.text
         else:
-            yield f'{first.text} (and {len(others)} more like it; check_urdf lists them)'
+            others.setdefault(_QUOTED.sub('', warning.what), []).append(warning)
+    if not others:
+        return
+    kinds = list(others.values())
+    count = sum(map(len, kinds))
+    if count == 1:
+        yield kinds[0][0].text
+        return
+    texts = [_counted(kind) for kind in kinds[:_MOST_KINDS]]
+    if len(kinds) > _MOST_KINDS:
+        texts.append(f'{sum(map(len, kinds[_MOST_KINDS:]))} others')
+    places = {each.source for kind in kinds for each in kind}
+    place = places.pop() if len(places) == 1 else source
+    yield f'{place}: {count} warnings, which check_urdf lists in full: {"; ".join(texts)}'
+
+
+def _counted(kind: Sequence[Finding]) -> str:
+    """Return the first of some faults alike, and how many more there are."""
+    first, *others = kind
+    return f'{first.what} (and {len(others)} more like it)' if others else first.what

@@ -24,7 +24,7 @@ module               what it holds
 ===================  =============================================================================
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from amr_description.errors import DescriptionError
@@ -112,6 +112,9 @@ RULES_OF_THE_WHOLE: tuple[Rule, ...] = (
 """The rules on the whole robot; checked only without errors, missing shapes and wrong units: one
 fault would cause many."""
 
+# KDL is in the robot_state_publisher, which says so itself.
+_RULES_OF_SIMULATORS = tuple(each for each in RULES if each is not inertia.root_has_no_inertial)
+
 NO_INPUTS = CheckInputs()
 
 
@@ -141,7 +144,12 @@ class _TooManyFindingsError(Exception):
     """Stops the reading of a file after :data:`MAX_FINDINGS`."""
 
 
-def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS) -> Examination:
+def examine(
+    text: str,
+    source: str = '<string>',
+    inputs: CheckInputs = NO_INPUTS,
+    rules: tuple[Rule, ...] = RULES,
+) -> Examination:
     """
     Return everything that is wrong with a URDF.
 
@@ -151,6 +159,7 @@ def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS
         text: the URDF.
         source: names the file in messages.
         inputs: what it is checked against, such as its controllers.
+        rules: those on single parts.
     """
     findings: list[Finding] = []
 
@@ -167,7 +176,7 @@ def examine(text: str, source: str = '<string>', inputs: CheckInputs = NO_INPUTS
         return Examination(_relocated(findings, text, source), None)
     if context is None:
         return Examination(_relocated(findings, text, source), None)
-    findings += _apply(context, RULES)
+    findings += _apply(context, rules)
     is_whole = not any(
         each.severity is Severity.ERROR or each.taken == NO_SHAPE for each in findings
     )
@@ -217,7 +226,7 @@ def require_sound(
     text: str, source: str = '<string>', strict: bool = True
 ) -> tuple[Robot, tuple[Finding, ...]]:
     """
-    Return the robot of a URDF without errors, and the warnings about it.
+    Return the robot of a URDF without errors, and the warnings about it that concern a simulator.
 
     Args:
         text: the URDF.
@@ -228,11 +237,12 @@ def require_sound(
     Raises:
         DescriptionError: there are errors: the first one, and how many more.
     """
-    examination = examine(text, source)
+    examination = examine(text, source, rules=_RULES_OF_SIMULATORS)
     refused = [each for each in examination.findings if each.is_refused(strict=strict)]
     if examination.robot is None or refused:
         first, *rest = refused
         more = f' (and {len(rest)} more; check_urdf lists them)' if rest else ''
-        raise DescriptionError(first.text + more)
+        # Refused, it is not taken as anything, which the text of a warning says.
+        raise DescriptionError(replace(first, severity=Severity.ERROR).text + more)
     taken = tuple(each.as_taken() for each in examination.errors)
     return examination.robot, (*taken, *examination.warnings)

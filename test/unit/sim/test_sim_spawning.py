@@ -89,13 +89,39 @@ def test_warnings_of_the_checker_are_logged():
     assert 'drives the robot backwards' in log.text
 
 
-@pytest.mark.parametrize('count, lines', [(3, 3), (4, 1), (20, 1)])
-def test_many_warnings_alike_are_one_line(count, lines):
+def block_of(part):
+    return f'<gazebo reference="{part}"/>'
+
+
+def told_of(extra):
+    """Return the lines about our robot with more in its description."""
     log = Lines()
-    blocks = ''.join(f'<gazebo reference="part_{number}"/>' for number in range(count))
-    read_description(AMR.replace('</robot>', f'{blocks}</robot>'), 'amr.urdf', log)
-    assert log.text.count('<gazebo> refers to what is not there') == lines
-    assert ('more like it; check_urdf lists them)' in log.text) == (lines < count)
+    read_description(AMR.replace('</robot>', f'{extra}</robot>'), 'amr.urdf', log)
+    return log.text.splitlines()
+
+
+def test_a_warning_that_is_alone_is_told_in_full():
+    (line,) = told_of(block_of('part'))
+    assert 'amr.urdf:' in line and 'expected a link or a joint' in line
+
+
+def test_many_warnings_are_one_line_that_names_each_kind_and_the_checker():
+    (line,) = told_of(''.join(map(block_of, 'abcd')) + '<wheel/><wheel/><foot/>')
+    assert line.startswith('WARN amr.urdf: 7 warnings, which check_urdf lists in full: ')
+    assert '<gazebo> refers to what is not there, and is ignored (and 3 more like it)' in line
+    assert '"<wheel>" in URDF: it is ignored (and 2 more like it)' in line
+
+
+def test_what_is_made_of_a_fault_is_a_line_each_before_that():
+    pins = ''.join(
+        f'<link name="pin_{number}"/><joint name="turns_{number}" type="continuous">'
+        f'<parent link="base_link"/><child link="pin_{number}"/></joint>'
+        for number in range(4)
+    )
+    *taken, others = told_of(pins + block_of('a') + block_of('b'))
+    assert [f'"pin_{number}"' in line for number, line in enumerate(taken)] == [True] * 4
+    assert all('it is given 0.001 kg' in line for line in taken)
+    assert '2 warnings, which check_urdf lists in full' in others
 
 
 def test_free_name():
