@@ -60,11 +60,6 @@ class StateTolerances:
                     found.append(Violation(joint, kind, value, limit))
         return found
 
-    @property
-    def is_void(self) -> bool:
-        """True: nothing can exceed them."""
-        return not any(limit > 0.0 for row in self.limits for limit in row)
-
 
 @dataclass(frozen=True, slots=True)
 class Tolerances:

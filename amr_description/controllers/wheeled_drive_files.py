@@ -100,7 +100,7 @@ def wheeled_drive_faults(text: str, source: str, paths: Sequence[str]) -> tuple[
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
+class _WheelMount:
     """Where the joint of a wheel is, m, and where its axis points, in the frame of the base."""
 
     joint: str
@@ -126,7 +126,7 @@ class _Drive:
         """Return the link that a joint moves."""
         return self.robot.joint(joint).child
 
-    def places(self, joints: Sequence[str], base: str) -> list[_Place]:
+    def mounts(self, joints: Sequence[str], base: str) -> list[_WheelMount]:
         """Return where joints are; ``base``: the link of the controller, else the root."""
         frame = self._poses.get(base, Transform())
         back = conjugate(frame.rotation)
@@ -138,14 +138,14 @@ class _Drive:
             dx, dy, dz = (a - b for a, b in pairs)
             x, y, _ = rotate(back, (dx, dy, dz))
             axis = rotate(back, rotate(pose.rotation, joint.axis))
-            found.append(_Place(name, x, y, axis))
+            found.append(_WheelMount(name, x, y, axis))
         return found
 
     def warn(self, parameters: Sequence[str], what: str, **details: Any) -> Finding:
         """Return a warning on the line of the first of some parameters that is set."""
         locations = self._read.locations
-        place = next((locations[p] for p in parameters if p in locations), self._read.location)
-        return Finding.warning(*place, f'{self._name}: {what}', **details)
+        location = next((locations[p] for p in parameters if p in locations), self._read.location)
+        return Finding.warning(*location, f'{self._name}: {what}', **details)
 
     def size(self, parameter: str, found: float, true: float, of: str) -> Iterator[Finding]:
         """Warn of a size that is not that of the robot; a true one of 0 is not known."""
@@ -164,16 +164,16 @@ class _Drive:
         radius = wheels[0].radius if wheels else 0.0
         yield from self.size(parameter, found, radius, 'the radius of the collision shape')
 
-    def axles(self, places: Sequence[_Place], parameters: Sequence[str]) -> Iterator[Finding]:
+    def axles(self, mounts: Sequence[_WheelMount], parameters: Sequence[str]) -> Iterator[Finding]:
         """Warn of wheels that turn backwards, or not about y."""
-        for place in places:
-            along = math.sumprod(place.axis, _LEFT)
+        for mount in mounts:
+            along = math.sumprod(mount.axis, _LEFT)
             if along < _ALIGNED:
                 what = 'turns backwards' if along < -_ALIGNED else 'does not roll ahead'
                 yield self.warn(
                     parameters,
-                    f'the wheel of joint {quote(place.joint)} {what}',
-                    found=f'an axis {vector_text(place.axis)} in the frame of the base',
+                    f'the wheel of joint {quote(mount.joint)} {what}',
+                    found=f'an axis {vector_text(mount.axis)} in the frame of the base',
                     expected='(0, 1, 0): to the left',
                 )
 
@@ -192,15 +192,15 @@ def _check_mecanum(drive: _Drive, parameters: MecanumDriveParameters) -> Iterato
     joints = parameters.command_joints
     if not drive.has(joints):
         return
-    places = drive.places(joints, parameters.base_frame_id)
-    xs, ys = [p.x for p in places], [p.y for p in places]
+    mounts = drive.mounts(joints, parameters.base_frame_id)
+    xs, ys = [p.x for p in mounts], [p.y for p in mounts]
     middle = 0.5 * (max(xs) + min(xs)), 0.5 * (max(ys) + min(ys))
-    for place, (name, corner) in zip(places, _CORNERS.items(), strict=True):
-        sides = place.x - middle[0], place.y - middle[1]
+    for mount, (name, corner) in zip(mounts, _CORNERS.items(), strict=True):
+        sides = mount.x - middle[0], mount.y - middle[1]
         if sides[0] * corner[0] <= 0.0 or sides[1] * corner[1] <= 0.0:
             yield drive.warn(
                 (f'{name}_command_joint_name',),
-                f'joint {quote(place.joint)} is not at the corner of {name}',
+                f'joint {quote(mount.joint)} is not at the corner of {name}',
                 found=f'({sides[0]:.3g}, {sides[1]:.3g}) m from the middle of the wheels',
                 expected=f'x {_sign(corner[0])}, y {_sign(corner[1])}: x ahead, y to the left',
             )
@@ -214,7 +214,7 @@ def _check_mecanum(drive: _Drive, parameters: MecanumDriveParameters) -> Iterato
         reach,
         'half of the wheelbase and half of the track',
     )
-    yield from drive.axles(places, [f'{name}_command_joint_name' for name in _CORNERS])
+    yield from drive.axles(mounts, [f'{name}_command_joint_name' for name in _CORNERS])
 
 
 def _check_omni(drive: _Drive, parameters: OmniWheelDriveParameters) -> Iterator[Finding]:
@@ -222,27 +222,27 @@ def _check_omni(drive: _Drive, parameters: OmniWheelDriveParameters) -> Iterator
     if not drive.has(joints):
         return
     yield from drive.radius('wheel_radius', parameters.wheel_radius, joints)
-    places = drive.places(joints, parameters.base_frame_id)
-    far = sum(math.hypot(place.x, place.y) for place in places) / len(places)
+    mounts = drive.mounts(joints, parameters.base_frame_id)
+    far = sum(math.hypot(mount.x, mount.y) for mount in mounts) / len(mounts)
     yield from drive.size('robot_radius', parameters.robot_radius, far, 'as far as the wheels are')
-    for index, place in enumerate(places):
-        wanted = parameters.wheel_offset + math.tau * index / len(places)
-        angle = math.atan2(place.y, place.x)
+    for index, mount in enumerate(mounts):
+        wanted = parameters.wheel_offset + math.tau * index / len(mounts)
+        angle = math.atan2(mount.y, mount.x)
         if abs(math.remainder(angle - wanted, math.tau)) > _NEARLY:
             yield drive.warn(
                 ('wheel_names',),
-                f'joint {quote(place.joint)} is not where wheel {index + 1} of {len(places)} is',
+                f'joint {quote(mount.joint)} is not where wheel {index + 1} of {len(mounts)} is',
                 found=f'{math.degrees(angle):.0f} degrees from x',
                 expected=f'{math.degrees(math.remainder(wanted, math.tau)):.0f} degrees, '
                 'counter-clockwise from wheel_offset',
             )
             return
-        outwards = place.axis[0] * math.cos(angle) + place.axis[1] * math.sin(angle)
+        outwards = mount.axis[0] * math.cos(angle) + mount.axis[1] * math.sin(angle)
         if outwards < _ALIGNED:
             yield drive.warn(
                 ('wheel_names',),
-                f'the axle of joint {quote(place.joint)} does not point outwards',
-                found=f'an axis {vector_text(place.axis)} in the frame of the base',
+                f'the axle of joint {quote(mount.joint)} does not point outwards',
+                found=f'an axis {vector_text(mount.axis)} in the frame of the base',
                 expected=vector_text((math.cos(angle), math.sin(angle), 0.0)),
             )
 
@@ -252,12 +252,12 @@ def _check_rollers(drive: _Drive, parameters: DiffDriveParameters) -> Iterator[F
     joints = (*parameters.left_wheel_names, *parameters.right_wheel_names)
     if not drive.has(joints):
         return
-    told = described_rollers(drive.robot, gazebo_physics_of(drive.robot))
-    angles = [told[link].angle for link in map(drive.link_of, joints) if link in told]
+    described = described_rollers(drive.robot, gazebo_physics_of(drive.robot))
+    angles = [described[link].angle for link in map(drive.link_of, joints) if link in described]
     if len(angles) < len(joints) or any(abs(math.sin(2.0 * angle)) < _ALIGNED for angle in angles):
         return
-    places = drive.places(joints, parameters.base_frame_id)
-    xs, ys = [p.x for p in places], [p.y for p in places]
+    mounts = drive.mounts(joints, parameters.base_frame_id)
+    xs, ys = [p.x for p in mounts], [p.y for p in mounts]
     wanted = max(xs) - min(xs) + max(ys) - min(ys)
     found = parameters.wheel_separation * parameters.wheel_separation_multiplier
     if abs(found - wanted) > _TOLERANCE * wanted:
@@ -277,8 +277,8 @@ def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[F
     traction, steering = parameters.traction_joints_names, parameters.steering_joints_names
     if not (traction and steering and drive.has((*traction, *steering))):
         return
-    driven = drive.places(traction, parameters.base_frame_id)
-    steered = drive.places(steering, parameters.base_frame_id)
+    driven = drive.mounts(traction, parameters.base_frame_id)
+    steered = drive.mounts(steering, parameters.base_frame_id)
     base = abs(_mean(steered) - _mean(driven))
     yield from drive.size('wheelbase', parameters.wheelbase, base, 'from axle to axle')
     for name in ('traction_wheels_radius', 'traction_wheel_radius'):
@@ -289,12 +289,12 @@ def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[F
     yield from drive.axles(driven, names)
     names = ('steering_joints_names', 'front_wheels_names', 'rear_wheels_names')
     yield from _check_pair(drive, steered, parameters, 'steering', names)
-    for place in steered:
-        if math.sumprod(place.axis, _UP) < _ALIGNED:
+    for mount in steered:
+        if math.sumprod(mount.axis, _UP) < _ALIGNED:
             yield drive.warn(
                 names,
-                f'joint {quote(place.joint)} does not steer to the left where it is positive',
-                found=f'an axis {vector_text(place.axis)} in the frame of the base',
+                f'joint {quote(mount.joint)} does not steer to the left where it is positive',
+                found=f'an axis {vector_text(mount.axis)} in the frame of the base',
                 expected='(0, 0, 1): up',
             )
     yield from _check_rolling(drive, steering, names)
@@ -302,15 +302,15 @@ def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[F
 
 def _check_pair(
     drive: _Drive,
-    places: Sequence[_Place],
+    mounts: Sequence[_WheelMount],
     parameters: SteeringParameters,
     kind: str,
     names: Sequence[str],
 ) -> Iterator[Finding]:
     """Two joints are right before left, as far apart as their track."""
-    if len(places) != 2:
+    if len(mounts) != 2:
         return
-    right, left = places
+    right, left = mounts
     if right.y > left.y:
         yield drive.warn(
             names,
@@ -356,8 +356,8 @@ def _below(robot: Robot, link: str) -> set[str]:
     return found
 
 
-def _mean(places: Sequence[_Place]) -> float:
-    return sum(place.x for place in places) / len(places)
+def _mean(mounts: Sequence[_WheelMount]) -> float:
+    return sum(mount.x for mount in mounts) / len(mounts)
 
 
 def _sign(value: int) -> str:

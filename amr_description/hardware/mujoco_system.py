@@ -110,11 +110,11 @@ class MujocoSystem(HardwareComponent):
         self._states += [state for gpio in self._gpios for state in gpio.states.values()]
         if self.info.type is not HardwareType.SENSOR:
             self._commands += [each for gpio in self._gpios for each in gpio.commands.values()]
-        self._say_what_is_not_simulated(sensors.others)
+        self._warn_unsupported(sensors.others)
 
-    def _say_what_is_not_simulated(self, of_sensors: Sequence[str]) -> None:
+    def _warn_unsupported(self, sensor_states: Sequence[str]) -> None:
         name = f"hardware component '{self.info.name}':"
-        missing = [*self._of_joints(), *of_sensors, *self._of_gpios()]
+        missing = [*self._unsupported_of_joints(), *sensor_states, *self._unset_states_of_gpios()]
         if missing:
             self.log(
                 Severity.WARN,
@@ -138,7 +138,7 @@ class MujocoSystem(HardwareComponent):
                 'their joints allow',
             )
 
-    def _of_joints(self) -> Iterator[str]:
+    def _unsupported_of_joints(self) -> Iterator[str]:
         """Yield the names of the joints' interfaces that are not simulated."""
         for joint in self.info.joints:
             for interfaces, known in (
@@ -149,7 +149,7 @@ class MujocoSystem(HardwareComponent):
                     if QUANTITIES.get(each.name) not in known:
                         yield f'{joint.name}/{each.name}'
 
-    def _of_gpios(self) -> Iterator[str]:
+    def _unset_states_of_gpios(self) -> Iterator[str]:
         """Yield the names of the GPIOs' states that nothing sets."""
         for gpio in self._gpios:
             for state in gpio.states.values():

@@ -120,8 +120,8 @@ def build_robot(
         casters = _name_casters(spec) if wheels else ()
         physics = gazebo_physics_of(robot)
         frictions = apply_gazebo_physics(spec, robot, physics, wheels, log)
-        told = described_rollers(robot, physics)
-        rollers = rollers_of(wheels, told, named_rollers, frictions, log)
+        described = described_rollers(robot, physics)
+        rollers = rollers_of(wheels, described, named_rollers, frictions, log)
         if any(gpio.name == BASE for info in hardware for gpio in info.gpios):
             add_base_servo(spec, root_joint(robot))
         # Compiled alone first: a robot that MuJoCo rejects never gets into the world.

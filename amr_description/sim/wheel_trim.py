@@ -88,13 +88,13 @@ def trimmed_contacts(
     for geom, rest in rests.items():
         contact = _settings_of(geom, model, settings)
         contacts[geom] = replace(contact, margin=max(0.0, settings.margin - rest.height))
-    held = held_by(model, rests)
-    if held:
-        log(Severity.WARN, held)
+    warning = drag_warning(model, rests)
+    if warning:
+        log(Severity.WARN, warning)
     return contacts
 
 
-def held_by(model: RobotSpec, rests: Mapping[str, Rest]) -> str:
+def drag_warning(model: RobotSpec, rests: Mapping[str, Rest]) -> str:
     """
     Return a line if what slides on the ground holds a robot about as hard as its wheels can pull.
 

@@ -74,19 +74,19 @@ class Drive:
     """What is driven: a topic of an active controller, with its type, and its odometry."""
 
     def __init__(self, sim: Simulation, controller: Active) -> None:
-        """Find the topics. Raises LookupError: the controller hears no Twist."""
+        """Find the topics. Raises LookupError: the controller subscribes to no Twist."""
         self._sim = sim
         self._controller = controller
         node = sim.node
         name, inside = controller.name, controller.namespace
-        heard = _topics(sim, node.get_subscriber_names_and_types_by_node, name, inside)
-        found = [(topic, kind) for topic, kind in heard if kind in _TYPES]
+        subscribed = _topics(sim, node.get_subscriber_names_and_types_by_node, name, inside)
+        found = [(topic, kind) for topic, kind in subscribed if kind in _TYPES]
         if not found:
-            raise LookupError(f'{name} hears no Twist')
+            raise LookupError(f'{name} subscribes to no Twist')
         self.topic, kind = found[0]
         self._type = _TYPES[kind]
-        said = _topics(sim, node.get_publisher_names_and_types_by_node, name, inside)
-        topics = [topic for topic, kind in said if kind == _ODOMETRY]
+        published = _topics(sim, node.get_publisher_names_and_types_by_node, name, inside)
+        topics = [topic for topic, kind in published if kind == _ODOMETRY]
         self._odometry = LatestMessage(node, Odometry, topics[0]) if topics else None
 
     @property
