@@ -7,9 +7,8 @@ import re
 import signal
 
 from fixtures.bringup.running import Bringup, STACKS
+from fixtures.sim.driving import AMR
 import pytest
-
-MASSLESS = '<robot name="massless"><link name="base_link"/></robot>'
 
 
 @pytest.fixture
@@ -50,13 +49,14 @@ def test_a_stack_comes_up_however_late_its_simulator_is(late):
 
 def test_a_create_that_fails_stops_the_stack_and_is_named_with_its_reason(late, tmp_path):
     start, let_it_go = late
-    (tmp_path / 'massless.urdf').write_text(MASSLESS)
-    with start(urdf=tmp_path / 'massless.urdf') as bringup:
+    (tmp_path / 'negative.urdf').write_text(AMR.replace('<mass value="', '<mass value="-', 1))
+    with start(urdf=tmp_path / 'negative.urdf') as bringup:
         let_it_go()
         assert bringup.end() == 1
         assert 'spawner-4]: process started' not in bringup.output
         assert bringup.output.splitlines()[-1].startswith(
             '[ERROR] [launch]: stopped because create-3 ended with exit code 1 (never started: '
-            'spawner-4, spawner-5): Entity creation failed. massless: no link has mass'
+            f'spawner-4, spawner-5): Entity creation failed. {tmp_path}/negative.urdf:'
         )
+        assert ': mass: found -' in bringup.output.splitlines()[-1]
         assert bringup.left() == []

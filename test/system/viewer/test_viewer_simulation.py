@@ -118,7 +118,7 @@ def last_state(page, name):
         return None
     numbers = np.frombuffer(state, '<f4', offset=16)[7 * len(layout['frames']) :]
     for each in layout['robots']:
-        size = 3 * len(each['joints']) + 20 + 4 * len(each['wheels'])
+        size = 3 * len(each['joints']) + 23 + 4 * len(each['wheels'])
         if each['id'] == name:
             return each, numbers[:size]
         numbers = numbers[size:]
@@ -131,14 +131,14 @@ def place(page, name):
     if found is None:
         return None
     layout, numbers = found
-    x, y = numbers[3 * len(layout['joints']) + 9 :][:2].tolist()
+    x, y = numbers[3 * len(layout['joints']) + 10 :][:2].tolist()
     return None if math.isnan(x) else (x, y)
 
 
 def speed(page, name):
     """How fast the robot truly goes ahead, m/s, by the last state; not a number: not known."""
     found = last_state(page, name)
-    return float(found[1][3 * len(found[0]['joints']) + 16]) if found else math.nan
+    return float(found[1][3 * len(found[0]['joints']) + 17]) if found else math.nan
 
 
 def commanded(page, name):
