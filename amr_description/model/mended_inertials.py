@@ -30,8 +30,13 @@ LEAST_RADIUS = 0.01
 LIGHTEST, SMALLEST_MOMENT = 1e-14, 1e-14
 """kg and kg·m²; ten times the least that MuJoCo accepts."""
 ROUNDING = 0.01
-"""The share by which moments may violate the triangle inequality, as files round their numbers."""
+"""
+The share by which moments may violate the triangle inequality, as files round their numbers: they
+are mended, as MuJoCo takes not even the last bit of it, and nothing is said.
+"""
 
+_MARGIN = 1e-9
+"""The share by which the largest moment stays below the sum of the two others."""
 _THINNEST = 1e-3
 """The least second moment of a mended inertia, as a share of the largest."""
 
@@ -108,7 +113,7 @@ def mended_inertia(inertia: Inertia, mass: float) -> Inertia | None:
     if not is_finite(inertia):
         return _ball(mass)
     low, middle, high = principal_moments(inertia)
-    if low >= SMALLEST_MOMENT and high <= (low + middle) * (1.0 + ROUNDING):
+    if low >= SMALLEST_MOMENT and high <= (low + middle) * (1.0 - _MARGIN):
         return None
     if high < SMALLEST_MOMENT:
         return _ball(mass)
@@ -118,7 +123,9 @@ def mended_inertia(inertia: Inertia, mass: float) -> Inertia | None:
     seconds, axes = np.linalg.eigh(np.eye(3) * np.trace(matrix) / 2.0 - matrix)
     if seconds[-1] <= 0.0:
         return _ball(mass)
-    least = max(_THINNEST * float(seconds[-1]), 10.0 * SMALLEST_MOMENT)
+    is_rounded = low > 0.0 and high <= (low + middle) * (1.0 + ROUNDING)
+    thinnest = 2.0 * _MARGIN if is_rounded else _THINNEST
+    least = max(thinnest * float(seconds[-1]), 10.0 * SMALLEST_MOMENT)
     spread = axes @ np.diag(np.maximum(seconds, least)) @ axes.T
     matrix = np.eye(3) * np.trace(spread) - spread
     (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = matrix.tolist()

@@ -44,7 +44,7 @@ def parse(text: str | bytes, source: str = '<string>') -> Robot:
     """
     if isinstance(text, bytes):
         text = decode(text, source)
-    report = raise_error_of(text)
+    report = raise_error_of(text, strict=False)
     xml = parse_xml(text, source, report)
     assert xml is not None, 'raise_error does not return from an error'
     return read_robot(xml, text, source, report)

@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """``<joint>`` elements of URDF -> :class:`~amr_description.model.robot.Joint`."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 import math
 
 from lxml import etree
 
+from amr_description.model.findings import Finding
 from amr_description.model.frames import Vector
 from amr_description.model.robot import Dynamics, Joint, JointType, Limit, Mimic, SafetyController
 from amr_description.model.urdf_links import read_origin
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number
-from amr_description.text import closest_match, quote
+from amr_description.text import closest_match, quote, quote_all
 
 # URDF's default axis.
 _X_AXIS: Vector = (1.0, 0.0, 0.0)
@@ -41,7 +44,33 @@ def read_joints(xml: etree._Element, reader: ElementReader) -> tuple[Joint, ...]
                 urdfdom=f"joint '{joint.name}' is not unique.",
             )
         joints.setdefault(joint.name, joint)
-    return tuple(joints.values())
+    return tuple(_with_possible_mimic(joint, joints, reader) for joint in joints.values())
+
+
+def _with_possible_mimic(
+    joint: Joint, joints: Mapping[str, Joint], reader: ElementReader
+) -> Joint:
+    """Return a joint; without its mimic, which is reported, where there is nothing to follow."""
+    name = '' if joint.mimic is None else joint.mimic.joint
+    source = joints.get(name)
+    if not name or (source and source is not joint and source.has_position and joint.has_position):
+        return joint
+    what, found = 'mimics a joint that is not there', quote(name)
+    expected = f'another one of {quote_all(list(joints))}'
+    taken = 'it moves by itself' if joint.has_position else 'it stays as it is'
+    if source is joint:
+        found = 'itself'
+    elif source is not None:
+        odd = joint if source.has_position else source
+        what, found = f'cannot mimic {found}', f'{quote(odd.name)} of type {odd.type}'
+        expected = 'two joints of type revolute, continuous or prismatic'
+    where = f'joint {quote(joint.name)} {what}'
+    reader.report(
+        Finding.warning(
+            reader.source, joint.line, where, found=found, expected=expected, taken=taken
+        )
+    )
+    return replace(joint, mimic=None)
 
 
 def _read_joint(element: etree._Element, reader: ElementReader) -> Joint:
@@ -142,9 +171,18 @@ def _read_limit(
             )
         return None
     words = f'Could not parse limit element for joint [{name}]'
+    lower, upper = (_number(limit, key, reader, words, 0.0) for key in ('lower', 'upper'))
+    if kind in _LIMITED and lower > upper:  # as macros that mirror a joint make them
+        reader.warning(
+            element,
+            'the lower limit is above the upper one',
+            found=f'lower {lower:g}, upper {upper:g}',
+            taken='they are swapped',
+        )
+        lower, upper = upper, lower
     return Limit(
-        lower=_number(limit, 'lower', reader, words, 0.0),
-        upper=_number(limit, 'upper', reader, words, 0.0),
+        lower=lower,
+        upper=upper,
         effort=_number(limit, 'effort', reader, words),
         velocity=_number(limit, 'velocity', reader, words),
     )

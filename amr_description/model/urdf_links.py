@@ -177,10 +177,13 @@ def read_material(element: etree._Element, reader: ElementReader) -> Material:
     if name is None:
         reader.error(element, '<material> has no attribute "name"')
     color, texture = element.find('color'), element.find('texture')
+    if texture is not None and not texture.get('filename', '').strip():
+        reader.warning(texture, '<texture> has no attribute "filename"', taken='it is left out')
+        texture = None
     return Material(
         name=name or '',
         color=None if color is None else reader.numbers(color, 'rgba', 4),
-        texture=None if texture is None else reader.required(texture, 'filename'),
+        texture=None if texture is None else texture.get('filename', '').strip(),
     )
 
 

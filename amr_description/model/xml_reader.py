@@ -44,6 +44,8 @@ _DOCUMENT_TYPE = re.compile(
     r'\A(?>\s+|<\?.*?\?>|<!--.*?-->)*+<!DOCTYPE', re.DOTALL | re.IGNORECASE
 )
 _SURROGATE = re.compile('[\ud800-\udfff]')
+_DECLARATION = re.compile(r'\A\s*+<\?xml\s[^<>]*\?>')
+_KNOWN_DECLARATION = re.compile(r'\A<\?xml\s+version\s*=\s*["\']1\.[01]["\']')
 # The faults that libxml2 names on the left, as tinyxml2, the parser of urdfdom, names them.
 _TINYXML = {
     etree.ErrorTypes.ERR_DOCUMENT_EMPTY: ('XML_ERROR_EMPTY_DOCUMENT', 13),
@@ -87,15 +89,34 @@ def decode(data: bytes, source: str) -> str:
             f'{source}:1: unknown encoding {quote(encoding)}; save the file as UTF-8'
         )
     try:
-        return data.decode('utf-8-sig' if encoding in ('utf-8', 'utf8') else encoding)
+        text = data.decode('utf-8-sig' if encoding in ('utf-8', 'utf8') else encoding)
+        return plain_xml(text)
     except UnicodeDecodeError as error:
         line = data.count(b'\n', 0, error.start) + 1
         wrong = f'{source}:{line}: byte {error.start} is not {encoding.upper()}'
         raise DescriptionError(f'{wrong}; save the file as UTF-8') from None
 
 
+def plain_xml(text: str) -> str:
+    """
+    Return a description as every XML parser takes it; one that they take comes back as it is.
+
+    That of urdfdom reads neither the version of the XML declaration nor what stands behind a
+    character NUL, and lets blanks stand before a declaration. Such a declaration is left out, and
+    so is what is blank behind a NUL; all lines keep their numbers.
+    """
+    before, nul, behind = text.partition('\0')
+    if nul and not behind.strip('\0 \t\r\n'):
+        text = before
+    declaration = _DECLARATION.match(text)
+    if declaration is None or _KNOWN_DECLARATION.match(text):
+        return text
+    return '\n' * declaration[0].count('\n') + text[declaration.end() :]
+
+
 def parse_xml(text: str, source: str, report: Report) -> etree._Element | None:
     """Return the root element, or report why there is none and return None."""
+    text = plain_xml(text)
     refusal = _refusal(text)
     if refusal:
         report(Finding.error(source, 1, refusal))
@@ -170,7 +191,11 @@ class ElementReader:
         count: int,
         default: tuple[float, ...] | None = None,
     ) -> tuple[float, ...]:
-        """Return ``count`` finite numbers; the default if missing, NaNs after a report."""
+        """
+        Return ``count`` finite numbers; the default if missing, NaNs after a report.
+
+        Of more than ``count`` the first are returned, and those that are too many reported.
+        """
         text = element.get(attribute)
         expected = 'a number' if count == 1 else f'{count} numbers'
         if text is None and default is not None:
@@ -182,6 +207,15 @@ class ElementReader:
             return (math.nan,) * count
         words = text.split()
         values = [parse_number(word) for word in words]
+        if len(words) > count > 1 and all(map(math.isfinite, values)):
+            self.error(
+                element,
+                f'{attribute} of <{element.tag}>',
+                found=quote(text),
+                expected=expected,
+                taken=f'the first {count} are taken',
+            )
+            return tuple(values[:count])
         if len(words) != count or not all(map(math.isfinite, values)):
             finite = f'{expected}, finite' if any(map(_not_finite, words)) else expected
             self.error(

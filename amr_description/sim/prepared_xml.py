@@ -27,6 +27,7 @@ _COMPILER = {
     'strippath': 'false',
     'inertiafromgeom': 'false',
 }
+_VECTORS = ('xyz', 'rpy', 'scale', 'size')
 _MOMENTS = ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
 
 
@@ -60,9 +61,7 @@ def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
         # MuJoCo takes the amount of a negative one, which elsewhere means that there is none.
         if float(limit.get('effort', '0')) < 0.0:
             limit.set('effort', '0')
-    for joint in robot.joints:
-        if joint.limit is not None and joint.limit.lower == joint.limit.upper:
-            _keep_limit(root, joint)
+    _write_as_taken(root, robot)
     meshes = resolve_meshes(root, robot.source, log, strict=strict)
     return etree.tostring(root, encoding='unicode'), meshes
 
@@ -96,6 +95,32 @@ def _inertial_element(inertial: Inertial, origin: etree._Element | None) -> etre
     moments = {key: repr(getattr(inertial.inertia, key)) for key in _MOMENTS}
     etree.SubElement(element, 'inertia', moments)
     return element
+
+
+def _write_as_taken(root: etree._Element, robot: Robot) -> None:
+    """Write limits, mimics and vectors as the reader has taken them, not as the file has them."""
+    elements = {element.get('name'): element for element in root.iterfind('joint')}
+    for joint in robot.joints:
+        element = elements[joint.name]
+        limit = element.find('limit')
+        for mimic in element.findall('mimic') if joint.mimic is None else ():
+            element.remove(mimic)
+        if joint.limit is None or limit is None:
+            continue
+        if joint.limit.lower == joint.limit.upper:
+            _keep_limit(root, joint)
+        elif _swapped(limit):
+            limit.set('lower', repr(joint.limit.lower))
+            limit.set('upper', repr(joint.limit.upper))
+    for element in root.iter('origin', 'axis', 'mesh', 'box'):
+        for key in _VECTORS:
+            words = element.get(key, '').split()
+            if len(words) > 3:
+                element.set(key, ' '.join(words[:3]))
+
+
+def _swapped(limit: etree._Element) -> bool:
+    return float(limit.get('lower', '0')) > float(limit.get('upper', '0'))
 
 
 def _keep_limit(root: etree._Element, joint: Joint) -> None:

@@ -26,25 +26,17 @@ _LONGEST_CHAIN = 100
 _TOLERANCE = 0.001
 
 
-def limits_are_ordered(context: CheckContext) -> Iterator[Finding]:
-    """The lower limit of a joint that has limits is below the upper one."""
+def limits_leave_a_range(context: CheckContext) -> Iterator[Finding]:
+    """The limits of a joint that has them are not equal."""
     for joint in context.robot.joints:
         if joint.type not in (JointType.REVOLUTE, JointType.PRISMATIC) or joint.limit is None:
             continue
         lower, upper = joint.limit.lower, joint.limit.upper
-        found = f'lower {lower:g}, upper {upper:g}'
-        if lower > upper:
-            yield context.error(
-                joint.line,
-                f'joint {quote(joint.name)}: the lower limit is above the upper one',
-                found=found,
-                fix='swap them',
-            )
-        elif lower == upper:
+        if lower == upper:
             yield context.warning(
                 joint.line,
                 f'joint {quote(joint.name)} cannot move',
-                found=found,
+                found=f'lower {lower:g}, upper {upper:g}',
                 expected='a lower limit below the upper one',
                 fix='give its range, or make it type="fixed"',
             )
@@ -106,21 +98,19 @@ def axis_is_a_unit_vector(context: CheckContext) -> Iterator[Finding]:
             )
 
 
-def mimicked_joint_exists(context: CheckContext) -> Iterator[Finding]:
-    """A mimic joint follows another joint of the robot, one that moves and is no mimic itself."""
+def mimicked_joint_is_no_mimic(context: CheckContext) -> Iterator[Finding]:
+    """The joint that a mimic joint follows is no mimic itself."""
     robot = context.robot
-    known = quote_all([joint.name for joint in robot.joints])
     for joint in robot.joints:
         source = '' if joint.mimic is None else joint.mimic.joint
-        if source and (source == joint.name or not robot.has_joint(source)):
-            yield context.error(
+        if source and robot.joint(source).mimic is not None:
+            end = _end_of_chain(robot, joint)
+            yield context.warning(
                 joint.line,
-                f'joint {quote(joint.name)} mimics a joint that is not there',
-                found='itself' if source == joint.name else quote(source),
-                expected=f'another one of {known}',
+                f'joint {quote(joint.name)} mimics {quote(source)}, which is a mimic itself',
+                expected='one step, as programs take it',
+                fix=f'mimic {quote(end)}' if end else 'mimic a joint that is none',
             )
-        elif source:
-            yield from _check_source(context, joint, robot.joint(source))
 
 
 def wheels_roll_forward(context: CheckContext) -> Iterator[Finding]:
@@ -187,27 +177,6 @@ def _length(text: str) -> float:
         return math.hypot(*map(float, words)) if len(words) == 3 else math.nan
     except ValueError:
         return math.nan
-
-
-def _check_source(context: CheckContext, joint: Joint, source: Joint) -> Iterator[Finding]:
-    """Check a joint that is mimicked and exists."""
-    name = f'joint {quote(joint.name)}'
-    if not (source.has_position and joint.has_position):
-        odd = joint if source.has_position else source
-        yield context.error(
-            joint.line,
-            f'{name} cannot mimic {quote(source.name)}',
-            found=f'{quote(odd.name)} of type {odd.type}',
-            expected='two joints of type revolute, continuous or prismatic',
-        )
-    elif source.mimic is not None:
-        end = _end_of_chain(context.robot, joint)
-        yield context.warning(
-            joint.line,
-            f'{name} mimics {quote(source.name)}, which is a mimic itself',
-            expected='one step, as programs take it',
-            fix=f'mimic {quote(end)}' if end else 'mimic a joint that is none',
-        )
 
 
 def _end_of_chain(robot: Robot, joint: Joint) -> str:

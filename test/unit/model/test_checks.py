@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The checker: each rule with a good and a bad robot, and what holds for all findings."""
 
+import math
 import random
 import re
 
@@ -38,6 +39,10 @@ def joint_text(parent, child, kind='continuous', inside=''):
 
 def findings(text):
     return [str(finding) for finding in checks.check(text, 'f')]
+
+
+def told_of(word, text):
+    return [line for line in findings(text) if word in line]
 
 
 def errors(text):
@@ -373,23 +378,59 @@ def two_links(joint):
     return robot_text(f'<link name="a">{SOLID}</link><link name="b">{SOLID}</link>\n{joint}')
 
 
-def test_limits_are_ordered():
-    assert errors(two_links(joint_text('a', 'b', 'revolute', limited(-1, 1)))) == []
-    (error,) = errors(two_links(joint_text('a', 'b', 'revolute', limited(1, -1))))
-    assert error == (
-        'error: f:3: joint "a_b": the lower limit is above the upper one: '
-        'found lower 1, upper -1; swap them'
-    )
-    assert errors(two_links(joint_text('a', 'b', 'continuous', limited(1, -1)))) == []
+def test_limits_in_the_wrong_order_are_swapped():
+    assert not told_of('limit', two_links(joint_text('a', 'b', 'revolute', limited(-1, 1))))
+    text = two_links(joint_text('a', 'b', 'revolute', limited(2, -1)))
+    assert told_of('limit', text) == [
+        'warning: f:3: joint "a_b": the lower limit is above the upper one: '
+        'found lower 2, upper -1; they are swapped'
+    ]
+    robot, _ = checks.require_sound(text, strict=False)
+    assert (robot.joints[0].limit.lower, robot.joints[0].limit.upper) == (-1.0, 2.0)
+    assert not told_of('limit', two_links(joint_text('a', 'b', 'continuous', limited(1, -1))))
 
 
 @pytest.mark.parametrize(('source', 'found'), [('nobody', '"nobody"'), ('a_b', 'itself')])
-def test_mimicked_joint_exists(source, found):
-    (error,) = errors(two_links(joint_text('a', 'b', inside=f'<mimic joint="{source}"/>')))
-    assert error == (
-        f'error: f:3: joint "a_b" mimics a joint that is not there: found {found}, '
-        'expected another one of "a_b"'
-    )
+def test_a_joint_that_mimics_nothing_moves_by_itself(source, found):
+    text = two_links(joint_text('a', 'b', inside=f'<mimic joint="{source}"/>'))
+    assert told_of('mimic', text) == [
+        f'warning: f:3: joint "a_b" mimics a joint that is not there: found {found}, '
+        'expected another one of "a_b"; it moves by itself'
+    ]
+    robot, _ = checks.require_sound(text, strict=False)
+    assert robot.joints[0].mimic is None
+
+
+def test_a_fixed_joint_that_mimics_stays_as_it_is():
+    """As robots have them whose grippers somebody has made rigid."""
+    text = robot_text(
+        f'<link name="a">{SOLID}</link><link name="b">{SOLID}</link><link name="c">{SOLID}</link>'
+        + joint_text('a', 'b') + joint_text('a', 'c', 'fixed', '<mimic joint="a_b"/>')
+    )  # fmt: skip
+    (line,) = told_of('mimic', text)
+    assert line.endswith('found "a_c" of type fixed, expected two joints of type revolute, '
+                         'continuous or prismatic; it stays as it is')  # fmt: skip
+
+
+def test_of_too_many_numbers_the_first_are_taken():
+    """As urdfdom refuses them, and other simulators take them."""
+    text = two_links(joint_text('a', 'b', inside='<origin rpy="0.5 0 0 0"/>'))
+    (error,) = told_of('rpy', text)
+    assert error.startswith('error: f:3: joint "a_b": rpy of <origin>: found "0.5 0 0 0"')
+    robot, (warning, *_) = checks.require_sound(text, strict=False)
+    assert warning.text.endswith('expected 3 numbers; the first 3 are taken')
+    assert robot.joints[0].origin.rotation[0] == pytest.approx(math.sin(0.25))
+    with pytest.raises(DescriptionError, match='rpy of <origin>'):
+        checks.require_sound(text, strict=True)
+
+
+def test_a_texture_without_a_file_is_left_out():
+    visual = '<visual><geometry><sphere radius="1"/></geometry>{}</visual>'
+    material = '<material name="m"><color rgba="1 1 1 1"/><texture/></material>'
+    text = robot_text(f'<link name="a">{visual.format(material)}</link>')
+    (line,) = told_of('texture', text)
+    assert line.endswith('<texture> has no attribute "filename"; it is left out')
+    assert line.startswith('warning')
 
 
 def test_all_faults_are_found_in_one_go():

@@ -100,3 +100,12 @@ def test_what_is_mended_is_a_body_and_is_mended_no_more(values, mass):
         assert low > 0.0
         assert high <= (low + middle) * (1.0 + 1e-9)
         assert mended_inertia(better, mass) is None
+
+
+def test_what_rounding_has_made_impossible_is_mended_by_as_little():
+    """MuJoCo refuses moments whose largest exceeds the others' sum by its last bit."""
+    given = Inertia(0.1, 0.0, 0.0, 0.2, 0.0, 0.3 + 1e-4)
+    low, middle, high = principal_moments(mended_inertia(given, 1.0))
+    assert high < low + middle
+    assert (low, middle, high) == pytest.approx((0.1, 0.2, 0.3), abs=2e-4)
+    assert mended_inertia(Inertia(low, 0.0, 0.0, middle, 0.0, high), 1.0) is None

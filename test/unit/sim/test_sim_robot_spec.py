@@ -102,3 +102,19 @@ def test_a_robot_with_legs_that_nobody_commands_stands_on_its_motors(effort, sta
     stool = world.spawn('stool', LEGS.format(''.join(legs)), push, lift=True)
     world.step(1500)
     assert (stool.pose('seat').translation[2] > 0.3) is stands
+
+
+def test_limits_in_the_wrong_order_and_numbers_too_many_are_spawned_as_taken():
+    """MuJoCo itself refuses both."""
+    world = MujocoWorld('empty')
+    inside = '<limit lower="0.5" upper="-0.2" effort="1" velocity="1"/><axis xyz="0 0 1 0"/>'
+    text = robot(inside, 'revolute', 'world')
+    world.spawn('r', text, Transform((0.0, 0.0, 3.0)))
+    assert world.engine.model.joint('r/j').range == pytest.approx((-0.2, 0.5))
+
+
+def test_a_joint_that_mimics_nothing_is_spawned_free():
+    world = MujocoWorld('empty')
+    inside = '<mimic joint="nobody"/>'
+    world.spawn('r', robot(inside, 'continuous', 'world'), Transform((0.0, 0.0, 3.0)))
+    assert world.engine.model.neq == 0
