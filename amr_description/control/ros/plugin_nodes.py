@@ -201,8 +201,7 @@ class ControllerNode:
         def receive(message: Any, info: Any) -> None:
             try:
                 sample = convert(message)
-                now = self.node.get_clock().now().nanoseconds
-                reason = port.check(sample, now) if port.check else ''
+                reason = port.check(sample, self._now()) if port.check else ''
             except Exception as error:  # a third party's converter; the robot must go on
                 self.node.get_logger().error(
                     f"Cannot accept a message on '{port.port.name}': {describe(error)}",
@@ -224,6 +223,9 @@ class ControllerNode:
             _message_type(port.port), port.port.name, receive, qos(port.port.qos)
         )
         return subscription
+
+    def _now(self) -> int:
+        return self.node.get_clock().now().nanoseconds
 
     def _is_possible(self, output: Output[Any]) -> bool:
         """Return whether an output can be published; one that is optional is warned of if not."""
