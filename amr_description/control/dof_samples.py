@@ -63,14 +63,14 @@ class PidStateSample:
 
 
 @dataclass(frozen=True, slots=True)
-class SwitchRequest:
+class SetBoolRequest:
     """A request of std_srvs/SetBool."""
 
     is_on: bool
 
 
 @dataclass(frozen=True, slots=True)
-class SwitchResponse:
+class SetBoolResponse:
     """A response of std_srvs/SetBool."""
 
     success: bool

@@ -19,6 +19,7 @@ from typing import Self, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS as NANOSECONDS
 from amr_description.errors import ControllerError, InterfaceError
+from amr_description.model.hardware_info import IMU_INTERFACES as IMU_INTERFACES
 
 if TYPE_CHECKING:
     from amr_description.model.hardware_info import ComponentInfo, InterfaceInfo
@@ -39,12 +40,6 @@ Interface of a joint, by any of the names that simulators know it by → the qua
 
 ``torque`` and ``force`` are those of mujoco_ros2_control, ``…_pid`` those of gazebo_ros2_control.
 """
-IMU_INTERFACES = (
-    *(f'orientation.{axis}' for axis in 'xyzw'),
-    *(f'angular_velocity.{axis}' for axis in 'xyz'),
-    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
-)
-"""The state interfaces of an inertial measurement unit: a unit quaternion, rad/s, m/s²."""
 POSE_INTERFACES = (
     *(f'position.{axis}' for axis in 'xyz'),
     *(f'orientation.{axis}' for axis in 'xyzw'),

@@ -43,8 +43,8 @@ from amr_description.control.dof_samples import (
     DofState,
     DofStatesSample,
     PidStateSample,
-    SwitchRequest,
-    SwitchResponse,
+    SetBoolRequest,
+    SetBoolResponse,
 )
 from amr_description.control.interfaces import (
     ACCELERATION,
@@ -450,20 +450,20 @@ class PidController(Controller):
             ServicePort(
                 '~/set_feedforward_control',
                 'std_srvs/srv/SetBool',
-                SwitchRequest,
-                SwitchResponse,
+                SetBoolRequest,
+                SetBoolResponse,
             ),
             self._set_feedforward,
         )
 
-    def _set_feedforward(self, request: SwitchRequest) -> SwitchResponse:
+    def _set_feedforward(self, request: SetBoolRequest) -> SetBoolResponse:
         self._has_feedforward = request.is_on
         self.log(
             Severity.WARN,
             'This service will be deprecated in favour of setting the ``feedforward_gain`` '
             'parameter to a non-zero value.',
         )
-        return SwitchResponse(success=True)
+        return SetBoolResponse(success=True)
 
 
 def _by_interface[Handle](rows: Sequence[tuple[Handle, ...]]) -> tuple[Handle, ...]:

@@ -15,9 +15,10 @@ from amr_description.model.hardware_info import (
     ComponentType,
     HardwareInfo,
     HardwareType,
+    IMU_INTERFACES,
     InterfaceInfo,
 )
-from amr_description.model.robot import Limit, Robot, WORLD_LINK
+from amr_description.model.robot import Joint, Limit, Robot, WORLD_LINK
 from amr_description.text import quote, quote_all
 
 JOINTS = 'gazebo_plugins'
@@ -30,11 +31,6 @@ BROADCASTER = 'joint_state_broadcaster/JointStateBroadcaster'
 LEAST_RATE, HIGHEST_RATE = 100, 200
 """Hz, of the controller manager; it is raised for sensors that are faster."""
 
-_IMU_STATES = (
-    *(f'orientation.{axis}' for axis in 'xyzw'),
-    *(f'angular_velocity.{axis}' for axis in 'xyz'),
-    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
-)
 _STATES = ('position', 'velocity', 'effort')
 _MODEL = re.compile(r'/?model/[^/]+/')
 _NO_NAME = re.compile(r'\W', re.ASCII)
@@ -81,14 +77,13 @@ class PluginController:
         """
         inside = namespace.rstrip('/') or f'/{self.namespace}'.rstrip('/')
         own = f'{namespace.rstrip("/")}/{self.name}'
-        return {
-            before: after
-            if after.startswith('/')
-            else f'{inside}/{after}'
-            if not after.startswith('~')
-            else f'{own}{after[1:]}'
-            for before, after in self.topics.items()
-        }
+
+        def full_name(topic: str) -> str:
+            if topic.startswith('~'):
+                return f'{own}{topic[1:]}'
+            return topic if topic.startswith('/') else f'{inside}/{topic}'
+
+        return {before: full_name(after) for before, after in self.topics.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,7 +296,7 @@ class Builder:
             for joint in self.robot.joints
             if joint.has_position and (joint.name in self._commands or not self.is_controlled)
         )
-        measured = tuple(InterfaceInfo(each) for each in _IMU_STATES)
+        measured = tuple(InterfaceInfo(each) for each in IMU_INTERFACES)
         sensors = tuple(
             ComponentInfo(name, ComponentType.SENSOR, state_interfaces=measured)
             for name in self.imus
@@ -328,7 +323,7 @@ class Builder:
         plugin = 'amr_description/SimulatedBase'
         return (HardwareInfo(BASE, HardwareType.SYSTEM, plugin, sensors=sensors, gpios=gpios),)
 
-    def _limited(self, name: str) -> Any:
+    def _limited(self, name: str) -> Joint:
         """Return a joint, its torque limited as a plugin says."""
         joint = self.robot.joint(name)
         if name not in self._torques:
@@ -362,6 +357,7 @@ def node_name(name: str, default: str) -> str:
 
 
 def origin_of(plugin: PluginElement) -> str:
+    """Return what a plugin is called in messages."""
     return f'plugin {quote(plugin.name or plugin.filename)}'
 
 

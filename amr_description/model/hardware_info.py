@@ -12,6 +12,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+IMU_INTERFACES = (
+    *(f'orientation.{axis}' for axis in 'xyzw'),
+    *(f'angular_velocity.{axis}' for axis in 'xyz'),
+    *(f'linear_acceleration.{axis}' for axis in 'xyz'),
+)
+"""The state interfaces of an inertial measurement unit: a unit quaternion, rad/s, m/s²."""
+
 
 class HardwareType(StrEnum):
     """The kinds of hardware component; each equals its text."""

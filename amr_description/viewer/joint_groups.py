@@ -41,7 +41,7 @@ a slider that is being dragged, the other joints would creep down under their we
 
 
 @dataclass(frozen=True, slots=True)
-class JointGroup:
+class ControllerJoints:
     """The joints of an active controller, in its order, and the topic or action for them."""
 
     controller: str
@@ -57,7 +57,7 @@ def is_joint_command(topic: str, message: str) -> bool:
 
 def joint_groups(
     controllers: Iterable[ControllerInfo], topics: Sequence[Command]
-) -> tuple[JointGroup, ...]:
+) -> tuple[ControllerJoints, ...]:
     """Return the groups of the active controllers that hear one of these topics."""
     found = []
     for controller in controllers:
@@ -71,11 +71,11 @@ def joint_groups(
             if topic.message != POSITIONS or interfaces == {_POSITION}:
                 # joint/position, or pid_controller/joint/position of one that is chained
                 joints = tuple(dict.fromkeys(claim[-2] for claim in claims if len(claim) > 1))
-                found.append(JointGroup(controller.name, topic.topic, topic.message, joints))
+                found.append(ControllerJoints(controller.name, topic.topic, topic.message, joints))
     return tuple(found)
 
 
-def with_moves(controllers: Controllers, groups: Iterable[JointGroup]) -> Controllers:
+def with_moves(controllers: Controllers, groups: Iterable[ControllerJoints]) -> Controllers:
     """Return a list of controllers that tells which joints pages can move by each."""
     moves = {group.controller: group.joints for group in groups}
     listed = (replace(each, moves=moves.get(each.name, ())) for each in controllers.controllers)
@@ -86,7 +86,7 @@ def with_moves(controllers: Controllers, groups: Iterable[JointGroup]) -> Contro
 class GroupTargets:
     """Where a page has put the joints of a group: rad or m, and when: s."""
 
-    group: JointGroup
+    group: ControllerJoints
     positions: dict[str, float] = field(default_factory=dict)
     at: float = 0.0
 

@@ -31,7 +31,7 @@ ABOUT_ACTIVATE = (
 
 
 @dataclass(frozen=True)
-class ControllerPlan:
+class SpawnPlan:
     """What a stack does about the controllers of a robot."""
 
     names: tuple[str, ...] = PAIR
@@ -62,7 +62,7 @@ class ControllerPlan:
 
 def plan_controllers(
     urdf: str, description: str, controllers: str = '', activate: str = '', namespace: str = ''
-) -> ControllerPlan:
+) -> SpawnPlan:
     """
     Return what is spawned for a robot.
 
@@ -80,19 +80,19 @@ def plan_controllers(
     """
     wanted = tuple(filter(None, re.split(r'[\s,]+', activate)))
     if urdf == URDF and not controllers and not wanted:
-        return ControllerPlan(files=(path_of(SHIPPED),))
+        return SpawnPlan(files=(path_of(SHIPPED),))
     from amr_description.model.urdf import parse
 
     try:
         robot = parse(description, urdf)
         return _plan(urdf, robot, controllers, wanted, namespace)
     except DescriptionError:  # the node that reads it says where, and what would do
-        return ControllerPlan(files=(controllers_file(controllers, urdf, description),))
+        return SpawnPlan(files=(controllers_file(controllers, urdf, description),))
 
 
 def _plan(
     urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str], inside: str
-) -> ControllerPlan:
+) -> SpawnPlan:
     from amr_description.model.controller_files import (
         declared_controllers,
         manager_of,
@@ -107,7 +107,7 @@ def _plan(
     if not hardware_of(plugins.robot):
         note = f'urdf:={urdf}: it has no <ros2_control>, and so no controller manager of its own'
         note += f'; controllers:={controllers} has no effect' if controllers else ''
-        return ControllerPlan((), files=tuple(given), notes=(('INFO', note),))
+        return SpawnPlan((), files=tuple(given), notes=(('INFO', note),))
     files, notes = (given, []) if given else _files_of(urdf, robot)
     own_namespace, manager = manager_of(robot)
     namespace = inside or own_namespace
@@ -126,9 +126,9 @@ def _plan(
             )
     chosen = tuple(wanted) or tuple(names)
     if robot.name == AMR and chosen == PAIR and own_namespace == '/':
-        return ControllerPlan(files=tuple(files), notes=tuple(notes))
+        return SpawnPlan(files=tuple(files), notes=tuple(notes))
     by_name = {each.name: each for each in found}
-    return ControllerPlan(
+    return SpawnPlan(
         chosen,
         tuple(by_name[name] for name in chosen),
         tuple(files),
@@ -160,7 +160,7 @@ def _files_of(urdf: str, robot: 'Robot') -> tuple[list[Path], list[Note]]:
     return files, [('WARNING', f'urdf:={urdf}: {why}')]
 
 
-def spawners(plan: ControllerPlan, start_when: Condition | None) -> list[Node]:
+def spawners(plan: SpawnPlan, start_when: Condition | None) -> list[Node]:
     """
     Return the nodes that spawn the controllers of a plan; [] where there are none.
 
@@ -180,7 +180,7 @@ def spawners(plan: ControllerPlan, start_when: Condition | None) -> list[Node]:
     return [Node('spawner', namespace=namespace, arguments=words, start_when=start_when)]
 
 
-def words_of(plan: ControllerPlan) -> list[str]:
+def words_of(plan: SpawnPlan) -> list[str]:
     """Return the words of one spawner for all controllers of a plan."""
     if plan.is_that_of_amr:
         return list(plan.names)

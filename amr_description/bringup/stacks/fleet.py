@@ -26,8 +26,8 @@ from amr_description.bringup import (
 from amr_description.bringup.controller_files import controllers_file, require_namespaces, URDF
 from amr_description.bringup.environment import setup_command
 from amr_description.bringup.stacks.controllers import (
-    ControllerPlan,
     plan_controllers,
+    SpawnPlan,
     words_of,
 )
 from amr_description.bringup.stacks.next_steps import velocity_topic
@@ -102,9 +102,7 @@ def fleet(
     )
 
 
-def _robot(
-    name: str, position: _Position, description: str, plan: ControllerPlan
-) -> tuple[Node, ...]:
+def _robot(name: str, position: _Position, description: str, plan: SpawnPlan) -> tuple[Node, ...]:
     """Return the nodes that publish a robot's URDF, spawn it and spawn its controllers."""
     robot_state_publisher = Node(
         'robot_state_publisher',
@@ -160,7 +158,7 @@ def _map_of(positions: dict[str, _Position]) -> str:
     return '\n'.join([*lines, '</robot>'])
 
 
-def _how_to_drive(names: list[str], plan: ControllerPlan) -> str:
+def _how_to_drive(names: list[str], plan: SpawnPlan) -> str:
     """Return the next steps of a user; ``plan``: that of the first robot."""
     first, last = names[0], names[-1]
     topic = velocity_topic(plan)

@@ -8,7 +8,7 @@ import os
 from typing import Any, TYPE_CHECKING
 
 from amr_description.bringup.environment import setup_command
-from amr_description.bringup.stacks.controllers import ControllerPlan
+from amr_description.bringup.stacks.controllers import SpawnPlan
 
 if TYPE_CHECKING:  # see controllers.py
     from amr_description.model.controller_files import DeclaredController
@@ -38,7 +38,7 @@ class VelocityTopic:
 AMR_TOPIC = VelocityTopic('/diff_drive_controller/cmd_vel')
 
 
-def velocity_topic(plan: ControllerPlan) -> VelocityTopic | None:
+def velocity_topic(plan: SpawnPlan) -> VelocityTopic | None:
     """Return the topic that drives the robot; None: none of its controllers drives."""
     if plan.is_that_of_amr:
         return AMR_TOPIC
@@ -71,7 +71,7 @@ or for one command
 {_END}"""
 
 
-def next_steps_of(viewer: bool, plan: ControllerPlan, description: str) -> str:
+def next_steps_of(viewer: bool, plan: SpawnPlan, description: str) -> str:
     """Return the next steps with the robot of a description; ``viewer``: whether it is served."""
     if plan.is_that_of_amr:
         return how_to_drive(viewer)
@@ -80,7 +80,7 @@ def next_steps_of(viewer: bool, plan: ControllerPlan, description: str) -> str:
     return how_to_go_on(viewer, plan, parse(description))
 
 
-def how_to_go_on(viewer: bool, plan: ControllerPlan, robot: 'Robot') -> str:
+def how_to_go_on(viewer: bool, plan: SpawnPlan, robot: 'Robot') -> str:
     """Return the next steps with any robot; ``viewer``: whether the page is served."""
     topic = velocity_topic(plan)
     if topic is not None:
@@ -97,7 +97,7 @@ def how_to_go_on(viewer: bool, plan: ControllerPlan, robot: 'Robot') -> str:
 {_END}"""
 
 
-def _commands(plan: ControllerPlan, robot: 'Robot') -> Iterator[str]:
+def _commands(plan: SpawnPlan, robot: 'Robot') -> Iterator[str]:
     """Yield a command for the first controller of each kind that moves joints."""
     kinds = set()
     for each in plan.declared:
@@ -147,7 +147,7 @@ def _list_of(numbers: Iterator[float]) -> str:
     return f'[{", ".join(f"{number:g}" for number in numbers)}]'
 
 
-def _topic(plan: ControllerPlan, controller: 'DeclaredController', local: str) -> str:
+def _topic(plan: SpawnPlan, controller: 'DeclaredController', local: str) -> str:
     """Return the full name of a topic ``~/…`` of a controller, after its remappings."""
     inside = plan.namespace.rstrip('/')
 

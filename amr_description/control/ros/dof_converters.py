@@ -21,8 +21,8 @@ from amr_description.control.dof_samples import (
     GripperGoal,
     GripperState,
     PidStateSample,
-    SwitchRequest,
-    SwitchResponse,
+    SetBoolRequest,
+    SetBoolResponse,
 )
 from amr_description.ros.messages import fill_stamp
 
@@ -63,12 +63,12 @@ def fill_pid_state(sample: PidStateSample, message: PidState) -> None:
     message.i_max, message.i_min, message.output = sample.i_max, sample.i_min, sample.output
 
 
-def switch_request(message: SetBool.Request) -> SwitchRequest:
+def switch_request(message: SetBool.Request) -> SetBoolRequest:
     """Keep what is asked for."""
-    return SwitchRequest(message.data)
+    return SetBoolRequest(message.data)
 
 
-def fill_switch_response(sample: SwitchResponse, message: SetBool.Response) -> None:
+def fill_switch_response(sample: SetBoolResponse, message: SetBool.Response) -> None:
     """Write the answer."""
     message.success, message.message = sample.success, sample.message
 
@@ -113,7 +113,7 @@ READERS: dict[tuple[type | None, str], Callable[[Any], Any]] = {
     (DofCommandSample, 'control_msgs/msg/MultiDOFCommand'): dof_command_sample,
     (GripperGoal, f'{_GRIPPER}_Goal'): gripper_goal,
     (GripperGoal, f'{_PARALLEL}_Goal'): parallel_gripper_goal,
-    (SwitchRequest, 'std_srvs/srv/SetBool_Request'): switch_request,
+    (SetBoolRequest, 'std_srvs/srv/SetBool_Request'): switch_request,
 }
 """Functions from a message to a sample, by the types of sample and message."""
 WRITERS: dict[tuple[type | None, str], Callable[[Any, Any], None]] = {
@@ -123,6 +123,6 @@ WRITERS: dict[tuple[type | None, str], Callable[[Any, Any], None]] = {
     (GripperState, f'{_PARALLEL}_Feedback'): fill_parallel_gripper_feedback,
     (GripperState, f'{_PARALLEL}_Result'): fill_parallel_gripper_result,
     (PidStateSample, 'control_msgs/msg/PidState'): fill_pid_state,
-    (SwitchResponse, 'std_srvs/srv/SetBool_Response'): fill_switch_response,
+    (SetBoolResponse, 'std_srvs/srv/SetBool_Response'): fill_switch_response,
 }
 """Functions that write a sample into a message, likewise."""

@@ -355,15 +355,13 @@ class EntityManager:
     def _files_of(self, robot: Robot) -> list[str]:
         """Return the parameter files of a robot for which none is given; say if it has none."""
         found, missing = files_of(robot), missing_files(named_files(robot))
-        remedy = 'another one is given by the parameter controllers of the simulator'
+        remedy = 'is given by the parameter controllers of the simulator'
         if missing:
-            why = f'a parameter file that it names is not there: {quote_all(missing)}'
-            self._log(Severity.WARN, f'{robot.source}: {why}; {remedy}')
+            why = f'a parameter file that it names is not there: {quote_all(missing)}; another one'
+            self._log(Severity.WARN, f'{robot.source}: {why} {remedy}')
         elif not found:
-            why = 'it names no parameter file for its controllers'
-            self._log(
-                Severity.WARN, f'{robot.source}: {why}; {remedy.replace("another one", "one")}'
-            )
+            why = 'it names no parameter file for its controllers; one'
+            self._log(Severity.WARN, f'{robot.source}: {why} {remedy}')
         return [str(path) for path in found]
 
 

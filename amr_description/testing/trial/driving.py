@@ -20,10 +20,10 @@ from nav_msgs.msg import Odometry
 from amr_description.errors import AmrError
 from amr_description.model.frames import conjugate, rotate, yaw_of
 from amr_description.testing.lock_step import LatestMessage
-from amr_description.testing.readings import Motion as Reading, motion_of_odometry
+from amr_description.testing.readings import Motion, motion_of_odometry
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active
-from amr_description.testing.trial.findings import Motion
+from amr_description.testing.trial.findings import MotionResult
 
 TOLERANCE = 0.05
 """Of the command."""
@@ -53,7 +53,7 @@ type Command = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Travel:
+class Displacement:
     """Where a robot has got to from where it was: m in its old axes, and rad."""
 
     ahead: float
@@ -61,16 +61,16 @@ class Travel:
     turn: float
 
 
-def travel(start: Reading, end: Reading) -> Travel:
+def travel(start: Motion, end: Motion) -> Displacement:
     """Return the way between two readings."""
     way = [b - a for a, b in zip(start.pose.translation, end.pose.translation, strict=True)]
     back = conjugate(start.pose.rotation)
     ahead, left, _ = rotate(back, (way[0], way[1], way[2]))
     turn = yaw_of(end.pose.rotation) - yaw_of(start.pose.rotation)
-    return Travel(ahead, left, math.remainder(turn, math.tau))
+    return Displacement(ahead, left, math.remainder(turn, math.tau))
 
 
-class Drive:
+class DriveTrial:
     """What is driven: a topic of an active controller, with its type, and its odometry."""
 
     def __init__(self, sim: Simulation, controller: Active) -> None:
@@ -102,8 +102,8 @@ class Drive:
             **({'sideways': ((0.0, _SPEED, 0.0), 0.5)} if sideways else {}),
         }
 
-    def try_all(self) -> list[Motion]:
-        """Drive all parts; one that fails to be commanded ends it."""
+    def try_all(self) -> list[MotionResult]:
+        """DriveTrial all parts; one that fails to be commanded ends it."""
         found = []
         for what, (command, far) in self.parts.items():
             try:
@@ -118,8 +118,8 @@ class Drive:
         if self._odometry is not None:
             self._odometry.close()
 
-    def _try(self, what: str, command: Command, far: float) -> Motion:
-        """Drive one part."""
+    def _try(self, what: str, command: Command, far: float) -> MotionResult:
+        """DriveTrial one part."""
         axis = {'forward': 0, 'sideways': 1, 'turn': 2}[what]
         full = command[axis]
         reached = self._start(command, axis)
@@ -157,9 +157,9 @@ class Drive:
 
     def _motion(
         self, what: str, far: float, truth: float | None, odometry: float | None, note: str
-    ) -> Motion:
+    ) -> MotionResult:
         is_fine = truth is not None and abs(truth - far) <= TOLERANCE * far
-        return Motion(self._controller.name, what, far, truth, odometry, is_fine, note)
+        return MotionResult(self._controller.name, what, far, truth, odometry, is_fine, note)
 
     def _start(self, command: Command, axis: int) -> float:
         """Command until the speed along an axis is steady; return its amount."""
@@ -178,11 +178,11 @@ class Drive:
         """Return the amount of the speed along an axis: the lesser of odometry and truth."""
         return min(abs(_speed_of(each, axis)) for each in self._readings() if each is not None)
 
-    def _readings(self) -> tuple[Reading, Reading | None]:
+    def _readings(self) -> tuple[Motion, Motion | None]:
         """Return truth and odometry."""
         return self._sim.truth, self._read_odometry()
 
-    def _read_odometry(self) -> Reading | None:
+    def _read_odometry(self) -> Motion | None:
         message = self._odometry.take() if self._odometry is not None else None
         return None if message is None else motion_of_odometry(message)
 
@@ -208,11 +208,11 @@ class Drive:
         return message
 
 
-def _speed_of(reading: Reading, axis: int) -> float:
+def _speed_of(reading: Motion, axis: int) -> float:
     return (reading.linear[0], reading.linear[1], reading.angular[2])[axis]
 
 
-def _along(way: Travel, axis: int) -> float:
+def _along(way: Displacement, axis: int) -> float:
     return (way.ahead, way.left, way.turn)[axis]
 
 

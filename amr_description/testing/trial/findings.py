@@ -29,7 +29,7 @@ class Check:
 
 
 @dataclass
-class Rest:
+class RestResult:
     """Three seconds after the spawn without a command."""
 
     seconds: float
@@ -57,7 +57,7 @@ class ControllerFinding:
 
 
 @dataclass
-class Motion:
+class MotionResult:
     """One motion: what was asked, and what came of it, in m, rad, m/s and rad/s."""
 
     controller: str
@@ -85,9 +85,9 @@ class Findings:
     check: Check = field(default_factory=Check)
     spawn_seconds: float | None = None
     """s of the wall clock, with the start of the simulator; None: not spawned."""
-    rest: Rest | None = None
+    rest: RestResult | None = None
     controllers: list[ControllerFinding] = field(default_factory=list)
-    motions: list[Motion] = field(default_factory=list)
+    motions: list[MotionResult] = field(default_factory=list)
     explained: list[str] = field(default_factory=list)
     """Motions that are off for a reason that the simulator has named."""
     undriven: list[str] = field(default_factory=list)
@@ -118,9 +118,9 @@ def from_json(text: str) -> Findings:
     rest = values['rest']
     values['check'] = Check(**values['check'])
     if rest is not None:
-        values['rest'] = Rest(**{k: math.inf if v is None else v for k, v in rest.items()})
+        values['rest'] = RestResult(**{k: math.inf if v is None else v for k, v in rest.items()})
     values['controllers'] = [ControllerFinding(**each) for each in values['controllers']]
-    values['motions'] = [Motion(**each) for each in values['motions']]
+    values['motions'] = [MotionResult(**each) for each in values['motions']]
     return Findings(**values)
 
 
@@ -149,13 +149,13 @@ def row(found: Findings) -> tuple[str, ...]:
     )
 
 
-def _rest(rest: Rest | None) -> str:
+def _rest(rest: RestResult | None) -> str:
     if rest is None:
         return '-'
     return f'{rest.seconds:.1f} s' if math.isfinite(rest.seconds) else 'no'
 
 
-def _motion(motion: Motion) -> str:
+def _motion(motion: MotionResult) -> str:
     sign = '' if motion.is_fine else '~' if motion.said else '!'
     if motion.truth is None or not motion.asked:
         return f'{sign}{motion.what}'

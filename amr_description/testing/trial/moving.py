@@ -26,7 +26,7 @@ from amr_description.testing.lock_step import LatestMessage
 from amr_description.testing.readings import Joint as State, joints_of
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active
-from amr_description.testing.trial.findings import Motion
+from amr_description.testing.trial.findings import MotionResult
 
 _ANGLE, _LENGTH = 0.3, 0.05
 """rad and m."""
@@ -107,7 +107,7 @@ class Mover:
         self._names = list(dict.fromkeys(joint for joint, _ in pairs))
         self._interfaces = {interface for _, interface in pairs}
 
-    def move(self) -> Motion:
+    def move(self) -> MotionResult:
         """Move all joints of the controller at once; the worst of them is told."""
         what = 'trajectory' if _TRAJECTORIES in self._controller.type else 'command'
         try:
@@ -120,10 +120,10 @@ class Mover:
             if self._interfaces == {'velocity'}:
                 return self._by_velocity()
         except (AmrError, KeyError) as error:
-            return Motion(self._controller.name, what, 0.0, None, None, False, str(error))
+            return MotionResult(self._controller.name, what, 0.0, None, None, False, str(error))
         kinds = ', '.join(sorted(self._interfaces)) or 'no'
         note = f'{kinds} commands are not tried'
-        return Motion(self._controller.name, what, 0.0, None, None, True, note)
+        return MotionResult(self._controller.name, what, 0.0, None, None, True, note)
 
     def _targets(self) -> dict[str, tuple[float, float]]:
         """Return (start, target) of each joint."""
@@ -134,7 +134,7 @@ class Mover:
             for name, start in starts.items()
         }
 
-    def _by_trajectory(self) -> Motion:
+    def _by_trajectory(self) -> MotionResult:
         targets = self._targets()
         point = JointTrajectoryPoint(
             positions=[target for _, target in targets.values()],
@@ -144,13 +144,13 @@ class Mover:
         self._sim.send(self._topic('joint_trajectory'), message)
         return self._judge('trajectory', targets)
 
-    def _by_position(self) -> Motion:
+    def _by_position(self) -> MotionResult:
         targets = self._targets()
         data = [target for _, target in targets.values()]
         self._sim.send(self._topic('commands'), Float64MultiArray(data=data))
         return self._judge('position', targets)
 
-    def _by_action(self) -> Motion:
+    def _by_action(self) -> MotionResult:
         """Move a gripper by its action; the result has to come, too."""
         name, node = self._topic('gripper_cmd'), self._sim.node
 
@@ -171,7 +171,7 @@ class Mover:
             self._sim.wait(client.server_is_ready, f"the server of '{name}'")
             handle = self._finished(client.send_goal_async(goal), 'the answer to the goal')
             if not handle.accepted:
-                return Motion(
+                return MotionResult(
                     self._controller.name, 'gripper', target, None, None, False, 'refused'
                 )
             moved = self._judge('gripper', targets)
@@ -192,7 +192,7 @@ class Mover:
         self._sim.wait(result, what, 10.0)
         return future.result()
 
-    def _judge(self, what: str, targets: Mapping[str, tuple[float, float]]) -> Motion:
+    def _judge(self, what: str, targets: Mapping[str, tuple[float, float]]) -> MotionResult:
         self._sim.run(_SECONDS + _SETTLING)
         states = self._states.read()
         reached = {
@@ -201,7 +201,7 @@ class Mover:
         }
         return self._worst(what, reached)
 
-    def _by_velocity(self) -> Motion:
+    def _by_velocity(self) -> MotionResult:
         speeds = dict.fromkeys(self._names, _ANGLE)
         for name in self._names:
             limit = joint.limit if (joint := self._joints.get(name)) else None
@@ -215,7 +215,7 @@ class Mover:
         self._sim.run(0.5)
         return self._worst('velocity', {n: (v, states[n].velocity) for n, v in speeds.items()})
 
-    def _worst(self, what: str, reached: Mapping[str, tuple[float, float]]) -> Motion:
+    def _worst(self, what: str, reached: Mapping[str, tuple[float, float]]) -> MotionResult:
         """Return the motion of the joint with the greatest error: name → (asked, found)."""
 
         def error(name: str) -> float:
@@ -226,7 +226,7 @@ class Mover:
         asked, found = reached[name]
         note = f'{len(reached)} joints, worst {name}'
         is_fine = error(name) <= _TOLERANCE
-        return Motion(self._controller.name, what, asked, found, None, is_fine, note)
+        return MotionResult(self._controller.name, what, asked, found, None, is_fine, note)
 
     def _topic(self, name: str) -> str:
         return f'{self._controller.namespace.rstrip("/")}/{self._controller.name}/{name}'

@@ -29,13 +29,13 @@ from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active, BringUp, find_manager, logged
-from amr_description.testing.trial.driving import Drive, TOLERANCE
+from amr_description.testing.trial.driving import DriveTrial, TOLERANCE
 from amr_description.testing.trial.findings import (
     Check,
     Findings,
     from_json,
-    Motion,
-    Rest,
+    MotionResult,
+    RestResult,
     to_json,
 )
 from amr_description.testing.trial.inputs import (
@@ -185,7 +185,7 @@ class Trial:
             speed, turn = math.hypot(*now.linear), math.hypot(*now.angular)
             if not math.isfinite(speed + turn + now.x + now.y + now.z):
                 self._fault('rest: it explodes: its pose is not finite')
-                self.found.rest = Rest(math.inf, math.inf, math.nan, math.nan, math.nan)
+                self.found.rest = RestResult(math.inf, math.inf, math.nan, math.nan, math.nan)
                 return
             fastest = max(fastest, speed)
             if speed > _STILL_LINEAR or turn > _STILL_ANGULAR:
@@ -193,7 +193,7 @@ class Trial:
         up = rotate(now.pose.rotation, _STRAIGHT_UP)
         before = rotate(begin.pose.rotation, _STRAIGHT_UP)
         cosine = sum(a * b for a, b in zip(up, before, strict=True))
-        rest = Rest(
+        rest = RestResult(
             seconds=last_moving if last_moving < REST - 1e-6 else math.inf,
             fastest=fastest,
             drop=begin.z - now.z,
@@ -241,7 +241,7 @@ class Trial:
                 self.found.undriven.append(f'{controller.name}: {error}')
         elif 'roadcaster' not in controller.type:
             try:
-                with closing(Drive(sim, controller)) as drive:
+                with closing(DriveTrial(sim, controller)) as drive:
                     self.found.motions += drive.try_all()
             except LookupError as error:
                 self.found.undriven.append(f'{error}')
@@ -279,7 +279,7 @@ def _in_turn(bring_up: BringUp) -> Iterator[list[Active]]:
         yield [*(other for other in bring_up.active() if other.name != each.name), each]
 
 
-def describe(motion: Motion) -> str:
+def describe(motion: MotionResult) -> str:
     """Return a motion that is not as it should be, in one line."""
 
     def number(value: float | None) -> str:
@@ -290,7 +290,7 @@ def describe(motion: Motion) -> str:
     return f'{line}{odometry}' + (f' ({motion.note})' if motion.note else '')
 
 
-def cause_of(motion: Motion) -> str:
+def cause_of(motion: MotionResult) -> str:
     """Return what truth and odometry of a motion that is not as it should be have in common."""
     asked, truth, odometry = motion.asked, motion.truth, motion.odometry
     if truth is None or not asked:
@@ -304,7 +304,7 @@ def cause_of(motion: Motion) -> str:
     return 'not by its odometry: wheels slip, or roll otherwise than the parameters say'
 
 
-def explanations(motion: Motion, logged_lines: Sequence[str]) -> list[str]:
+def explanations(motion: MotionResult, logged_lines: Sequence[str]) -> list[str]:
     """
     Return what was said of the controller of a motion, or of slip, that explains why it is off.
 

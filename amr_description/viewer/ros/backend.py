@@ -15,7 +15,7 @@ from visualization_msgs.msg import MarkerArray
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, ViewerError
-from amr_description.viewer.joint_groups import joint_groups, JointGroup, with_moves
+from amr_description.viewer.joint_groups import ControllerJoints, joint_groups, with_moves
 from amr_description.viewer.protocol import (
     Graph,
     RobotInfo,
@@ -162,7 +162,7 @@ class GraphBackend(GraphObserver):
         """Pass on the present session: rclpy runs tasks in any order."""
         self._monitor.set_session(self._session)
 
-    def _set_groups(self, connection: RobotConnection, groups: Sequence[JointGroup]) -> None:
+    def _set_groups(self, connection: RobotConnection, groups: Sequence[ControllerJoints]) -> None:
         """Advertise what moves joints, unless the robot has gone in the meantime."""
         if connection in self._monitor.connections.values():
             connection.commands.set_groups(groups)

@@ -25,9 +25,9 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from amr_description.errors import ViewerError
 from amr_description.text import quote_all
 from amr_description.viewer.joint_groups import (
+    ControllerJoints,
     GRIPPER,
     GroupTargets,
-    JointGroup,
     PARALLEL_GRIPPER,
     POSITIONS,
     SHORTEST,
@@ -41,7 +41,7 @@ _ACTIONS: dict[str, Any] = {GRIPPER: GripperCommand, PARALLEL_GRIPPER: ParallelG
 class _Mover:
     """A group of joints, what moves it, and where pages have put it."""
 
-    def __init__(self, node: Node, group: JointGroup) -> None:
+    def __init__(self, node: Node, group: ControllerJoints) -> None:
         self._node = node
         self.group = group
         self.targets = GroupTargets(group)
@@ -103,7 +103,7 @@ class JointCommands:
         self._robot = robot
         self._movers: tuple[_Mover, ...] = ()
 
-    def set_groups(self, groups: Sequence[JointGroup]) -> None:
+    def set_groups(self, groups: Sequence[ControllerJoints]) -> None:
         """Have publishers and clients for these groups and no others; on the ROS thread."""
         before = {each.group: each for each in self._movers}
         self._movers = tuple(before.get(group) or _Mover(self._node, group) for group in groups)

@@ -17,8 +17,8 @@ from amr_description.control.dof_samples import (
     GripperGoal,
     GripperState,
     PidStateSample,
-    SwitchRequest,
-    SwitchResponse,
+    SetBoolRequest,
+    SetBoolResponse,
 )
 from amr_description.control.ros import converters
 from amr_description.controllers import CONTROLLERS
@@ -64,10 +64,10 @@ def test_commands_and_switches():
     port = Port('it', 'control_msgs/msg/MultiDOFCommand', sample=DofCommandSample)
     message = MultiDOFCommand(dof_names=['a'], values=[1.0], values_dot=[2.0])
     assert converters.reader_of(port)(message) == DofCommandSample(('a',), (1.0,), (2.0,))
-    port = Port('it', 'std_srvs/srv/SetBool_Request', sample=SwitchRequest)
-    assert converters.reader_of(port)(SetBool.Request(data=True)) == SwitchRequest(True)
+    port = Port('it', 'std_srvs/srv/SetBool_Request', sample=SetBoolRequest)
+    assert converters.reader_of(port)(SetBool.Request(data=True)) == SetBoolRequest(True)
     answer = arrive(
-        SwitchResponse(True, 'on'), SetBool.Response(), 'std_srvs/srv/SetBool_Response'
+        SetBoolResponse(True, 'on'), SetBool.Response(), 'std_srvs/srv/SetBool_Response'
     )
     assert (answer.success, answer.message) == (True, 'on')
 

@@ -8,7 +8,7 @@ import pytest
 from support.control_fakes import collect, FakeLog, MS
 
 from amr_description.control.contracts import ControllerContext, Severity
-from amr_description.control.dof_samples import DofCommandSample, SwitchRequest
+from amr_description.control.dof_samples import DofCommandSample, SetBoolRequest
 from amr_description.control.interfaces import CommandInterface, NO_INTERFACES, StateInterface
 from amr_description.controllers.pid_controller import PidController, PidParameters
 from amr_description.errors import ControllerError, ParameterError
@@ -128,9 +128,9 @@ def test_feedforward_counts_while_it_is_enabled():
     bench.refer([3.0, 1.0])
     assert bench.update()[0] == 4.0
     (service,) = bench.controller.services()
-    assert service.answer(SwitchRequest(True)).success
+    assert service.answer(SetBoolRequest(True)).success
     assert bench.update()[0] == 4.0 + 1.5
-    service.answer(SwitchRequest(False))
+    service.answer(SetBoolRequest(False))
     assert bench.update()[0] == 4.0
     bench = Bench(enable_feedforward=True, **gain)
     bench.refer([3.0, 1.0])

@@ -10,7 +10,7 @@ import pytest
 
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.model.robot import Joint, JointType, Limit
-from amr_description.testing.readings import Motion as Reading
+from amr_description.testing.readings import Motion
 from amr_description.testing.trial.bring_up import logged
 from amr_description.testing.trial.driving import travel
 from amr_description.testing.trial.findings import (
@@ -18,8 +18,8 @@ from amr_description.testing.trial.findings import (
     ControllerFinding,
     Findings,
     from_json,
-    Motion,
-    Rest,
+    MotionResult,
+    RestResult,
     row,
     table,
     to_json,
@@ -32,15 +32,15 @@ FOUND = Findings(
     '/cart.urdf',
     check=Check(1, ['no mass'], ['a', 'b']),
     spawn_seconds=2.04,
-    rest=Rest(math.inf, 0.5, 0.01, 0.0, 0.0),
+    rest=RestResult(math.inf, 0.5, 0.01, 0.0, 0.0),
     controllers=[
         ControllerFinding('a', 'x/A', 'active'),
         ControllerFinding('b', 'x/B', 'inactive'),
     ],
     motions=[
-        Motion('a', 'forward', 1.0, 0.99, 1.0),
-        Motion('a', 'turn', 2.0, 1.0, is_fine=False),
-        Motion('a', 'trajectory', 0.0, None, is_fine=False),
+        MotionResult('a', 'forward', 1.0, 0.99, 1.0),
+        MotionResult('a', 'turn', 2.0, 1.0, is_fine=False),
+        MotionResult('a', 'trajectory', 0.0, None, is_fine=False),
     ],
     warnings=['WARN: x'] * 5,
     faults=['a: turn'],
@@ -113,7 +113,7 @@ def test_a_check_that_fails_is_not_one_that_finds_errors(code, out, err, expecte
     ],
 )
 def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
-    motion = Motion('a', 'forward', 1.0, truth, odometry, is_fine=False)
+    motion = MotionResult('a', 'forward', 1.0, truth, odometry, is_fine=False)
     assert cause_of(motion).startswith(expected)
 
 
@@ -126,7 +126,7 @@ def test_only_what_was_said_of_the_controller_explains_its_motion():
         'WARN: thin',
         'WARN: cart.urdf: "caster" slides and holds the robot: its wheels pull less: they slip',
     ]
-    turn = Motion('drive', 'turn', 1.0, -1.0, 1.0, is_fine=False)
+    turn = MotionResult('drive', 'turn', 1.0, -1.0, 1.0, is_fine=False)
     assert explanations(turn, lines) == [*lines[:2], lines[-1]]
     ahead = replace(turn, what='forward')
     assert explanations(ahead, lines) == [lines[1], lines[-1]]
@@ -137,7 +137,7 @@ def test_only_what_was_said_of_the_controller_explains_its_motion():
 
 def at(x, y, yaw):
     pose = Transform((x, y, 0.0), quaternion_from_yaw(yaw))
-    return Reading(0.0, pose, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    return Motion(0.0, pose, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 def test_the_way_is_in_the_axes_of_the_start():

@@ -7,9 +7,9 @@ import pytest
 from amr_description.errors import ViewerError
 from amr_description.viewer.graph import discover, GraphNames, STRING
 from amr_description.viewer.joint_groups import (
+    ControllerJoints,
     GroupTargets,
     joint_groups,
-    JointGroup,
     MEMORY,
     PARALLEL_GRIPPER,
     POSITIONS,
@@ -54,8 +54,8 @@ def test_groups_are_the_joints_of_active_controllers_in_their_order():
         [ARM, GRIPPER],
     )
     assert found == (
-        JointGroup('arm', ARM.topic, TRAJECTORY, ('b', 'a')),
-        JointGroup('gripper', GRIPPER.topic, POSITIONS, ('finger',)),
+        ControllerJoints('arm', ARM.topic, TRAJECTORY, ('b', 'a')),
+        ControllerJoints('gripper', GRIPPER.topic, POSITIONS, ('finger',)),
     )
     listed = Controllers('/r1', (controller('arm', 'x/position'), controller('c')), ())
     assert [each.moves for each in with_moves(listed, found).controllers] == [('b', 'a'), ()]
@@ -80,7 +80,7 @@ def test_a_trajectory_may_be_followed_by_speed_or_effort():
 
 
 def test_joints_that_are_not_asked_stay_and_do_not_creep():
-    targets = GroupTargets(JointGroup('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
+    targets = GroupTargets(ControllerJoints('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
     assert targets.targets({'a': 0.5}, {'a': 0.0, 'b': 1.0}, 100.0) == [0.5, 1.0]
     assert targets.targets({'a': 0.6}, {'a': 0.4, 'b': 0.9}, 101.0) == [0.6, 1.0]
     late = 101.0 + MEMORY + 0.1
@@ -88,14 +88,14 @@ def test_joints_that_are_not_asked_stay_and_do_not_creep():
 
 
 def test_a_joint_of_which_nothing_is_known_is_named():
-    targets = GroupTargets(JointGroup('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
+    targets = GroupTargets(ControllerJoints('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
     with pytest.raises(ViewerError, match="arm takes the positions of all its joints.*'b'"):
         targets.targets({'a': 0.5}, {}, 0.0)
     assert targets.targets({'a': 0.5, 'b': 0.1}, {}, 0.0) == [0.5, 0.1]
 
 
 def test_a_trajectory_is_no_faster_than_the_slowest_joint():
-    targets = GroupTargets(JointGroup('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
+    targets = GroupTargets(ControllerJoints('arm', ARM.topic, TRAJECTORY, ('a', 'b')))
     targets.targets({'a': 1.0, 'b': 0.1}, {}, 0.0)
     measured = {'a': 0.0, 'b': 0.0}
     assert targets.duration(measured, {}) == pytest.approx(1.0)
