@@ -166,7 +166,8 @@ def resolve_uri(uri: str, folder: Path | None = None) -> Path:
     Return the path of a URI in a description; the file need not exist.
 
     A package that is not installed is looked for beside the description too, where it lies in the
-    sources: among the folders above, those with its name or with its ``package.xml`` in them.
+    sources: among the folders above, those with its name, and in them those that have
+    its name and hold a ``package.xml``, or the file.
 
     Args:
         uri: ``package://<package>/<path>``, ``model://<model>/<path>``, ``file://<path>`` or a
@@ -208,7 +209,7 @@ def _in_package(package: str, below: str, folder: Path | None) -> Path:
         for above in () if folder is None else (folder.absolute(), *folder.absolute().parents):
             if above.name == package and above.is_dir():
                 return above / below
-            if (above / package / 'package.xml').is_file():
+            if any((above / package / file).is_file() for file in ('package.xml', below)):
                 return above / package / below
         raise
 

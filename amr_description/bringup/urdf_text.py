@@ -14,6 +14,7 @@ from amr_description.entry import python_command
 from amr_description.errors import BringupError, UsageError
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.origins import with_file
+from amr_description.model.plain_xml import plain_xml
 from amr_description.model.xacro_markup import is_xacro
 
 _PROCESSOR_TIME = 60  # s; large robots take one or two
@@ -48,7 +49,8 @@ def robot_description(urdf: str, xacro_args: str = '') -> str:
     if xacro_args.strip():
         raise UsageError(f"xacro_args:='{xacro_args}': {path} is no xacro file: it holds no xacro")
     try:
-        return with_absolute_paths(with_file(path.read_text('utf-8'), str(path)), path.parent)
+        text = plain_xml(path.read_text('utf-8-sig'))
+        return with_absolute_paths(with_file(text, str(path)), path.parent)
     except (OSError, UnicodeDecodeError) as error:
         raise BringupError(f'cannot read the description {path}: {error}') from None
 

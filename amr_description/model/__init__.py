@@ -7,6 +7,7 @@ What a robot is, in frozen dataclasses, and how it is read and checked. No ROS, 
 module                   what it holds
 ========================= =========================================================================
 ``frames.py``             rigid transforms (SE(3)), quaternions, rotation conventions
+``plain_xml.py``         XML as every parser takes it
 ``robot.py``              Robot, Link, Joint, Inertial, shapes: the result of reading a URDF
 ``kinematics.py``         forward kinematics: the poses of links for joint positions
 ``hardware_info.py``      HardwareInfo and its interfaces: the result of reading ``<ros2_control>``

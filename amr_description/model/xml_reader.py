@@ -18,6 +18,7 @@ from lxml import etree
 
 from amr_description.errors import DescriptionError
 from amr_description.model.findings import Finding, Report
+from amr_description.model.plain_xml import plain_xml
 from amr_description.text import quote
 
 # What urdfdom reads as a number; Python's float() would also take 1_000, nan and Arabic digits.
@@ -44,8 +45,6 @@ _DOCUMENT_TYPE = re.compile(
     r'\A(?>\s+|<\?.*?\?>|<!--.*?-->)*+<!DOCTYPE', re.DOTALL | re.IGNORECASE
 )
 _SURROGATE = re.compile('[\ud800-\udfff]')
-_DECLARATION = re.compile(r'\A\s*+<\?xml\s[^<>]*\?>')
-_KNOWN_DECLARATION = re.compile(r'\A<\?xml\s+version\s*=\s*["\']1\.[01]["\']')
 # The faults that libxml2 names on the left, as tinyxml2, the parser of urdfdom, names them.
 _TINYXML = {
     etree.ErrorTypes.ERR_DOCUMENT_EMPTY: ('XML_ERROR_EMPTY_DOCUMENT', 13),
@@ -95,23 +94,6 @@ def decode(data: bytes, source: str) -> str:
         line = data.count(b'\n', 0, error.start) + 1
         wrong = f'{source}:{line}: byte {error.start} is not {encoding.upper()}'
         raise DescriptionError(f'{wrong}; save the file as UTF-8') from None
-
-
-def plain_xml(text: str) -> str:
-    """
-    Return a description as every XML parser takes it; one that they take comes back as it is.
-
-    That of urdfdom reads neither the version of the XML declaration nor what stands behind a
-    character NUL, and lets blanks stand before a declaration. Such a declaration is left out, and
-    so is what is blank behind a NUL; all lines keep their numbers.
-    """
-    before, nul, behind = text.partition('\0')
-    if nul and not behind.strip('\0 \t\r\n'):
-        text = before
-    declaration = _DECLARATION.match(text)
-    if declaration is None or _KNOWN_DECLARATION.match(text):
-        return text
-    return '\n' * declaration[0].count('\n') + text[declaration.end() :]
 
 
 def parse_xml(text: str, source: str, report: Report) -> etree._Element | None:
@@ -194,7 +176,7 @@ class ElementReader:
         """
         Return ``count`` finite numbers; the default if missing, NaNs after a report.
 
-        Of more than ``count`` the first are returned, and those that are too many reported.
+        What :func:`plain_numbers` takes from another text is returned, and reported, too.
         """
         text = element.get(attribute)
         expected = 'a number' if count == 1 else f'{count} numbers'
@@ -207,16 +189,19 @@ class ElementReader:
             return (math.nan,) * count
         words = text.split()
         values = [parse_number(word) for word in words]
-        if len(words) > count > 1 and all(map(math.isfinite, values)):
+        plain = plain_numbers(text, count)
+        if plain != text:
+            has_commas = ',' in text
             self.error(
                 element,
                 f'{attribute} of <{element.tag}>',
                 found=quote(text),
-                expected=expected,
-                taken=f'the first {count} are taken',
+                expected=f'{expected} without commas' if has_commas else expected,
+                taken=f'it is read as {quote(plain)}',
             )
-            return tuple(values[:count])
-        if len(words) != count or not all(map(math.isfinite, values)):
+            words = plain.split()
+            values = [parse_number(word) for word in words]
+        elif len(words) != count or not all(map(math.isfinite, values)):
             finite = f'{expected}, finite' if any(map(_not_finite, words)) else expected
             self.error(
                 element, f'{attribute} of <{element.tag}>', found=quote(text), expected=finite
@@ -246,6 +231,20 @@ def line_of(element: etree._Element) -> int:
 def parse_number(text: str) -> float:
     """Return the number that a text stands for; NaN if it is not a number."""
     return float(text) if _NUMBER.fullmatch(text) else math.nan
+
+
+def plain_numbers(text: str, count: int) -> str:
+    """
+    Return ``count`` numbers between blanks, where there are more of them or commas between them.
+
+    Any other text comes back as it is. urdfdom refuses both; other simulators read them.
+    """
+    words = text.replace(',', ' ').split()
+    is_plain = ',' not in text and len(words) <= count
+    if count == 1 or is_plain or len(words) < count:
+        return text
+    values = [parse_number(word) for word in words]
+    return ' '.join(words[:count]) if all(map(math.isfinite, values)) else text
 
 
 def _not_finite(text: str) -> bool:

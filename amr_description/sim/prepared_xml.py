@@ -15,7 +15,7 @@ from amr_description.control.contracts import Log
 from amr_description.model.findings import raise_error
 from amr_description.model.mended_inertials import mended_inertials
 from amr_description.model.robot import Inertial, Joint, Robot
-from amr_description.model.xml_reader import parse_xml
+from amr_description.model.xml_reader import parse_xml, plain_numbers
 from amr_description.sim.meshes import Meshes, resolve_meshes
 
 MIN_RANGE = 2e-6
@@ -114,9 +114,8 @@ def _write_as_taken(root: etree._Element, robot: Robot) -> None:
             limit.set('upper', repr(joint.limit.upper))
     for element in root.iter('origin', 'axis', 'mesh', 'box'):
         for key in _VECTORS:
-            words = element.get(key, '').split()
-            if len(words) > 3:
-                element.set(key, ' '.join(words[:3]))
+            if key in element.attrib:
+                element.set(key, plain_numbers(element.get(key, ''), 3))
 
 
 def _swapped(limit: etree._Element) -> bool:

@@ -133,8 +133,19 @@ def build_robot(
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
+    _warn_of_fall(spec, robot, log)
     initial = initial_states(robot, controlled, log, strict=strict)
     return RobotSpec(spec, wheels, rollers, casters, frictions, commands, initial, free)
+
+
+def _warn_of_fall(spec: mujoco.MjSpec, robot: Robot, log: Log) -> None:
+    touches = any(geom.contype or geom.conaffinity for geom in spec.geoms)
+    if robot.root.name != WORLD_LINK and not touches:
+        log(
+            Severity.WARN,
+            f'{robot.source}: no shape of it touches anything, so it falls through the ground; '
+            'give its links a <collision>, or fix it to the world (fixed:=true)',
+        )
 
 
 def _refuse_massless(robot: Robot) -> None:

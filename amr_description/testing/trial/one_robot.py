@@ -61,6 +61,7 @@ _DRIVE_PLUGIN = re.compile(
     r'<plugin\b[^>]*\b(?:filename|name)="([^"]*(?:drive|Drive|steering|Steering|planar_move)[^"]*)"'
 )
 """A plugin of Gazebo that drives."""
+_TOUCHES_NOTHING = 'no shape of it touches anything'
 _OF_TURNS = re.compile(r'swapped|inverted|steer to the left|in the order|turn the robot|scrub')
 _OF_SLIP = re.compile(r'they slip|scrub')
 _STRAIGHT_UP = (0.0, 0.0, 1.0)
@@ -85,6 +86,7 @@ class Trial:
         self._job = job
         self._keep = keep
         self.found = Findings(job.robot, job.file)
+        self._publishers: set[str] = set()  # active, without a command interface
 
     def run(self) -> None:
         """Go through all stages; what stops it is a fault of the robot."""
@@ -201,7 +203,10 @@ class Trial:
             tilt=math.acos(max(-1.0, min(1.0, cosine))),
         )
         self.found.rest = rest
-        if fastest > _EXPLOSION:
+        falls = [line for line in logged(sim.log) if _TOUCHES_NOTHING in line]
+        if falls:
+            self.found.explained.append(f'rest: it falls at {fastest:.1f} m/s: {falls[0]}')
+        elif fastest > _EXPLOSION:
             self._fault(f'rest: it explodes: {fastest:.1f} m/s')
         elif rest.seconds > REST_WITHIN:
             speeds = f'{math.hypot(*now.linear):.3f} m/s, {math.hypot(*now.angular):.3f} rad/s'
@@ -212,6 +217,8 @@ class Trial:
         bring_up.run()
         self._enter('motion')
         for active in _in_turn(bring_up):
+            if not active[-1].claimed:
+                self._publishers.add(active[-1].name)
             self._move(sim, robot, active)
             self._keep(self.found)
         for each in bring_up.findings:
@@ -239,7 +246,7 @@ class Trial:
                     self.found.motions.append(Mover(sim, controller, joints, states).move())
             except LookupError as error:
                 self.found.undriven.append(f'{controller.name}: {error}')
-        elif 'roadcaster' not in controller.type:
+        elif controller.claimed:  # others only publish
             try:
                 with closing(DriveTrial(sim, controller)) as drive:
                     self.found.motions += drive.try_all()
@@ -251,7 +258,11 @@ class Trial:
         if self.found.motions:
             return
         drive = _DRIVE_PLUGIN.search(text)
-        listed = [each for each in self.found.controllers if 'roadcaster' not in each.type]
+        listed = [
+            each
+            for each in self.found.controllers
+            if each.name not in self._publishers and 'roadcaster' not in each.type
+        ]
         if drive or listed:
             what = f'its {drive[1]}' if drive else 'its <ros2_control>'
             why = '; '.join(self.found.undriven) or 'no active controller is one that moves'

@@ -412,13 +412,24 @@ def test_a_fixed_joint_that_mimics_stays_as_it_is():
                          'continuous or prismatic; it stays as it is')  # fmt: skip
 
 
+def test_commas_between_numbers_are_read_as_blanks():
+    text = two_links(joint_text('a', 'b', inside='<origin rpy="0.5, 0 0"/>'))
+    robot, (warning, *_) = checks.require_sound(text, strict=False)
+    assert warning.text.endswith('expected 3 numbers without commas; it is read as "0.5 0 0"')
+    assert robot.joints[0].origin.rotation[0] == pytest.approx(math.sin(0.25))
+    for wrong in ('0.5, 0', '0.5, 0, x'):
+        (error,) = told_of('rpy', text.replace('0.5, 0 0', wrong))
+        assert error.startswith(f'error: f:3: joint "a_b": rpy of <origin>: found "{wrong}"')
+        assert 'it is read' not in error
+
+
 def test_of_too_many_numbers_the_first_are_taken():
     """As urdfdom refuses them, and other simulators take them."""
     text = two_links(joint_text('a', 'b', inside='<origin rpy="0.5 0 0 0"/>'))
     (error,) = told_of('rpy', text)
     assert error.startswith('error: f:3: joint "a_b": rpy of <origin>: found "0.5 0 0 0"')
     robot, (warning, *_) = checks.require_sound(text, strict=False)
-    assert warning.text.endswith('expected 3 numbers; the first 3 are taken')
+    assert warning.text.endswith('expected 3 numbers; it is read as "0.5 0 0"')
     assert robot.joints[0].origin.rotation[0] == pytest.approx(math.sin(0.25))
     with pytest.raises(DescriptionError, match='rpy of <origin>'):
         checks.require_sound(text, strict=True)

@@ -59,8 +59,8 @@ def test_a_package_that_is_not_installed_is_found_in_its_sources(tmp_path, monke
         each.mkdir(parents=True)
     mesh.write_text('x')
     text = '<robot><mesh filename="package://my_robot/meshes/a.stl"/></robot>'
-    assert with_absolute_paths(text, folder) == text, 'no package is beside it'
-    (tmp_path / 'src' / 'my_robot' / 'package.xml').touch()
+    other = text.replace('a.stl', 'b.stl')
+    assert with_absolute_paths(other, folder) == other
     assert names(with_absolute_paths(text, folder)) == [f'file://{mesh}']
     assert names(with_absolute_paths(text, mesh.parents[1] / 'urdf')) == [f'file://{mesh}']
     model = text.replace('package', 'model')

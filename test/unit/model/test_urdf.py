@@ -11,6 +11,7 @@ from support.paths import ROOT
 
 from amr_description.errors import DescriptionError
 from amr_description.model import frames, kinematics, urdf
+from amr_description.model.plain_xml import plain_xml
 from amr_description.model.robot import (
     Box,
     Cylinder,
@@ -22,7 +23,7 @@ from amr_description.model.robot import (
     Mimic,
     Sphere,
 )
-from amr_description.model.xml_reader import MAX_BYTES, MAX_LINES, plain_xml, read_file
+from amr_description.model.xml_reader import MAX_BYTES, MAX_LINES, read_file
 
 AMR = ROOT / 'urdf/amr.urdf'
 TUTORIAL = ROOT / 'test/fixtures/tutorial/amr.urdf'
@@ -67,6 +68,19 @@ def test_what_stands_behind_a_nul_is_left_out_if_it_is_blank():
     assert urdf.parse(f'{text}\r\n\0').link('a').line == 2
     with pytest.raises(DescriptionError, match='not well-formed XML'):
         urdf.parse(f'{text}\0<robot/>')
+
+
+def test_prefixes_of_other_programs_need_no_declaration():
+    inside = '<drake:joint_filter group="a"/>'
+    text = robot_text(f'<link name="a"/>\n{inside}')
+    assert urdf.parse(text).link('a').line == 2
+    for known in (
+        text.replace('<robot', '<robot xmlns:drake="http://drake"'),
+        text.replace(inside, '<gazebo><a b="c:d=e"/></gazebo>'),
+    ):
+        assert plain_xml(known) is known
+    with pytest.raises(DescriptionError, match='Namespace prefix xacro'):
+        urdf.parse(text.replace('drake', 'xacro'))
 
 
 def test_a_plain_declaration_stays():

@@ -118,3 +118,18 @@ def test_a_joint_that_mimics_nothing_is_spawned_free():
     inside = '<mimic joint="nobody"/>'
     world.spawn('r', robot(inside, 'continuous', 'world'), Transform((0.0, 0.0, 3.0)))
     assert world.engine.model.neq == 0
+
+
+def test_a_robot_that_touches_nothing_is_said_to_fall():
+    lines = Lines()
+    world = MujocoWorld('empty', log=lines)
+    world.spawn('r', robot('', 'continuous'), Transform((0.0, 0.0, 3.0)))
+    (line,) = [text for _, text in lines.lines if 'falls' in text]
+    assert line.endswith('give its links a <collision>, or fix it to the world (fixed:=true)')
+    lines.lines.clear()
+    world.spawn('fixed', robot('', 'continuous', 'world'), Transform((0.0, 9.0, 3.0)))
+    touching = robot('', 'continuous').replace(
+        SOLID, f'{SOLID}<collision><geometry><sphere radius="0.1"/></geometry></collision>', 1
+    )
+    world.spawn('touching', touching, Transform((0.0, 18.0, 3.0)))
+    assert not [text for _, text in lines.lines if 'falls' in text]
