@@ -257,8 +257,10 @@ class Builder:
 
     def build(self) -> GazeboTranslation:
         """Return the whole."""
-        if self._commands and not any(each.type == BROADCASTER for each in self.controllers):
-            self.broadcast()
+        is_driven = self._commands or self._moves_base
+        if is_driven and any(joint.has_position for joint in self.robot.joints):
+            if not any(each.type == BROADCASTER for each in self.controllers):
+                self.broadcast()
         hardware = self._joint_hardware() + self._base_hardware()
         joints = [self._limited(joint.name) for joint in self.robot.joints]
         robot = self.robot

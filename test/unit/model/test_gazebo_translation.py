@@ -228,12 +228,23 @@ def test_a_body_that_is_moved():
     base = found.robot.plugin_hardware[-1]
     assert base.plugin == 'amr_description/SimulatedBase'
     assert [each.name for each in base.sensors] == ['base_link/ground_truth']
-    move, odometry = found.controllers
+    move, odometry, states = found.controllers
+    assert states.type == 'joint_state_broadcaster/JointStateBroadcaster'
     assert move.type == 'amr_description/GazeboPlanarMove'
     assert odometry.name == 'planar_odometry'
     assert odometry.parameters['publish_rate'] == 20.0
     found = only(plugin('', 'gz::sim::systems::VelocityControl'))
-    assert list(found) == ['velocity_control']
+    assert list(found) == ['velocity_control', 'joint_state_broadcaster']
+
+
+def test_a_body_without_joints_has_no_joint_states():
+    drive = plugin('libgazebo_ros_planar_move.so', 'planar')
+    found = translate(
+        parse(
+            f'<robot name="puck"><link name="disc"/><gazebo>{drive}</gazebo></robot>', 'puck.urdf'
+        )
+    )
+    assert [each.name for each in found.controllers] == ['planar', 'planar_odometry']
 
 
 def test_joint_state_publishers():
