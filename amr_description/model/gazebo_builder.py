@@ -18,7 +18,7 @@ from amr_description.model.hardware_info import (
     IMU_INTERFACES,
     InterfaceInfo,
 )
-from amr_description.model.robot import Joint, Limit, Robot, WORLD_LINK
+from amr_description.model.robot import held_without_commands, Joint, Limit, Robot, WORLD_LINK
 from amr_description.text import quote, quote_all
 
 JOINTS = 'gazebo_plugins'
@@ -257,10 +257,10 @@ class Builder:
 
     def build(self) -> GazeboTranslation:
         """Return the whole."""
-        is_driven = self._commands or self._moves_base
-        if is_driven and any(joint.has_position for joint in self.robot.joints):
-            if not any(each.type == BROADCASTER for each in self.controllers):
-                self.broadcast()
+        moves = bool(self._commands or self._moves_base)
+        moves &= any(joint.has_position for joint in self.robot.joints)
+        if moves and not any(each.type == BROADCASTER for each in self.controllers):
+            self.broadcast()
         hardware = self._joint_hardware() + self._base_hardware()
         joints = [self._limited(joint.name) for joint in self.robot.joints]
         robot = self.robot
@@ -278,13 +278,13 @@ class Builder:
 
     def _lone_joints(self) -> Sequence[str]:
         """Return a line about joints that nothing moves, if that is all of them."""
-        free = [joint.name for joint in self.robot.joints if joint.has_position]
-        if self.is_controlled or self._commands or self._moves_base or not free:
+        joints = [joint.name for joint in self.robot.joints if joint.has_position]
+        if self.is_controlled or self._commands or self._moves_base or not joints:
             return ()
-        return (
-            f'nothing drives it: there is no <ros2_control>, and no drive plugin of Gazebo; its '
-            f'joints are free, as there: {quote_all(free)}',
-        )
+        free = [name for name in joints if name not in held_without_commands(self.robot)]
+        which = f'; its joints are free, as there: {quote_all(free)}' if free else ''
+        lacks = 'there is no <ros2_control>, and no drive plugin of Gazebo'
+        return (f'nothing drives it: {lacks}{which}',)
 
     def _joint_hardware(self) -> tuple[HardwareInfo, ...]:
         joints = tuple(

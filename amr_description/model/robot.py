@@ -284,6 +284,27 @@ class Robot:
                 stack.extend((depth + 1, next_joint) for next_joint in below)
 
 
+def held_without_commands(robot: Robot) -> tuple[str, ...]:
+    """
+    Return the joints of a robot that nobody commands which the simulator holds where they begin.
+
+    They are those with a motor, by their effort limit, of a robot that stands on the ground and
+    has nothing that turns on and on: a legged one stays up. All others are free, as in Gazebo.
+    """
+    if robot.root.name == WORLD_LINK or any(
+        joint.type is JointType.CONTINUOUS for joint in robot.joints
+    ):
+        return ()
+    return tuple(
+        joint.name
+        for joint in robot.joints
+        if joint.type in (JointType.REVOLUTE, JointType.PRISMATIC)
+        and joint.mimic is None
+        and joint.limit is not None
+        and joint.limit.effort > 0.0
+    )
+
+
 def _lookup[Part](parts: dict[str, Part], name: str, kind: str, source: str) -> Part:
     if name not in parts:
         known = quote_all([*reversed(parts)])

@@ -18,7 +18,7 @@ from amr_description.errors import SpawnError
 from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
-from amr_description.model.robot import Joint, JointType, Robot, WORLD_LINK
+from amr_description.model.robot import held_without_commands, Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.rollers import described_rollers, Rollers
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import Wheel
@@ -103,7 +103,11 @@ def build_robot(
     controlled = [joint for info in hardware for joint in info.joints]
     commands = _commands_of(controlled)
     if not any(commands.values()):
-        commands |= _held_without_commands(robot, log)
+        held = held_without_commands(robot)
+        commands |= dict.fromkeys(held, (POSITION,))
+        if held:
+            why = 'nothing commands its joints; held are'
+            log(Severity.INFO, f'{robot.source}: {why}: {quote_all(held)}')
     try:
         xml, meshes = prepared_xml(robot, log, strict=strict)
         spec = mujoco.MjSpec.from_string(xml)
@@ -163,31 +167,6 @@ def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ..
     for joint in controlled:
         commands[joint.name] = commands.get(joint.name, ()) + _quantities(joint)
     return commands
-
-
-def _held_without_commands(robot: Robot, log: Log) -> dict[str, tuple[str, ...]]:
-    """
-    Return the joints of a robot that nobody commands which are held where they begin.
-
-    They are those with a motor, by their effort limit, of a robot that stands on the ground and
-    has nothing that turns on and on: a legged one stays up. All others are free, as in Gazebo.
-    """
-    if robot.root.name == WORLD_LINK or any(
-        joint.type is JointType.CONTINUOUS for joint in robot.joints
-    ):
-        return {}
-    held = [
-        joint.name
-        for joint in robot.joints
-        if joint.type in (JointType.REVOLUTE, JointType.PRISMATIC)
-        and joint.mimic is None
-        and joint.limit is not None
-        and joint.limit.effort > 0.0
-    ]
-    if held:
-        names = quote_all(held)
-        log(Severity.INFO, f'{robot.source}: nothing commands its joints; held are: {names}')
-    return dict.fromkeys(held, (POSITION,))
 
 
 def _quantities(joint: ComponentInfo) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from amr_description.model.robot import Robot
 
 _QUOTED = re.compile(r'"[^"]*"')
 _MOST_KINDS = 6
+_SHORT = 30
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
 
 
@@ -144,4 +145,7 @@ def _lines(warnings: Iterable[Finding], source: str) -> Iterator[str]:
 def _counted(kind: Sequence[Finding]) -> str:
     """Return the first of some faults alike, and how many more there are."""
     first, *others = kind
-    return f'{first.what} (and {len(others)} more like it)' if others else first.what
+    text = first.what
+    if 0 < len(first.found) <= _SHORT:
+        text += f': found {first.found}'
+    return f'{text} (and {len(others)} more like it)' if others else text

@@ -341,6 +341,13 @@ def test_a_robot_that_says_nothing_is_noted():
         'are free, as there: "left_joint", "right_joint"',
     )
     assert not translated(gz_drive()).remarks
+    legged = """<robot name="r"><link name="body"/><link name="leg"/><link name="foot"/>
+    <joint name="hip" type="revolute"><parent link="body"/><child link="leg"/>
+      <limit lower="-1" upper="1" effort="9" velocity="9"/></joint>
+    <joint name="toe" type="revolute"><parent link="leg"/><child link="foot"/>
+      <limit lower="-1" upper="1" effort="0" velocity="9"/></joint></robot>"""
+    (remark,) = translate(parse(legged, 'r.urdf')).remarks
+    assert remark.endswith('; its joints are free, as there: "toe"')
 
 
 def test_joints_that_are_commanded_by_a_number():
