@@ -103,11 +103,7 @@ def build_robot(
     controlled = [joint for info in hardware for joint in info.joints]
     commands = _commands_of(controlled)
     if not any(commands.values()):
-        held = held_without_commands(robot)
-        commands |= dict.fromkeys(held, (POSITION,))
-        if held:
-            why = 'nothing commands its joints; held are'
-            log(Severity.INFO, f'{robot.source}: {why}: {quote_all(held)}')
+        commands |= _held_joints(robot, log)
     try:
         xml, meshes = prepared_xml(robot, log, strict=strict)
         spec = mujoco.MjSpec.from_string(xml)
@@ -140,6 +136,15 @@ def build_robot(
     _warn_of_fall(spec, robot, log)
     initial = initial_states(robot, controlled, log, strict=strict)
     return RobotSpec(spec, wheels, rollers, casters, frictions, commands, initial, free)
+
+
+def _held_joints(robot: Robot, log: Log) -> dict[str, tuple[str, ...]]:
+    """Return the commands of the joints that are held as nothing commands the robot."""
+    held = held_without_commands(robot)
+    if held:
+        why = 'nothing commands its joints; held are'
+        log(Severity.INFO, f'{robot.source}: {why}: {quote_all(held)}')
+    return dict.fromkeys(held, (POSITION,))
 
 
 def _warn_of_fall(spec: mujoco.MjSpec, robot: Robot, log: Log) -> None:
