@@ -12,7 +12,7 @@ that files still have, in a class attribute ``former``::
 """
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from typing import Any
 
@@ -22,6 +22,11 @@ from amr_description.launch_variables import (
     variables_as,
 )
 from amr_description.parameters import Spec, specs, tables, Value
+
+_MANY = 3
+"""So many numbers of another type than declared are told in one line."""
+_NAMED = 6
+"""So many of them are named there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +62,23 @@ class Understanding:
     """What was made of it, by the name of the parameter in which it was found."""
     known: set[str]
     """The names of what was given that are former ones, whether or not there is a text."""
+    adopted: dict[str, str] = field(default_factory=dict)
+    """The values that are numbers of another type than declared, as they were given, by name."""
+
+    @property
+    def lines(self) -> list[str]:
+        """The texts; those on numbers of another type, of which a file may be full, are one."""
+        if len(self.adopted) < _MANY:
+            return list(self.texts.values())
+        given = [f"'{name}' ({value})" for name, value in self.adopted.items()]
+        if len(given) > _NAMED:
+            given[_NAMED:] = [f'{len(given) - _NAMED} more']
+        lines = [text for name, text in self.texts.items() if name not in self.adopted]
+        return [
+            *lines,
+            f'parameters {", ".join(given)} are numbers of another type than declared, such as '
+            'integers for doubles: taken as those; a node of rclcpp refuses them',
+        ]
 
 
 def ignored(name: str, origin: str, instead: str) -> FormerParameter:
@@ -130,6 +152,7 @@ def understand(
         if adopted is not value:
             if spec.name not in found.values:
                 found.texts[spec.name] = _adoption(spec, value, adopted)
+                found.adopted[spec.name] = _shown(value)
             found.values[spec.name] = adopted
     return found
 

@@ -89,14 +89,15 @@ def adopt_overrides(
         others: the links, sensors and GPIOs of the robot.
 
     Returns:
-        One line for each parameter that is of an earlier release, or a number of another type.
+        One line for each parameter that is of an earlier release, or a number of another type;
+        one together for many such numbers.
     """
     overrides = parameter_overrides(node)
     lines: list[str] = []
     for table in tables:
         given = {name: each.value for name, each in overrides.items()}
         found = understand(table, given, joints, others)
-        lines += found.texts.values()
+        lines += found.lines
         for name, value in found.values.items():
             set_parameter_override(node, Parameter(name, value=value))
     return lines

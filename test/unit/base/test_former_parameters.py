@@ -124,7 +124,23 @@ def test_what_is_plain_is_understood_in_one_line(table, given, values, text):
     assert {name: type(value) for name, value in found.values.items()} == {
         name: type(value) for name, value in values.items()
     }
-    assert list(found.texts.values()) == [text]
+    assert list(found.texts.values()) == found.lines == [text]
+
+
+def test_many_numbers_of_another_type_are_one_line():
+    names = [f'gains.{joint}.{gain}' for joint in 'abc' for gain in 'pid']
+    given = {'dof_names': ['a', 'b', 'c'], 'gains.a.i_clamp': 3.0} | dict.fromkeys(names, 2)
+    found = understand(PidParameters, given)
+    assert len(found.texts) == 10
+    clamp, numbers = found.lines
+    assert "'gains.a.i_clamp' is 3.0" in clamp
+    assert numbers == (
+        "parameters 'gains.a.p' (2), 'gains.a.i' (2), 'gains.a.d' (2), 'gains.b.p' (2), "
+        "'gains.b.i' (2), 'gains.b.d' (2), 3 more are numbers of another type than declared, such "
+        'as integers for doubles: taken as those; a node of rclcpp refuses them'
+    )
+    fewer = understand(PidParameters, {'dof_names': ['a'], 'gains.a.p': 2, 'gains.a.i': 2})
+    assert len(fewer.lines) == 2
 
 
 @pytest.mark.parametrize(
