@@ -13,6 +13,7 @@ import enum
 from pathlib import Path
 
 from rclpy.executors import Executor
+from rclpy.task import Future
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
@@ -43,6 +44,7 @@ from amr_description.sim.engine import physics_stepping, steps_in
 from amr_description.sim.robot_spec import WORLD_LINK
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.plugin_controllers import (
+    abandon,
     log_translation,
     run_in,
     start_controllers,
@@ -128,6 +130,8 @@ class EntityManager:
         self._lift = lift
         self._ros_args = ros_args
         self._entities: dict[str, Entity] = {}
+        self._starting: dict[str, Future] = {}
+        """Of entities whose controllers are being started: done when they are."""
         self._namespaces: set[str] = set()
         """The namespaces that have a controller manager; used on the control thread only."""
 
@@ -197,7 +201,10 @@ class EntityManager:
         self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
         if running is not None and thread is not None:
             starting = start_controllers(running, translation.controllers, self._log)
-            await run_in(thread.executor, starting, self._executor)
+            self._starting[given] = started = run_in(thread.executor, starting, self._executor)
+            await started
+            if self._starting.get(given) is started:  # not removed meanwhile, and spawned again
+                del self._starting[given]
         return given
 
     async def remove(self, name: str) -> None:
@@ -211,6 +218,8 @@ class EntityManager:
         self._ground_truth.remove(name)
         if entity.thread is not None:
             await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
+        if name in self._starting:  # who spawns it still waits for the thread that has ended
+            abandon(self._starting.pop(name), self._executor)
         await self._loop_thread.submit(lambda: self._detach(entity))
         _destroy(entity)
 

@@ -104,10 +104,23 @@ def run_in(executor: Executor, work: Coroutine[Any, Any, None], waiting: Executo
             await work
         except Exception as error:  # raised again where the future is awaited
             done.set_exception(error)
-        finally:  # it may be cancelled, as its robot is removed
+        finally:  # it may be closed, as its robot is removed
             if not done.done():
                 done.set_result(None)
             waiting.wake()  # a task that awaits is looked at only when the executor wakes
 
     executor.create_task(run())
     return done
+
+
+def abandon(done: Future, waiting: Executor) -> None:
+    """
+    End the wait for what :func:`run_in` was to run, where its executor runs no more.
+
+    Args:
+        done: What :func:`run_in` has returned; it may be done.
+        waiting: The executor of the one that awaits it.
+    """
+    if not done.done():
+        done.set_result(None)
+        waiting.wake()

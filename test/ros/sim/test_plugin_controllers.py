@@ -4,12 +4,21 @@
 
 from fixtures.sim.plugin_robot import cart, classic_drive, plugin
 import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from support.control_fakes import FakeLog
+from support.ros_processes import PATIENCE
 
 from amr_description.control.contracts import Severity
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.urdf import parse
-from amr_description.sim.ros.plugin_controllers import log_translation, node_arguments
+from amr_description.sim.ros.plugin_controllers import (
+    abandon,
+    log_translation,
+    node_arguments,
+    run_in,
+)
 
 RULES = '<ros><namespace>/r1</namespace><remapping>odom:=wheel/odom</remapping></ros>'
 
@@ -69,3 +78,39 @@ def test_arguments_of_a_node():
         '-r',
         '~/imu:=/r2/imu/data',
     ]
+
+
+@pytest.fixture
+def context():
+    context = Context()
+    rclpy.init(context=context)
+    yield context
+    rclpy.shutdown(context=context)
+
+
+@pytest.mark.filterwarnings('ignore:coroutine .* was never awaited')
+def test_who_waits_for_an_executor_that_never_runs_is_released(context):
+    ended, waiting = (
+        SingleThreadedExecutor(context=context),
+        SingleThreadedExecutor(context=context),
+    )
+
+    async def start():
+        pytest.fail('its executor does not run')
+
+    work = start()
+    started = run_in(ended, work, waiting)
+
+    async def wait():
+        await started
+
+    task = waiting.create_task(wait)
+    waiting.spin_once(timeout_sec=0.0)
+    assert not task.done()
+    ended.shutdown()
+    abandon(started, waiting)
+    abandon(started, waiting)
+    waiting.spin_until_future_complete(task, timeout_sec=PATIENCE)
+    assert task.done()
+    work.close()
+    waiting.shutdown()
