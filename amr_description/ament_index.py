@@ -206,12 +206,27 @@ def _in_package(package: str, below: str, folder: Path | None) -> Path:
     try:
         return shared_file(package, below)
     except ResourceError:
-        for above in () if folder is None else (folder.absolute(), *folder.absolute().parents):
-            if above.name == package and above.is_dir():
-                return above / below
-            if any((above / package / file).is_file() for file in ('package.xml', below)):
-                return above / package / below
-        raise
+        around = None if folder is None else package_around(package, folder, below)
+        if around is None:
+            raise
+        return around / below
+
+
+def package_around(package: str, folder: Path, below: str = 'package.xml') -> Path | None:
+    """
+    Return the folder of a package that a file lies in or beside, where it is not installed.
+
+    Args:
+        package: Its name, which is that of the folder.
+        folder: That of the file.
+        below: A file by which a folder beside it is known, too, as by a ``package.xml``.
+    """
+    for above in (folder.absolute(), *folder.absolute().parents):
+        if above.name == package and above.is_dir():
+            return above
+        if any((above / package / file).is_file() for file in ('package.xml', below)):
+            return above / package
+    return None
 
 
 def _of_model(uri: str, model: str, below: str, folder: Path | None) -> Path:

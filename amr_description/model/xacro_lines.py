@@ -10,11 +10,13 @@ goes on to the copies that are made of a macro.
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 from types import TracebackType
 from typing import Any
 from xml.dom import minidom, UserDataHandler
 from xml.parsers.expat import ExpatError, ParserCreate
 
+from amr_description.ament_index import package_around
 from amr_description.model.origins import Origin
 
 _KEY = 'amr_description.origin'
@@ -31,7 +33,7 @@ def expanded(path: str, mappings: Mapping[str, str]) -> tuple[str, dict[int, Ori
     """
     import xacro
 
-    with _located_parsing(xacro):
+    with _located_parsing(xacro), _packages_around(Path(path).parent):
         document = xacro.process_file(path, mappings=mappings)
     text = document.toprettyxml(indent='  ')
     return text, {line: origin for line, origin in _lines(text, document) if origin is not None}
@@ -72,6 +74,29 @@ def known_names(error: BaseException) -> tuple[set[str], set[str], set[str]]:
             found['m'] = set(getattr(macro, 'params', ())) or found['m']
         trace = trace.tb_next
     return found['symbols'], found['macros'], found['m']
+
+
+@contextmanager
+def _packages_around(folder: Path) -> Iterator[None]:
+    """Have ``$(find package)`` find packages that are not installed in the sources around."""
+    from xacro import substitution_args
+
+    find = substitution_args._eval_find
+
+    def found(package: str) -> str:
+        try:
+            return str(find(package))
+        except (LookupError, OSError):  # not there, or no prefix at all
+            around = package_around(package, folder)
+            if around is None:
+                raise
+            return str(around)
+
+    substitution_args._eval_find = found
+    try:
+        yield
+    finally:
+        substitution_args._eval_find = find
 
 
 @contextmanager

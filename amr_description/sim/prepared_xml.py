@@ -27,7 +27,7 @@ _COMPILER = {
     'strippath': 'false',
     'inertiafromgeom': 'false',
 }
-_VECTORS = ('xyz', 'rpy', 'scale', 'size')
+_VECTORS = {'xyz': 3, 'rpy': 3, 'scale': 3, 'size': 3, 'rgba': 4}
 _MOMENTS = ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
 
 
@@ -112,10 +112,10 @@ def _write_as_taken(root: etree._Element, robot: Robot) -> None:
         elif _swapped(limit):
             limit.set('lower', repr(joint.limit.lower))
             limit.set('upper', repr(joint.limit.upper))
-    for element in root.iter('origin', 'axis', 'mesh', 'box'):
-        for key in _VECTORS:
+    for element in root.iter('origin', 'axis', 'mesh', 'box', 'color'):
+        for key, count in _VECTORS.items():
             if key in element.attrib:
-                element.set(key, plain_numbers(element.get(key, ''), 3))
+                element.set(key, plain_numbers(element.get(key, ''), count))
 
 
 def _swapped(limit: etree._Element) -> bool:

@@ -345,3 +345,14 @@ def test_the_command_xacro_prints_the_same():
     done = run(xacro, GRIPPER, 'finger_length:=0.3')
     assert done.returncode == 0
     assert done.stdout == description_text(GRIPPER, {'finger_length': '0.3'})
+
+
+def test_a_package_that_is_not_installed_is_found_around_a_xacro_file(tmp_path, monkeypatch):
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path / 'nothing'))
+    folder = tmp_path / 'my_robot' / 'urdf'
+    folder.mkdir(parents=True)
+    (folder / 'parts.xacro').write_text('<robot><link name="part"/></robot>')
+    include = '<xacro:include filename="$(find my_robot)/urdf/parts.xacro"/>'
+    assert 'name="part"' in text_of(folder, include)
+    with pytest.raises(DescriptionError, match="package 'other' not found"):
+        text_of(folder, include.replace('my_robot', 'other'))

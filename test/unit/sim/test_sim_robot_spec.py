@@ -109,6 +109,9 @@ def test_limits_in_the_wrong_order_and_numbers_too_many_are_spawned_as_taken():
     world = MujocoWorld('empty')
     inside = '<limit lower="0.5" upper="-0.2" effort="1" velocity="1"/><axis xyz="0 0 1 0"/>'
     text = robot(inside, 'revolute', 'world')
+    colour = '<material name="m"><color rgba="0.1 0.1 0.1 0 1"/></material>'
+    visual = f'<visual><geometry><sphere radius="0.1"/></geometry>{colour}</visual>'
+    text = text.replace(SOLID, SOLID + visual, 1)
     world.spawn('r', text, Transform((0.0, 0.0, 3.0)))
     assert world.engine.model.joint('r/j').range == pytest.approx((-0.2, 0.5))
 
