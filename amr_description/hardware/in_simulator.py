@@ -46,7 +46,7 @@ def class_in_simulator(
     if name in MOCKS:
         if not simulates_mocks:
             return _find(name)
-        _say(info, log, Severity.INFO, 'is simulated; mock_hardware:=mock keeps the mock')
+        _log(info, log, Severity.INFO, 'is simulated; mock_hardware:=mock keeps the mock')
         return _find(SIMULATED)
     if name not in _DRIVERS:
         try:
@@ -56,7 +56,7 @@ def class_in_simulator(
                 raise  # a module of Python: drivers in C++ have no dot in their names
     if name and not _SIMULATORS.search(package):
         text = 'drives real hardware and is not used here: its joints and sensors are simulated'
-        _say(info, log, Severity.WARN, text)
+        _log(info, log, Severity.WARN, text)
     return _find(SIMULATED)
 
 
@@ -65,5 +65,5 @@ def _find(name: str) -> HardwareClass:
     return found
 
 
-def _say(info: HardwareInfo, log: Log, severity: Severity, text: str) -> None:
+def _log(info: HardwareInfo, log: Log, severity: Severity, text: str) -> None:
     log(severity, f"hardware component '{info.name}': plugin '{info.plugin}' {text}")

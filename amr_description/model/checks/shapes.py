@@ -51,7 +51,7 @@ def collision_is_present(context: CheckContext) -> Iterator[Finding]:
     """
     A link with mass and a visual shape has a collision shape.
 
-    So has its rigid body, or what it carries: trim and a caster's fork need none of their own.
+    It needs none where its rigid body has one, as trim, or carries one, as a caster's fork.
     """
     touching = _with_what_carries_them(context)
     for link in context.robot.links:
@@ -114,9 +114,9 @@ def shapes_do_not_overlap(context: CheckContext) -> Iterator[Finding]:
     """
     Collision shapes of links that are not neighbours are apart, all joints at 0.
 
-    Links of one rigid body may overlap, and of two that are connected by a joint, or by several
-    with nothing that touches between: a wheel reaches into the chassis, on a suspension too.
-    Meshes are left out.
+    Links of one rigid body may overlap, and so may neighbours: two bodies with a joint between
+    them, or with a chain of joints whose links have no shapes. A wheel reaches into the chassis,
+    on a suspension too. Meshes are left out.
     """
     reported: set[tuple[str, str]] = set()
     neighbours = _neighbours(context)
