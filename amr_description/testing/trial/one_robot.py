@@ -64,6 +64,8 @@ _DRIVE_PLUGIN = re.compile(
 _TOUCHES_NOTHING = 'no shape of it touches anything'
 _OF_TURNS = re.compile(r'swapped|inverted|steer to the left|in the order|turn the robot|scrub')
 _OF_SLIP = re.compile(r'they slip|scrub')
+_TIPPED = math.pi / 6.0
+"""rad; a robot at a greater tilt does not come back."""
 _STRAIGHT_UP = (0.0, 0.0, 1.0)
 
 
@@ -209,8 +211,8 @@ class Trial:
         elif fastest > _EXPLOSION:
             self._fault(f'rest: it explodes: {fastest:.1f} m/s')
         elif rest.seconds > REST_WITHIN:
-            speeds = f'{math.hypot(*now.linear):.3f} m/s, {math.hypot(*now.angular):.3f} rad/s'
-            self._fault(f'rest: it still moves after {REST_WITHIN:g} s: {speeds} at the end')
+            speeds = math.hypot(*now.linear), math.hypot(*now.angular)
+            self._fault(f'rest: {unrest(rest, *speeds)}')
 
     def _controllers(self, sim: Simulation, robot: Robot, bring_up: BringUp) -> None:
         self.found.controllers = bring_up.findings
@@ -279,6 +281,19 @@ class Trial:
 
     def _warn(self, line: str) -> None:
         self.found.warnings.append(f'WARN: {one_line(line)}')
+
+
+def unrest(rest: RestResult, linear: float, angular: float) -> str:
+    """Return how a robot does not rest; its speeds at the end are in m/s and rad/s."""
+    what = (
+        f'it still moves after {REST_WITHIN:g} s: {linear:.3f} m/s, {angular:.3f} rad/s at the end'
+    )
+    if rest.tilt < _TIPPED:
+        return what
+    return (
+        f'{what}; it has tipped over, by {math.degrees(rest.tilt):.0f}°, as what is made to be '
+        'bolted down does (fixed:=true)'
+    )
 
 
 def _in_turn(bring_up: BringUp) -> Iterator[list[Active]]:

@@ -25,7 +25,7 @@ from amr_description.testing.trial.findings import (
     to_json,
 )
 from amr_description.testing.trial.moving import offset_of
-from amr_description.testing.trial.one_robot import cause_of, check_of, explanations
+from amr_description.testing.trial.one_robot import cause_of, check_of, explanations, unrest
 
 FOUND = Findings(
     'cart',
@@ -161,3 +161,14 @@ def test_a_joint_is_asked_to_the_side_with_more_room(kind, limit, position, expe
     origin = Transform()
     joint = Joint('j', kind, 'a', 'b', origin, (0.0, 0.0, 1.0), bounds, None, None, 1)
     assert offset_of(joint, position) == pytest.approx(expected)
+
+
+def test_a_robot_that_tips_over_is_told_from_one_that_trembles():
+    trembles = RestResult(math.inf, fastest=0.1, drop=0.0, shift=0.0, tilt=0.1)
+    assert unrest(trembles, 0.02, 0.5) == (
+        'it still moves after 2 s: 0.020 m/s, 0.500 rad/s at the end'
+    )
+    tips = replace(trembles, tilt=math.pi / 2.0)
+    assert unrest(tips, 0.02, 0.5).endswith(
+        'it has tipped over, by 90°, as what is made to be bolted down does (fixed:=true)'
+    )
