@@ -140,14 +140,22 @@ def test_a_ring_of_mimics_is_refused_with_its_joints():
     words = r"Found an infinite recursive mimic chain: \['a', 'b'\]"
     with pytest.raises(DescriptionError, match=words):
         joints_of(*ring)
-    with pytest.raises(DescriptionError, match=r"mimic chain: \['a'\]"):
-        joints_of(('a', 'continuous', mimic('a')))
+
+
+@pytest.mark.parametrize('parent', ['nobody', 'bolt', 'a'])
+def test_a_mimic_of_what_does_not_move_is_free(parent):
+    joints = joints_of(('bolt', 'fixed', ''), ('a', 'continuous', mimic(parent)))
+    assert list(joints.free) == ['a']
 
 
 @pytest.mark.parametrize('parent', ['nobody', 'bolt'])
-def test_a_mimic_of_what_does_not_move_is_refused(parent):
+def test_a_dependence_on_what_does_not_move_is_refused(parent):
     with pytest.raises(DescriptionError, match=f'"a" follows "{parent}", which is no .* "a"'):
-        joints_of(('bolt', 'fixed', ''), ('a', 'continuous', mimic(parent)))
+        joints_of(
+            ('bolt', 'fixed', ''),
+            ('a', 'continuous', ''),
+            dependent_joints={'a': Dependence(parent)},
+        )
 
 
 def test_sources_move_what_is_free_and_known_and_is_a_number():
