@@ -120,11 +120,14 @@ def _snapshot(node: Node) -> object:
 
 def _all_found(node: Node, count: int) -> bool:
     """
-    Return whether as many participants as are on this host are found, with their endpoints.
+    Return whether as many participants as are on this host are found, with endpoints and nodes.
 
-    Fast DDS discovers a participant and its endpoints separately, either up to a second later than
-    the other. Each participant of ROS both publishes and subscribes to the lists of nodes.
+    Fast DDS discovers a participant and each of its endpoints separately, either up to a second
+    later than the other; what its nodes are called comes last, as a message. Each participant of
+    ROS both publishes and subscribes to the lists of nodes, and has a node.
     """
+    if len(node.get_node_names()) < count:
+        return False
     ends = (
         node.get_publishers_info_by_topic(_NODE_LISTS, no_mangle=True),
         node.get_subscriptions_info_by_topic(_NODE_LISTS, no_mangle=True),

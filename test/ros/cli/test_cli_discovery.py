@@ -11,12 +11,13 @@ from amr_description.cli import graph
 
 @dataclass
 class Times:
-    """s from the start: of a participant, when it starts, ends, is found, and is found missing."""
+    """s from the start: when one starts, is found, ends, is missed; when its node is known."""
 
     starts: float
     found: float
     ends: float = 99.0
     missed: float = 99.0
+    named: float = 0.0
 
 
 class FakeSession:
@@ -51,8 +52,10 @@ class FakeSession:
 
     get_subscriptions_info_by_topic = get_publishers_info_by_topic
 
-    def get_node_names_and_namespaces(self):
-        return [str(each) for each in self.known()]
+    def get_node_names(self):
+        return ['verb', *(str(each) for each in self.known() if each.named <= self.time)]
+
+    get_node_names_and_namespaces = get_node_names
 
     def get_topic_names_and_types(self):
         return []
@@ -77,6 +80,10 @@ def test_it_is_complete_when_nothing_changes_any_more(monkeypatch):
 def test_it_is_not_complete_before_who_is_there_is_found(monkeypatch):
     assert completed(monkeypatch, Times(0.0, found=2.0)) > 2.0
     assert completed(monkeypatch, Times(0.3, found=2.0)) > 2.0
+
+
+def test_it_is_not_complete_before_the_nodes_of_all_are_known(monkeypatch):
+    assert completed(monkeypatch, Times(0.0, found=0.1, named=2.0)) > 2.0
 
 
 def test_one_that_has_ended_does_not_stand_for_one_that_is_not_found(monkeypatch):
