@@ -34,6 +34,4 @@ def main(args: list[str] | None = None) -> None:
     try:
         rclpy.spin(MinimalPublisher())
     except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()
+        pass  # rclpy's own handler of the signal shuts the context down, maybe at this moment
