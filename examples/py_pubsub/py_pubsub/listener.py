@@ -1,5 +1,7 @@
 """Log every greeting that arrives on ``topic``."""
 
+from contextlib import suppress
+
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -21,7 +23,6 @@ class MinimalSubscriber(Node):
 def main(args: list[str] | None = None) -> None:
     """Run the listener until Ctrl-C."""
     rclpy.init(args=args)
-    try:
+    # Nothing is shut down here: at Ctrl-C rclpy's own signal handler does that.
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.spin(MinimalSubscriber())
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass  # rclpy's own handler of the signal shuts the context down, maybe at this moment

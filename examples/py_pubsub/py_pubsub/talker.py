@@ -1,5 +1,7 @@
 """Publish a greeting on ``topic`` twice per second."""
 
+from contextlib import suppress
+
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -31,7 +33,6 @@ class MinimalPublisher(Node):
 def main(args: list[str] | None = None) -> None:
     """Run the talker until Ctrl-C."""
     rclpy.init(args=args)
-    try:
+    # Nothing is shut down here: at Ctrl-C rclpy's own signal handler does that.
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.spin(MinimalPublisher())
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass  # rclpy's own handler of the signal shuts the context down, maybe at this moment
