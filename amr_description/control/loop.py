@@ -242,5 +242,8 @@ class Loop:
 
     def _time_to_next_tick(self, time: int) -> int:
         """Return the time until a manager or ``/clock`` is due, ns; above 0."""
-        next_clock = time - time % self._clock_period + self._clock_period
-        return min([next_clock, *(manager.next_tick for manager in self.managers)]) - time
+        following = time - time % self._clock_period + self._clock_period
+        for manager in self.managers:
+            if manager.next_tick < following:
+                following = manager.next_tick
+        return following - time

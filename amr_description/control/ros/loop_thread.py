@@ -70,10 +70,13 @@ class CallQueue:
 
     def take(self) -> Iterable[Callable[[], None]]:
         """Return the calls that wait; one that is put by a call is left for the next cycle."""
+        self.cycles += 1
+        if not self._arrived.is_set():  # at most times; to clear it takes a lock
+            self.has_calls = False
+            return ()
         self._arrived.clear()  # before the calls are taken: one put in between wakes again
         calls = [self._calls.popleft() for _ in range(len(self._calls))]
         self.has_calls = bool(calls)
-        self.cycles += 1
         return calls
 
     def wait(self, timeout: float | None = None) -> bool:

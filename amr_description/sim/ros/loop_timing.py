@@ -4,8 +4,8 @@
 Warns when the simulation cannot keep real time, and names the stage of the loop that is slow.
 
 :class:`LoopProfiler` stands between the loop and its stepper, pacer and publisher and adds up the
-wall time spent in each, at the cost of six clock readings a cycle. Results do not depend on it:
-being late costs real-time factor only.
+wall time spent in each, at the cost of six clock readings a cycle. At factor 0 there is nothing to
+keep, and nothing is measured. Results do not depend on it: being late costs real-time factor only.
 """
 
 from collections.abc import Callable
@@ -90,6 +90,7 @@ class LoopProfiler:
         self._clock = clock
         self._processor = processor
         self._window: _Window | None = None
+        """None at factor 0, and before the first cycle."""
         self._slow_windows = 0
         self.set_clocks = publisher.set_clocks
 
@@ -102,43 +103,50 @@ class LoopProfiler:
 
     def advance(self, period: int) -> None:
         """Advance the world by ``period``, ns."""
+        window = self._window
+        if window is None:
+            self._stepper.advance(period)
+            return
         start = self._clock()
         self._stepper.advance(period)
-        self._add(PHYSICS, start)
+        window.spent[PHYSICS] += self._clock() - start
 
     # --- publisher ----------------------------------------------------------------------------
 
     def publish(self, time: int) -> None:
         """Publish at ``time``, ns."""
+        window = self._window
+        if window is None:
+            self._publisher.publish(time)
+            return
         start = self._clock()
         self._publisher.publish(time)
-        self._add(PUBLISHING, start)
+        window.spent[PUBLISHING] += self._clock() - start
 
     # --- pacer --------------------------------------------------------------------------------
 
     def resume(self, time: int) -> None:
         """Begin at ``time`` (ns), or go on after a pause or a jump."""
         self._slow_windows = 0
-        self._open_window(time, self._clock())
+        self._window = self._window_from(time, self._clock())
         self._pacer.resume(time)
 
     def pace(self, time: int) -> bool:
         """Wait until ``time`` (ns) is due; False: a call has come before."""
+        window = self._window
+        if window is None:
+            if self._pacer.factor != 0.0:  # it was set since
+                self._window = self._window_from(time, self._clock())
+            return self._pacer.pace(time)
         start = self._clock()
         is_due = self._pacer.pace(time)
-        self._end_cycle(time, start)
+        self._end_cycle(window, time, start)
         return is_due
 
     # --- windows ------------------------------------------------------------------------------
 
-    def _add(self, stage: str, start: int) -> None:
-        if self._window is not None:
-            self._window.spent[stage] += self._clock() - start
-
-    def _end_cycle(self, simulated: int, idle_since: int) -> None:
-        window, now = self._window, self._clock()
-        if window is None:
-            return
+    def _end_cycle(self, window: _Window, simulated: int, idle_since: int) -> None:
+        now = self._clock()
         window.idle += now - idle_since
         if now - window.wall < WINDOW:
             return
@@ -148,14 +156,16 @@ class LoopProfiler:
                 self._warn(window, simulated, now)
         else:
             self._slow_windows = 0
-        self._open_window(simulated, now)
+        self._window = self._window_from(simulated, now)
 
-    def _open_window(self, simulated: int, now: int) -> None:
-        self._window = _Window(now, self._processor(), simulated, self._pacer.factor)
+    def _window_from(self, simulated: int, now: int) -> _Window | None:
+        """Return a new window; None at factor 0."""
+        factor = self._pacer.factor
+        return _Window(now, self._processor(), simulated, factor) if factor else None
 
     def _is_slow(self, window: _Window, simulated: int, now: int) -> bool:
         wall = now - window.wall
-        if window.factor == 0.0 or window.factor != self._pacer.factor:
+        if window.factor != self._pacer.factor:
             return False
         is_late = simulated - window.simulated < MIN_FACTOR_SHARE * window.factor * wall
         return is_late and window.idle < MAX_IDLE_SHARE * wall

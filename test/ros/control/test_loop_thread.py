@@ -67,6 +67,14 @@ def test_a_call_that_was_taken_already_does_not_keep_the_control_thread_awake():
     assert not box._arrived.is_set()
 
 
+def test_a_wait_that_was_ended_without_a_call_ends_no_other_one():
+    box = CallQueue(timeout=0.0)
+    box.wake()
+    assert box.wait()
+    assert list(box.take()) == []
+    assert not box.wait()
+
+
 def test_the_pace_is_absolute_so_that_errors_do_not_add_up(monkeypatch):
     clock, pacer = paced(monkeypatch, factor=2.0)
     for tick in range(1, 101):

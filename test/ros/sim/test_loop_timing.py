@@ -131,3 +131,12 @@ def test_a_pause_and_another_factor_do_not_count():
     assert machine.log.lines == []
     machine.run(300.0)
     assert 'instead of 100' in machine.log.text
+
+
+def test_a_factor_that_is_set_later_is_kept_watch_over_from_then_on():
+    machine = running(factor=0.0, physics=20)
+    machine.run(3.0)
+    assert machine.log.lines == []
+    machine.factor = 1.0
+    machine.run(3.0)
+    assert 'Most goes to physics' in machine.log.text

@@ -107,6 +107,16 @@ def test_a_command_that_is_not_finite_is_named_and_the_state_is_kept(world, log)
     assert 'the state is lost' in log.text
 
 
+def test_the_model_of_the_present_is_checked_after_a_robot_has_come(world, log):
+    world.step(10)
+    world.spawn('late', AMR, Transform((0.0, -3.0, 0.0)))
+    world.step(10)
+    break_wheel(world, 'qvel', 5000.0)
+    world.faults.check(())
+    (line,) = log.text.splitlines()
+    assert "robot 'amr': joint 'joint_wheel_front_left': the velocity is 5000 rad/s" in line
+
+
 @pytest.mark.parametrize(
     'damage, cause',
     [
