@@ -35,7 +35,7 @@ def viewer_figures(node: Node, seconds: float) -> str:
     ``seconds``: wall time of each measurement of the load.
     """
     lines = ['the page                                   states         CPU of its node']
-    with _viewer() as (process, url):
+    with viewer() as (process, url):
         for count in (1, 5):
             with ExitStack() as stack:
                 pages = [stack.enter_context(PageClient(url)) for _ in range(count)]
@@ -52,7 +52,7 @@ def viewer_figures(node: Node, seconds: float) -> str:
 
 
 @contextmanager
-def _viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
+def viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
     """Run a viewer on a free port, while inside; yield the process and its address."""
     process = subprocess.Popen(
         [sys.executable, '-m', _MODULE, '--ros-args', '-p', 'port:=0'],
