@@ -5,7 +5,7 @@ The ROS nodes of controllers and hardware components, which know no ROS themselv
 
 From outside they are just as in ros2_control: parameters, topics, a logger, and for a controller
 ``~/transition_event``, as a lifecycle node of rclcpp publishes it. The ROS thread makes and
-removes everything here; the control thread calls :meth:`LoopPublisher.send`, by way of the ports,
+removes everything here; the control thread calls :meth:`LoopTopic.send`, by way of the ports,
 and :class:`TransitionEvents`.
 """
 
@@ -31,6 +31,7 @@ from amr_description.control.contracts import (
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.manager_parameters import CommonParameters
 from amr_description.control.plugin_errors import describe
+from amr_description.control.ros.loop_publisher import encoder
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.port_servers import (
     GoalServer,
@@ -241,10 +242,8 @@ class ControllerNode:
     def _advertise(self, port: Output[Any]) -> Publisher:
         fill = writer_of(port.port)
         message_class = _message_type(port.port)
-        message = message_class()
         publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
-        send = self._publisher.send
-        port.sink = lambda sample: send(fill, sample, message, publisher)
+        port.sink = self._publisher.topic(publisher, encoder(fill, message_class())).send
         return publisher
 
 

@@ -38,7 +38,7 @@ from amr_description.control.introspection import (
     IntrospectionRegistry,
     statistics_of,
 )
-from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_publisher import encoder, LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext, LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
@@ -161,11 +161,15 @@ class RegistryTopics:
         self._registry = IntrospectionRegistry((), list)
         self._version = 0
         self._clock = node.get_clock()
-        self._loop_publisher = loop_publisher
         self._names = node.create_publisher(StatisticsNames, f'{name}/names', LATCHED)
         self._full = node.create_publisher(Statistics, f'{name}/full', _QUEUED)
         self._values = node.create_publisher(StatisticsValues, f'{name}/values', _QUEUED)
-        self._full_message, self._values_message = Statistics(), StatisticsValues()
+        self._send_full = loop_publisher.topic(
+            self._full, encoder(self._fill_full, Statistics())
+        ).send
+        self._send_values = loop_publisher.topic(
+            self._values, encoder(_fill_values, StatisticsValues())
+        ).send
         self._full_names: tuple[str, ...] = ()
         self._wants_full = self._wants_values = False
 
@@ -193,9 +197,9 @@ class RegistryTopics:
         names, read = self._registry.names, self._registry.read
         sample = _Sample(time, names, self._version, read())
         if self._wants_full:
-            self._loop_publisher.send(self._fill_full, sample, self._full_message, self._full)
+            self._send_full(sample)
         if self._wants_values:
-            self._loop_publisher.send(_fill_values, sample, self._values_message, self._values)
+            self._send_values(sample)
 
     def _fill_full(self, sample: _Sample, message: Statistics) -> None:
         fill_stamp(sample.time, message.header.stamp)

@@ -22,20 +22,17 @@ Nothing is computed for a topic without subscribers. Of several robots in one na
 has these topics; those of the others are below their names.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from control_msgs.msg import DynamicJointState
 from nav_msgs.msg import Odometry
-from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.ros.converters import fill_dynamic_joint_state
-from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.loop_publisher import encoder, LoopPublisher, LoopTopic
 from amr_description.control.samples import DynamicJointStateSample, DynamicLayout
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.robot import Robot, WORLD_LINK
@@ -97,7 +94,13 @@ class GroundTruth:
             prefix = f'/{namespace.strip("/")}'.rstrip('/')
             if prefix in {truth.prefix for truth in self._robots.values()}:
                 prefix = f'{prefix}/{name}'
-            truth = _RobotTruth(self._node, self._world.robot(name), self._world.engine, prefix)
+            truth = _RobotTruth(
+                self._node,
+                self._loop_publisher,
+                self._world.robot(name),
+                self._world.engine,
+                prefix,
+            )
             self._robots = self._robots | {name: truth}
 
     def remove(self, name: str) -> None:
@@ -118,60 +121,62 @@ class GroundTruth:
         present = self._world.names
         for name, truth in self._robots.items():
             if name in present:
-                truth.report(time, self._loop_publisher.send)
+                truth.report(time)
 
 
 class _RobotTruth:
     """The topics of one robot; ``prefix``: a namespace, or empty for the root."""
 
-    def __init__(self, node: Node, robot: RobotView, engine: Engine, prefix: str) -> None:
+    def __init__(
+        self,
+        node: Node,
+        loop_publisher: LoopPublisher,
+        robot: RobotView,
+        engine: Engine,
+        prefix: str,
+    ) -> None:
         self.prefix = prefix
         self._robot = robot
         self._base = _base_of(robot.description)
         self._wheel_slip = WheelSlipReader(engine, robot)
-        self._odom = node.create_publisher(Odometry, f'{prefix}/{ODOM_TOPIC}', _QOS)
-        self._odometry = Odometry(child_frame_id=f'{prefix}/{self._base}'.removeprefix('/'))
-        self._odometry.header.frame_id = WORLD_FRAME
-        self._wheels: Publisher | None = None
+        odometry = Odometry(child_frame_id=f'{prefix}/{self._base}'.removeprefix('/'))
+        odometry.header.frame_id = WORLD_FRAME
+        self._odom = loop_publisher.topic(
+            node.create_publisher(Odometry, f'{prefix}/{ODOM_TOPIC}', _QOS),
+            encoder(_fill_motion, odometry),
+        )
+        self._wheels: LoopTopic | None = None
         joints = self._wheel_slip.joints
         if joints:
-            topic = f'{prefix}/{WHEELS_TOPIC}'
-            self._wheels = node.create_publisher(DynamicJointState, topic, _QOS)
-            self._states = DynamicJointState()
+            self._wheels = loop_publisher.topic(
+                node.create_publisher(DynamicJointState, f'{prefix}/{WHEELS_TOPIC}', _QOS),
+                encoder(fill_dynamic_joint_state, DynamicJointState()),
+            )
             self._layout = DynamicLayout('', joints, (WHEEL_VALUES,) * len(joints))
 
     def destroy(self, node: Node) -> None:
         """Remove the topics."""
-        for publisher in (self._odom, self._wheels):
-            if publisher is not None:
-                node.destroy_publisher(publisher)
+        for topic in (self._odom, self._wheels):
+            if topic is not None:
+                node.destroy_publisher(topic.publisher)
 
-    def report(self, time: int, send: Callable[..., None]) -> None:
+    def report(self, time: int) -> None:
         """Measure and publish, as far as there are subscribers."""
-        if _has_subscribers(self._odom):
+        if self._odom.is_heard:
             pose, velocity = self._robot.pose(self._base), self._robot.velocity(self._base)
-            send(_fill_motion, LinkMotion(time, pose, velocity), self._odometry, self._odom)
-        if self._wheels is not None and _has_subscribers(self._wheels):
+            self._odom.send(LinkMotion(time, pose, velocity))
+        if self._wheels is not None and self._wheels.is_heard:
             values = tuple(
                 (float(wheel.is_touching), wheel.normal_force, wheel.along, wheel.across)
                 for wheel in self._wheel_slip.read()
             )
-            sample = DynamicJointStateSample(time, values, self._layout)
-            send(fill_dynamic_joint_state, sample, self._states, self._wheels)
+            self._wheels.send(DynamicJointStateSample(time, values, self._layout))
 
 
 def _base_of(robot: Robot) -> str:
     root = robot.root.name
     hanging = robot.child_joints(root) if root == WORLD_LINK else ()
     return hanging[0].child if hanging else root
-
-
-def _has_subscribers(publisher: Publisher) -> bool:
-    """Return whether there are any; 1 µs. False for a topic that is being removed."""
-    try:
-        return publisher.get_subscription_count() > 0
-    except InvalidHandle:
-        return False
 
 
 def _fill_motion(motion: LinkMotion, message: Any) -> None:

@@ -33,7 +33,7 @@ class Host:
     def __init__(self, rate):
         self.node = Node('host')
         self.world = MujocoWorld('empty')
-        self.loop_publisher = ClockedLoopPublisher(self.node)
+        self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
         self.truth = GroundTruth(self.node, self.loop_publisher, self.world, rate)
 
     def spawn(self, name, namespace, pose=None, urdf=AMR):
