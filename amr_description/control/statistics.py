@@ -34,15 +34,22 @@ class Statistic:
     latest: float = math.nan
 
 
+_MOST_WAITING = 256
+"""Samples that are kept until they are counted in."""
+
+
 class RunningStatistic:
     """
     Computes a :class:`Statistic` sample by sample, in constant space.
 
     Welford's algorithm: unlike Σx² − (Σx)²/n it loses no digits if the samples are large and close
     together, as rates are. (Welford, Technometrics 4(3), 1962; Knuth, TAOCP 2, 4.2.2.)
+
+    A sample is only kept when it is added, and counted in when the result is asked for or many are
+    waiting: one loop over many takes a third of the time of as many calls, for the same bits.
     """
 
-    __slots__ = ('_count', '_mean', '_squares', '_minimum', '_maximum', '_latest')
+    __slots__ = ('_waiting', '_count', '_mean', '_squares', '_minimum', '_maximum', '_latest')
 
     _count: int
     _mean: float
@@ -52,25 +59,18 @@ class RunningStatistic:
     _latest: float
 
     def __init__(self) -> None:
+        self._waiting: list[float] = []
         self.reset()
 
     def add(self, sample: float) -> None:
         """Add a sample, which is finite."""
-        self._count = count = self._count + 1
-        self._latest = sample
-        deviation = sample - self._mean
-        if deviation:  # a rate in simulated time is the same every time
-            self._mean = mean = self._mean + deviation / count
-            self._squares += deviation * (sample - mean)
-            if sample < self._minimum:
-                self._minimum = sample
-            if sample > self._maximum:
-                self._maximum = sample
-        elif count == 1:
-            self._minimum = self._maximum = sample
+        self._waiting.append(sample)
+        if len(self._waiting) == _MOST_WAITING:
+            self._count_in()
 
     def reset(self) -> None:
         """Forget all samples."""
+        self._waiting.clear()
         self._count = 0
         self._mean = self._squares = 0.0
         self._minimum, self._maximum = math.inf, -math.inf
@@ -78,6 +78,7 @@ class RunningStatistic:
 
     def result(self) -> Statistic:
         """Return the statistic of all samples so far."""
+        self._count_in()
         if not self._count:
             return Statistic()
         return Statistic(
@@ -88,6 +89,29 @@ class RunningStatistic:
             self._maximum,
             self._latest,
         )
+
+    def _count_in(self) -> None:
+        """Count the waiting samples in, in their order."""
+        if not self._waiting:
+            return
+        count, mean, squares = self._count, self._mean, self._squares
+        minimum, maximum = self._minimum, self._maximum
+        for sample in self._waiting:
+            count += 1
+            deviation = sample - mean
+            if deviation:  # a rate in simulated time is the same every time
+                mean += deviation / count
+                squares += deviation * (sample - mean)
+                if sample < minimum:
+                    minimum = sample
+                if sample > maximum:
+                    maximum = sample
+            elif count == 1:
+                minimum = maximum = sample
+        self._count, self._mean, self._squares = count, mean, squares
+        self._minimum, self._maximum = minimum, maximum
+        self._latest = self._waiting[-1]
+        self._waiting.clear()
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,6 +44,32 @@ def test_the_numbers_are_those_of_numpy(samples):
     assert found.standard_deviation == pytest.approx(np.std(samples), rel=1e-6, abs=1e-4)
 
 
+def counted_one_by_one(samples):
+    """Welford's algorithm as it is in the books: mean and Σ(x − mean)²."""
+    mean = squares = 0.0
+    for count, sample in enumerate(samples, start=1):
+        deviation = sample - mean
+        mean += deviation / count
+        squares += deviation * (sample - mean)
+    return mean, squares
+
+
+@given(st.lists(st.floats(1.0, 1e3), min_size=1, max_size=9), st.integers(1, 600))
+def test_the_bits_do_not_depend_on_when_samples_are_counted_in(values, count):
+    samples = [values[number % len(values)] * (1 + number % 7) for number in range(count)]
+    looked_at = RunningStatistic()
+    for number, sample in enumerate(samples):
+        looked_at.add(sample)
+        if number % 100 == 99:
+            looked_at.result()
+    found = result_of(samples)
+    mean, squares = counted_one_by_one(samples)
+    assert looked_at.result() == found
+    assert found == Statistic(
+        count, mean, math.sqrt(squares / count), min(samples), max(samples), samples[-1]
+    )
+
+
 @given(SAMPLES, st.floats(-1e6, 1e6))
 def test_a_shift_moves_the_mean_and_leaves_the_deviation(samples, shift):
     plain, shifted = result_of(samples), result_of([sample + shift for sample in samples])
