@@ -54,7 +54,11 @@ class RobotActuators:
         """Hold all joints. ``commands``: joint → its command interfaces."""
         self.commands = commands
         self.changes = 0
-        """How often a mode was switched; a changed count invalidates a remembered mode."""
+        """
+        How often a mode was switched, or a joint commanded by somebody else; a changed count
+        invalidates what is remembered of both.
+        """
+        self._commanders: dict[str, object] = {}
         self._joints = {
             joint: JointActuators(engine, robot, joint)
             for joint, interfaces in commands.items()
@@ -74,6 +78,14 @@ class RobotActuators:
             actuators = self._joints.get(name)
             if actuators is not None and actuators.mode is not mode:
                 actuators.switch(mode)
+                self.changes += 1
+
+    def command(self, joints: Iterable[str], mode: ActuatorMode, commander: object) -> None:
+        """Switch joints to the mode of commands, which ``commander`` writes from now on."""
+        self.switch(joints, mode)
+        for name in joints:
+            if self._commanders.get(name) is not commander:
+                self._commanders[name] = commander
                 self.changes += 1
 
     def hold(self, joints: Iterable[str]) -> None:

@@ -53,6 +53,8 @@ class MujocoJointGroup:
         self._names = tuple(joint.name for joint in joints)
         self._actuators = actuators
         self._log = log
+        self._written: Sequence[float] | None = None
+        """The values in force, as long as nobody switches or commands the joints."""
         self._bind()
 
     def positions(self) -> list[float]:
@@ -97,13 +99,16 @@ class MujocoJointGroup:
             self._bind()
         if interface != self._interface:
             self._select(interface)
+        elif values == self._written and self._actuators.changes == self._known_changes:
+            return
+        given = values
         for value, (lower, upper) in zip(values, self._bounds, strict=True):
             # False for NaN too.
             if not lower <= value <= upper:
                 values = self._clamped(values)
                 break
         if self._actuators.changes != self._known_changes:
-            self._actuators.switch(self._names, ActuatorMode(interface))
+            self._actuators.command(self._names, ActuatorMode(interface), self)
             self._known_changes = self._actuators.changes
         if interface == POSITION and self._has_rotors:
             values = [
@@ -113,6 +118,10 @@ class MujocoJointGroup:
                 )
             ]
         self._write(values)
+        # What is in force need not be written again. The command of a rotor depends on where it
+        # is now; and 0.0 equals -0.0, of which the state of the world keeps the sign.
+        lasts = values is given and all(values)
+        self._written = list(values) if lasts else None
 
     def hold(self) -> None:
         """Stop the joints and hold them where they stop."""
@@ -144,6 +153,7 @@ class MujocoJointGroup:
         self._bounds = [(each.lower, each.upper) for each in bounds]
         self._interface = interface
         self._known_changes = -1
+        self._written = None
 
     def _clamped(self, values: Sequence[float]) -> list[float]:
         """Clamp values to the limits, and log it. Raises SimulationError: one is not finite."""

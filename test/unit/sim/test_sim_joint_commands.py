@@ -23,6 +23,8 @@ from fixtures.sim.driving import AMR, Drive, Lines
 import pytest
 
 from amr_description.errors import SimulationError
+from amr_description.model.frames import Transform
+from amr_description.sim.world import MujocoWorld
 
 STEP = 0.002
 
@@ -291,3 +293,68 @@ def test_wheels_driven_by_torque_accelerate_the_robot_as_newton_has_it():
     expected = 4 * torque / radius / (mass + 4 * inertia / radius**2)
     assert drive.speed == pytest.approx(expected * 1.0, rel=0.02)
     assert drive.position[0] > 0.0
+
+
+# --- commands that do not change -----------------------------------------------------------------
+
+WHEELS = [f'joint_wheel_{where}' for where in ('front_left', 'front_right')]
+
+
+def spun_up(*speeds):
+    """Two groups of the same wheels; the first one has commanded them."""
+    world = MujocoWorld('empty')
+    robot = world.spawn('amr', AMR)
+    groups = robot.joints(WHEELS), robot.joints(WHEELS)
+    groups[0].command('velocity', speeds)
+    world.step(10)
+    return world, *groups
+
+
+def commands_of(world):
+    return [float(world.engine.data.actuator(f'amr/{name}/velocity').ctrl[0]) for name in WHEELS]
+
+
+def test_a_command_is_in_force_again_after_a_reset_of_the_world():
+    world, group, _ = spun_up(2.0, 3.0)
+    world.reset()
+    assert commands_of(world) == [0.0, 0.0]
+    group.command('velocity', [2.0, 3.0])
+    assert commands_of(world) == [2.0, 3.0]
+
+
+def test_a_command_is_in_force_again_after_the_joint_was_held():
+    world, group, other = spun_up(2.0, 3.0)
+    other.hold()
+    group.command('velocity', [2.0, 3.0])
+    assert commands_of(world) == [2.0, 3.0]
+
+
+def test_a_command_is_in_force_after_another_robot_has_come():
+    world, group, _ = spun_up(2.0, 3.0)
+    world.spawn('other', AMR, Transform((0.0, 3.0, 0.0)))
+    group.command('velocity', [2.0, 3.0])
+    assert commands_of(world) == [2.0, 3.0]
+
+
+def test_of_two_who_command_a_joint_the_later_one_counts():
+    world, group, other = spun_up(2.0, 3.0)
+    for _ in range(2):
+        other.command('velocity', [4.0, 5.0])
+        assert commands_of(world) == [4.0, 5.0]
+        group.command('velocity', [2.0, 3.0])
+        assert commands_of(world) == [2.0, 3.0]
+
+
+def test_zero_is_written_with_its_sign():
+    world, group, _ = spun_up(0.0, 3.0)
+    group.command('velocity', [-0.0, 3.0])
+    assert math.copysign(1.0, commands_of(world)[0]) == -1.0
+
+
+def test_who_changes_the_list_of_a_command_changes_the_command():
+    world, group, _ = spun_up(2.0, 3.0)
+    speeds = [4.0, 5.0]
+    group.command('velocity', speeds)
+    speeds[1] = 6.0
+    group.command('velocity', speeds)
+    assert commands_of(world) == [4.0, 6.0]
