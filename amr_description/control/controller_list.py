@@ -17,14 +17,15 @@ class ControllerList:
 
     def __init__(self) -> None:
         self._by_name: dict[str, LoadedController] = {}
-        self._ordered: tuple[LoadedController, ...] = ()
+        self.ordered: tuple[LoadedController, ...] = ()
+        """In the order of their updates."""
         self.chains = Chains({})
 
     def __contains__(self, name: str) -> bool:
         return name in self._by_name
 
     def __iter__(self) -> Iterator[LoadedController]:
-        return iter(self._ordered)
+        return iter(self.ordered)
 
     def __getitem__(self, name: str) -> LoadedController:
         return self._by_name[name]
@@ -52,12 +53,12 @@ class ControllerList:
         self.chains = Chains(
             {name: loaded.chain_interfaces for name, loaded in self._by_name.items()}
         )
-        self._ordered = tuple(self._by_name[name] for name in self.chains.update_order)
+        self.ordered = tuple(self._by_name[name] for name in self.chains.update_order)
 
     @property
     def active(self) -> list[LoadedController]:
         """The active controllers, in the order of their updates."""
-        return [loaded for loaded in self._ordered if loaded.is_active]
+        return [loaded for loaded in self.ordered if loaded.is_active]
 
     def activation_order(self, chosen: Collection[LoadedController]) -> list[LoadedController]:
         """Return the chosen controllers, each after those that it needs."""

@@ -36,6 +36,7 @@ from amr_description.control.switching import (
 )
 from amr_description.errors import ControllerError
 
+_ACTIVE = LifecycleState.ACTIVE  # looked up in each cycle
 _MICROSECOND = 1000
 """ns."""
 
@@ -374,7 +375,8 @@ class ControllerManager:
         period = self.period if last is None else time - last
         stopwatch = self.resources.stopwatch
         begin = stopwatch()
-        self._deactivate_orphans(self.resources.read(time, period), time)
+        if lost := self.resources.read(time, period):
+            self._deactivate_orphans(lost, time)
         after_read = stopwatch()
         self._update(time, period)
         after_update = stopwatch()
@@ -389,12 +391,14 @@ class ControllerManager:
             self.on_tick(time)
 
     def _update(self, time: int, period: int) -> None:
-        call_guarded, nominal = self._failures.call_guarded, self.period
-        failed = [
-            controller
-            for controller in self._controllers.active
-            if not call_guarded('updating', controller, controller.update, time, nominal)
-        ]
+        failed: list[LoadedController] = []
+        for controller in self._controllers.ordered:
+            if controller.state is _ACTIVE:
+                try:
+                    controller.update(time, self.period)
+                except Exception as error:  # a third-party controller may raise anything
+                    self._failures.log_failure('updating', controller, error)
+                    failed.append(controller)
         if failed:
             self._failures.switch_to_fallbacks(failed, 'update', time)
             self.refresh()
@@ -402,9 +406,11 @@ class ControllerManager:
 
     def _write(self, time: int, period: int) -> None:
         lost = self.resources.write(time, period)
+        if not lost:
+            return
         if self.defaults.deactivate_controllers_on_hardware_self_deactivate:
             self._deactivate_orphans(lost, time)
-        elif lost:
+        else:
             states = {name: self.resources.components[name].state for name in lost}
             failed = [name for name in lost if states[name] is not LifecycleState.INACTIVE]
             self._failures.deactivate_orphans(failed, time)

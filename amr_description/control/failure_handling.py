@@ -51,18 +51,22 @@ class FailureHandler:
         """
         try:
             method(*args)
-        except AmrError as error:
-            self._log(Severity.ERROR, f"Controller '{controller.name}': {error}")
         except Exception as error:
-            self._log(
-                Severity.ERROR,
-                f'Caught exception of type : {type(error).__name__} while {doing} controller '
-                f"'{controller.name}': {error_line(error)}",
-            )
-            log_traceback(self._log, error)
-        else:
-            return True
-        return False
+            self.log_failure(doing, controller, error)
+            return False
+        return True
+
+    def log_failure(self, doing: str, controller: LoadedController, error: Exception) -> None:
+        """Log what a controller has raised; ``doing``: as above."""
+        if isinstance(error, AmrError):
+            self._log(Severity.ERROR, f"Controller '{controller.name}': {error}")
+            return
+        self._log(
+            Severity.ERROR,
+            f'Caught exception of type : {type(error).__name__} while {doing} controller '
+            f"'{controller.name}': {error_line(error)}",
+        )
+        log_traceback(self._log, error)
 
     def switch_to_fallbacks(
         self, failed: Sequence[LoadedController], doing: str, time: int

@@ -12,9 +12,10 @@ limit, for instance) the limit of the commanded quantity itself wins, and a join
 position limits is held or brought back, instead of failing with an exception.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 import math
+import sys
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import (
@@ -33,6 +34,9 @@ from amr_description.model.robot import Joint, JointType, Robot
 
 POSITION_TOLERANCE = 0.002
 """rad or m: a joint that is farther beyond a position limit must not move at all."""
+
+ANY_NUMBER = (-sys.float_info.max, sys.float_info.max)
+"""The range of the commands that are finite."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +117,38 @@ class JointLimiter:
                 command.value = limited
             self._before[command.interface] = limited if math.isfinite(limited) else None
 
+    def fixed_bounds(self) -> dict[str, tuple[float, float]] | None:
+        """
+        Return the range of each command, by name, if nothing else limits them; else None.
+
+        Within it :meth:`enforce` changes nothing: neither the state of the joint counts, nor what
+        was commanded before.
+        """
+        limits = self.limits
+        has_position, has_speed = limits.position is not None, limits.velocity is not None
+        depends = {
+            POSITION: has_speed,
+            VELOCITY: has_position or limits.acceleration is not None,
+            EFFORT: has_position or has_speed,
+            ACCELERATION: limits.deceleration is not None,
+        }
+        if any(depends.get(command.interface) for command in self._commands):
+            return None
+        return {command.name: self._range_of(command.interface) for command in self._commands}
+
+    def _range_of(self, interface: str) -> tuple[float, float]:
+        limits = self.limits
+        if interface == POSITION:
+            return limits.position or ANY_NUMBER
+        bounds = {
+            VELOCITY: limits.velocity,
+            EFFORT: limits.effort,
+            ACCELERATION: limits.acceleration,
+            JERK: limits.jerk,
+        }
+        bound = bounds.get(interface)
+        return ANY_NUMBER if bound is None else (-bound, bound)
+
     def reset(self) -> None:
         """Forget the previous commands."""
         self._before.clear()
@@ -144,6 +180,44 @@ class JointLimiter:
             f'are {self.limits}',
             throttle=1.0,
         )
+
+
+class CommandRanges:
+    """
+    The ranges in which the commands of a component need no limiting, as almost always.
+
+    To compare is 1 µs for four wheels, to limit them 5.
+    """
+
+    __slots__ = ('loaded', '_ranges')
+
+    def __init__(self, loaded: LoadedComponent, limiters: Iterable[JointLimiter]) -> None:
+        self.loaded = loaded
+        ranges = dict.fromkeys(loaded.commands, ANY_NUMBER)
+        self._ranges: list[tuple[CommandInterface, float, float]] | None = None
+        for limiter in limiters:
+            bounds = limiter.fixed_bounds()
+            if bounds is None:
+                return  # they depend on the state: there is nothing to compare with
+            ranges |= bounds
+        least, most = ANY_NUMBER
+        self._ranges = [
+            (loaded.commands[name], max(least, lower), min(most, upper))
+            for name, (lower, upper) in ranges.items()
+        ]
+
+    def hold(self) -> bool:
+        """Return whether every command is within its range, or NaN: there is none."""
+        if self._ranges is None:
+            return False
+        try:
+            for command, lower, upper in self._ranges:
+                value = command.value
+                if not lower <= value <= upper and value == value:
+                    return False
+        except Exception:  # a third-party controller may have written anything
+            return False
+        return True
 
 
 def limiters_of(component: LoadedComponent, robot: Robot | None, log: Log) -> list[JointLimiter]:

@@ -12,6 +12,8 @@ from amr_description.control.statistics import RunningCycleStatistic, Stopwatch,
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import HardwareType
 
+_INACTIVE, _ACTIVE = LifecycleState.INACTIVE, LifecycleState.ACTIVE  # looked up in each cycle
+
 # Neighbours are one transition apart; there is no way back from finalized.
 _STATES = (
     LifecycleState.FINALIZED,
@@ -62,6 +64,7 @@ class LoadedComponent:
         """Of its reads since it was activated."""
         self.write_statistic = RunningCycleStatistic()
         """Likewise of its writes."""
+        self._rate = self.info.rw_rate
         self._stopwatch = stopwatch
         self._log = log
         self._last_read: int | None = None
@@ -70,7 +73,7 @@ class LoadedComponent:
     @property
     def is_available(self) -> bool:
         """True while it is inactive or active: it is read, and its states can be used."""
-        return self.state in (LifecycleState.INACTIVE, LifecycleState.ACTIVE)
+        return self.state is _ACTIVE or self.state is _INACTIVE
 
     # --- lifecycle ----------------------------------------------------------------------------
 
@@ -143,39 +146,41 @@ class LoadedComponent:
         if not self.is_available:
             return
         last = self._last_read
-        elapsed = self._elapsed(last, time, period)
-        if elapsed is None:
-            return
+        if self._rate:
+            elapsed = self._elapsed(last, time, period)
+            if elapsed is None:
+                return
+            period = elapsed
         self._last_read = time
         begin = self._stopwatch()
-        self.component.read(time, elapsed)
+        self.component.read(time, period)
         duration = self._stopwatch() - begin
         self.read_statistic.add(duration, None if last is None else time - last)
 
     def write(self, time: int, period: int) -> None:
         """Write it if it is active, not a sensor, and due; arguments as of :meth:`read`."""
-        if self.state is not LifecycleState.ACTIVE or self.is_sensor:
+        if self.state is not _ACTIVE or self.is_sensor:
             return
         last = self._last_write
-        elapsed = self._elapsed(last, time, period)
-        if elapsed is None:
-            return
+        if self._rate:
+            elapsed = self._elapsed(last, time, period)
+            if elapsed is None:
+                return
+            period = elapsed
         self._last_write = time
         begin = self._stopwatch()
-        self.component.write(time, elapsed)
+        self.component.write(time, period)
         duration = self._stopwatch() - begin
         self.write_statistic.add(duration, None if last is None else time - last)
 
     def _elapsed(self, last: int | None, time: int, period: int) -> int | None:
         """
-        Return the period to hand to the component, ns; None if it is not due.
+        Return the period to hand to a component with a rate of its own, ns; None: it is not due.
 
-        With a rate of its own, that is the true time since the previous call, and the nominal
-        period at the first. It is due from 99 % of its period on, as a tick may come early.
+        That is the true time since the previous call, and the nominal period at the first. It is
+        due from 99 % of its period on, as a tick may come early.
         """
-        rate = self.info.rw_rate
-        if not rate:
-            return period
+        rate = self._rate
         if last is None:
             return max(period, NANOSECONDS // rate)
         elapsed = time - last

@@ -201,12 +201,12 @@ class LoadedController:
             time: of the tick, ns.
             nominal_period: of the manager, ns.
         """
-        is_due = self._ticks % self.update_divisor == 0
-        self._ticks += 1
-        if not is_due:
+        ticks, divisor = self._ticks, self.update_divisor
+        self._ticks = ticks + 1
+        if divisor != 1 and ticks % divisor:
             return
         last, self._last_update = self._last_update, time
-        period = nominal_period * self.update_divisor if last is None else time - last
+        period = nominal_period * divisor if last is None else time - last
         begin = self._stopwatch()
         self.controller.update(time, period)
         self.statistic.add(self._stopwatch() - begin, None if last is None else period)

@@ -25,7 +25,12 @@ from amr_description.control.interfaces import (
     LifecycleState,
     StateInterface,
 )
-from amr_description.control.joint_limits import JointLimiter, limiters_of, value_at_rest
+from amr_description.control.joint_limits import (
+    CommandRanges,
+    JointLimiter,
+    limiters_of,
+    value_at_rest,
+)
 from amr_description.control.loaded_component import by_name, LoadedComponent
 from amr_description.control.plugin_errors import describe
 from amr_description.control.statistics import Stopwatch, zero_clock
@@ -70,6 +75,8 @@ class ResourceManager:
         self._robot = robot
         self._enforces_limits = enforce_command_limits
         self._limiters: dict[str, list[JointLimiter]] = {}
+        self._ranges: tuple[CommandRanges, ...] = ()
+        """Of each component."""
         self._references: dict[str, dict[str, CommandInterface]] = {}
         self._exported_states: dict[str, dict[str, StateInterface]] = {}
 
@@ -127,6 +134,7 @@ class ResourceManager:
         if self._enforces_limits:
             self._limiters[name] = limiters_of(loaded, self._robot, self.log)
         self.components[name] = loaded
+        self._ranges = (*self._ranges, CommandRanges(loaded, self._limiters.get(name, ())))
 
     def set_state(self, name: str, target: LifecycleState) -> None:
         """
@@ -342,7 +350,13 @@ class ResourceManager:
         """
         for limiter in chain.from_iterable(self._limiters.values()):
             limiter.reset()
-        return self._call_each('reset', lambda loaded: loaded.reset(time))
+        lost: list[str] = []
+        for loaded in self.components.values():
+            try:
+                loaded.reset(time)
+            except Exception as error:
+                lost += self._handle_failure(loaded, 'reset', error)
+        return lost
 
     def read(self, time: int, period: int) -> list[str]:
         """
@@ -355,7 +369,13 @@ class ResourceManager:
         Returns:
             The names of those that failed and were brought down, along with their groups.
         """
-        return self._call_each('read', lambda loaded: loaded.read(time, period))
+        lost: list[str] = []
+        for loaded in self.components.values():
+            try:
+                loaded.read(time, period)
+            except Exception as error:  # a third-party component may raise anything
+                lost += self._handle_failure(loaded, 'read', error)
+        return lost
 
     def write(self, time: int, period: int) -> list[str]:
         """
@@ -364,15 +384,12 @@ class ResourceManager:
         Returns the names of those that are no longer active: brought down along with their groups,
         or inactive if they asked for that.
         """
-        return self._call_each('write', lambda loaded: loaded.write(time, period))
-
-    def _call_each(self, action: str, call: Callable[[LoadedComponent], None]) -> list[str]:
         lost: list[str] = []
         for loaded in self.components.values():
             try:
-                call(loaded)
-            except Exception as error:  # a third-party component may raise anything
-                lost += self._handle_failure(loaded, action, error)
+                loaded.write(time, period)
+            except Exception as error:
+                lost += self._handle_failure(loaded, 'write', error)
         return lost
 
     def _handle_failure(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:
@@ -403,19 +420,22 @@ class ResourceManager:
         any case a command that is infinite or not a number stops its joint: no component ever
         gets one.
         """
-        for name, loaded in self.components.items():
-            if not loaded.is_available:
-                continue
-            try:
-                self._limit(name, loaded, period)
-            except (TypeError, OverflowError):
-                for command in loaded.commands.values():
-                    if not _is_number(command.value):
-                        self._stop(command)
-                self._limit(name, loaded, period)
+        for ranges in self._ranges:
+            if ranges.loaded.is_available and not ranges.hold():
+                self._limit(ranges.loaded, period)
 
-    def _limit(self, name: str, loaded: LoadedComponent, period: int) -> None:
+    def _limit(self, loaded: LoadedComponent, period: int) -> None:
+        try:
+            self._limit_numbers(loaded, period)
+        except (TypeError, OverflowError):
+            for command in loaded.commands.values():
+                if not _is_number(command.value):
+                    self._stop(command)
+            self._limit_numbers(loaded, period)
+
+    def _limit_numbers(self, loaded: LoadedComponent, period: int) -> None:
         """Limit the commands of a component. Raises TypeError, OverflowError: not a number."""
+        name = loaded.info.name
         for limiter in self._limiters.get(name, ()):
             limiter.enforce(period / NANOSECONDS)
         for command in loaded.commands.values():

@@ -4,6 +4,7 @@
 
 from itertools import pairwise
 import math
+from types import SimpleNamespace
 
 from hypothesis import given, strategies as st
 import pytest
@@ -15,6 +16,7 @@ from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.joint_limits import (
+    CommandRanges,
     JointLimiter,
     JointLimits,
     JointState,
@@ -174,6 +176,54 @@ def test_what_is_allowed_passes_unchanged(value, limits, state, before, dt):
     again = {name: all_limited(v, limits, state, before, dt)[name] for name, v in limited.items()}
     assert again == limited
     assert set(all_limited(value, JointLimits(), state, before, dt).values()) == {value}
+
+
+COMMANDS = ('position', 'velocity', 'effort', 'acceleration', 'jerk', 'gain')
+
+
+@LAW
+@given(
+    st.sets(st.sampled_from(COMMANDS), min_size=1),
+    LIMITS,
+    st.lists(st.lists(st.floats() | st.floats(-2.0, 2.0), min_size=6, max_size=6), max_size=4),
+    STEP,
+)
+def test_what_is_in_range_is_not_limited(names, limits, rows, dt):
+    """The comparison that saves most limiting lets nothing through that would be limited."""
+    log, commands = FakeLog(), [CommandInterface('j', name) for name in sorted(names)]
+    handles = {command.name: command for command in commands}
+    states = {f'j/{name}': StateInterface('j', name, 0.5) for name in ('position', 'velocity')}
+    limiter = JointLimiter('j', limits, handles, states, log)
+    ranges = CommandRanges(SimpleNamespace(commands=handles), [limiter])
+    for row in rows:
+        for command, value in zip(commands, row, strict=False):
+            command.value = value
+        are_in_range = ranges.hold()
+        before = [command.value for command in commands]
+        log.lines.clear()
+        limiter.enforce(dt)
+        if are_in_range:
+            assert log.lines == []
+            for command, value in zip(commands, before, strict=True):
+                assert command.value is value
+                assert not math.isinf(value)
+
+
+@pytest.mark.parametrize('value', ['1.0', None, 1j, 10**400, math.inf, -math.inf, [1.0]])
+def test_what_is_no_finite_number_is_never_in_range(value):
+    wheel = CommandInterface('j', 'velocity')
+    ranges = CommandRanges(SimpleNamespace(commands={'j/velocity': wheel}), [])
+    assert ranges.hold()  # there is no command
+    wheel.value = 1.0
+    assert ranges.hold()
+    wheel.value = value
+    assert not ranges.hold()
+
+
+def test_limits_that_depend_on_the_state_have_no_range():
+    hand = {'j/position': CommandInterface('j', 'position', 0.0)}
+    limiter = JointLimiter('j', JointLimits(velocity=1.0), hand, {}, FakeLog())
+    assert not CommandRanges(SimpleNamespace(commands=hand), [limiter]).hold()
 
 
 @LAW
