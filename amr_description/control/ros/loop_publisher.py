@@ -20,12 +20,12 @@ simulator publishes on
 
 Once that has come, the next step acts on the command. Nothing is published without a subscriber.
 
-Of what nobody hears no message is made, which is most of the cost of a sample: 15 µs of 20. To look
-whether somebody subscribes costs 1.5 µs a topic, so that is done once in :data:`LOOK_PERIOD` of the
-wall clock, and in each cycle before and after which time stands still. A topic that keeps its last
-message for who subscribes later (:attr:`LoopTopic.keeps_last`; Fast DDS does so for controllers,
-whose topics leave it the choice) gets its newest sample at these looks: who subscribes finds one
-that is no older than that, and while time stands still the newest there is.
+Of what nobody hears no message is made, which is most of the cost of a sample: 15 µs of 20. To
+look whether somebody subscribes costs 1.5 µs a topic, so that is done once in :data:`LOOK_PERIOD`
+of the wall clock, and in each cycle before and after which time stands still. A topic that keeps
+its last message for who subscribes later (:attr:`LoopTopic.keeps_last`; Fast DDS does so for
+controllers, whose topics leave it the choice) gets its newest sample at these looks: who
+subscribes finds one that is no older than that, and while time stands still the newest there is.
 """
 
 from collections.abc import Callable, Sequence
@@ -98,7 +98,7 @@ class LoopTopic:
         self._outbox = outbox
 
     def send(self, sample: Any) -> None:
-        """Publish a sample at the end of this cycle, if somebody hears it; on the control thread."""
+        """Publish a sample at the end of this cycle; on the control thread."""
         self._outbox.append((self, sample))
 
     def look(self) -> None:
