@@ -116,20 +116,26 @@ class Probe:
 
 def _serve_probe(sim: MujocoSim) -> None:
     """Measure at each line of the standard input."""
-    simulation = sim.simulation
+    loop, engine = sim.simulation.loop_thread, sim.simulation.world.engine
     for line in sys.stdin:
-        probe = Probe(simulation.loop_thread.loop, simulation.world.engine)
-        _make(simulation.loop_thread, functools.partial(probe.run, float(line)))
+        # MuJoCo refuses to copy the data while the control thread is in a step.
+        probe = _make(loop, lambda: Probe(loop.loop, engine))
+        _make(loop, functools.partial(probe.run, float(line)))
         print(json.dumps(probe.result().as_json()), flush=True)
 
 
-def _make(loop_thread: LoopThread, call: Callable[[], None]) -> None:
-    """Have the control thread make a call, and wait until it has. Raises what the call raises."""
+def _make[Result](loop_thread: LoopThread, call: Callable[[], Result]) -> Result:
+    """
+    Have the control thread make a call, wait until it has, and return what it returns.
+
+    Raises what the call raises.
+    """
     has_ended = threading.Event()
     future = loop_thread.submit(call)
     future.add_done_callback(lambda _: has_ended.set())
     has_ended.wait()
-    future.result()
+    result: Result = future.result()
+    return result
 
 
 def simulate(args: list[str]) -> int:
