@@ -147,6 +147,8 @@ class Input[Sample]:
     def drain(self) -> list[Sample]:
         """Return all samples since the last call, oldest first."""
         samples = self._samples
+        if not samples:
+            return []
         return [samples.popleft() for _ in range(len(samples))]
 
     def open(self) -> None:

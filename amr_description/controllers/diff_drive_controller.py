@@ -72,7 +72,7 @@ class DiffDriveController(Controller):
 
     def __init__(self, context: ControllerContext) -> None:
         super().__init__(context)
-        self._references = tuple(
+        self._linear, self._angular = (
             CommandInterface(context.name, f'{axis}/{VELOCITY}') for axis in ('linear', 'angular')
         )
 
@@ -118,7 +118,7 @@ class DiffDriveController(Controller):
 
     def references(self) -> tuple[CommandInterface, ...]:
         """Return ``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
-        return self._references
+        return self._linear, self._angular
 
     def inputs(self) -> tuple[Input[TwistSample], ...]:
         """Return ``~/cmd_vel`` and, if enabled, ``~/cmd_vel_unstamped``."""
@@ -175,7 +175,7 @@ class DiffDriveController(Controller):
     def update(self, time: int, period: int) -> None:
         """Receive a command, limit it, update odometry, publish, drive the wheels."""
         self._update_references(time, period)
-        linear, angular = (reference.value for reference in self._references)
+        linear, angular = self._linear.value, self._angular.value
         if not (math.isfinite(linear) and math.isfinite(angular)):
             self._reckoning.hold(time)
             return
@@ -192,16 +192,17 @@ class DiffDriveController(Controller):
             ignore_commands(self.inputs(), self.log)
             return
         # Queued messages were sent after the previous update: the sender's clock showed its time.
-        now = time - period
-        self._reception.receive(self._command.drain(), now)
-        self._reception.receive_unstamped(self._unstamped.drain(), now)
-        twist = self._reception.in_force(time)
+        now, reception = time - period, self._reception
+        if stamped := self._command.drain():
+            reception.receive(stamped, now)
+        if unstamped := self._unstamped.drain():
+            reception.receive_unstamped(unstamped, now)
+        twist = reception.in_force(time)
         if twist is not None:
             self._set_references(*twist)
 
     def _set_references(self, linear: float, angular: float) -> None:
-        self._references[0].value = linear
-        self._references[1].value = angular
+        self._linear.value, self._angular.value = linear, angular
 
     def _publish(self, time: int, linear: float, angular: float) -> None:
         if self._gate.passes(time):

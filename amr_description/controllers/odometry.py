@@ -147,14 +147,19 @@ class WheelSide:
         Raises ControllerError: a state is not finite.
         """
         total = 0.0
+        for state in self._states:
+            total += state.value
+        if not math.isfinite(total):
+            self._check_states()
+        return total / len(self._states) * self._radius
+
+    def _check_states(self) -> None:
         for index, state in enumerate(self._states):
             if not math.isfinite(state.value):
                 raise ControllerError(
                     f'Either the left or right wheel {state.interface} is invalid for index '
                     f'[{index}]: {state.name} is {state.value}'
                 )
-            total += state.value
-        return total / len(self._states) * self._radius
 
 
 class DeadReckoning:

@@ -218,12 +218,13 @@ class MujocoSystem(HardwareComponent):
 
     def write(self, time: int, period: int) -> None:
         """Command the joints; NaN keeps the previous command."""
-        if any(self._has_command(joint) for joint in self._idle):
+        if self._idle and any(self._has_command(joint) for joint in self._idle):
             self._group_joints([joint for joint in self._idle if not self._has_command(joint)])
         try:
             for group in self._commanded:
                 group.write()
-            self._keep_idle()
+            if self._idle:
+                self._keep_idle()
         except SimulationError as cause:
             self._stop()
             raise HardwareError(f"hardware component '{self.info.name}': {cause}") from cause
@@ -364,8 +365,9 @@ class _CommandedGroup:
     def write(self) -> None:
         """Command the joints. Raises SimulationError."""
         for index, command in enumerate(self._commands):
-            if not math.isnan(command.value):
-                self._targets[index] = command.value
+            value = command.value
+            if value == value:  # no NaN
+                self._targets[index] = value
         self._group.command(self._interface, self._targets)
 
     def targets(self) -> Iterable[tuple[str, float]]:

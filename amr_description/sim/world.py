@@ -220,7 +220,7 @@ class MujocoWorld:
 
     def advance(self, period: int) -> None:
         """Advance by ``period`` (ns), rounded to whole physics steps, by one at least."""
-        self.step(max(1, round(period / self.engine.timestep)))
+        self.step(round(period / self.engine.timestep) or 1)
 
     def state(self) -> bytes:
         """Return everything the next step depends on, to compare two runs bit by bit."""
