@@ -8,8 +8,10 @@ It commands nothing. Joints are in the order of ``joints``, or else of the URDF,
 in joint_state_broadcaster 4.x; an interface that a joint lacks is NaN.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
+from operator import itemgetter
 from typing import Any, ClassVar
 
 from amr_description.control.contracts import Controller, ControllerContext, Output, Port, Severity
@@ -32,6 +34,8 @@ from amr_description.former_parameters import FormerParameter, ignored
 from amr_description.parameters import group, parameter
 
 _FIELDS = (POSITION, VELOCITY, EFFORT)
+
+type _Pick = Callable[[list[float]], tuple[float, ...]]
 
 type _Row = dict[str, StateInterface]
 """The states of one joint, sensor or GPIO, by the names under which they are published."""
@@ -84,8 +88,9 @@ class JointStateBroadcaster(Controller):
 
     def __init__(self, context: ControllerContext) -> None:
         super().__init__(context)
-        self._rows: tuple[tuple[StateInterface, ...], ...] = ()
-        self._columns: tuple[tuple[StateInterface, ...], ...] = ()
+        self._states: tuple[StateInterface, ...] = ()
+        self._columns: tuple[_Pick, ...] = ()
+        self._rows: tuple[_Pick, ...] = ()
 
     def configure(self, parameters: BroadcasterParameters) -> None:
         """Determine the topics and the interfaces."""
@@ -147,32 +152,39 @@ class JointStateBroadcaster(Controller):
                 'no state interface is a double'
             )
         missing = StateInterface('', '')  # NaN
+        published = [list(row.values()) for row in rows.values()]
+        self._states = (*chain.from_iterable(published), missing)
         self._names = tuple(joints)
-        self._columns = tuple(
-            tuple(rows[joint].get(field, missing) for joint in joints) for field in _FIELDS
-        )
+        columns = ([rows[joint].get(field, missing) for joint in joints] for field in _FIELDS)
+        self._columns = tuple(self._picked(column) for column in columns)
         self._layout = DynamicLayout(
             self._parameters.frame_id, tuple(rows), tuple(tuple(row) for row in rows.values())
         )
-        self._rows = tuple(tuple(row.values()) for row in rows.values())
+        self._rows = tuple(self._picked(row) for row in published)
+
+    def _picked(self, handles: Sequence[StateInterface]) -> '_Pick':
+        """Return what picks the values of some states out of those of all of ``_states``."""
+        indices = [self._states.index(handle) for handle in handles]
+        if len(indices) > 1:
+            return itemgetter(*indices)
+        return lambda values: tuple([values[index] for index in indices])
 
     def update(self, time: int, period: int) -> None:
         """Publish the present states."""
-        position, velocity, effort = [
-            tuple([state.value for state in column]) for column in self._columns
-        ]
+        values = [state.value for state in self._states]
+        position, velocity, effort = [pick(values) for pick in self._columns]
         self._joint_states.send(
             JointStateSample(
                 time, self._parameters.frame_id, self._names, position, velocity, effort
             )
         )
         if self._parameters.publish_dynamic_joint_states:
-            values = tuple([tuple([state.value for state in row]) for row in self._rows])
-            self._dynamic_joint_states.send(DynamicJointStateSample(time, values, self._layout))
+            rows = tuple([pick(values) for pick in self._rows])
+            self._dynamic_joint_states.send(DynamicJointStateSample(time, rows, self._layout))
 
     def deactivate(self, time: int) -> None:
         """Drop the interfaces."""
-        self._rows = self._columns = ()
+        self._states = self._rows = self._columns = ()
 
     def _mapping(self, parameters: BroadcasterParameters) -> dict[str, str]:
         """

@@ -16,7 +16,7 @@ while one component lags behind the other. With one factor it keeps the arc, as 
 allow.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import math
 
 from amr_description.errors import ParameterError
@@ -54,6 +54,7 @@ class RateLimiter:
     """≥ 0: towards zero, in reverse; NaN: max_acceleration."""
     min_jerk: float = _NAN
     max_jerk: float = _NAN
+    _is_off: bool = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         """Replace NaN by the defaults, and check the order."""
@@ -72,6 +73,8 @@ class RateLimiter:
                 raise ParameterError(_invalid('first derivative', low, high))
         if self.min_jerk > self.max_jerk:
             raise ParameterError(_invalid('second derivative', self.min_jerk, self.max_jerk))
+        maxima = self.max_value, self.max_acceleration, self.max_jerk
+        object.__setattr__(self, '_is_off', all(map(math.isnan, maxima)))
 
     def limit(self, value: float, previous: float, before_previous: float, dt: float) -> float:
         """
@@ -85,6 +88,8 @@ class RateLimiter:
             before_previous: the command before that, as limited.
             dt: time between two commands, s.
         """
+        if self._is_off:
+            return value
         value = self.limit_jerk(value, previous, before_previous, dt)
         value = self.limit_acceleration(value, previous, dt)
         return self.limit_value(value)
