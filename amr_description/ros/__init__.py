@@ -28,5 +28,6 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``messages.py``           stamps, poses and velocities ↔ messages
 ``message_types.py``      classes of messages, services and actions by their names
 ``cdr.py``                serialized messages, read without making messages of them
+``cdr_template.py``       … and made without making messages
 ========================= =========================================================================
 """

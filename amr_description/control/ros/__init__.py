@@ -22,6 +22,7 @@ node serves its callbacks, and submits to the control thread what concerns a man
 ``dof_converters.py``          … of PID controllers and grippers
 ``sensor_converters.py``       … of the broadcasters of sensors, batteries, GPIOs
 ``trajectory_converters.py``   … those of joint trajectories
+``encoders.py``                … as bytes, for what is published in every cycle
 ``services.py``                its services: requests in, responses out
 ``requests.py``                what they do
 ``status_topics.py``           activity, diagnostics, introspection

@@ -44,6 +44,7 @@ from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
 from amr_description.control.plugin_errors import describe
+from amr_description.control.ros.encoders import Encoder, encoder_of
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import RcutilsLogger, set_clock_by_hand
 from amr_description.ros.runtime import destroy_node
@@ -58,25 +59,6 @@ LOOK_PERIOD = 5_000_000
 """ns of the wall clock between two looks at who subscribes."""
 
 _NOTHING: Final = object()
-
-type Encoder = Callable[[Any], Any]
-"""Makes of a sample what is published: a message, or the bytes of one."""
-
-
-def encoder(fill: Callable[[Any, Any], None], message: Any) -> Encoder:
-    """
-    Return the plain encoder: it writes every sample into the same message.
-
-    Args:
-        fill: ``(sample, message) -> None``.
-        message: Is sent many times.
-    """
-
-    def encode(sample: Any) -> Any:
-        fill(sample, message)
-        return message
-
-    return encode
 
 
 class LoopTopic:
@@ -281,7 +263,8 @@ class ClockedLoopPublisher(LoopPublisher):
         self._clocks: list[ROSClock] = []
         self._changing_clocks = threading.Lock()
         publisher = node.create_publisher(Clock, '/clock', CLOCK_QOS)
-        self._clock_topic = self.topic(publisher, encoder(_fill_clock, Clock()))
+        encode = encoder_of(int, 'rosgraph_msgs/msg/Clock', _fill_clock, Clock)
+        self._clock_topic = self.topic(publisher, encode)
         self._acknowledgements = CommandAcknowledgements(node)
 
     def adopt(self, node: Node) -> None:

@@ -31,7 +31,7 @@ from amr_description.control.contracts import (
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.manager_parameters import CommonParameters
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.loop_publisher import encoder
+from amr_description.control.ros.encoders import encoder_of
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.port_servers import (
     GoalServer,
@@ -243,7 +243,9 @@ class ControllerNode:
         fill = writer_of(port.port)
         message_class = _message_type(port.port)
         publisher = self.node.create_publisher(message_class, port.port.name, qos(port.port.qos))
-        port.sink = self._publisher.topic(publisher, encoder(fill, message_class())).send
+        sample = None if port.port.convert else port.port.sample
+        encode = encoder_of(sample, port.port.message, fill, message_class)
+        port.sink = self._publisher.topic(publisher, encode).send
         return publisher
 
 

@@ -38,7 +38,8 @@ from amr_description.control.introspection import (
     IntrospectionRegistry,
     statistics_of,
 )
-from amr_description.control.ros.loop_publisher import encoder, LoopPublisher
+from amr_description.control.ros.encoders import filling
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext, LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
@@ -165,10 +166,10 @@ class RegistryTopics:
         self._full = node.create_publisher(Statistics, f'{name}/full', _QUEUED)
         self._values = node.create_publisher(StatisticsValues, f'{name}/values', _QUEUED)
         self._send_full = loop_publisher.topic(
-            self._full, encoder(self._fill_full, Statistics())
+            self._full, filling(self._fill_full, Statistics())
         ).send
         self._send_values = loop_publisher.topic(
-            self._values, encoder(_fill_values, StatisticsValues())
+            self._values, filling(_fill_values, StatisticsValues())
         ).send
         self._full_names: tuple[str, ...] = ()
         self._wants_full = self._wants_values = False

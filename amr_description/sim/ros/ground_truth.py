@@ -22,21 +22,22 @@ Nothing is computed for a topic without subscribers. Of several robots in one na
 has these topics; those of the others are below their names.
 """
 
-from dataclasses import dataclass
-from typing import Any
-
 from control_msgs.msg import DynamicJointState
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.ros.converters import fill_dynamic_joint_state
-from amr_description.control.ros.loop_publisher import encoder, LoopPublisher, LoopTopic
-from amr_description.control.samples import DynamicJointStateSample, DynamicLayout
-from amr_description.model.frames import Transform, Vector
+from amr_description.control.ros.converters import fill_body_odometry, fill_dynamic_joint_state
+from amr_description.control.ros.encoders import encoder_of
+from amr_description.control.ros.loop_publisher import LoopPublisher, LoopTopic
+from amr_description.control.samples import (
+    BodyOdometrySample,
+    DynamicJointStateSample,
+    DynamicLayout,
+    Frames,
+)
 from amr_description.model.robot import Robot, WORLD_LINK
-from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.ros.names import ODOM_TOPIC, WHEELS_TOPIC, WORLD_FRAME
@@ -46,18 +47,6 @@ from amr_description.sim.world import MujocoWorld
 WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
 _QOS = QoSProfile(depth=10)
-
-
-@dataclass(frozen=True, slots=True)
-class LinkMotion:
-    """Pose and velocity of a link."""
-
-    stamp: int
-    """ns."""
-    pose: Transform
-    """From the link to the world."""
-    velocity: tuple[Vector, Vector]
-    """Linear, m/s, and angular, rad/s, in the link's own axes."""
 
 
 class GroundTruth:
@@ -139,18 +128,23 @@ class _RobotTruth:
         self._robot = robot
         self._base = _base_of(robot.description)
         self._wheel_slip = WheelSlipReader(engine, robot)
-        odometry = Odometry(child_frame_id=f'{prefix}/{self._base}'.removeprefix('/'))
-        odometry.header.frame_id = WORLD_FRAME
+        child_frame = f'{prefix}/{self._base}'.removeprefix('/')
+        self._frames = Frames(WORLD_FRAME, child_frame, (), ())
         self._odom = loop_publisher.topic(
             node.create_publisher(Odometry, f'{prefix}/{ODOM_TOPIC}', _QOS),
-            encoder(_fill_motion, odometry),
+            encoder_of(BodyOdometrySample, 'nav_msgs/msg/Odometry', fill_body_odometry, Odometry),
         )
         self._wheels: LoopTopic | None = None
         joints = self._wheel_slip.joints
         if joints:
             self._wheels = loop_publisher.topic(
                 node.create_publisher(DynamicJointState, f'{prefix}/{WHEELS_TOPIC}', _QOS),
-                encoder(fill_dynamic_joint_state, DynamicJointState()),
+                encoder_of(
+                    DynamicJointStateSample,
+                    'control_msgs/msg/DynamicJointState',
+                    fill_dynamic_joint_state,
+                    DynamicJointState,
+                ),
             )
             self._layout = DynamicLayout('', joints, (WHEEL_VALUES,) * len(joints))
 
@@ -164,7 +158,7 @@ class _RobotTruth:
         """Measure and publish, as far as there are subscribers."""
         if self._odom.is_heard:
             pose, velocity = self._robot.pose(self._base), self._robot.velocity(self._base)
-            self._odom.send(LinkMotion(time, pose, velocity))
+            self._odom.send(BodyOdometrySample(time, pose, *velocity, self._frames))
         if self._wheels is not None and self._wheels.is_heard:
             values = tuple(
                 (float(wheel.is_touching), wheel.normal_force, wheel.along, wheel.across)
@@ -177,9 +171,3 @@ def _base_of(robot: Robot) -> str:
     root = robot.root.name
     hanging = robot.child_joints(root) if root == WORLD_LINK else ()
     return hanging[0].child if hanging else root
-
-
-def _fill_motion(motion: LinkMotion, message: Any) -> None:
-    fill_stamp(motion.stamp, message.header.stamp)
-    fill_pose(motion.pose, message.pose.pose)
-    fill_velocity(*motion.velocity, message.twist.twist)

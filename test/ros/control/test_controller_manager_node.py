@@ -18,7 +18,8 @@ from support.control_fakes import WHEELS
 from support.manager_host import Host, PERIOD, ros_in_this_process, running_host, YAML
 from support.paths import TESTS
 
-from amr_description.control.ros.loop_publisher import encoder, LoopPublisher
+from amr_description.control.ros.encoders import filling
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.errors import ParameterError
 from amr_description.ros.service_calls import call, wait_until
@@ -371,7 +372,7 @@ def test_what_was_said_on_a_topic_that_is_gone_is_dropped(ros):
     filled = []
     for publisher in (gone, there):
         name = publisher.topic_name
-        fill = encoder(lambda sample, _: filled.append(sample), String())
+        fill = filling(lambda sample, _: filled.append(sample), String())
         loop_publisher.topic(publisher, fill).send(name)
     node.destroy_publisher(gone)
     loop_publisher.publish(0)

@@ -9,7 +9,8 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
 
-from amr_description.control.ros.loop_publisher import encoder, LOOK_PERIOD, LoopPublisher
+from amr_description.control.ros.encoders import filling
+from amr_description.control.ros.loop_publisher import LOOK_PERIOD, LoopPublisher
 from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -43,7 +44,7 @@ class Cycles:
         self.loop_publisher = LoopPublisher(node.get_logger(), clock=lambda: self.wall)
         self.publisher = node.create_publisher(String, name, qos)
         self.message = String(data='nothing')
-        self.topic = self.loop_publisher.topic(self.publisher, encoder(fill, self.message))
+        self.topic = self.loop_publisher.topic(self.publisher, filling(fill, self.message))
 
     def say(self, *samples):
         """Say them in a cycle; return what was made of them."""
