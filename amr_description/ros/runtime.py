@@ -58,6 +58,7 @@ from rclpy.task import Future
 
 from amr_description.errors import AmrError, ParameterError
 from amr_description.ros.discovery import use_whole_graph
+from amr_description.ros.process_end import skip_destructors
 from amr_description.ros.rclpy_internals import (
     cancel_tasks,
     destroy_type_description_service,
@@ -142,6 +143,7 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
         finally:
             stop.leave()
             rclpy.try_shutdown()
+            skip_destructors()
 
 
 def spin(executor: Executor, until: Callable[[], bool]) -> None:

@@ -445,3 +445,21 @@ def test_handlers_are_put_back_when_nobody_asked():
     assert [signal.getsignal(signum) for signum in SIGNALS] == before
     assert signal.set_wakeup_fd(-1) == -1
     assert 'stop_requests' not in [thread.name for thread in threading.enumerate()]
+
+
+def test_a_process_ends_before_the_destructors_of_its_libraries():
+    # Those of Fast DDS sleep; this one would end it with SIGABRT.
+    code = """
+import ctypes, sys
+from amr_description.ros.runtime import ros
+libc = ctypes.CDLL(None)
+libc.on_exit(libc.abort, None)
+with ros([]):
+    pass
+libc.printf(b'in a buffer of C\\n')
+print('in one of Python')
+sys.exit(7)
+"""
+    with Program.of(code, env={'PYTHONUNBUFFERED': ''}) as program:
+        assert program.end() == 7
+        assert sorted(program.lines) == ['in a buffer of C', 'in one of Python']
