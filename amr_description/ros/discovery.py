@@ -12,6 +12,12 @@ of the processes started beside a running stack see nothing of it for 1 to 3 s.
 A throughput limit, however high, has Fast DDS announce from a thread of its own; then it listens
 first. Measured with 12 processes each: found after 0.03 to 0.4 s, before after 0.04 to 2.9 s.
 
+The first request of a client, too, is faster than the announcement of the client. The server drops
+it, and a reader asks a writer that it has found for what it has missed 70 ms later; with the times
+of the profiles, 1 ms later. A call by a new client takes 2 to 10 ms so, instead of 85; a message
+that was there before comes 0.1 s sooner. Only the first question is asked earlier: what a reader
+acknowledges from then on is what it always did.
+
 This module imports no rclpy.
 """
 
@@ -19,7 +25,7 @@ import os
 from pathlib import Path
 
 PROFILE = Path(__file__).with_suffix('.xml')
-"""The limit by itself; the profiles of ``transport.py`` have it too."""
+"""The limit and the times by themselves; the profiles of ``transport.py`` have them too."""
 
 _SUPER_CLIENT = 'ROS_SUPER_CLIENT'
 

@@ -6,10 +6,12 @@ from contextlib import contextmanager
 import os
 from pathlib import Path
 import signal
+from xml.etree import ElementTree
 
 import pytest
 import rclpy
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, qos_profile_system_default, ReliabilityPolicy
 from std_msgs.msg import String
 from support.running_programs import PATIENCE, Program
 
@@ -191,3 +193,31 @@ def half_made_ports():
     finally:
         for path in made:
             path.unlink()
+
+
+def test_all_profiles_have_the_times_of_discovery():
+    def times(profile):
+        root = ElementTree.parse(profile).getroot()
+        space = root.tag.partition('}')[0] + '}'
+        parts = ('throughputController', 'data_reader', 'data_writer')
+        found = [each for part in parts for each in root.iter(space + part)]
+        return [ElementTree.tostring(each).split() for each in found]
+
+    assert len(times(PROFILE)) == 4
+    for profile in (UDP, UDP_LOCALHOST, UDP_LOOPBACK):
+        assert times(profile) == times(PROFILE)
+
+
+def test_the_profile_of_readers_changes_no_qos():
+    context = rclpy.Context()
+    with udp_only():
+        rclpy.init(context=context)
+    node = Node('reader', context=context)
+    try:
+        node.create_subscription(String, 'of_the_profile', print, qos_profile_system_default)
+        [info] = node.get_subscriptions_info_by_topic('of_the_profile')
+        assert info.qos_profile.reliability is ReliabilityPolicy.BEST_EFFORT
+        assert info.qos_profile.durability is DurabilityPolicy.VOLATILE
+    finally:
+        node.destroy_node()
+        rclpy.shutdown(context=context)
