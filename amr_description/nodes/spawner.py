@@ -29,6 +29,7 @@ from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.spawner import (
     exclusive_lock,
     files_in_arguments,
+    SERVICES,
     Spawner,
     yellow,
 )
@@ -51,6 +52,7 @@ def spawn(args: list[str] | None) -> None:
                 _manager_name(node, options),
                 timeout=options.manager_timeout,
                 call_timeout=options.call_timeout,
+                soon=SERVICES,
             )
             spawner = Spawner(node, manager, options, files_in_arguments(words))
             alone = partial(

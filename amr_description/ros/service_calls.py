@@ -19,6 +19,9 @@ from amr_description.ros.wait_clock import WaitClock
 _POLL = 0.05
 """s: how soon a change of the graph is seen; messages and responses are seen at once."""
 
+_EARLY, _EARLY_POLL = 1.0, 0.01
+"""s of a wait in which a change is nearly always on its way, and how soon it is seen then."""
+
 _GRAPH_POLL = 0.01
 """s between two looks at the graph alone."""
 
@@ -57,7 +60,7 @@ def wait_until[Result](
 
     Args:
         node: It is spun here.
-        condition: Asked after every callback, and 20 times a second.
+        condition: Asked after every callback, and 20 times a second, at first 100 times.
         on_wait: Called every ``every`` s.
         every: s.
         timeout: s, of a :class:`~amr_description.ros.wait_clock.WaitClock`; 0: without end.
@@ -79,7 +82,7 @@ def wait_until[Result](
             if now - last >= every:
                 last = now
                 on_wait()
-            clock.wait(_POLL, executor.spin_once)
+            clock.wait(_EARLY_POLL if now - start < _EARLY else _POLL, executor.spin_once)
         return result
     finally:
         if was_added:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A client of the services of a controller manager, be it ours or that of ros2_control."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 import time
 from typing import Any
 
@@ -20,7 +20,7 @@ from amr_description.errors import ControllerError
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.service_calls import (
     ask_until_answered,
-    call,
+    call_with,
     name_of_type,
     NoAnswerError,
     wait_until,
@@ -36,7 +36,7 @@ _MAX_DURATION = 2.0**31 - 1.0
 
 
 class ManagerClient:
-    """Calls the services of one controller manager."""
+    """Calls the services of one controller manager, each by a client that lives with the node."""
 
     def __init__(
         self,
@@ -47,6 +47,7 @@ class ManagerClient:
         call_timeout: float = 10.0,
         silent: float = 0.0,
         first: Any = None,
+        soon: Iterable[Any] = (),
     ) -> None:
         """
         Wait until the manager is there and answers.
@@ -59,6 +60,8 @@ class ManagerClient:
             silent: s, how long it is waited without a line of log.
             first: The type of the service that is waited for, whose request has no fields;
                 default: ListControllers.
+            soon: The types of services that will be called. Their clients are made before that of
+                ``first``: when that one is answered, the manager knows them too.
 
         Raises:
             ControllerError: The manager does not come; it says what is missing.
@@ -72,13 +75,12 @@ class ManagerClient:
             self.name = node.resolve_service_name(manager)
         self.namespace = self.name.rpartition('/')[0] or '/'
         self._probe = ManagerProbe(node, self.name)
-        first = first or srv.ListControllers
-        client = node.create_client(first, self._service(first))
-        try:
-            self._wait_for(client, timeout, silent)
-            self._query(client)
-        finally:
-            node.destroy_client(client)
+        self._clients: dict[Any, Client] = {}
+        for service_type in soon:
+            self._client(service_type)
+        client = self._client(first or srv.ListControllers)
+        self._wait_for(client, timeout, silent)
+        self._query(client)
 
     def is_there(self) -> bool:
         """Return whether it is still there."""
@@ -90,11 +92,7 @@ class ManagerClient:
 
         ``fields``: of the request. Raises NoAnswerError.
         """
-        client = self._node.create_client(service_type, self._service(service_type))
-        try:
-            return self._query(client, **fields)
-        finally:
-            self._node.destroy_client(client)
+        return self._query(self._client(service_type), **fields)
 
     def states(self) -> dict[str, str]:
         """Return the states of all loaded controllers, by their names."""
@@ -271,16 +269,22 @@ class ManagerClient:
         """Call a service that changes something, once; return the response."""
         self._call_time = time.time()
         try:
-            return call(
+            return call_with(
                 self._node,
-                service_type,
-                self._service(service_type),
+                self._client(service_type),
                 service_type.Request(**fields),
                 timeout=self._call_timeout if timeout is None else timeout,
                 attempts=_ATTEMPTS,
             )
         except NoAnswerError as error:
             raise self._explained(error) from error
+
+    def _client(self, service_type: Any) -> Client:
+        if service_type not in self._clients:
+            self._clients[service_type] = self._node.create_client(
+                service_type, self._service(service_type)
+            )
+        return self._clients[service_type]
 
     def _service(self, service_type: Any) -> str:
         return f'{self.name}/{name_of_type(service_type)}'

@@ -17,7 +17,9 @@ from pathlib import Path
 import sys
 from typing import Any
 
+from controller_manager_msgs import srv
 from controller_manager_msgs.msg import ControllerState
+from rcl_interfaces.srv import SetParameters
 from rclpy.node import Node
 
 from amr_description.colors import BLUE, colored, CYAN, GREEN, YELLOW
@@ -28,6 +30,8 @@ from amr_description.parameter_files import EVERY_NODE, read_parameter_file, sec
 from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.service_calls import NoAnswerError, wait_until
 
+SERVICES = (SetParameters, srv.LoadController, srv.ConfigureController, srv.SwitchController)
+"""The types of the services that it calls to activate a controller."""
 _LOG_PERIOD = 10.0
 """s: how often it is logged that another one has the lock."""
 

@@ -7,6 +7,7 @@ import threading
 from controller_manager_msgs.srv import ListControllers, SwitchController
 import pytest
 from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import SetParameters
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -132,3 +133,17 @@ def test_a_manager_that_never_answers_keeps_nobody(manager, monkeypatch):
     with pytest.raises(NoAnswerError, match='after 3 attempts'):
         ManagerClient(node, '/controller_manager', call_timeout=0.1)
     node.destroy_node()
+
+
+def test_its_clients_are_made_once_and_those_that_are_needed_soon_before_the_first(manager):
+    node = Node('ready')
+    try:
+        services = (SwitchController, SetParameters)
+        client = ManagerClient(node, 'controller_manager', soon=services)
+        made = [each.srv_type for each in node.clients]
+        assert made == [*services, ListControllers]
+        client.switch(activate=['a'], timeout=0.1)
+        client.states()
+        assert [each.srv_type for each in node.clients if each.srv_type in made] == made
+    finally:
+        node.destroy_node()
