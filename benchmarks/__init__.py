@@ -4,16 +4,29 @@
 What ``scripts/bench`` (``python -m benchmarks``) measures; not installed.
 
 =============================  ===================================================================
-``__main__.py``                runs all and prints the figures
+``__main__.py``                runs the parts, prints the figures
+``options.py``                 the command line, and which parts it asks for
+``goals.py``                   the table of figures and goals, and which are missed
+``figures.py``                 what a part returns
+``machine.py``                 whether the machine was quiet
+``stack.py``                   starts, drives and ends what is measured
+``processes.py``               processor time and memory of processes
+``cycle.py``                   one robot in a simulator with a probe: its speed, a cycle by part
+``probed_simulator.py``        mujoco_sim with the probe
+``probe.py``                   measures cycles of the control loop
+``call_tree.py``               the calls below a function, and their time
+``profiles.py``                what the probe finds out, as text
+``adapted_controllers.py``     the shipped controllers' file, as a measurement needs it
+``latency.py``                 from a command to the wheels; cycles of 1 kHz
+``punctuality.py``             their formulas
 ``startup.py``                 the phases of a warm start, from the output of a bring-up
+``load.py``                    what a whole stack takes; an hour; ten robots; a cold set-up
 ``real_time.py``               the real-time factor of a running simulator
 ``bare_loop.py``               that of ``mj_step`` alone, for comparison
 ``fleet.py``                   many robots in one simulator
-``cycle.py``                   the processor time of a cycle of the control loop, by part
-``probed_simulator.py``        mujoco_sim with the probe that measures it
-``call_tree.py``               the calls below a function, and their time
 ``command_line.py``            the ``ros2`` command
 ``robot_state_publisher.py``   rate and load of robot_state_publisher
 ``viewer.py``                  load of the page's node, delay from a key to the command
+``churn.py``                   readers that are killed, for the tests
 =============================  ===================================================================
 """

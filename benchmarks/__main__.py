@@ -1,157 +1,214 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Measure the stack: its speed compared with MuJoCo alone, its start, and the load of its parts.
+Measure the stack, part by part, and compare the figures with their goals.
 
-The stack is started as a user starts it, in a ROS domain of its own: once as fast as possible
-(real-time factor 0), to measure its speed, and once in real time, to measure a warm start, the
-``ros2`` command and the page. Then robot_state_publisher is measured, and a simulator with 1, 5,
-10 and 20 robots. The same robots stepped by ``mj_step`` alone are the reference; that of one robot
-is measured before and after, to notice a machine that changes its speed meanwhile.
+See docs/benchmarks.md for what each row means.
 """
 
 import argparse
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 import os
-import signal
 import subprocess
 import sys
-import threading
 import time
 
 from rclpy.node import Node
-from simulation_interfaces.srv import GetEntityState
 
 from amr_description.ament_index import package_share
-from amr_description.errors import BringupError
+from amr_description.errors import AmrError
 from amr_description.ros.runtime import program, ros
-from benchmarks.bare_loop import bare_real_time_factor
-from benchmarks.command_line import command_figures
-from benchmarks.fleet import fleet_figures
-from benchmarks.real_time import GET_STATE, real_time_factor
-from benchmarks.robot_state_publisher import transform_figures
-from benchmarks.startup import phases_of, table
-from benchmarks.viewer import viewer_figures
+from benchmarks import machine
+from benchmarks.cycle import driven_robot, Profile, profile_text, Speed
+from benchmarks.figures import Figures
+from benchmarks.goals import GOALS, missed, report
+from benchmarks.options import chosen_parts, parser, why_left_out
+from benchmarks.stack import bring_up
+from benchmarks.startup import phases_of, start_figures, table
 
-_BRINGUP = 'import sys; from amr_description.bringup.main import main; sys.exit(main())'
-_READY = '[INFO] [launch]: ready in'
-_START_TIMEOUT = 60.0
-_STOP_TIMEOUT = 15.0
+_WARM_STARTS = 3
+_LATENCY_SECONDS = 5.0
 
 
-class BringUp:
-    """One run of the stack ``simulation``; each line of its output is kept with its time."""
+class Bench:
+    """One run of the benchmarks: its figures so far."""
 
-    def __init__(self, factor: int) -> None:
-        """Start the stack at a real-time factor."""
-        self.lines: list[tuple[float, str]] = []
-        self._is_ready = threading.Event()
-        self._start = time.monotonic()
-        self._process = subprocess.Popen(
-            [sys.executable, '-c', _BRINGUP, 'simulation', f'rtf:={factor}'],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors='replace',
-            start_new_session=True,
-        )
-        self._reader = threading.Thread(target=self._read, name='bring-up output')
-        self._reader.start()
+    def __init__(self, node: Node, *, seconds: float, quick: bool) -> None:
+        """
+        Begin without figures.
 
-    def wait_until_ready(self) -> None:
-        """Raise BringupError: it has ended, or is not ready in time."""
-        self._is_ready.wait(_START_TIMEOUT)
-        phases_of(self.lines)
+        Args:
+            node: Of this program.
+            seconds: Wall time of each measurement.
+            quick: Leave out what has no goal.
+        """
+        self.values: dict[str, float] = {}
+        self.left_out: dict[str, str] = {}
+        """Why a figure is not measured, by key."""
+        self.bare: list[float] = []
+        """Real-time factors of ``mj_step`` alone, in the order in which they were measured."""
+        self._node = node
+        self._seconds = seconds
+        self._is_quick = quick
 
-    def stop(self) -> None:
-        """Send SIGINT and wait for the end. Raises BringupError: it does not end."""
-        self._process.send_signal(signal.SIGINT)
+    def run(self, parts: Iterable[str]) -> None:
+        """Run parts; print what they have to say beside the figures of the table."""
+        for part in parts:
+            print(f'{part} ...', file=sys.stderr, flush=True)
+            self.measure(getattr(self, part), f'{part}: ', _keys(part))
+
+    def measure(self, call: Callable[[], Figures], what: str, keys: Iterable[str]) -> None:
+        """Take the figures of a part; one that fails is not measured, and the others are."""
         try:
-            self._process.wait(_STOP_TIMEOUT)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            raise BringupError(
-                f'the bring-up did not end within {_STOP_TIMEOUT:g} s of SIGINT'
-            ) from None
-        finally:
-            self._reader.join(_STOP_TIMEOUT)
+            figures = call()
+        except (AmrError, OSError, subprocess.SubprocessError) as error:
+            reason = str(error).split('\n', 1)[0]
+            print(f'{what}{reason}', file=sys.stderr, flush=True)
+            self.left_out.update(dict.fromkeys(keys, reason))
+            return
+        self.values.update(figures.values)
+        if figures.text:
+            print(f'{figures.text}\n', flush=True)
 
-    def _read(self) -> None:
-        assert self._process.stdout is not None
-        for line in self._process.stdout:
-            self.lines.append((time.monotonic() - self._start, line.rstrip('\n')))
-            if line.startswith(_READY):
-                self._is_ready.set()
-        self._is_ready.set()
+    # --- the parts ----------------------------------------------------------------------------
+
+    def heard(self) -> Figures:
+        """As fast as possible; robot_state_publisher and a page listen."""
+        with driven_robot(self._node, 'stack') as simulator:
+            speed = simulator.speed(self._seconds)
+            profile = simulator.profile(self._seconds / 2)
+        values = {'stack': speed.ratio, 'beside': profile.besides}
+        heard = 'robot_state_publisher and a page'
+        return Figures(values, self._speed_text(heard, speed, profile))
+
+    def clock(self) -> Figures:
+        """As fast as possible; somebody reads ``/clock``."""
+        with driven_robot(self._node, 'clock') as simulator:
+            speed = simulator.speed(self._seconds)
+            profile = simulator.profile(self._seconds / 2)
+        return Figures({'clock': speed.ratio}, self._speed_text('/clock', speed, profile))
+
+    def latency(self) -> Figures:
+        """Commands to the wheels, and cycles of 1 kHz, in real time."""
+        from benchmarks.latency import latency_figures
+
+        seconds = min(self._seconds, 3.0) if self._is_quick else max(self._seconds, 10.0)
+        return Figures(latency_figures(self._node, seconds))
+
+    def stack(self) -> Figures:
+        """Warm starts; and what a stack in real time takes."""
+        from benchmarks.command_line import command_figures
+        from benchmarks.load import load_figures
+        from benchmarks.viewer import viewer_figures
+
+        node, seconds, quick = self._node, self._seconds, self._is_quick
+        starts = []
+        if not quick:
+            for _ in range(_WARM_STARTS - 1):
+                with bring_up('simulation') as run:
+                    starts.append(phases_of(run.lines))
+        with bring_up('simulation') as run:
+            starts.append(phases_of(run.lines))
+            self.measure(lambda: start_figures(starts), 'start: ', ('warm',))
+            self.measure(lambda: load_figures(node, run, seconds), 'load: ', ('load',))
+            self.measure(
+                lambda: command_figures(node, seconds, quick=quick), 'ros2: ', ('list', 'hz')
+            )
+            self.measure(
+                lambda: viewer_figures(node, seconds, quick=quick), 'the page: ', ('page',)
+            )
+        return Figures({})
+
+    def robot_state_publisher(self) -> Figures:
+        """robot_state_publisher alone."""
+        from benchmarks.robot_state_publisher import transform_figures
+
+        return transform_figures(self._node, self._seconds, quick=self._is_quick)
+
+    def fleet(self) -> Figures:
+        """Many robots in one simulator."""
+        from benchmarks.fleet import fleet_figures
+
+        urdf = (package_share('amr_description') / 'urdf' / 'amr.urdf').read_text('utf-8')
+        return fleet_figures(self._node, urdf, self._seconds / 2)
+
+    def fleet_start(self) -> Figures:
+        """Ten robots, from the command to driving."""
+        from benchmarks.load import fleet_start_figures
+
+        return fleet_start_figures(self._node)
+
+    def memory(self) -> Figures:
+        """An hour of simulated time."""
+        from benchmarks.load import memory_figures
+
+        return memory_figures(self._node)
+
+    def cold(self) -> Figures:
+        """A new clone, from set-up to ready."""
+        from benchmarks.load import cold_figures
+
+        return cold_figures()
+
+    def profile(self) -> Figures:
+        """A cycle by part, with nobody and with the stack listening; the start by phase."""
+        texts = []
+        for heard in ('stack', 'clock', 'none'):
+            with driven_robot(self._node, heard) as simulator:
+                texts.append(profile_text(heard, simulator.profile(2 * self._seconds)))
+        with bring_up('simulation') as run:
+            texts.append(table(phases_of(run.lines)))
+        return Figures({}, '\n\n'.join(texts))
+
+    def _speed_text(self, heard: str, speed: Speed, profile: Profile) -> str:
+        self.bare += speed.bare
+        numbers = '  '.join(f'{each:.1f}' for each in speed.full)
+        bare = '  '.join(f'{each:.1f}' for each in speed.bare)
+        return (
+            f'real-time factor at factor 0, driven; heard by {heard}\n'
+            f'full stack           {numbers}\nmj_step alone        {bare}\n'
+            f'a cycle: {profile.cycle:.0f} µs of processor time, mj_step alone '
+            f'{profile.bare:.0f} µs: {profile.bare / profile.cycle:.3f}'
+        )
 
 
-@contextmanager
-def bring_up(factor: int) -> Iterator[BringUp]:
-    """Run the stack at a real-time factor, ready to use, while inside."""
-    run = BringUp(factor)
-    try:
-        run.wait_until_ready()
-        yield run
-    finally:
-        run.stop()
-
-
-def parser() -> argparse.ArgumentParser:
-    """Make the parser."""
-    options = argparse.ArgumentParser(prog='bench', description=__doc__.split('\n')[1])
-    options.add_argument(
-        '--seconds', type=float, default=5.0, help='duration of each measurement (5)'
-    )
-    options.add_argument('--domain-id', type=int, default=77, help='ROS domain to use (77)')
-    return options
+def _keys(part: str) -> list[str]:
+    return [goal.key for goal in GOALS if goal.part == part]
 
 
 def benchmark(options: argparse.Namespace) -> int:
     """Measure and print; return the exit code."""
     os.environ['ROS_DOMAIN_ID'] = str(options.domain_id)
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-    urdf = (package_share('amr_description') / 'urdf' / 'amr.urdf').read_text(encoding='utf-8')
     with ros([]):
         node = Node('benchmark')
-        before = bare_real_time_factor(urdf, options.seconds / 2)
-        print('as fast as possible ...', flush=True)
-        with bring_up(0):
-            get_state = node.create_client(GetEntityState, GET_STATE)
-            full = real_time_factor(node, get_state, 'amr', options.seconds)
-            node.destroy_client(get_state)
-        # The first run has warmed the caches.
-        print('in real time ...', flush=True)
-        with bring_up(1) as run:
-            phases = phases_of(run.lines)
-            print('the ros2 command ...', flush=True)
-            commands = command_figures(node, options.seconds)
-            print('the page ...', flush=True)
-            page = viewer_figures(node, options.seconds)
-        print('robot_state_publisher ...', flush=True)
-        transforms = transform_figures(node, options.seconds)
-        after = bare_real_time_factor(urdf, options.seconds / 2)
-        print('many robots ...', flush=True)
-        fleet = fleet_figures(node, urdf, options.seconds / 2)
-        node.destroy_node()
-    bare = (before + after) / 2
-    print(f"""
-{table(phases)}
+        try:
+            return measured(options, node)
+        finally:
+            node.destroy_node()
 
-real-time factor                        at factor 0
-mj_step alone, before and after      {before:8.1f} {after:8.1f}
-full stack                           {full:8.1f}
-full stack / mj_step alone           {full / bare:8.3f}
 
-{fleet}
-
-{commands}
-
-{transforms}
-
-{page}""")
-    return 0
+def measured(options: argparse.Namespace, node: Node) -> int:
+    """Run the parts, print their figures, and return the exit code."""
+    parts, begin = chosen_parts(options), time.monotonic()
+    before, start = machine.usage_before(), machine.usage()
+    seconds = options.seconds or (3.0 if options.quick else 5.0)
+    bench = Bench(node, seconds=seconds, quick=options.quick)
+    bench.left_out = why_left_out(parts, quick=options.quick)
+    bench.run(parts)
+    during = machine.usage().since(start)
+    if not options.profile:
+        print(report(bench.values, bench.left_out))
+    ends = (bench.bare[0], bench.bare[-1]) if bench.bare else None
+    for line in machine.complaints(before, during, ends):
+        print(f'the machine was not quiet: {line}; figures in wall time are worse than they are')
+    print(f'measured in {time.monotonic() - begin:.0f} s', file=sys.stderr)
+    if not options.check:
+        return 0
+    lines = missed(bench.values, bench.left_out, parts=parts if options.only else None)
+    for line in lines:
+        print(line, file=sys.stderr)
+    return 1 if lines else 0
 
 
 def main(args: list[str] | None = None) -> int:

@@ -1,26 +1,24 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The processor time of a cycle of the control loop, by part; the robot drives in a circle.
+One robot in a simulator with a probe: its speed, and where the time of a cycle goes.
 
-``python -m benchmarks.cycle [--heard none|clock|stack] [--seconds S]`` prints it; it is good for
-a comparison on a busy machine, see :mod:`benchmarks.probed_simulator`.
+``python -m benchmarks.cycle [--heard none|clock|stack] [--seconds S]`` prints the processor time
+of a cycle of the control loop by part, while the robot drives in a circle. It is good for a
+comparison on a busy machine too, see :mod:`benchmarks.probed_simulator`.
 """
 
 import argparse
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, ExitStack
-from dataclasses import dataclass
 import json
 import os
 from pathlib import Path
-import signal
 import subprocess
 import sys
 import tempfile
-from typing import Any, Self
+from typing import Any
 
-from geometry_msgs.msg import TwistStamped
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
@@ -29,201 +27,126 @@ from amr_description.errors import BringupError
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import wait_until
 from amr_description.viewer.client import PageClient
-from benchmarks.call_tree import CallTree
+from benchmarks.adapted_controllers import adapted
+from benchmarks.profiles import Profile, profile_text, Speed
+from benchmarks.stack import driving, end, run, running, TIMEOUT
 from benchmarks.viewer import viewer
 
 HEARD = ('none', 'clock', 'stack')
 """Who subscribes: nobody; one reader of /clock; robot_state_publisher and the node of a page."""
 
-_TIMEOUT = 60.0
-_STOP_TIMEOUT = 15.0
-_LEAST = 0.5
-"""µs: what takes less is not printed."""
-_SPEED = (0.5, 0.5)
-"""m/s and rad/s."""
+_ARRIVAL = 1.0
+"""s of sending a command, of which one arrives."""
+_CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
 
 
-@dataclass(frozen=True)
-class Measured:
-    """What the probe has measured."""
+class Simulator:
+    """A running :mod:`benchmarks.probed_simulator`."""
 
-    cycle: float
-    """Processor time of the control thread for one cycle, µs."""
-    bare: float
-    """That of ``mj_step`` alone, for the same period, µs."""
-    batches: int
-    period: float
-    """Simulated time of a cycle, s."""
-    speed: float
-    """The greatest speed of a degree of freedom at the end: it is driven."""
-    tree: CallTree
-    """Of one cycle; µs."""
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        """``process``: its input and output are pipes."""
+        self._process = process
 
     @property
-    def ratio(self) -> float:
-        """Of the speed of ``mj_step`` alone."""
-        return self.bare / self.cycle
+    def pid(self) -> int:
+        """Of the process."""
+        return self._process.pid
 
-    def as_json(self) -> Mapping[str, Any]:
-        """Return it as JSON has it."""
-        return {**self.__dict__, 'tree': self.tree.as_json()}
+    def ask(self, what: str, **arguments: float) -> None:
+        """Ask its probe; :meth:`answer` has to follow."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(json.dumps({'what': what, **arguments}) + '\n')
+        self._process.stdin.flush()
 
-    @classmethod
-    def from_json(cls, read: Mapping[str, Any]) -> Self:
-        """Return what :meth:`as_json` was made of."""
-        return cls(**{**read, 'tree': CallTree.from_json(read['tree'])})
+    def answer(self) -> Any:
+        """Return the answer. Raises BringupError: it has ended."""
+        assert self._process.stdout is not None
+        line = self._process.stdout.readline()
+        if not line:
+            raise BringupError('the simulator has ended')
+        return json.loads(line)
+
+    def profile(self, seconds: float) -> Profile:
+        """Measure a cycle. Raises BringupError: the robot does not drive."""
+        self.ask('profile', seconds=seconds)
+        profile = Profile.from_json(self.answer())
+        if profile.speed < 0.1:
+            raise BringupError('the robot does not drive')
+        return profile
+
+    def speed(self, seconds: float, rounds: int = 3) -> Speed:
+        """Measure the speed for ``seconds`` of the wall clock, in rounds."""
+        self.ask('speed', seconds=seconds, rounds=rounds)
+        answer = self.answer()
+        return Speed(tuple(answer['full']), tuple(answer['bare']))
 
 
-def profile_text(heard: str, measured: Measured) -> str:
-    """Return the cycle by part as text."""
-    modules = measured.tree.by_module()
-    rest = measured.cycle - sum(modules.values())
-    return '\n'.join(
-        (
-            f'a cycle of {measured.period * 1e3:g} ms, processor time of the control thread; '
-            f'heard: {heard}',
-            f'{measured.cycle:8.1f} µs a cycle',
-            f'{measured.bare:8.1f} µs mj_step alone, {measured.ratio:.3f} of the cycle',
-            f'{measured.cycle - measured.bare:8.1f} µs besides the physics',
-            '',
-            f'{"total µs":>8} {"own µs":>8} {"calls":>6}',
-            *measured.tree.lines(_LEAST),
-            '',
-            'own µs of the functions of a module',
-            *(f'{took:8.1f} {name}' for name, took in modules.items() if took >= _LEAST),
-            f'{rest:8.1f} the rest',
+@contextmanager
+def controlled_robot(factor: float = 0.0, update_rate: int = 100) -> Iterator[Simulator]:
+    """
+    Run a probed simulator and a robot with active controllers, and nothing else, while inside.
+
+    A command stays in force for ever: at factor 0 its timeout would pass within milliseconds.
+
+    Args:
+        factor: The real-time factor; 0: as fast as possible.
+        update_rate: Of the controller manager, Hz.
+    """
+    share = package_share('amr_description')
+    shipped = (share / 'config' / 'controllers.yaml').read_text(encoding='utf-8')
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / 'controllers.yaml'
+        file.write_text(adapted(shipped, update_rate), encoding='utf-8')
+        parameters = ('-p', f'real_time_factor:={factor}', '-p', f'controllers:={file}')
+        process = subprocess.Popen(
+            [
+                *(sys.executable, '-m', 'benchmarks.probed_simulator'),
+                *('--ros-args', *parameters, '--log-level', 'error'),
+            ],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
         )
-    )
+        try:
+            run('create', '-file', str(share / 'urdf' / 'amr.urdf'), '-name', 'amr', '-z', '0.2')
+            run('spawner', *_CONTROLLERS)
+            yield Simulator(process)
+        finally:
+            end(process)
 
 
-def cycle_figures(node: Node, heard: str, seconds: float) -> Measured:
-    """Measure a cycle. Raises BringupError: the simulator ends, or the robot does not drive."""
+@contextmanager
+def driven_robot(node: Node, heard: str) -> Iterator[Simulator]:
+    """Run a simulator as fast as possible with a robot that drives in a circle, while inside."""
+    urdf = str(package_share('amr_description') / 'urdf' / 'amr.urdf')
     with ExitStack() as stack:
-        folder = stack.enter_context(tempfile.TemporaryDirectory())
-        simulator = stack.enter_context(_probed_simulator(Path(folder)))
-        urdf = str(package_share('amr_description') / 'urdf' / 'amr.urdf')
-        _run('create', '-file', urdf, '-name', 'amr', '-z', '0.2')
-        _run('spawner', 'joint_state_broadcaster', 'diff_drive_controller')
+        simulator = stack.enter_context(controlled_robot())
         if heard == 'stack':
-            stack.enter_context(running('robot_state_publisher', urdf, *USE_SIM_TIME))
+            use_sim_time = ('--ros-args', '-p', 'use_sim_time:=true')
+            stack.enter_context(running('robot_state_publisher', urdf, *use_sim_time))
             _, url = stack.enter_context(viewer())
             page = stack.enter_context(PageClient(url))
-            wait_until(node, lambda: page.states or None, timeout=_TIMEOUT)
+            if not wait_until(node, lambda: page.states or None, timeout=TIMEOUT):
+                raise BringupError('the page shows no robot')
         elif heard == 'clock':
             clock = node.create_subscription(Clock, '/clock', lambda _: None, 10)
             stack.callback(node.destroy_subscription, clock)
-        drive(node)
-        measured = _ask(simulator, seconds)
-    if measured.speed < 0.1:
-        raise BringupError('the robot does not drive')
-    return measured
-
-
-USE_SIM_TIME = ('--ros-args', '-p', 'use_sim_time:=true')
-
-
-def drive(node: Node) -> None:
-    """Send a command until it must have arrived. Raises BringupError: nobody subscribes."""
-    publisher = node.create_publisher(TwistStamped, '/diff_drive_controller/cmd_vel', 1)
-    try:
-        heard = wait_until(
-            node, lambda: publisher.get_subscription_count() or None, timeout=_TIMEOUT
-        )
-        if not heard:
-            raise BringupError('nobody subscribes to /diff_drive_controller/cmd_vel')
-        message = TwistStamped()
-        message.twist.linear.x, message.twist.angular.z = _SPEED
-        # A subscription that this side has seen may not have seen this side yet.
-        for _ in range(20):
-            publisher.publish(message)
-            wait_until(node, lambda: None, timeout=0.05)
-    finally:
-        node.destroy_publisher(publisher)
-
-
-@contextmanager
-def _probed_simulator(folder: Path) -> Iterator[subprocess.Popen[str]]:
-    shipped = package_share('amr_description') / 'config' / 'controllers.yaml'
-    file = folder / 'controllers.yaml'
-    file.write_text(driven_for_ever(shipped.read_text(encoding='utf-8')), encoding='utf-8')
-    parameters = ('-p', 'real_time_factor:=0.0', '-p', f'controllers:={file}')
-    arguments = ('--ros-args', *parameters, '--log-level', 'warn')
-    process = subprocess.Popen(
-        [sys.executable, '-m', 'benchmarks.probed_simulator', *arguments],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        yield process
-    finally:
-        end(process)
-
-
-def driven_for_ever(controllers: str) -> str:
-    """Return a file of controllers with a ``cmd_vel_timeout`` of 0: a command stays in force."""
-    return controllers.replace(
-        'publish_rate: 50.0', 'publish_rate: 50.0\n    cmd_vel_timeout: 0.0'
-    )
-
-
-def _ask(simulator: subprocess.Popen[str], seconds: float) -> Measured:
-    assert simulator.stdin is not None and simulator.stdout is not None
-    simulator.stdin.write(f'{seconds}\n')
-    simulator.stdin.flush()
-    answer = simulator.stdout.readline()
-    if not answer:
-        raise BringupError('the simulator has ended')
-    return Measured.from_json(json.loads(answer))
-
-
-def _run(executable: str, *arguments: str) -> None:
-    """Run an executable to its end. Raises BringupError: it fails."""
-    command = _command(executable, *arguments)
-    done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=False)
-    if done.returncode:
-        raise BringupError(f'{executable} has failed: {done.stderr.strip()}')
-
-
-@contextmanager
-def running(executable: str, *arguments: str) -> Iterator[subprocess.Popen[bytes]]:
-    """Run an executable of this package while inside."""
-    process = subprocess.Popen(
-        _command(executable, *arguments), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    try:
-        yield process
-    finally:
-        end(process)
-
-
-def _command(executable: str, *arguments: str) -> list[str]:
-    return [sys.executable, '-m', f'amr_description.nodes.{executable}', *arguments]
-
-
-def end(process: subprocess.Popen[Any]) -> None:
-    """Send SIGINT and wait for the end. Raises BringupError: it does not end."""
-    process.send_signal(signal.SIGINT)
-    try:
-        process.wait(_STOP_TIMEOUT)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-        raise BringupError(
-            f'{process.args} did not end within {_STOP_TIMEOUT:g} s of SIGINT'
-        ) from None
+        with driving(node):
+            wait_until(node, lambda: None, timeout=_ARRIVAL)
+        yield simulator
 
 
 def main() -> int:
     """Measure and print."""
-    options = argparse.ArgumentParser(prog='benchmarks.cycle', description=__doc__.split('\n')[1])
+    options = argparse.ArgumentParser(prog='benchmarks.cycle', description='A cycle by part.')
     options.add_argument('--heard', choices=HEARD, default='stack', help='who subscribes (stack)')
     options.add_argument('--seconds', type=float, default=10.0, help='wall time (10)')
     chosen = options.parse_args()
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     with ros([]):
         node = Node('benchmark')
-        print(profile_text(chosen.heard, cycle_figures(node, chosen.heard, chosen.seconds)))
+        with driven_robot(node, chosen.heard) as simulator:
+            print(profile_text(chosen.heard, simulator.profile(chosen.seconds)))
         node.destroy_node()
     return 0
 

@@ -26,6 +26,7 @@ from amr_description.errors import BringupError
 from amr_description.ros.messages import fill_pose
 from amr_description.ros.service_calls import ask_until_answered, call_with
 from benchmarks.bare_loop import bare_real_time_factor, fleet_pose
+from benchmarks.figures import Figures
 from benchmarks.real_time import GET_STATE, real_time_factor
 
 SIZES = (1, 5, 10, 20)
@@ -40,21 +41,24 @@ _SETTLING = 1000
 """Steps of 2 ms: longer than from the drop to rest."""
 
 
-def fleet_figures(node: Node, urdf: str, seconds: float) -> str:
+def fleet_figures(node: Node, urdf: str, seconds: float) -> Figures:
     """
-    Return a table: real-time factors at rest, and the wall time of the last spawn.
+    Measure real-time factors at rest, and the wall time of the last spawn.
 
-    ``seconds``: wall time of each measurement.
+    The simulator is paused while ``mj_step`` alone is measured. ``seconds``: wall time of each
+    measurement.
     """
-    rows = []
+    rows, values = [], {}
     with _simulator(), _Fleet(node, urdf) as fleet:
         for size in SIZES:
             duration = fleet.grow(size)
             full = real_time_factor(node, fleet.get_state, 'robot_0', seconds)
+            fleet.pause()
             bare = bare_real_time_factor(urdf, seconds / 2, robots=size)
+            values = {'fleet': full, 'fleet bare': bare}
             rows.append(f'{size:6d} {bare:12.1f} {full:12.2f} {duration * 1e3:14.0f} ms')
     head = f'{"robots":>6} {"mj_step alone":>12} {"full stack":>11} {"spawn":>17}'
-    return '\n'.join(('a fleet at rest, real-time factor', head, *rows))
+    return Figures(values, '\n'.join(('a fleet at rest, real-time factor', head, *rows)))
 
 
 @contextmanager
@@ -90,6 +94,7 @@ class _Fleet:
         self._node = node
         self._urdf = urdf
         self._size = 0
+        self._is_paused = False
 
     def __enter__(self) -> '_Fleet':
         self.get_state = self._node.create_client(GetEntityState, GET_STATE)
@@ -114,7 +119,7 @@ class _Fleet:
         Then the robots come to rest.
         """
         duration = 0.0
-        self._set_state(SimulationState.STATE_PAUSED)
+        self.pause()
         for number in range(self._size, size):
             duration = self._add(f'robot_{number}', number)
             self._activate(f'robot_{number}', _CONTROLLERS)
@@ -122,7 +127,14 @@ class _Fleet:
         settle = StepSimulation.Request(steps=_SETTLING)
         self._call(self._step, settle, 'the robots cannot settle')
         self._set_state(SimulationState.STATE_PLAYING)
+        self._is_paused = False
         return duration
+
+    def pause(self) -> None:
+        """Have time stand still, until :meth:`grow` is done."""
+        if not self._is_paused:
+            self._set_state(SimulationState.STATE_PAUSED)
+            self._is_paused = True
 
     def _add(self, name: str, number: int) -> float:
         request = SpawnEntity.Request(name=name, entity_namespace=name, resource_string=self._urdf)

@@ -1,141 +1,124 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``mujoco_sim`` with a probe: how much processor time a cycle of its control loop takes, and where.
+``mujoco_sim`` with a probe, which measures its control loop from inside.
 
-A line ``SECONDS`` on its standard input makes it measure, a line of JSON on its standard output
-is the answer (:class:`~benchmarks.cycle.Measured`). The probe is a call of the control thread: it
-runs batches of cycles, and between them as many calls of ``mj_step`` on a copy of the simulated
-state. So both see the same machine, however busy that is; and the time is that of the processor,
-which no other program takes part in. Of all batches the 2nd percentile counts: one with nothing
-in between and with warm caches.
+A line of JSON on its standard input is a request, one on its standard output the answer:
+
+``{"what": "profile", "seconds": S}``
+    Processor time of a cycle, and where it goes (:class:`~benchmarks.profiles.Profile`). The
+    control thread runs batches of cycles, and between them ``mj_step`` as often on a copy of the
+    simulated state. So both see the same machine, however busy that is; and the time is that of
+    the processor, which no other program takes part in. Of all batches the 2nd percentile counts:
+    one with nothing in between and with warm caches.
+``{"what": "speed", "seconds": S, "rounds": N}``
+    Real-time factors (:class:`~benchmarks.profiles.Speed`): of the loop as it runs, and of
+    ``mj_step`` alone on a copy while the loop is paused, in turn.
+``{"what": "ticks", "seconds": S}``
+    Wall time, simulated time and the command of a wheel at the end of each cycle
+    (:class:`~benchmarks.punctuality.Tick`).
+``{"what": "time"}``
+    The simulated time, s.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 import copy
 import functools
 import json
-from operator import itemgetter
 import sys
 import threading
 import time
+from typing import Any
 
 import mujoco
 from rclpy.executors import SingleThreadedExecutor
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.loop import Loop
-from amr_description.control.ros.loop_thread import LoopThread
 from amr_description.nodes.mujoco_sim import MujocoSim
 from amr_description.ros.runtime import program, ros, serve
-from amr_description.sim.engine import Engine
-from benchmarks.call_tree import CallRecorder, CallTree, cost_of_watching
-from benchmarks.cycle import Measured
+from benchmarks.probe import CYCLES, Probe
 
-CYCLES = 20
-"""In one batch: what is published with each second or fifth cycle is in each batch."""
-_QUICK = 0.02
-"""The percentile of the batches that counts; warm, and with nothing in between."""
-_KEPT = 10
-"""Of the batches that are watched call by call, the quickest ones."""
-_ROUND = 0.25
-"""s of the batches of one kind in a row: watching makes the interpreter forget what it has
-specialised, and a pause lets the caches get cold."""
-
-type Batch = tuple[int, CallRecorder]
-"""Processor time, ns, and the calls."""
+_STEPS = 5
+"""In one call of ``mj_step`` alone: as many as a cycle of 10 ms has."""
+_WHEEL = 'joint_wheel_front_left/velocity'
 
 
-def quickest(times: list[int]) -> float:
-    """Return the 2nd percentile of the time of batches (ns), for one cycle (µs)."""
-    return sorted(times)[int(len(times) * _QUICK)] / CYCLES / 1e3
+class Requests:
+    """What may be asked; on a thread that does nothing else."""
 
+    def __init__(self, sim: MujocoSim) -> None:
+        self._loop_thread = sim.simulation.loop_thread
+        self._loop = sim.simulation.loop_thread.loop
+        self._engine = sim.simulation.world.engine
 
-class Probe:
-    """Batches of cycles, of ``mj_step`` alone, and of cycles that are watched, in turn."""
+    def serve(self) -> None:
+        """Answer the requests on the standard input."""
+        for line in sys.stdin:
+            request = json.loads(line)
+            answer = getattr(self, request.pop('what'))(**request)
+            print(json.dumps(answer), flush=True)
 
-    def __init__(self, loop: Loop, engine: Engine) -> None:
-        """``loop`` runs as fast as possible; ``engine``: of its world."""
-        self._loop = loop
-        self._engine = engine
-        self._copy = copy.copy(engine.data)
-        self._plain: list[int] = []
-        self._bare: list[int] = []
-        self._watched: list[Batch] = []
-        self._steps = 1
+    def profile(self, seconds: float) -> Mapping[str, Any]:
+        """Return the profile of a cycle."""
+        probe = Probe(self._loop, self._engine)
+        self._make(functools.partial(probe.run, seconds))
+        return probe.result().as_json()
 
-    def run(self, seconds: float) -> None:
-        """Measure for ``seconds`` of the wall clock; on the control thread."""
-        end, start = time.monotonic() + seconds, self._loop.time
-        self._loop.run_once()
-        self._steps = max(1, round((self._loop.time - start) / self._engine.timestep))
-        while not self._plain or time.monotonic() < end:
-            self._repeat(self._measure_cycles, min(_ROUND, seconds))
-            self._repeat(self._watch_cycles, min(_ROUND, seconds) / 2)
+    def speed(self, seconds: float, rounds: int) -> Mapping[str, Any]:
+        """Return the real-time factors of the loop, and of ``mj_step`` before and after each."""
+        share = seconds / (2 * rounds + 1)
+        full: list[float] = []
+        bare = [self._bare_factor(share)]
+        for _ in range(rounds):
+            start, begin = self._loop.time, time.monotonic()
+            time.sleep(share)
+            wall = time.monotonic() - begin
+            full.append((self._loop.time - start) / NANOSECONDS / wall)
+            bare.append(self._bare_factor(share))
+        return {'full': full, 'bare': bare}
 
-    def _repeat(self, measure: Callable[[], None], seconds: float) -> None:
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            measure()
+    def ticks(self, seconds: float) -> list[tuple[int, int, float]]:
+        """Return the cycles of a while."""
+        (manager,) = self._loop.managers
+        wheel = manager.resources.available_commands()[_WHEEL]
+        ticks: list[tuple[int, int, float]] = []
 
-    def _measure_cycles(self) -> None:
-        self._plain.append(self._run_cycles())
-        model = self._engine.model
-        before = time.thread_time_ns()
-        for _ in range(CYCLES):
-            mujoco.mj_step(model, self._copy, self._steps)
-        self._bare.append(time.thread_time_ns() - before)
+        def on_tick(simulated: int) -> None:
+            ticks.append((time.monotonic_ns(), simulated, wheel.value))
 
-    def _watch_cycles(self) -> None:
-        recorder = CallRecorder()
-        sys.setprofile(recorder)
-        took = self._run_cycles()
-        sys.setprofile(None)
-        self._watched.append((took, recorder))
-        self._watched = sorted(self._watched, key=itemgetter(0))[:_KEPT]
+        def watch(callback: Callable[[int], None] | None) -> None:
+            manager.on_tick = callback
 
-    def _run_cycles(self) -> int:
-        """Return the processor time of a batch, ns."""
-        before = time.thread_time_ns()
-        for _ in range(CYCLES):
-            self._loop.run_once()
-        return time.thread_time_ns() - before
+        self._make(lambda: watch(on_tick))
+        time.sleep(seconds)
+        self._make(lambda: watch(None))
+        return ticks
 
-    def result(self) -> Measured:
-        """Return what :meth:`run` has measured; on any thread."""
-        cycle = quickest(self._plain)
-        tree = CallTree('a cycle', total=sum(took for took, _ in self._watched))
-        for _, recorder in self._watched:
-            tree.add(recorder.events)
-        tree = tree.per(CYCLES * len(self._watched), 1e3)
-        tree = tree.without_overhead(cost_of_watching() / 1e3, cycle)
-        period = self._steps * self._engine.timestep / NANOSECONDS
-        speed = float(abs(self._engine.data.qvel).max()) if self._engine.model.nv else 0.0
-        return Measured(cycle, quickest(self._bare), len(self._plain), period, speed, tree)
+    def time(self) -> float:
+        """Return the simulated time, s."""
+        return self._loop.time / NANOSECONDS
 
+    def _bare_factor(self, seconds: float) -> float:
+        """Return the real-time factor of ``mj_step`` alone, on a copy, while time stands still."""
+        self._make(self._loop.pause)
+        model, data = self._engine.model, copy.copy(self._engine.data)
+        calls, begin = 0, time.monotonic()
+        now = begin
+        while now - begin < seconds:
+            for _ in range(CYCLES):
+                mujoco.mj_step(model, data, _STEPS)
+            calls += CYCLES
+            now = time.monotonic()
+        self._make(self._loop.resume)
+        return calls * _STEPS * self._engine.timestep / NANOSECONDS / (now - begin)
 
-def _serve_probe(sim: MujocoSim) -> None:
-    """Measure at each line of the standard input."""
-    loop, engine = sim.simulation.loop_thread, sim.simulation.world.engine
-    for line in sys.stdin:
-        # MuJoCo refuses to copy the data while the control thread is in a step.
-        probe = _make(loop, lambda: Probe(loop.loop, engine))
-        _make(loop, functools.partial(probe.run, float(line)))
-        print(json.dumps(probe.result().as_json()), flush=True)
-
-
-def _make[Result](loop_thread: LoopThread, call: Callable[[], Result]) -> Result:
-    """
-    Have the control thread make a call, wait until it has, and return what it returns.
-
-    Raises what the call raises.
-    """
-    has_ended = threading.Event()
-    future = loop_thread.submit(call)
-    future.add_done_callback(lambda _: has_ended.set())
-    has_ended.wait()
-    result: Result = future.result()
-    return result
+    def _make(self, call: Callable[[], None]) -> None:
+        """Have the control thread make a call, and wait for it. Raises what the call raises."""
+        has_ended = threading.Event()
+        future = self._loop_thread.submit(call)
+        future.add_done_callback(lambda _: has_ended.set())
+        has_ended.wait()
+        future.result()
 
 
 def simulate(args: list[str]) -> int:
@@ -144,7 +127,7 @@ def simulate(args: list[str]) -> int:
         executor = SingleThreadedExecutor()
         sim = MujocoSim(executor, args)
         executor.add_node(sim.node)
-        probe = threading.Thread(target=_serve_probe, args=(sim,), name='probe', daemon=True)
+        probe = threading.Thread(target=Requests(sim).serve, name='probe', daemon=True)
         probe.start()
         try:
             serve(executor, stop, sim.simulation.start, until=lambda: sim.has_ended)

@@ -4,7 +4,6 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-import os
 import signal
 import subprocess
 import sys
@@ -16,25 +15,31 @@ from tf2_msgs.msg import TFMessage
 from amr_description.ament_index import package_share
 from amr_description.ros.service_calls import wait_until
 from benchmarks.command_line import stream
+from benchmarks.figures import Figures
+from benchmarks.processes import processor_time
 
 _FOLDER = '/benchmark'
 _JOINT_STATES = f'{_FOLDER}/joint_states'
-_TICK = os.sysconf('SC_CLK_TCK')
 
 
-def transform_figures(node: Node, seconds: float) -> str:
+def transform_figures(node: Node, seconds: float, *, quick: bool = False) -> Figures:
     """
-    Return a table of figures: joint states of four wheels in, 20 Hz of transforms out.
+    Measure: joint states of four wheels in, 20 Hz of transforms out.
 
-    ``seconds``: wall time of each measurement.
+    Args:
+        node: Publishes the joint states.
+        seconds: Wall time of each measurement.
+        quick: Only what has a goal.
     """
+    values = {}
     lines = ['robot_state_publisher                        /tf          CPU']
-    for rate in (100.0, 1000.0):
+    for rate in (100.0,) if quick else (100.0, 1000.0):
         with _publisher() as process, stream(node, _JOINT_STATES, rate):
             published, load = _measured(node, process.pid, seconds)
+        values.setdefault('transforms', load)
         name = f'{rate:g} Hz of joint states'
         lines.append(f'{name:<42}{published:8.2f} Hz {load:8.1f} % of a core')
-    return '\n'.join(lines)
+    return Figures(values, '\n'.join(lines))
 
 
 @contextmanager
@@ -79,10 +84,3 @@ def _measured(node: Node, pid: int, seconds: float) -> tuple[float, float]:
     if len(stamps) < 2:
         return 0.0, 100.0 * load
     return (len(stamps) - 1) / (stamps[-1] - stamps[0]), 100.0 * load
-
-
-def processor_time(pid: int) -> float:
-    """Return the processor time of a process so far, s (proc(5): utime and stime)."""
-    with open(f'/proc/{pid}/stat', encoding='ascii', errors='replace') as file:
-        fields = file.read().rpartition(')')[2].split()
-    return (int(fields[11]) + int(fields[12])) / _TICK

@@ -5,8 +5,10 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 import re
+import statistics
 
 from amr_description.errors import BringupError
+from benchmarks.figures import Figures
 
 PHASES = (
     ('bring-up has started its processes', r'^\[INFO\] \[mujoco_sim-\d+\]: process started'),
@@ -17,6 +19,9 @@ PHASES = (
     ('ready', r'^\[INFO\] \[launch\]: ready in'),
 )
 """Name of each phase and the line at its end, in the order in which they end."""
+
+BOTH_ACTIVE = ('joint_state_broadcaster is active', 'diff_drive_controller is active')
+"""The phases that end a start for the goal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,3 +64,13 @@ def table(phases: Iterable[StartupPhase]) -> str:
 
 def _first(lines: Sequence[tuple[float, str]], pattern: str) -> float | None:
     return next((at for at, text in lines if re.search(pattern, text)), None)
+
+
+def start_figures(starts: Sequence[Sequence[StartupPhase]]) -> Figures:
+    """Return the median of warm starts, and the phases of the last one."""
+
+    def both_active(phases: Sequence[StartupPhase]) -> float:
+        return max(phase.at for phase in phases if phase.name in BOTH_ACTIVE)
+
+    warm = statistics.median(map(both_active, starts))
+    return Figures({'warm': warm}, table(starts[-1]))

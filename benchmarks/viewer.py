@@ -17,7 +17,9 @@ from rclpy.node import Node
 from amr_description.errors import ViewerError
 from amr_description.ros.service_calls import wait_until
 from amr_description.viewer.client import PageClient
-from benchmarks.robot_state_publisher import processor_time
+from benchmarks.figures import Figures
+from benchmarks.processes import processor_time
+from benchmarks.stack import driving
 
 _URL = re.compile(r'The page is at (http://\S+)')
 _MODULE = 'amr_description.nodes.viewer'
@@ -28,27 +30,34 @@ _STEP = 1e-4
 """rad/s between two commands, to distinguish them."""
 
 
-def viewer_figures(node: Node, seconds: float) -> str:
+def viewer_figures(node: Node, seconds: float, *, quick: bool = False) -> Figures:
     """
-    Return a table of figures; a stack should be running, and nothing else.
+    Measure; a stack should be running, and nothing else.
 
-    ``seconds``: wall time of each measurement of the load.
+    Args:
+        node: Drives the robot, and reads the commands of the page.
+        seconds: Wall time of each measurement of the load.
+        quick: Only what has a goal.
     """
-    lines = ['the page                                   states         CPU of its node']
+    values = {}
+    lines = ['the page, the robot is driven              states         CPU of its node']
     with viewer() as (process, url):
-        for count in (1, 5):
-            with ExitStack() as stack:
+        for count in (1,) if quick else (1, 5):
+            with ExitStack() as stack, driving(node):
                 pages = [stack.enter_context(PageClient(url)) for _ in range(count)]
                 rate, load = _measured(node, pages, process.pid, seconds)
+            values.setdefault('page', load)
             name = f'{count} page{"s" if count > 1 else ""}'
             lines.append(f'{name:<42}{rate:8.1f} Hz {load:8.1f} % of a core')
+        if quick:
+            return Figures(values, '\n'.join(lines))
         with PageClient(url) as page:
             delays = _delays(node, page)
     median, *_ = statistics.quantiles(delays, n=2)
     late = statistics.quantiles(delays, n=20)[-1]
     name = 'key to command, median and 95th percentile'
     lines.append(f'{name:<42}{1e3 * median:8.1f} ms {1e3 * late:8.1f} ms')
-    return '\n'.join(lines)
+    return Figures(values, '\n'.join(lines))
 
 
 @contextmanager

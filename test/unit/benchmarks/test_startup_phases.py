@@ -5,7 +5,7 @@
 import pytest
 
 from amr_description.errors import BringupError
-from benchmarks.startup import phases_of, StartupPhase, table
+from benchmarks.startup import BOTH_ACTIVE, phases_of, start_figures, StartupPhase, table
 
 LINES = [
     (0.1, '[INFO] [mujoco_sim-1]: process started with pid [10]'),
@@ -47,3 +47,13 @@ def test_table():
         'warm start-up                              at     took',
         'ready                                  3.00 s   0.25 s',
     ]
+
+
+def test_the_start_is_the_median_of_when_both_controllers_are_active():
+    starts = [
+        [StartupPhase(name, at, 0.0) for name, at in zip(BOTH_ACTIVE, ends, strict=True)]
+        for ends in ((1.0, 2.0), (3.0, 2.5), (9.0, 1.0))
+    ]
+    figures = start_figures(starts)
+    assert figures.values == {'warm': 3.0}
+    assert 'is active' in figures.text
