@@ -201,8 +201,9 @@ class FaultMonitor:
             return
         dofs: Sequence[int] = range(self._engine.model.nv)
         if data.nisland:
-            islands = data.dof_island.tolist()
-            dofs = [dof for dof in dofs if islands[dof] >= 0 and counts[islands[dof]] >= cap]
+            # MuJoCo counts the iterations of the first 20 islands only.
+            capped = {island for island, count in enumerate(counts) if count >= cap}
+            dofs = [dof for dof, island in enumerate(data.dof_island.tolist()) if island in capped]
         robots = robots_of_dofs(self._engine.model, dofs)
         names = ', '.join(f"'{name}'" for name in robots) or 'none'
         self._report(

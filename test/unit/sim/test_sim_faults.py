@@ -5,6 +5,7 @@
 import math
 
 from fixtures.sim.driving import AMR, Drive, Lines
+import mujoco
 import numpy as np
 import pytest
 
@@ -179,6 +180,26 @@ def test_a_solver_that_stays_at_its_cap_is_named_with_the_robot_that_keeps_it_th
     option.iterations = 2
     drive.run(0.5, 1.0, 1.0)
     assert log.text.count('at its cap') == 2
+
+
+BOX = """<robot name="box"><link name="box">
+  <collision><geometry><box size=".2 .2 .2"/></geometry></collision>
+  <inertial><mass value="1"/><inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/>
+  </inertial></link></robot>"""
+
+
+def test_a_solver_at_its_cap_is_told_of_more_islands_than_mujoco_counts(log):
+    world = MujocoWorld('empty', log=log)
+    world.engine.spec.option.jacobian = mujoco.mjtJacobian.mjJAC_SPARSE  # as is, in islands
+    for number in range(22):
+        world.spawn(f'box{number}', BOX, Transform((number, 0.0, 0.11)))
+    option = world.engine.model.opt
+    option.iterations, option.tolerance = 1, 1e-14
+    for _ in range(30):
+        world.step(5)
+    assert world.engine.data.nisland == 22
+    (line,) = [text for _, text in log.lines if 'at its cap' in text]
+    assert "'box0'" in line
 
 
 def test_an_absurd_effort_is_named_as_the_cause_and_its_effects_are_not_logged(log):
