@@ -8,6 +8,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``robot_view.py``       one robot by the names of its URDF: the World of a hardware component
 ``joint_group.py``      some joints of a robot, read and commanded in every control cycle
 ``engine.py``           the MuJoCo model and its state; integer time; recompiling; physics steps
+``fleet_solver.py``     how its constraints are solved when there are many robots
 
 ``world_file.py``       the world: MJCF file, physics options, measured defaults
 ``gazebo_physics.py``   frictions, springs, gravity, self-collision that Gazebo is told of

@@ -19,6 +19,7 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError
+from amr_description.sim.fleet_solver import FleetSolver
 from amr_description.sim.rollers import RollerContacts
 from amr_description.text import unwrap
 
@@ -91,8 +92,10 @@ class Engine:
         spec.option.timestep = timestep / NANOSECONDS
         self.rollers = RollerContacts()
         """The wheels with rollers; an edit counts from the next recompile on."""
+        self._solver = FleetSolver(self.rollers)
         self.model: mujoco.MjModel = spec.compile()
         self.data = mujoco.MjData(self.model)
+        self._solver.bind(self.model)
 
     @property
     def time(self) -> int:
@@ -124,11 +127,13 @@ class Engine:
         """Return everything the next step depends on, and the time: equal bytes, equal futures."""
         state = np.empty(mujoco.mj_stateSize(self.model, _INTEGRATION))
         mujoco.mj_getState(self.model, self.data, state, _INTEGRATION)
-        return self.time.to_bytes(8) + state.tobytes()
+        return self.time.to_bytes(8) + self._solver.state() + state.tobytes()
 
     def step(self, count: int) -> None:
-        """Advance by ``count`` physics steps, in one call into C unless wheels have rollers."""
-        if self.rollers:
+        """Advance by ``count`` physics steps, in one call into C if nothing is done between."""
+        if self._solver:
+            self._solver.step(self.model, self.data, count)
+        elif self.rollers:
             self.rollers.step(self.model, self.data, count)
         else:
             mujoco.mj_step(self.model, self.data, count)
@@ -144,11 +149,13 @@ class Engine:
         with compiler_warnings(null_log, ''):
             self.model, self.data = self.spec.recompile(self.model, self.data)
         self.rollers.bind(self.model)
+        self._solver.bind(self.model)
         self.generation += 1
 
     def reset(self) -> None:
         """Set the time to 0, the state to that of the model, all commands to zero."""
         mujoco.mj_resetData(self.model, self.data)
+        self._solver.begin(self.model)
         self._time_at_step_0 = self._steps = 0
         self._kinematics_at = None
 

@@ -68,16 +68,14 @@ class RollerContacts:
         """Advance by ``count`` physics steps."""
         for _ in range(count):
             mujoco.mj_step1(model, data)
-            if data.ncon and self._turn(data):
-                # As mj_fwdPosition and mj_fwdVelocity do after the search for contacts.
-                mujoco.mj_makeConstraint(model, data)
-                mujoco.mj_island(model, data)
-                mujoco.mj_projectConstraint(model, data)
-                mujoco.mj_referenceConstraint(model, data)
+            if self.turn(data):
+                remake_constraints(model, data)
             mujoco.mj_step2(model, data)
 
-    def _turn(self, data: mujoco.MjData) -> bool:
+    def turn(self, data: mujoco.MjData) -> bool:
         """Turn the frames of the wheels' contacts; return whether there are any."""
+        if not self._table or not data.ncon:
+            return False
         frames = data.contact.frame
         turned = list(self._turned(data, frames.tolist()))
         if not turned:
@@ -115,3 +113,12 @@ class RollerContacts:
                 cosine * tz + aside * sz,
             )
             yield row, (ax, ay, az, ny * az - nz * ay, nz * ax - nx * az, nx * ay - ny * ax)
+
+
+def remake_constraints(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Make the constraints of the present contacts again, between the two halves of a step."""
+    # As mj_fwdPosition and mj_fwdVelocity do after the search for contacts.
+    mujoco.mj_makeConstraint(model, data)
+    mujoco.mj_island(model, data)
+    mujoco.mj_projectConstraint(model, data)
+    mujoco.mj_referenceConstraint(model, data)
