@@ -6,9 +6,9 @@ How the constraints of a step are solved when there are many robots.
 With a dense Jacobian, which one robot needs least time with, a step of n robots takes time as n².
 With a sparse one it takes time as n; but in MuJoCo 4.0.0 the sparse Newton solver can stop at its
 cap of iterations where bodies that move freely touch each other (mujoco#3767; seen in 1 of 300
-steps of a crowd of seven robots, wrong by 2 mm/s). So from :data:`FEWEST` robots on the Jacobian is
-sparse, but dense in the steps in which two kinematic trees touch. The first costs the others
-nothing: equal to the dense result to 1e-13 m/s in crowds, at walls and at rest.
+steps of a crowd of seven robots, wrong by 2 mm/s). So from :data:`FEWEST` robots on the Jacobian
+is sparse, but dense in the steps in which two kinematic trees touch. In islands the results are
+equal to 1e-13 m/s, in crowds, at walls and at rest.
 
 MuJoCo solves for each island (bodies that touch each other, here a robot) by itself, which costs
 at each step and pays where an island needs more iterations than others. While one iteration is

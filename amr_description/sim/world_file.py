@@ -22,9 +22,9 @@ option             default             why not MuJoCo's default
                                        slopes
 ``solver``         ``Newton``          MuJoCo's own
 ``iterations``     100                 MuJoCo's own
-``jacobian``       ``dense``           faster for one robot, and MuJoCo 4.0.0's sparse Newton hits its
-                                       iteration cap when robots touch; with many robots sparse where
-                                       it does not, see ``sim/fleet_solver.py``
+``jacobian``       ``dense``           faster for one robot, and MuJoCo 4.0.0's sparse Newton hits
+                                       its iteration cap when robots touch; sparse with many robots
+                                       that do not, see ``sim/fleet_solver.py``
 =================  ==================  =====================================================
 
 An option that a file sets to MuJoCo's own default looks the same as one that it does not set: the

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Many robots: each step as a dense Jacobian solves it, in islands; faster where it is the same."""
+"""Many robots: each step as a dense Jacobian solves it, faster where that is the same."""
 
 import math
 
