@@ -35,8 +35,8 @@ __all__ = [
     'RCLInvalidROSArgsError',
     'RcutilsLogger',
     'replace_parameter_event_publisher',
-    'set_clock_by_hand',
     'set_parameter_override',
+    'share_clock',
     'take_message',
     'UnknownROSArgsError',
 ]
@@ -47,16 +47,25 @@ RCLInvalidROSArgsError = _rclpy.RCLInvalidROSArgsError
 UnknownROSArgsError = _rclpy.UnknownROSArgsError
 
 
-def set_clock_by_hand(node: Node) -> None:
+def share_clock(node: Node, clock: ROSClock) -> None:
     """
-    Let ``node.get_clock().set_ros_time_override()`` alone set the node's clock, not ``/clock``.
+    Let a node go by a clock that others go by, too, and not by ``/clock``.
 
-    For a node whose ``use_sim_time`` is true; on the thread that made it.
+    For a node whose ``use_sim_time`` is true; on the thread that made it. Where the parameter is
+    set to false later on, the node goes by the system clock.
     """
-    source = node._time_source
+    source, own = node._time_source, node._clock
     source.ros_time_is_active = True
     node.destroy_subscription(source._clock_sub)
     source._clock_sub = None
+    node._clock = clock
+
+    def choose(parameters: list[Parameter]) -> None:
+        for each in parameters:
+            if each.name == 'use_sim_time':
+                node._clock = clock if each.value else own
+
+    node.add_post_set_parameters_callback(choose)
 
 
 def manual_clock() -> ROSClock:

@@ -44,6 +44,7 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.arguments import inherited
 from amr_description.ros.parameters import add_parameter_event_qos_overrides
+from amr_description.ros.runtime import destroy_node
 
 NODE_NAME = 'controller_manager'
 
@@ -108,7 +109,7 @@ class ControllerManagerNode:
 
     def destroy(self) -> None:
         """Remove the node; on the ROS thread."""
-        self.context.publisher.destroy_node(self.node)
+        destroy_node(self.node)
 
 
 @dataclass(frozen=True)

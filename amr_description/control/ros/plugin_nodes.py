@@ -51,6 +51,7 @@ from amr_description.ros.parameters import (
     declare_added,
     values,
 )
+from amr_description.ros.runtime import destroy_node
 
 
 class ComponentNode:
@@ -68,7 +69,6 @@ class ComponentNode:
             namespace: Of the controller manager.
             context: Of the process.
         """
-        self._publisher = context.publisher
         self.node: Node = context.publisher.make_node(node_name(name), namespace, arguments)
         add_parameter_event_qos_overrides(self.node)
         self.log = context.logs.log_of(self.node.get_logger())
@@ -76,7 +76,7 @@ class ComponentNode:
 
     def destroy(self) -> None:
         """Remove the node."""
-        self._publisher.destroy_node(self.node)
+        destroy_node(self.node)
 
 
 class ControllerNode:
@@ -172,7 +172,7 @@ class ControllerNode:
     def destroy(self) -> None:
         """Remove the node."""
         self.disconnect()
-        self._publisher.destroy_node(self.node)
+        destroy_node(self.node)
 
     # --- parameters ---------------------------------------------------------------------------
 

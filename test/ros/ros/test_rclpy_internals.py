@@ -48,12 +48,23 @@ def test_errors_are_exceptions(name):
     assert issubclass(getattr(rclpy_internals, name), Exception), BROKEN
 
 
-def test_a_clock_that_is_set_by_hand_does_not_follow_the_topic(node):
-    rclpy_internals.set_clock_by_hand(node)
+def test_a_clock_that_is_shared_does_not_follow_the_topic(node):
+    clock = rclpy_internals.manual_clock()
+    rclpy_internals.share_clock(node, clock)
     assert node.count_subscribers('/clock') == 0, BROKEN
-    node.get_clock().set_ros_time_override(Time(nanoseconds=7, clock_type=ClockType.ROS_TIME))
+    clock.set_ros_time_override(Time(nanoseconds=7, clock_type=ClockType.ROS_TIME))
     assert node.get_clock().now().nanoseconds == 7, BROKEN
     assert node.get_parameter('use_sim_time').value is True
+
+
+def test_a_node_may_leave_a_shared_clock_and_come_back(node):
+    clock = rclpy_internals.manual_clock()
+    rclpy_internals.share_clock(node, clock)
+    node.set_parameters([Parameter('use_sim_time', value=False)])
+    assert node.get_clock().now().nanoseconds > 10**18, BROKEN
+    assert clock.now().nanoseconds == 0, BROKEN
+    node.set_parameters([Parameter('use_sim_time', value=True)])
+    assert node.get_clock() is clock, BROKEN
 
 
 def test_a_manual_clock_stands_until_it_is_set():
