@@ -125,11 +125,14 @@ class CycleStatistic:
 
 
 class RunningCycleStatistic:
-    """Computes a :class:`CycleStatistic` cycle by cycle."""
+    """Computes a :class:`CycleStatistic` cycle by cycle, which are counted in as samples are."""
 
-    __slots__ = ('_execution_time', '_periodicity')
+    __slots__ = ('_durations', '_periods', '_execution_time', '_periodicity')
 
     def __init__(self) -> None:
+        # Two lists: many waiting pairs would keep the garbage collector busy.
+        self._durations: list[int] = []
+        self._periods: list[int | None] = []
         self._execution_time = RunningStatistic()
         self._periodicity = RunningStatistic()
 
@@ -141,15 +144,29 @@ class RunningCycleStatistic:
             duration: its execution time, ns.
             period: since the previous cycle, ns; None for the first.
         """
-        self._execution_time.add(duration / 1000)
-        if period is not None and period > 0:
-            self._periodicity.add(NANOSECONDS / period)
+        self._durations.append(duration)
+        self._periods.append(period)
+        if len(self._periods) == _MOST_WAITING:
+            self._count_in()
 
     def reset(self) -> None:
         """Forget all cycles."""
+        self._durations.clear()
+        self._periods.clear()
         self._execution_time.reset()
         self._periodicity.reset()
 
     def result(self) -> CycleStatistic:
         """Return the statistic of all samples so far."""
+        self._count_in()
         return CycleStatistic(self._execution_time.result(), self._periodicity.result())
+
+    def _count_in(self) -> None:
+        """Count the waiting cycles in, in their order."""
+        for duration in self._durations:
+            self._execution_time.add(duration / 1000)
+        for period in self._periods:
+            if period is not None and period > 0:
+                self._periodicity.add(NANOSECONDS / period)
+        self._durations.clear()
+        self._periods.clear()

@@ -245,9 +245,10 @@ def test_a_reset_is_not_a_period(clock):
     run(manager, 3)
     manager.reset(0)
     run(manager, 3)
-    rates = [manager.periodicity, *(each.statistic._periodicity for each in manager.loaded)]
-    assert {rate.result().minimum for rate in rates} == {100.0}
-    assert {rate.result().count for rate in rates} == {4}
+    of_controllers = (each.statistic.result().periodicity for each in manager.loaded)
+    rates = [manager.periodicity.result(), *of_controllers]
+    assert {rate.minimum for rate in rates} == {100.0}
+    assert {rate.count for rate in rates} == {4}
 
 
 # --- overruns ------------------------------------------------------------------------------------
