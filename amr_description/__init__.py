@@ -31,6 +31,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``text.py``             one line, quoted, shortened; the closest known word
 ``colors.py``           colors of a terminal
 ``streams.py``          standard streams that are closed, full, or without a reader
+``forking.py``          an interpreter that is forked into programs, which start quicker so
 ``entry.py``            where console scripts begin: Ctrl-C is quiet while libraries are imported
 ======================  ==========================================================================
 """

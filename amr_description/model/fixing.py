@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot bolted to the ground: its root joined to a link ``world``, as in Gazebo."""
 
-from xml.sax.saxutils import quoteattr
-
 from amr_description.model.robot import WORLD_LINK
 from amr_description.model.urdf import parse
 
@@ -20,6 +18,8 @@ def fixed_to_world(text: str) -> str:
     robot = parse(text)
     if robot.root.name == WORLD_LINK:
         return text
+    from xml.sax.saxutils import quoteattr  # which imports what ``https:`` needs
+
     name = _JOINT
     while robot.has_joint(name):
         name += '_'

@@ -51,13 +51,6 @@ FEATURES = (
     *spawn_services.FEATURES,
     *entity_services.FEATURES,
 )
-LOADED_LATER = (
-    'amr_description.control.ros.converters',
-    'amr_description.controllers.diff_drive_controller',
-    'amr_description.controllers.joint_state_broadcaster',
-    'amr_description.hardware.mujoco_system',
-)
-"""What is nearly always needed, but only once there is a robot; see ``fork_server.py``."""
 
 
 class MujocoSim:

@@ -36,7 +36,7 @@ import warnings
 
 from support.paths import ROOT
 
-from amr_description.bringup.fork_server import end_without_teardown, ForkTracing
+from amr_description.forking import end_without_teardown, ForkTracing
 
 _LENGTH = struct.Struct('<I')
 _PID = struct.Struct('<i')

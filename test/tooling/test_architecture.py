@@ -25,8 +25,8 @@ MOST_LINES_OF_A_FILE = 600
 MOST_LINES_OF_A_FUNCTION = 60
 
 BASE = {
-    'ament_index', 'clock', 'colors', 'entry', 'errors', 'former_parameters', 'launch_variables',
-    'parameter_files', 'parameters', 'registry', 'streams', 'text',
+    'ament_index', 'clock', 'colors', 'entry', 'errors', 'former_parameters', 'forking',
+    'launch_variables', 'parameter_files', 'parameters', 'registry', 'streams', 'text',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {
@@ -76,7 +76,7 @@ IMPURE = {
     'time',
 }  # fmt: skip
 # Base modules that are about the process that they run in.
-OF_THE_PROCESS = {'entry', 'streams'}
+OF_THE_PROCESS = {'entry', 'forking', 'streams'}
 # What the supervisor of a stack must never load, directly or by way of others: it must start at
 # once, and no crash of these may take it down. Message packages load DDS.
 NOT_FOR_THE_SUPERVISOR = re.compile(r'(rclpy|mujoco|numpy|websockets|\w+_(msgs|interfaces))\b')

@@ -1,0 +1,194 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The fork server of ``bringup/fork_server.py``: an interpreter that is forked into programs.
+
+It imports next to nothing beside the modules of the programs: they wait for it.
+"""
+
+import atexit
+from collections.abc import Iterable, Mapping, Sequence
+import contextlib
+import ctypes
+import gc
+import importlib
+import json
+import os
+from pathlib import Path
+import re
+import runpy
+import signal
+import socket
+import sys
+from types import ModuleType
+from typing import NamedTuple
+import warnings
+
+from amr_description.entry import OWN_NODES, use_one_blas_thread
+
+READY = b'ready'
+LARGEST_PACKET = 1 << 17  # bytes; the kernel takes 200 kB
+_PR_SET_NAME = 15  # linux/prctl.h
+
+
+class Request(NamedTuple):
+    """What to fork."""
+
+    command: Sequence[str]
+    environment: Mapping[str, str]
+
+
+def command_line(command: Iterable[str]) -> bytes:
+    """Return a command line as ``/proc/PID/cmdline`` has it."""
+    return b''.join(os.fsencode(word) + b'\0' for word in command)
+
+
+def serve(arguments: Sequence[str]) -> None:
+    """
+    Be the server, and in each fork the program.
+
+    Args:
+        arguments: the file descriptor of its socket, the executables whose modules to import, and
+            the room for command lines.
+    """
+    # Until entry.py unblocks it: a Ctrl-C for the stack then comes while a program starts.
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    descriptor, *executables, _ = arguments
+    modules = end_without_teardown()
+    _import_modules(executables)
+    modules |= sys.modules
+    request = None
+    # Without a ConnectionError when the orchestrator is killed.
+    with contextlib.suppress(ConnectionError), socket.socket(fileno=int(descriptor)) as connection:
+        connection.send(READY)
+        request = _serve_requests(connection)
+    if request is not None:
+        _run(request)
+
+
+def _import_modules(executables: Iterable[str]) -> None:
+    """Import the executables' modules; a fault shows itself again in the program."""
+    use_one_blas_thread()
+    gc.disable()  # nothing that is imported will ever be freed
+    for name in executables:
+        with contextlib.suppress(Exception):
+            importlib.import_module(f'{OWN_NODES}.{name}')
+    gc.freeze()
+    gc.enable()
+    # The threads that this warning is about are those of LTTng, which no program needs.
+    warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
+
+
+def _serve_requests(connection: socket.socket) -> Request | None:
+    """Fork a program for each request; return it there, and None when the orchestrator is gone."""
+    tracing = ForkTracing()
+    while True:
+        packet, files, _, _ = socket.recv_fds(connection, LARGEST_PACKET, 1)
+        if not packet:
+            return None
+        [output] = files
+        gate, opened = os.pipe()
+        reader, writer = os.pipe()
+        tracing.before_fork()
+        # The program's parent ends at once; its new one is the orchestrator.
+        between = os.fork()
+        if between == 0:
+            os.close(opened)
+            pid = os.fork()
+            if pid == 0:
+                tracing.after_fork_in_child()
+                if not os.read(gate, 1):  # the server was ended before the parent was right
+                    os._exit(1)
+                for fd in (gate, reader, writer):
+                    os.close(fd)
+                for standard in (1, 2):
+                    os.dup2(output, standard)
+                os.close(output)
+                os.setsid()
+                return Request(*json.loads(packet))
+            os.write(writer, str(pid).encode())
+            os._exit(0)
+        tracing.after_fork_in_parent()
+        os.waitpid(between, 0)
+        connection.send(os.read(reader, 32))
+        os.write(opened, b'1')
+        for fd in (gate, opened, reader, writer, output):
+            os.close(fd)
+
+
+def _run(request: Request) -> None:
+    """Run a Python file as the main program."""
+    command = list(request.command)
+    _name_process(command)
+    os.environ.clear()
+    os.environ.update(request.environment)
+    sys.argv = command
+    sys.orig_argv = [sys.executable, *command]
+    sys.path[0] = str(Path(command[0]).resolve().parent)
+    runpy.run_path(command[0], run_name='__main__')
+
+
+def _name_process(command: Sequence[str]) -> None:
+    """
+    Have ``ps`` show the command line and the name that the process would have been executed with.
+
+    The kernel shows the memory that it once wrote the arguments to; its bounds are the fields 48
+    and 49 of ``/proc/self/stat`` (proc(5)).
+    """
+    fields = Path('/proc/self/stat').read_bytes().rpartition(b')')[2].split()
+    start, end = int(fields[45]), int(fields[46])
+    text = command_line([sys.executable, *command])[: end - start]
+    ctypes.memmove(start, text.ljust(end - start, b'\0'), end - start)
+    name = os.fsencode(Path(command[0]).name)
+    ctypes.CDLL(None).prctl(_PR_SET_NAME, name, 0, 0, 0)
+
+
+def end_without_teardown() -> dict[str, ModuleType]:
+    """
+    Have forks end without taking down the modules object by object, which copies their memory.
+
+    That would be a third of the processor time of a short program. Call it before they are
+    imported, so that what they have registered for the end comes first.
+
+    Returns:
+        Where to put the modules.
+    """
+    modules: dict[str, ModuleType] = {}
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(modules))
+
+    def forget() -> None:
+        for name, module in modules.items():
+            if sys.modules.get(name) is module and name not in ('builtins', 'sys', '__main__'):
+                del sys.modules[name]
+
+    atexit.register(forget)
+    return modules
+
+
+class ForkTracing:
+    """
+    What LTTng has to be told of a fork: it has threads, which rclpy's libraries start and end.
+
+    Its ``liblttng-ust-fork`` does the same where it is loaded before the C library.
+    """
+
+    def __init__(self) -> None:
+        maps = Path('/proc/self/maps').read_text(errors='surrogateescape')
+        paths = re.findall(r'/\S*/liblttng-ust(?:-[0-9a-f]+)?\.so\S*', maps)
+        self._library = ctypes.CDLL(paths[0]) if paths else None
+        self._mask = ctypes.create_string_buffer(128)  # a sigset_t
+
+    def before_fork(self) -> None:
+        """Call it before; then one of the others."""
+        if self._library:
+            self._library.ust_before_fork(self._mask)
+
+    def after_fork_in_child(self) -> None:
+        """Call it in the process that is to live."""
+        if self._library:
+            self._library.ust_after_fork_child(self._mask)
+
+    def after_fork_in_parent(self) -> None:
+        """Call it in the process that forked."""
+        if self._library:
+            self._library.ust_after_fork_parent(self._mask)
