@@ -8,6 +8,7 @@ thread only. Watching makes every call slower, by what :func:`cost_of_watching` 
 :meth:`CallTree.without_overhead` takes it away again.
 """
 
+from array import array
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import PurePath
@@ -16,25 +17,37 @@ import time
 from types import CodeType, FrameType
 from typing import Any, Self
 
-type Event = tuple[int, bool, Any]
-"""Clock reading (ns), whether a call begins (else it ends), and its code or C function."""
+type Event = tuple[int, Any]
+"""
+Clock reading (ns) at which a call begins, or its negative at which it ends; and the code or the
+function in C.
+"""
 
 _BEGINNINGS = ('call', 'c_call')
 _PYTHON_EVENTS = ('call', 'return')
+_C = 'C: '
 
 
 class CallRecorder:
     """The calls of a thread, to be made trees of; ``sys.setprofile(recorder)`` starts it."""
 
-    def __init__(self, clock: Callable[[], int] = time.thread_time_ns) -> None:
+    def __init__(self, clock: Callable[[], int] = time.perf_counter_ns) -> None:
         """``clock``: ns."""
-        self.events: list[Event] = []
+        # Nothing here makes an object that stays: memory that is new is dear.
+        self._times = array('q')
+        self._functions: list[Any] = []
         self._clock = clock
 
     def __call__(self, frame: FrameType, event: str, function: Any) -> None:
         """Record an event; see ``sys.setprofile``."""
-        what = frame.f_code if event in _PYTHON_EVENTS else function
-        self.events.append((self._clock(), event in _BEGINNINGS, what))
+        now = self._clock()
+        self._times.append(now if event in _BEGINNINGS else -now)
+        self._functions.append(frame.f_code if event in _PYTHON_EVENTS else function)
+
+    @property
+    def events(self) -> Iterable[Event]:
+        """What was recorded."""
+        return zip(self._times, self._functions, strict=True)
 
 
 @dataclass
@@ -67,9 +80,9 @@ class CallTree:
         """
         path: list[tuple[CallTree, int]] = []
         here: CallTree = self
-        for at, begins, what in events:
+        for at, what in events:
             place = place_of(what)
-            if begins:
+            if at > 0:
                 path.append((here, at))
                 here = here._child(*place)
             elif any(place == each.place for each in _open(path, here)):
@@ -78,7 +91,7 @@ class CallTree:
                     ended = here.place
                     parent, begin = path.pop()
                     here.calls += 1
-                    here.total += at - begin
+                    here.total += -at - begin
                     here = parent
 
     def _child(self, name: str, module: str) -> 'CallTree':
@@ -94,22 +107,37 @@ class CallTree:
         total, calls = self.total / count / unit, self.calls / count
         return CallTree(self.name, self.module, calls, total, children)
 
-    def without_overhead(self, share: float, total: float) -> 'CallTree':
+    def without_overhead(
+        self, share: float, total: float, exact: Mapping[str, float] | None = None
+    ) -> 'CallTree':
         """
         Return the tree as if nobody had watched.
 
         Args:
             share: What watching costs for each call; one half of it counts in the caller.
-            total: What the whole takes without watching; the rest is scaled to it, as all is
-                slower where the caches have to hold what is recorded.
+            total: What all takes without watching. All is slower while it is watched, as the
+                caches hold less of it; so the rest is scaled.
+            exact: What functions take without watching, by their names, where that is known.
         """
-        tree = self._less(share, 0.0)
-        return tree.per(1, tree.total / total) if tree.total else tree
+        tree, exact = self._without(share), exact or {}
+        watched = {
+            name: sum(each.own for each in tree.walk() if each.name == name) for name in exact
+        }
+        known = {name: took for name, took in exact.items() if watched[name] > 0.0}
+        rest = tree.total - sum(watched[name] for name in known)
+        scale = max(0.0, total - sum(known.values())) / rest if rest > 0.0 else 0.0
+        return tree._scaled(scale, {name: took / watched[name] for name, took in known.items()})
 
-    def _less(self, share: float, of_calls: float) -> 'CallTree':
-        children = {key: child._less(share, child.calls) for key, child in self.children.items()}
-        beside = sum(child.calls for child in self.children.values())
-        own = max(0.0, self.own - share * 0.5 * (of_calls + beside))
+    def _without(self, share: float) -> 'CallTree':
+        children = {key: child._without(share) for key, child in self.children.items()}
+        calls = self.calls + sum(child.calls for child in self.children.values())
+        return self._of(max(0.0, self.own - share * 0.5 * calls), children)
+
+    def _scaled(self, factor: float, factors: Mapping[str, float]) -> 'CallTree':
+        children = {key: child._scaled(factor, factors) for key, child in self.children.items()}
+        return self._of(self.own * factors.get(self.name, factor), children)
+
+    def _of(self, own: float, children: dict[str, 'CallTree']) -> 'CallTree':
         total = own + sum(child.total for child in children.values())
         return CallTree(self.name, self.module, self.calls, total, children)
 
@@ -201,4 +229,4 @@ def place_of(what: Any) -> tuple[str, str]:
     if not module:
         owner = getattr(what, '__self__', None)
         module = type(owner).__name__ if owner is not None else 'builtins'
-    return getattr(what, '__name__', str(what)), f'C: {module}'
+    return getattr(what, '__name__', str(what)), f'{_C}{module}'
