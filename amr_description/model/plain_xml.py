@@ -5,7 +5,10 @@
 import re
 
 _DECLARATION = re.compile(r'\A\s*+<\?xml\s[^<>]*\?>')
-_PREFIX = re.compile(r'</?([A-Za-z_][\w.-]*+):|\s([A-Za-z_][\w.-]*+):[\w.-]++\s*+=')
+_PREFIX_OF_TAG = re.compile(r'</?([A-Za-z_][\w.-]*+):')
+_PREFIX_OF_ATTRIBUTE = re.compile(r'\s([A-Za-z_][\w.-]*+):[\w.-]++\s*+=')
+# Found 30 times faster than the prefix itself; most descriptions have none.
+_END_OF_PREFIXED_ATTRIBUTE = re.compile(r':[\w.-]++\s*+=')
 _DECLARED_PREFIX = re.compile(r'\sxmlns:([\w.-]+)\s*=')
 # XML's own, and that of xacro, which does not expand a file that does not declare it.
 _KNOWN_PREFIXES = {'xml', 'xmlns', 'xacro'}
@@ -28,8 +31,13 @@ def plain_xml(text: str) -> str:
     declaration = _DECLARATION.match(text)
     if declaration is not None and not _KNOWN_DECLARATION.match(text):
         text = '\n' * declaration[0].count('\n') + text[declaration.end() :]
-    used = {one or other for one, other in _PREFIX.findall(text)}
-    undeclared = sorted(used - set(_DECLARED_PREFIX.findall(text)) - _KNOWN_PREFIXES)
+    used = set(_PREFIX_OF_TAG.findall(text))
+    if _END_OF_PREFIXED_ATTRIBUTE.search(text):
+        used.update(_PREFIX_OF_ATTRIBUTE.findall(text))
+    used -= _KNOWN_PREFIXES
+    if not used:
+        return text
+    undeclared = sorted(used.difference(_DECLARED_PREFIX.findall(text)))
     if not undeclared:
         return text
     declarations = ''.join(f' xmlns:{name}="{name}"' for name in undeclared)

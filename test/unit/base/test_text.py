@@ -48,6 +48,7 @@ def test_truth_is_read_as_by_launch(text, value):
 
 def test_similar_words_are_suggested():
     assert closest_match('Base_lnik', ['odom', 'base_link']) == 'base_link'
+    assert closest_match('ODOM', ['odoms', 'Odom'], similarity=1.0) == 'Odom'
     assert closest_match('x', ['odom']) == ''
     assert closest_match('a' * 61, ['a' * 60]) == ''
     assert suggestion('odm', ['odom']) == "; did you mean 'odom'? known: odom"

@@ -77,8 +77,10 @@ def test_prefixes_of_other_programs_need_no_declaration():
     for known in (
         text.replace('<robot', '<robot xmlns:drake="http://drake"'),
         text.replace(inside, '<gazebo><a b="c:d=e"/></gazebo>'),
+        text.replace(inside, '<link name="b" xml:base="c"/>'),
     ):
         assert plain_xml(known) is known
+    assert urdf.parse(robot_text('<link name="a"\tsdf:version = "1.7"/>')).link('a')
     with pytest.raises(DescriptionError, match='Namespace prefix xacro'):
         urdf.parse(text.replace('drake', 'xacro'))
 
