@@ -12,6 +12,7 @@ from support.mesh_files import ascii_stl, binary_stl, box, dae, FACES, glb, gltf
 from amr_description.cli import check_urdf
 from amr_description.errors import SpawnError
 from amr_description.model.frames import Transform
+from amr_description.model.meshes import TriangleMesh
 from amr_description.sim import meshes as sim_meshes
 from amr_description.sim.meshes import insert_meshes, resolve_meshes, THICKNESS
 from amr_description.sim.spawning import read_description
@@ -158,6 +159,18 @@ def test_a_shape_is_the_same_whatever_its_format(tmp_path):
         corners = [np.reshape(mesh.uservert, (-1, 3)).tolist() for mesh in (one, other)]
         assert sorted(corners[0]) == sorted(corners[1])
         assert len(corners[0]) == 8  # STL has each corner six times
+
+
+@pytest.mark.parametrize('count', [0, 1, 300])
+def test_corners_are_shared_as_unique_rows_are(count):
+    numbers = np.random.default_rng(1).choice([-1.5, -0.0, 0.0, 1.0, np.nan], (3 * count, 3))
+    mesh = TriangleMesh(numbers, np.arange(3 * count).reshape(-1, 3))
+    rows = np.ascontiguousarray(numbers, dtype=np.float32)
+    whole = rows.view([('x', 'f4'), ('y', 'f4'), ('z', 'f4')]).reshape(-1)
+    _, first, corner = np.unique(whole, return_index=True, return_inverse=True)
+    shared = sim_meshes._with_shared_corners(mesh)
+    assert shared.vertices.tobytes() == numbers[first].tobytes()
+    assert np.array_equal(shared.faces, corner[mesh.faces])
 
 
 FLAT = {
