@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Extreme numbers in parameters of controllers, world and serial port: refused, or harmless."""
 
+import functools
 from itertools import chain
 import math
 
@@ -82,6 +83,7 @@ def some_floats(count):
     return st.lists(st.sampled_from(FLOATS), min_size=count, max_size=count)
 
 
+@functools.cache  # Hypothesis asks each strategy once what it can do
 def extremes(table):
     """Dictionaries with an extreme number for any of the numeric parameters of a table."""
     choices = {}
