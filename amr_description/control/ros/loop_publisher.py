@@ -45,7 +45,12 @@ from rosgraph_msgs.msg import Clock
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import Encoder, encoder_of
 from amr_description.ros.messages import fill_stamp
-from amr_description.ros.rclpy_internals import manual_clock, RcutilsLogger, share_clock
+from amr_description.ros.rclpy_internals import (
+    bytes_publisher,
+    manual_clock,
+    RcutilsLogger,
+    share_clock,
+)
 
 ACKNOWLEDGEMENT_TOPIC = '~/received'
 ACKNOWLEDGEMENT_QOS = QoSProfile(depth=100)
@@ -62,24 +67,34 @@ _NOTHING: Final = object()
 class LoopTopic:
     """A topic on which samples go out at the end of a cycle; :meth:`LoopPublisher.topic`."""
 
-    __slots__ = ('publisher', 'encode', 'is_heard', 'keeps_last', 'newest', '_outbox')
+    __slots__ = (
+        'publisher', 'is_heard', 'keeps_last', 'newest', '_encode', '_publish_bytes', '_outbox',
+    )  # fmt: skip
 
     def __init__(
         self, publisher: Publisher, encode: Encoder, outbox: 'list[tuple[LoopTopic, Any]]'
     ) -> None:
         self.publisher = publisher
-        self.encode = encode
         self.is_heard = _keeps_many(publisher.qos_profile)
         """Whether somebody subscribed at the last look, or may later get each of the samples."""
         self.keeps_last = publisher.qos_profile.durability is not DurabilityPolicy.VOLATILE
         """Whether who subscribes later gets the last message."""
         self.newest: Any = _NOTHING
         """The sample that has still to be kept for those."""
+        self._encode, self._publish_bytes = encode, bytes_publisher(publisher)
         self._outbox = outbox
 
     def send(self, sample: Any) -> None:
         """Publish a sample at the end of this cycle; on the control thread."""
         self._outbox.append((self, sample))
+
+    def write(self, sample: Any) -> None:
+        """Publish a sample now. Raises InvalidHandle: the topic is gone."""
+        made = self._encode(sample)
+        if isinstance(made, bytes):
+            self._publish_bytes(made)
+        else:
+            self.publisher.publish(made)
 
     def look(self) -> None:
         """Look whether somebody subscribes, 1.5 µs. Raises InvalidHandle: the topic is gone."""
@@ -226,7 +241,7 @@ class LoopPublisher:
 
     def _write(self, topic: LoopTopic, sample: Any) -> None:
         try:
-            topic.publisher.publish(topic.encode(sample))
+            topic.write(sample)
         except InvalidHandle:  # a cleanup has removed the topic since
             topic.is_heard = topic.keeps_last = False
         except Exception as error:  # a third party's converter; the robot must go on

@@ -31,6 +31,7 @@ from rclpy.qos import QoSProfile
 from rclpy.time import ClockType
 from std_msgs.msg import Header
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.diagnostics import HARDWARE_ID, Report, reports, take_measurements
 from amr_description.control.introspection import (
@@ -38,11 +39,12 @@ from amr_description.control.introspection import (
     IntrospectionRegistry,
     statistics_of,
 )
-from amr_description.control.ros.encoders import filling
+from amr_description.control.ros.encoders import Encoding, filling, TemplateEncoder
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext, LoopThread
 from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
+from amr_description.ros.cdr_template import Template
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
 
@@ -141,7 +143,9 @@ def _states(
     return states
 
 
-class _Sample(NamedTuple):
+class RegistrySample(NamedTuple):
+    """The numbers of a registry at an instant, ns."""
+
     time: int
     names: tuple[str, ...]
     version: int
@@ -169,7 +173,7 @@ class RegistryTopics:
             self._full, filling(self._fill_full, Statistics())
         ).send
         self._send_values = loop_publisher.topic(
-            self._values, filling(_fill_values, StatisticsValues())
+            self._values, TemplateEncoder(VALUES, fill_values, StatisticsValues)
         ).send
         self._full_names: tuple[str, ...] = ()
         self._wants_full = self._wants_values = False
@@ -196,13 +200,13 @@ class RegistryTopics:
     def send(self, time: int) -> None:
         """Read the numbers as they are at ``time``, ns, and publish them with this cycle."""
         names, read = self._registry.names, self._registry.read
-        sample = _Sample(time, names, self._version, read())
+        sample = RegistrySample(time, names, self._version, read())
         if self._wants_full:
             self._send_full(sample)
         if self._wants_values:
             self._send_values(sample)
 
-    def _fill_full(self, sample: _Sample, message: Statistics) -> None:
+    def _fill_full(self, sample: RegistrySample, message: Statistics) -> None:
         fill_stamp(sample.time, message.header.stamp)
         if sample.names is not self._full_names:
             message.statistics = [Statistic(name=name) for name in sample.names]
@@ -248,7 +252,29 @@ class Introspection:
         self._manager.on_tick = send if wanted else None
 
 
-def _fill_values(sample: _Sample, message: StatisticsValues) -> None:
+def fill_values(sample: RegistrySample, message: StatisticsValues) -> None:
+    """Write the numbers, without their names."""
     fill_stamp(sample.time, message.header.stamp)
     message.values = array('d', sample.values)
     message.names_version = sample.version
+
+
+def _pack_values(template: Template) -> Callable[[RegistrySample], bytes]:
+    pack = template.pack
+    begin, before, behind, end = template.constants
+
+    def encode(sample: RegistrySample) -> bytes:
+        seconds, nanoseconds = divmod(sample.time, NANOSECONDS)
+        return pack(
+            begin, seconds, nanoseconds,
+            before, *sample.values,
+            behind, sample.version, end,
+        )  # fmt: skip
+
+    return encode
+
+
+VALUES = Encoding(
+    ('header.stamp', 'values', 'names_version'), lambda sample: sample.version, _pack_values
+)
+"""Of a :class:`RegistrySample` as StatisticsValues, which a page hears in every cycle."""

@@ -6,6 +6,7 @@ import math
 import random
 import struct
 
+from pal_statistics_msgs.msg import StatisticsValues
 import pytest
 import rclpy
 from rclpy.node import Node
@@ -15,9 +16,10 @@ from support.ros_processes import PATIENCE
 
 from amr_description.control.contracts import Port, Qos
 from amr_description.control.ros import converters, encoders
-from amr_description.control.ros.encoders import encoder_of, ENCODINGS
+from amr_description.control.ros.encoders import encoder_of, ENCODINGS, TemplateEncoder
 from amr_description.control.ros.loop_publisher import _fill_clock
 from amr_description.control.ros.plugin_nodes import qos
+from amr_description.control.ros.status_topics import fill_values, RegistrySample, VALUES
 from amr_description.control.samples import (
     BodyOdometrySample,
     DynamicJointStateSample,
@@ -151,6 +153,17 @@ def test_lengths_that_change_below_the_same_names_are_those_of_the_sample():
     for values in ((1.0, 2.0), (1.0,), (), (1.0, 2.0, 3.0)):
         sample = DynamicJointStateSample(5, (values,), layout)
         assert_same(key, encode(sample), sample)
+
+
+def test_numbers_of_a_registry_are_those_of_the_message():
+    encode = TemplateEncoder(VALUES, fill_values, StatisticsValues)
+    drawn = Drawn(5)
+    for version, count in ((1, 3), (1, 3), (2, 0), (3, 5), (4, 5)):
+        sample = RegistrySample(drawn.stamp(), (), version, list(drawn.numbers(count)))
+        message = StatisticsValues()
+        fill_values(sample, message)
+        template = template_of(message, VALUES.changing)
+        assert template.has_made(encode(sample), message)
 
 
 def test_the_template_is_made_once_for_equal_constants(monkeypatch):

@@ -16,6 +16,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.serialization import serialize_message
 from rclpy.task import Future
 from rclpy.time import ClockType, Time
 from std_msgs.msg import String
@@ -126,6 +127,20 @@ def test_a_message_is_taken_without_an_executor(node, raw):
     node.destroy_subscription(subscription)
     with pytest.raises(InvalidHandle):
         rclpy_internals.take_message(subscription)
+
+
+def test_bytes_are_published_as_they_are_and_not_once_the_publisher_is_gone(node):
+    heard = []
+    node.create_subscription(String, 'topic', heard.append, 1)
+    publisher = node.create_publisher(String, 'topic', 1)
+    wait_until(node, lambda: publisher.get_subscription_count() or None, timeout=PATIENCE)
+    publish = rclpy_internals.bytes_publisher(publisher)
+    publish(serialize_message(String(data='word')))
+    wait_until(node, lambda: heard or None, timeout=PATIENCE)
+    assert heard == [String(data='word')], BROKEN
+    node.destroy_publisher(publisher)
+    with pytest.raises(InvalidHandle):
+        publish(b'')
 
 
 def test_a_goal_ends_by_itself_and_as_canceled_too(node):
