@@ -10,7 +10,7 @@ from std_msgs.msg import String
 from support.ros_processes import PATIENCE
 
 from amr_description.control.ros.encoders import filling
-from amr_description.control.ros.loop_publisher import LOOK_PERIOD, LoopPublisher
+from amr_description.control.ros.loop_publisher import LOOK_PERIOD, LoopPublisher, TOPICS_A_LOOK
 from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -133,3 +133,12 @@ def test_what_was_kept_is_heard_before_what_is_new(node):
     assert cycles.say('third', 'fourth') == 'fourth'
     wait_until(node, lambda: 'fourth' in heard or None, timeout=PATIENCE)
     assert heard == ['second', 'third', 'fourth']
+
+
+def test_many_topics_are_looked_at_less_often(node):
+    cycles = Cycles(node, 'kept', SYSTEM_DEFAULT)
+    for _ in range(TOPICS_A_LOOK):
+        cycles.loop_publisher.topic(cycles.publisher, cycles.topic.encode)
+    made = [cycles.say(str(number)) for number in range(12)]
+    assert made == ['0'] * 10 + ['10'] * 2
+    assert cycles.stand_still() == '11'
