@@ -73,31 +73,16 @@ class LoopTopic:
     """A topic on which samples go out at the end of a cycle; :meth:`LoopPublisher.topic`."""
 
     __slots__ = (
-<<<<<<< HEAD
-        'publisher', 'is_heard', 'keeps_last', 'newest', '_encode', '_publish_bytes', '_outbox',
+        'publisher', 'is_heard', 'keeps_last', 'newest',
+        '_keeps_many', '_encode', '_publish_bytes', '_outbox',
     )  # fmt: skip
-=======
-        'publisher',
-        'encode',
-        'is_heard',
-        'keeps_last',
-        'newest',
-        '_keeps_many',
-        '_outbox',
-    )
->>>>>>> e6cf4c5 (control/ros: Look less often who subscribes when there are many topics)
 
     def __init__(
         self, publisher: Publisher, encode: Encoder, outbox: 'list[tuple[LoopTopic, Any]]'
     ) -> None:
         self.publisher = publisher
-<<<<<<< HEAD
-        self.is_heard = _keeps_many(publisher.qos_profile)
-=======
-        self.encode = encode
         self._keeps_many = _keeps_many(publisher.qos_profile)
         self.is_heard = self._keeps_many
->>>>>>> e6cf4c5 (control/ros: Look less often who subscribes when there are many topics)
         """Whether somebody subscribed at the last look, or may later get each of the samples."""
         self.keeps_last = publisher.qos_profile.durability is not DurabilityPolicy.VOLATILE
         """Whether who subscribes later gets the last message."""
