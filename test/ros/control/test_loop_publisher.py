@@ -138,7 +138,7 @@ def test_what_was_kept_is_heard_before_what_is_new(node):
 def test_many_topics_are_looked_at_less_often(node):
     cycles = Cycles(node, 'kept', SYSTEM_DEFAULT)
     for _ in range(TOPICS_A_LOOK):
-        cycles.loop_publisher.topic(cycles.publisher, cycles.topic.encode)
+        cycles.loop_publisher.topic(cycles.publisher, filling(fill, cycles.message))
     made = [cycles.say(str(number)) for number in range(12)]
     assert made == ['0'] * 10 + ['10'] * 2
     assert cycles.stand_still() == '11'
