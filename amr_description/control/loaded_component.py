@@ -67,13 +67,20 @@ class LoadedComponent:
         self._rate = self.info.rw_rate
         self._stopwatch = stopwatch
         self._log = log
-        self._last_read: int | None = None
-        self._last_write: int | None = None
+        self.last_read: int | None = None
+        """When it was read, ns; None: not since a transition, or a jump of the clock."""
+        self.last_write: int | None = None
+        """Likewise."""
 
     @property
     def is_available(self) -> bool:
         """True while it is inactive or active: it is read, and its states can be used."""
         return self.state is _ACTIVE or self.state is _INACTIVE
+
+    @property
+    def is_active(self) -> bool:
+        """True while it is active: it is written, unless it is a sensor."""
+        return self.state is _ACTIVE
 
     # --- lifecycle ----------------------------------------------------------------------------
 
@@ -124,7 +131,7 @@ class LoadedComponent:
         self._log(Severity.INFO, f"'{transition}' hardware '{self.info.name}' ")
         getattr(self.component, transition)()
         self.state = following
-        self._last_read = self._last_write = None
+        self.last_read = self.last_write = None
         if following is LifecycleState.ACTIVE:
             self.read_statistic.reset()
             self.write_statistic.reset()
@@ -145,13 +152,13 @@ class LoadedComponent:
         """
         if not self.is_available:
             return
-        last = self._last_read
+        last = self.last_read
         if self._rate:
             elapsed = self._elapsed(last, time, period)
             if elapsed is None:
                 return
             period = elapsed
-        self._last_read = time
+        self.last_read = time
         begin = self._stopwatch()
         self.component.read(time, period)
         duration = self._stopwatch() - begin
@@ -161,13 +168,13 @@ class LoadedComponent:
         """Write it if it is active, not a sensor, and due; arguments as of :meth:`read`."""
         if self.state is not _ACTIVE or self.is_sensor:
             return
-        last = self._last_write
+        last = self.last_write
         if self._rate:
             elapsed = self._elapsed(last, time, period)
             if elapsed is None:
                 return
             period = elapsed
-        self._last_write = time
+        self.last_write = time
         begin = self._stopwatch()
         self.component.write(time, period)
         duration = self._stopwatch() - begin
@@ -188,7 +195,7 @@ class LoadedComponent:
 
     def set_clock(self) -> None:
         """The clock jumped: forget when it was read and written."""
-        self._last_read = self._last_write = None
+        self.last_read = self.last_write = None
 
     def reset(self, time: int) -> None:
         """The simulation was reset to ``time``, ns. Raises whatever the component raises."""

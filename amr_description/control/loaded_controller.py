@@ -74,7 +74,8 @@ class LoadedController:
         self._command_request = self._state_request = NO_INTERFACES
         self._inputs: tuple[Input[Any], ...] = ()
         self._actions: tuple[Action[Any, Any, Any], ...] = ()
-        self._last_update: int | None = None
+        self.last_update: int | None = None
+        """ns; None: not since it was activated, or since a jump of the clock."""
         self._ticks = 0
 
     @property
@@ -183,7 +184,7 @@ class LoadedController:
             resources.release(self.name)
             self._set_chained_mode(False)
             raise
-        self._last_update = None
+        self.last_update = None
         self._ticks = 0
         self.statistic.reset()
         for port in self._inputs:
@@ -205,7 +206,7 @@ class LoadedController:
         self._ticks = ticks + 1
         if divisor != 1 and ticks % divisor:
             return
-        last, self._last_update = self._last_update, time
+        last, self.last_update = self.last_update, time
         period = nominal_period * divisor if last is None else time - last
         begin = self._stopwatch()
         self.controller.update(time, period)
@@ -259,13 +260,13 @@ class LoadedController:
 
     def reset(self, time: int) -> None:
         """The simulation was reset to ``time``, ns."""
-        self._last_update = None
+        self.last_update = None
         if self.is_configured:
             self.controller.reset(time)
 
     def set_clock(self, time: int) -> None:
         """The clock jumped to ``time``, ns."""
-        self._last_update = None
+        self.last_update = None
         if self.is_configured:
             self.controller.set_clock(time)
 
