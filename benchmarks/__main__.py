@@ -197,11 +197,12 @@ def measured(options: argparse.Namespace, node: Node) -> int:
     bench.left_out = why_left_out(parts, quick=options.quick)
     bench.run(parts)
     during = machine.usage().since(start)
-    if not options.profile:
-        print(report(bench.values, bench.left_out))
     ends = (bench.bare[0], bench.bare[-1]) if bench.bare else None
-    for line in machine.complaints(before, during, ends):
-        print(f'the machine was not quiet: {line}; figures in wall time are worse than they are')
+    complaints = machine.complaints(before, during, ends)
+    if not options.profile:
+        print(report(bench.values, bench.left_out, is_quiet=not complaints))
+    for line in complaints:
+        print(f'the machine was not quiet: {line}')
     print(f'measured in {time.monotonic() - begin:.0f} s', file=sys.stderr)
     if not options.check:
         return 0

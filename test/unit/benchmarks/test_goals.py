@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of the benchmarks and their goals."""
 
+import dataclasses
+
 import pytest
 
 from benchmarks.goals import Direction, Goal, GOALS, missed, report, rounded
@@ -48,6 +50,13 @@ def test_table():
     assert lines[2].split() == ['time', 'of', 'it', '1.00', 's', '≤', '2']
     (line,) = report({}, {'fast': 'no robot'}, [FAST]).splitlines()[1:]
     assert line.endswith('≥ 0.5  not measured: no robot')
+
+
+def test_rows_that_need_a_quiet_machine_say_that_it_was_none():
+    steady = dataclasses.replace(SHORT, needs_quiet=False)
+    lines = report({'fast': 0.25, 'short': 1.0}, {}, (FAST, SHORT, steady), is_quiet=False)
+    notes = [line.split('  ')[-1].strip() for line in lines.splitlines()[1:]]
+    assert notes == ['missed, on a busy machine', 'met, on a busy machine', '≤ 2']
 
 
 @pytest.mark.parametrize(
