@@ -19,10 +19,11 @@ from amr_description.ament_index import package_share
 from amr_description.errors import AmrError
 from amr_description.ros.runtime import program, ros
 from benchmarks import machine
-from benchmarks.cycle import driven_robot, Profile, profile_text, Speed
+from benchmarks.cycle import driven_robot, HEARD, listeners, Simulator
 from benchmarks.figures import Figures
 from benchmarks.goals import GOALS, missed, report
 from benchmarks.options import chosen_parts, parser, why_left_out
+from benchmarks.profiles import Profile, profile_text, Speed
 from benchmarks.stack import bring_up
 from benchmarks.startup import phases_of, start_figures, table
 
@@ -72,21 +73,26 @@ class Bench:
 
     # --- the parts ----------------------------------------------------------------------------
 
-    def heard(self) -> Figures:
-        """As fast as possible; robot_state_publisher and a page listen."""
-        with driven_robot(self._node, 'stack') as simulator:
+    def speed(self) -> Figures:
+        """As fast as possible: first ``/clock`` alone is heard, then the whole stack listens."""
+        with driven_robot(self._node) as simulator:
+            self.measure(lambda: self._clock(simulator), 'speed: ', ('clock',))
+            self.measure(lambda: self._heard(simulator), 'speed: ', ('stack', 'beside'))
+        return Figures({})
+
+    def _clock(self, simulator: Simulator) -> Figures:
+        with listeners(self._node, 'clock'):
+            speed = simulator.speed(self._seconds)
+            profile = simulator.profile(self._seconds / 2)
+        return Figures({'clock': speed.ratio}, self._speed_text('/clock', speed, profile))
+
+    def _heard(self, simulator: Simulator) -> Figures:
+        with listeners(self._node, 'stack'):
             speed = simulator.speed(self._seconds)
             profile = simulator.profile(self._seconds / 2)
         values = {'stack': speed.ratio, 'beside': profile.besides}
         heard = 'robot_state_publisher and a page'
         return Figures(values, self._speed_text(heard, speed, profile))
-
-    def clock(self) -> Figures:
-        """As fast as possible; somebody reads ``/clock``."""
-        with driven_robot(self._node, 'clock') as simulator:
-            speed = simulator.speed(self._seconds)
-            profile = simulator.profile(self._seconds / 2)
-        return Figures({'clock': speed.ratio}, self._speed_text('/clock', speed, profile))
 
     def latency(self) -> Figures:
         """Commands to the wheels, and cycles of 1 kHz, in real time."""
@@ -153,9 +159,10 @@ class Bench:
     def profile(self) -> Figures:
         """A cycle by part, with nobody and with the stack listening; the start by phase."""
         texts = []
-        for heard in ('stack', 'clock', 'none'):
-            with driven_robot(self._node, heard) as simulator:
-                texts.append(profile_text(heard, simulator.profile(2 * self._seconds)))
+        with driven_robot(self._node) as simulator:
+            for heard in reversed(HEARD):
+                with listeners(self._node, heard):
+                    texts.append(profile_text(heard, simulator.profile(2 * self._seconds)))
         with bring_up('simulation') as run:
             texts.append(table(phases_of(run.lines)))
         return Figures({}, '\n\n'.join(texts))

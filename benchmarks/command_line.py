@@ -19,6 +19,7 @@ from amr_description.ros.messages import fill_stamp
 from benchmarks.figures import Figures
 
 _RUNS = 5
+_QUICK_RUNS = 3
 _HZ = 1000.0
 _RATE_LINE = re.compile(r'average rate: ([\d.]+)')
 _JOINTS = tuple(
@@ -35,7 +36,7 @@ def command_figures(node: Node, seconds: float, *, quick: bool = False) -> Figur
         seconds: Wall time of each measurement of a stream.
         quick: Only what has a goal.
     """
-    listing = _median_time(['ros2', 'topic', 'list'])
+    listing = _median_time(['ros2', 'topic', 'list'], _QUICK_RUNS if quick else _RUNS)
     share = _hz_share(node, _HZ, seconds)
     rows = [
         ('ros2 topic list', f'{listing:8.2f} s'),
@@ -51,10 +52,10 @@ def command_figures(node: Node, seconds: float, *, quick: bool = False) -> Figur
     return Figures({'list': listing, 'hz': 100.0 * share}, text)
 
 
-def _median_time(command: Sequence[str]) -> float:
+def _median_time(command: Sequence[str], runs: int = _RUNS) -> float:
     """Return the median wall time of some runs of a command, s."""
     times = []
-    for _ in range(_RUNS):
+    for _ in range(runs):
         start = time.monotonic()
         subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         times.append(time.monotonic() - start)

@@ -116,11 +116,19 @@ def controlled_robot(factor: float = 0.0, update_rate: int = 100) -> Iterator[Si
 
 
 @contextmanager
-def driven_robot(node: Node, heard: str) -> Iterator[Simulator]:
+def driven_robot(node: Node) -> Iterator[Simulator]:
     """Run a simulator as fast as possible with a robot that drives in a circle, while inside."""
+    with controlled_robot() as simulator:
+        with driving(node):
+            wait_until(node, lambda: None, timeout=_ARRIVAL)
+        yield simulator
+
+
+@contextmanager
+def listeners(node: Node, heard: str) -> Iterator[None]:
+    """Have somebody listen to the simulator (one of :data:`HEARD`), while inside."""
     urdf = str(package_share('amr_description') / 'urdf' / 'amr.urdf')
     with ExitStack() as stack:
-        simulator = stack.enter_context(controlled_robot())
         if heard == 'stack':
             use_sim_time = ('--ros-args', '-p', 'use_sim_time:=true')
             stack.enter_context(running('robot_state_publisher', urdf, *use_sim_time))
@@ -131,9 +139,7 @@ def driven_robot(node: Node, heard: str) -> Iterator[Simulator]:
         elif heard == 'clock':
             clock = node.create_subscription(Clock, '/clock', lambda _: None, 10)
             stack.callback(node.destroy_subscription, clock)
-        with driving(node):
-            wait_until(node, lambda: None, timeout=_ARRIVAL)
-        yield simulator
+        yield
 
 
 def main() -> int:
@@ -145,7 +151,7 @@ def main() -> int:
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     with ros([]):
         node = Node('benchmark')
-        with driven_robot(node, chosen.heard) as simulator:
+        with driven_robot(node) as simulator, listeners(node, chosen.heard):
             print(profile_text(chosen.heard, simulator.profile(chosen.seconds)))
         node.destroy_node()
     return 0

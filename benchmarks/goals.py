@@ -41,9 +41,9 @@ class Goal:
 _AT_LEAST, _AT_MOST = Direction.AT_LEAST, Direction.AT_MOST
 
 GOALS = (
-    Goal('stack', 'full stack ÷ mj_step alone, heard', '', _AT_LEAST, 0.42, 'heard'),
-    Goal('clock', 'full stack ÷ mj_step alone, /clock heard', '', _AT_LEAST, 0.52, 'clock'),
-    Goal('beside', 'a cycle besides physics, heard', 'µs', _AT_MOST, 50.0, 'heard', False),
+    Goal('stack', 'full stack ÷ mj_step alone, heard', '', _AT_LEAST, 0.42, 'speed'),
+    Goal('clock', 'full stack ÷ mj_step alone, /clock heard', '', _AT_LEAST, 0.52, 'speed'),
+    Goal('beside', 'a cycle besides physics, heard', 'µs', _AT_MOST, 50.0, 'speed', False),
     Goal('warm', 'warm start to both controllers', 's', _AT_MOST, 1.8, 'stack'),
     Goal('cold', 'cold set-up to ready', 's', _AT_MOST, 90.0, 'cold'),
     Goal('load', 'whole stack at factor 1, driven', '% of a core', _AT_MOST, 12.0, 'stack', False),
@@ -67,8 +67,9 @@ GOALS = (
     Goal('missed', '1 kHz control, cycles missed', '', _AT_MOST, 0.0, 'latency'),
     Goal('late', '1 kHz control, lateness p99', 'ms', _AT_MOST, 2.0, 'latency'),
     Goal('list', 'ros2 topic list', 's', _AT_MOST, 0.6, 'stack'),
-    # Of what is published; both rates are means of slightly different times.
-    Goal('hz', 'ros2 topic hz of 1 kHz', '%', _AT_LEAST, 99.5, 'stack'),
+    # Of what is published: all of it, but both rates are means over some seconds, and not quite
+    # the same ones. An interruption of 20 ms at either end is half a percent.
+    Goal('hz', 'ros2 topic hz of 1 kHz', '%', _AT_LEAST, 99.0, 'stack'),
     Goal('memory', 'one simulated hour, memory', 'MB more', _AT_MOST, 1.0, 'memory', False),
 )
 """All figures of the table, in its order."""

@@ -14,7 +14,7 @@ from rclpy.node import Node
 
 from amr_description.errors import BringupError
 from amr_description.ros.service_calls import wait_until
-from benchmarks.cycle import driven_robot
+from benchmarks.cycle import driven_robot, listeners
 from benchmarks.figures import Figures
 from benchmarks.processes import name_of, processes_below, processor_time, resident
 from benchmarks.stack import BringUp, driving, ROOT, TIMEOUT
@@ -50,7 +50,7 @@ def load_figures(node: Node, run: BringUp, seconds: float) -> Figures:
 
 def memory_figures(node: Node) -> Figures:
     """Measure what a simulator has more of memory after an hour of simulated time, driven."""
-    with driven_robot(node, 'clock') as simulator:
+    with driven_robot(node) as simulator, listeners(node, 'clock'):
         deadline = time.monotonic() + _HOUR_TIMEOUT
 
         def pass_time(until: float) -> int:

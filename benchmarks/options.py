@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from benchmarks.goals import GOALS
 
 PARTS = (
-    'heard',
-    'clock',
+    'speed',
     'latency',
     'stack',
     'robot_state_publisher',
@@ -20,7 +19,7 @@ PARTS = (
     'profile',
 )
 """In the order in which they run."""
-_QUICK = ('heard', 'clock', 'latency', 'stack', 'robot_state_publisher')
+_QUICK = ('speed', 'latency', 'stack', 'robot_state_publisher')
 _ON_REQUEST = {
     'cold': 'it takes minutes: --only cold, or --check',
     'profile': 'it has no goal: --profile',
