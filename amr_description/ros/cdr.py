@@ -16,7 +16,7 @@ who thins joint states out needs no more of most of them.
 This module imports no rclpy.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import struct
 
 from amr_description.clock import NANOSECONDS
@@ -221,6 +221,8 @@ class JointStateHead:
 
     stamp: int
     names: tuple[str, ...]
+    end: int = field(default=0, compare=False)
+    """Where the positions begin, or the bytes that align them."""
 
 
 class HeadReader:
@@ -235,14 +237,24 @@ class HeadReader:
 
     def read(self, data: bytes) -> JointStateHead:
         """Return the head of a message. Raises ValueError: these bytes are none in plain CDR."""
-        reader = Reader(data)
-        stamp = reader.stamp()
         # No two byte orders write the lengths in a beginning alike.
         for beginning, names in self._known:
-            if data.startswith(beginning, _AFTER_STAMP):
-                return JointStateHead(stamp, names)
+            if data.startswith(beginning, _AFTER_STAMP) and data[1] <= 1 and not data[0]:
+                seconds, nanoseconds = _ORDERS[data[1]][2].unpack_from(data, _BEGIN)
+                return JointStateHead(
+                    seconds * NANOSECONDS + nanoseconds, names, _AFTER_STAMP + len(beginning)
+                )
+        reader = Reader(data)
+        stamp = reader.stamp()
         reader.text()
         names = tuple(reader.texts())
         self._known.insert(0, (data[_AFTER_STAMP : reader.at], names))
         del self._known[_REMEMBERED:]
-        return JointStateHead(stamp, names)
+        return JointStateHead(stamp, names, reader.at)
+
+
+def read_positions(data: bytes, head: JointStateHead) -> tuple[float, ...]:
+    """Read the positions of a JointState, rad or m, whose head has been read."""
+    reader = Reader(data)
+    reader.at = head.end
+    return reader.some_doubles()

@@ -7,16 +7,18 @@ A callback costs an executor 0.2 to 0.3 ms; taking the bytes of a message 20 µs
 pictures a second needs of a topic of 1 kHz only the latest message; DDS drops the others.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
+from rclpy.clock import ROSClock
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
 
-from amr_description.ros.rclpy_internals import take_message
+from amr_description.ros.rclpy_internals import clock_subscription, take_message
 
 
 class PolledTopic[Sample]:
@@ -36,7 +38,8 @@ class PolledTopic[Sample]:
         Subscribe.
 
         Args:
-            node: It may be in an executor, which leaves the subscription alone.
+            node: It may be in an executor, which leaves the subscription alone; EventsExecutor
+                does so with that of a :class:`PollingNode` only.
             message_type: The class of the messages.
             topic: Its name.
             read: Makes a sample of the bytes of a message; one that raises ValueError is skipped.
@@ -48,7 +51,7 @@ class PolledTopic[Sample]:
         if qos is None:
             qos = QoSProfile(depth=depth, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._subscription = node.create_subscription(
-            message_type, topic, _ignore, qos, callback_group=_NeverCalled(), raw=True
+            message_type, topic, _ignore, qos, callback_group=NeverCalled(), raw=True
         )
 
     @property
@@ -77,7 +80,35 @@ class PolledTopic[Sample]:
         self._node.destroy_subscription(self._subscription)
 
 
-class _NeverCalled(CallbackGroup):
+class PollingNode(Node):
+    """
+    A node whose polled topics no executor of any kind serves, and whose clock is polled, too.
+
+    With ``use_sim_time``, rclpy has the executor serve every message of ``/clock``. This node
+    takes the last one when its clock is asked for. So nothing may wait by that clock: no timer of
+    it would end, and who keeps the clock, rather than the node, sees it stand.
+    """
+
+    def get_clock(self) -> ROSClock:
+        """Return the clock, with the time of now."""
+        subscription = clock_subscription(self)
+        if subscription is not None:
+            with suppress(InvalidHandle):  # use_sim_time has just become false
+                message = take_message(subscription)
+                if message is not None:
+                    subscription.callback(message)
+        return super().get_clock()
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """Those that an executor is to serve."""
+        clock = clock_subscription(self)
+        for each in super().subscriptions:
+            if each is not clock and not isinstance(each.callback_group, NeverCalled):
+                yield each
+
+
+class NeverCalled(CallbackGroup):
     """Keeps an executor from waiting for what is in it (but for EventsExecutor, which does)."""
 
     def can_execute(self, entity: Any) -> bool:

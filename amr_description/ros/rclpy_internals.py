@@ -15,7 +15,9 @@ from typing import Any
 from rclpy.action import ActionServer
 from rclpy.action.server import GoalEvent, ServerGoalHandle
 from rclpy.clock import ROSClock
+from rclpy.context import Context
 from rclpy.executors import Executor
+from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
@@ -27,6 +29,7 @@ __all__ = [
     'begin_goal',
     'bytes_publisher',
     'cancel_tasks',
+    'clock_subscription',
     'destroy_type_description_service',
     'end_goal',
     'manual_clock',
@@ -38,7 +41,9 @@ __all__ = [
     'replace_parameter_event_publisher',
     'set_parameter_override',
     'share_clock',
+    'SubscriptionWaiter',
     'take_message',
+    'take_received',
     'UnknownROSArgsError',
 ]
 
@@ -67,6 +72,12 @@ def share_clock(node: Node, clock: ROSClock) -> None:
                 node._clock = clock if each.value else own
 
     node.add_post_set_parameters_callback(choose)
+
+
+def clock_subscription(node: Node) -> Subscription | None:
+    """Return the subscription that sets the clock of a node; None: the system's clock does."""
+    source = getattr(node, '_time_source', None)  # none yet, while the node is made
+    return None if source is None else source._clock_sub
 
 
 def manual_clock() -> ROSClock:
@@ -98,6 +109,22 @@ def cancel_tasks(executor: Executor) -> None:
         task.cancel()
 
 
+def take_received(subscription: Subscription) -> tuple[bytes, int] | None:
+    """
+    Take the next message of a raw subscription that no executor serves, with its arrival.
+
+    Returns:
+        The bytes of the message, and the system time when DDS received it, ns; None: none came.
+
+    Raises:
+        InvalidHandle: The subscription was destroyed.
+    """
+    handle = subscription.handle
+    with handle:
+        taken = handle.take_message(subscription.msg_type, True)
+    return None if taken is None else (taken[0], taken[1]['received_timestamp'])
+
+
 def take_message(subscription: Subscription) -> Any | None:
     """
     Take the next message of a subscription that no executor serves.
@@ -114,6 +141,7 @@ def take_message(subscription: Subscription) -> Any | None:
     return None if taken is None else taken[0]
 
 
+<<<<<<< HEAD
 def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:
     """
     Return ``Publisher.publish`` for serialized messages: 1.1 µs instead of 1.6, without a reader.
@@ -128,6 +156,33 @@ def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:
             publish_raw(data)
 
     return publish
+=======
+class SubscriptionWaiter:
+    """Waits, in one thread, for a message of a subscription that no executor serves."""
+
+    def __init__(self, subscription: Subscription, context: Context) -> None:
+        self._subscription = subscription
+        self._guard = GuardCondition(None, None, context)
+        with context.handle:
+            self._wait_set = _rclpy.WaitSet(1, 1, 0, 0, 0, 0, context.handle)
+
+    def wait(self) -> None:
+        """Wait for a message, or for :meth:`wake`."""
+        self._wait_set.clear_entities()
+        with self._subscription.handle, self._guard.handle:
+            self._wait_set.add_subscription(self._subscription.handle)
+            self._wait_set.add_guard_condition(self._guard.handle)
+            self._wait_set.wait(-1)
+
+    def wake(self) -> None:
+        """End the wait, or the next one; from any thread."""
+        self._guard.trigger()
+
+    def destroy(self) -> None:
+        """Let go of everything; nobody waits any more."""
+        self._wait_set.destroy_when_not_in_use()
+        self._guard.destroy()
+>>>>>>> 883b219 (nodes: Have robot_state_publisher take joint states when one is due, and publish bytes)
 
 
 def begin_goal(handle: ServerGoalHandle) -> None:

@@ -15,7 +15,12 @@ import yourdfpy
 from amr_description.model.description_file import description_text
 from amr_description.model.frames import Transform
 from amr_description.model.urdf import load, parse
-from amr_description.nodes.robot_state_publisher.robot_state import period_of, RobotState, Throttle
+from amr_description.nodes.robot_state_publisher.robot_state import (
+    Arrivals,
+    period_of,
+    RobotState,
+    Throttle,
+)
 
 FIXTURES = ROOT / 'test/fixtures/urdf'
 ROBOTS = [ROOT / 'urdf/amr.urdf', FIXTURES / 'arm.urdf', FIXTURES / 'gripper.urdf.xacro']
@@ -299,3 +304,64 @@ def test_after_forgetting_everything_is_due():
     assert not throttle.admit(['wheel'], 10)
     throttle.forget()
     assert throttle.admit(['wheel'], 10)
+
+
+def test_the_earliest_stamp_that_can_be_due_is_known():
+    throttle = Throttle()
+    assert throttle.earliest is None
+    for stamp in range(0, 1000, 10):
+        if throttle.admit(['wheel', 'arm'], stamp):
+            throttle.note(['wheel', 'arm'], stamp, 50)
+            continue
+        assert stamp < throttle.earliest
+    assert throttle.earliest == 1000
+    throttle.forget()
+    assert throttle.earliest is None
+
+
+def test_a_joint_that_is_no_longer_published_is_not_waited_for():
+    throttle = Throttle()
+    throttle.note(['arm'], 0, 50 * MILLISECOND)
+    throttle.note(['wheel'], 100 * MILLISECOND, 50 * MILLISECOND)
+    assert throttle.earliest == 50 * MILLISECOND  # the arm has long been due
+    throttle.note(['wheel'], 2000 * MILLISECOND, 50 * MILLISECOND)
+    assert throttle.earliest == 2050 * MILLISECOND
+
+
+def rest_after(arrivals, stamp, now):
+    """Return the rest (ms) until a message with this stamp, after messages that came so (ms)."""
+    prediction = Arrivals()
+    for each, arrival in arrivals:
+        prediction.note(each * MILLISECOND, arrival * MILLISECOND)
+    return round(prediction.rest(stamp * MILLISECOND, now * MILLISECOND) / MILLISECOND, 1)
+
+
+STEADY = [(0, 1000), (50, 1050), (100, 1100), (150, 1150)]
+
+
+@pytest.mark.parametrize(
+    ('arrivals', 'stamp', 'now', 'rest'),
+    [
+        (STEADY, 200, 1150, 50.0),
+        (STEADY, 200, 1180, 20.5),
+        (STEADY, 200, 1199, 0.0),
+        (STEADY, 200, 1300, 0.0),
+        (STEADY, 1150, 1150, 50.0),
+        ([*STEADY[:3], (150, 1170)], 200, 1170, 30.5),
+        ([(0, 1000), (50, 1010), (100, 1020)], 150, 1020, 10.5),
+        ([(0, 1000), (50, 1050), (100, 1060)], 150, 1060, 10.5),
+        ([(0, 1000), (50, 1500), (100, 2000)], 150, 2000, 0.0),
+        ([(0, 1000), (50, 1050), (100, 9100)], 150, 9100, 0.0),
+        (STEADY[:1], 50, 1000, 0.0),
+        ([*STEADY, (10, 1160)], 60, 1160, 0.0),
+        ([(0, 1000), (50, 900)], 100, 900, 0.0),
+        ([], 50, 0, 0.0),
+    ],
+    ids=[
+        'steady', 'later', 'nearly there', 'overdue', 'at most 50 ms', 'one was late',
+        'five times as fast', 'faster since just now', 'slow', 'stood still', 'too few',
+        'restarted', 'clock set back', 'none',
+    ],
+)  # fmt: skip
+def test_nobody_looks_for_a_message_before_it_can_be_there(arrivals, stamp, now, rest):
+    assert rest_after(arrivals, stamp, now) == rest

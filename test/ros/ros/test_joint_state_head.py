@@ -11,7 +11,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from support.examples import examples
 
-from amr_description.ros.cdr import HeadReader, JointStateHead
+from amr_description.ros.cdr import HeadReader, JointStateHead, read_positions
 
 names = strategies.lists(strategies.text(strategies.characters(exclude_categories=['Cs', 'Cc'])))
 words = strategies.text(strategies.characters(exclude_categories=['Cs', 'Cc']))
@@ -52,6 +52,19 @@ def test_stamp_and_names_are_those_of_the_message(joints, frame, sec, nanosec):
     assert reader.read(data) == expected  # remembered
     assert HeadReader().read(turned(data)) == expected
     assert reader.read(turned(data)) == expected
+
+
+@given(names, strategies.lists(strategies.floats(allow_nan=False)))
+def test_positions_come_after_the_head(joints, values):
+    reader = HeadReader()
+    sent = message(joints)
+    sent.position = values
+    data = bytes(serialize_message(sent))
+    for _ in ('decoded', 'remembered'):
+        assert read_positions(data, reader.read(data)) == tuple(values)
+    if values:
+        with pytest.raises(ValueError, match='end within'):
+            read_positions(data[: reader.read(data).end + 8], reader.read(data))
 
 
 def test_sources_are_told_apart():

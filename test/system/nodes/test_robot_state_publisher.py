@@ -19,6 +19,8 @@ from support.running_programs import Program
 from tf2_msgs.msg import TFMessage
 
 from amr_description.nodes.robot_state_publisher import RobotStatePublisher
+from amr_description.nodes.robot_state_publisher.robot_state import Throttle
+from amr_description.ros.messages import nanoseconds
 from amr_description.ros.runtime import spinning
 from amr_description.ros.service_calls import wait_until
 
@@ -136,7 +138,7 @@ def test_latecomers_get_description_and_fixed_joints(start, listener):
 
 
 def test_the_topics_have_the_known_qos(start, listener):
-    start(TWO_LINKS.format(kind='fixed', x=5))
+    node = start(TWO_LINKS.format(kind='fixed', x=5))
 
     def qos(topic, find=listener.get_publishers_info_by_topic):
         (info,) = [i for i in find(topic) if i.node_name == 'robot_state_publisher']
@@ -149,6 +151,7 @@ def test_the_topics_have_the_known_qos(start, listener):
     assert qos('/tf') == (reliable, volatile)
     heard = qos('/joint_states', listener.get_subscriptions_info_by_topic)
     assert heard == (best_effort, volatile)
+    assert node.get_parameter('qos_overrides./joint_states.subscription.depth').value == 5
 
 
 def test_moving_joints_carry_the_stamp_of_their_joint_state(start, listener):
@@ -176,6 +179,27 @@ def test_every_message_comes_through_with_ignore_timestamp(start, listener):
     start(TWO_LINKS.format(kind='continuous', x=5), ignore_timestamp=True)
     for stamp in [(5, 0), (5, 1), (4, 900_000_000), (4, 800_000_000)]:
         assert len(listener.hear(stamp)) == 1
+
+
+def test_which_messages_are_published_depends_on_their_stamps_alone(start, listener):
+    """Also on those that have waited while nobody looked for them."""
+    start(TWO_LINKS.format(kind='continuous', x=5))
+    listener.hear((10, 0))
+    throttle, expected = Throttle(), []
+    throttle.note(['joint1'], 10 * 10**9, 50_000_000)
+    for number in range(1, 61):
+        stamp = 10 * 10**9 + number * 10_000_000
+        if throttle.admit(['joint1'], stamp):
+            throttle.note(['joint1'], stamp, 50_000_000)
+            expected.append(stamp)
+        listener.say(stamp=divmod(stamp, 10**9))
+        rclpy.spin_once(listener, timeout_sec=0.01)
+
+    def stamps():
+        return [nanoseconds(each.transforms[0].header.stamp) for each in listener.moving]
+
+    listener.until(lambda: stamps()[-1] == expected[-1])
+    assert [each for each in stamps() if each > 10 * 10**9] == expected
 
 
 def test_frames_get_the_prefix_as_it_is(start, listener):
