@@ -141,7 +141,6 @@ def take_message(subscription: Subscription) -> Any | None:
     return None if taken is None else taken[0]
 
 
-<<<<<<< HEAD
 def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:
     """
     Return ``Publisher.publish`` for serialized messages: 1.1 µs instead of 1.6, without a reader.
@@ -156,7 +155,8 @@ def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:
             publish_raw(data)
 
     return publish
-=======
+
+
 class SubscriptionWaiter:
     """Waits, in one thread, for a message of a subscription that no executor serves."""
 
@@ -182,7 +182,6 @@ class SubscriptionWaiter:
         """Let go of everything; nobody waits any more."""
         self._wait_set.destroy_when_not_in_use()
         self._guard.destroy()
->>>>>>> 883b219 (nodes: Have robot_state_publisher take joint states when one is due, and publish bytes)
 
 
 def begin_goal(handle: ServerGoalHandle) -> None:
