@@ -23,6 +23,7 @@ yaml_input.py           YAML from the command line
 meters.py               rates, delays and bandwidths of messages
 
 session.py              the hidden node of a verb; waiting and stopping
+discovery.py            when all that there is is known
 graph.py actions.py     topics, services, nodes, actions of the ROS graph
 names.py                names of topics, services and actions, as they are typed
 qos.py                  QoS from flags, or matched to publishers

@@ -6,13 +6,16 @@ from argparse import ArgumentParser, ArgumentTypeError
 
 
 def add_node_arguments(parser: ArgumentParser) -> None:
-    """Add the flags of a verb that creates a node: ``spin_time``, s, and ``use_sim_time``."""
+    """
+    Add the flags of a verb that creates a node: ``spin_time`` and ``use_sim_time``.
+
+    ``spin_time``: s; None: not given.
+    """
     parser.add_argument(
         '--spin-time',
         type=nonnegative_float,
-        default=0.5,
-        help='Shortest time in seconds to wait for discovery (default: 0.5); the wait goes on '
-        'while news of other nodes comes in',
+        help='Shortest time in seconds to wait for discovery; the wait goes on while news of '
+        'other nodes comes in (default: 0, or 0.5 where nodes of other hosts are looked for)',
     )
     parser.add_argument(
         '-s', '--use-sim-time', action='store_true', help='Enable ROS simulation time'

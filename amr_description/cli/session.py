@@ -2,17 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hidden node of a verb, and how a verb waits."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 import os
 import threading
 
+import rclpy
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description import streams
+from amr_description.ros.local_participants import local_participants
 from amr_description.ros.runtime import argument_errors, end_wait, ros
 from amr_description.ros.signals import StopRequested, StopRequests
 from amr_description.ros.wait_clock import WaitClock
@@ -28,6 +30,8 @@ class Session:
     node: Node
     executor: Executor
     stop: StopRequests
+    participants: Set[tuple[int, int]] = frozenset()
+    """Those of this host that were there before the node's."""
     clock: WaitClock = field(default_factory=WaitClock)
 
     def spin(
@@ -113,12 +117,13 @@ def open_session(
     """
     streams.keep_libraries_off_stdout()
     with ros(['--ros-args', *ros_args] if ros_args else []) as stop:
+        participants = local_participants(rclpy.get_default_context().get_domain_id())
         with argument_errors():
             node = _make_node(name or f'_ros2cli_{os.getpid()}', use_sim_time)
         spinner = executor()
         spinner.add_node(node)
         try:
-            yield Session(node, spinner, stop)
+            yield Session(node, spinner, stop, participants)
         finally:
             stop.leave()
             spinner.shutdown()

@@ -24,6 +24,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``topic_thread.py``       a subscription with a thread that takes messages when they matter
 ``endpoints.py``          publishers and subscriptions of the graph, by their nodes
 ``local_participants.py`` DDS participants on this host, from the UDP ports in use
+``node_lists.py``         what each participant says of its nodes and their endpoints
 ``type_mismatch.py``      endpoints of one topic with different types; Twist or TwistStamped
 
 ``standing_clock.py``     the clock of an action server, which wakes nobody between goals

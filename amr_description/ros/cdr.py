@@ -58,6 +58,13 @@ class Reader:
             raise ValueError(f'{len(self._data)} bytes end within a string of {size}')
         return self._data[begin : self.at].removesuffix(b'\0').decode()
 
+    def octets(self, count: int) -> bytes:
+        """Read so many bytes."""
+        begin, self.at = self.at, self.at + count
+        if self.at > len(self._data):
+            raise ValueError(f'{len(self._data)} bytes end within {count} octets')
+        return self._data[begin : self.at]
+
     def texts(self) -> list[str]:
         """Read a sequence of strings."""
         return [self.text() for _ in range(self.count())]

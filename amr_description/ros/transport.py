@@ -99,6 +99,13 @@ def _changes(localhost_only: str | None, discovery_range: str | None) -> dict[st
     return {}
 
 
+def is_udp_only() -> bool:
+    """Return whether a context that was initialised inside of :func:`udp_only` uses UDP alone."""
+    given = (os.environ.get(variable) for variable in _PROFILE_VARIABLES)
+    profiles = {os.path.realpath(file) for file in given if file}
+    return bool(profiles) and profiles <= _OURS and not os.environ.get(_TRANSPORTS)
+
+
 def reaches_other_hosts() -> bool:
     """Return whether participants of this environment look for others beyond this host."""
     if os.environ.get(_LOCALHOST_ONLY) == '1':

@@ -26,17 +26,15 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print clients and servers, perhaps none; 0."""
-    from amr_description.cli import graph
     from amr_description.cli.actions import clients_of, servers_of, types_of_action
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         node = session.node
         action = full_name(node, args.action_name, 'an action')
-        graph.wait_for_discovery(
-            session, args.spin_time, lambda: bool(types_of_action(node, action))
-        )
+        wait_for_discovery(session, args.spin_time, lambda: bool(types_of_action(node, action)))
         ends = {'clients': clients_of(node, action), 'servers': servers_of(node, action)}
     print(f'Action: {args.action_name}')
     for title, nodes in ends.items():

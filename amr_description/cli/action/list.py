@@ -23,12 +23,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print the actions; 0."""
-    from amr_description.cli import graph
     from amr_description.cli.actions import actions
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
-        graph.wait_for_discovery(session, args.spin_time)
+        wait_for_discovery(session, args.spin_time)
         found = actions(session.node)
     if args.count_actions:
         print(len(found))

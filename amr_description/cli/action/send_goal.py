@@ -67,7 +67,7 @@ def main(args: Namespace) -> int:
     """Print goal, feedback and result; 0 if it succeeded."""
     from rclpy.action import ActionClient
 
-    from amr_description.cli.graph import is_there_within
+    from amr_description.cli.discovery import is_there_within
     from amr_description.cli.message_fields import set_fields
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session

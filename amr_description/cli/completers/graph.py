@@ -11,6 +11,7 @@ from rclpy.node import Node
 from amr_description.cli import graph
 from amr_description.cli.actions import actions as known_actions
 from amr_description.cli.completers import installed
+from amr_description.cli.discovery import wait_for_discovery
 from amr_description.cli.names import full_name
 from amr_description.cli.param.requests import list_all
 from amr_description.cli.session import open_session, Session
@@ -22,7 +23,7 @@ _LIST_CONTROLLERS = '/list_controllers'
 def discovered() -> Iterator[Session]:
     """Yield a session after a discovery that is as short as possible: a user waits for it."""
     with open_session() as session:
-        graph.wait_for_discovery(session, 0.0)
+        wait_for_discovery(session, 0.0)
         yield session
 
 

@@ -27,7 +27,7 @@ def main(args: Namespace) -> int:
     """Print the state of one node, or of all, all asked at once; 0, or 1 if one did not answer."""
     from lifecycle_msgs.srv import GetState
 
-    from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.service_calls import responses
     from amr_description.cli.session import open_session
 
@@ -35,7 +35,7 @@ def main(args: Namespace) -> int:
         if args.node_name:
             nodes = [find_lifecycle_node(session, args)]
         else:
-            graph.wait_for_discovery(session, args.spin_time)
+            wait_for_discovery(session, args.spin_time)
             nodes = lifecycle_nodes(session.node, hidden=args.include_hidden_nodes)
         requests = {f'{node}/get_state': GetState.Request() for node in nodes}
         answers = responses(session, GetState, requests, args.timeout)

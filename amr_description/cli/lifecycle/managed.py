@@ -58,13 +58,14 @@ def lifecycle_nodes(node: 'Node', *, hidden: bool) -> list[str]:
 def find_lifecycle_node(session: 'Session', args: Namespace) -> str:
     """Return the full name of ``args.node_name`` once it is there. Raises AmrError."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
 
     name = graph.node_name(args.node_name)
 
     def known() -> list[str]:
         return lifecycle_nodes(session.node, hidden=args.include_hidden_nodes)
 
-    graph.wait_for_discovery(session, args.spin_time, lambda: name in known())
+    wait_for_discovery(session, args.spin_time, lambda: name in known())
     if name in known():
         return name
     there = {node.full_name: node.hidden for node in graph.nodes(session.node, hidden=True)}

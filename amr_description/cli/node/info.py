@@ -28,6 +28,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print what a node publishes, subscribes to, serves and calls; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.session import open_session
 
     name = graph.node_name(args.node_name)
@@ -36,7 +37,7 @@ def main(args: Namespace) -> int:
         def named() -> 'list[NodeName]':
             return [n for n in graph.nodes(session.node, hidden=True) if n.full_name == name]
 
-        graph.wait_for_discovery(session, args.spin_time, lambda: bool(named()))
+        wait_for_discovery(session, args.spin_time, lambda: bool(named()))
         found = named()
         if not found:
             raise AmrError(f"Unable to find node '{args.node_name}'")

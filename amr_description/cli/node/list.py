@@ -26,10 +26,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print the full names of the nodes; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
-        graph.wait_for_discovery(session, args.spin_time)
+        wait_for_discovery(session, args.spin_time)
         nodes = graph.nodes(session.node, hidden=args.all)
     if args.count_nodes:
         print(len(nodes))

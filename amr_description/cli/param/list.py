@@ -68,11 +68,12 @@ def main(args: Namespace) -> int:
 def _nodes(session: 'Session', args: Namespace) -> Sequence[str]:
     """Return the full names of the nodes whose parameters are wanted. Raises AmrError."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
 
     if args.node_name:
-        timeout = max(args.timeout, args.spin_time)
+        timeout = max(args.timeout, args.spin_time or 0.0)
         return [graph.find_node(session, args.node_name, timeout)]
-    graph.wait_for_discovery(session, args.spin_time)
+    wait_for_discovery(session, args.spin_time)
     services = dict(session.node.get_service_names_and_types())
     nodes = graph.nodes(session.node, hidden=args.include_hidden_nodes)
     names = sorted({node.full_name for node in nodes})

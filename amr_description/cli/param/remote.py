@@ -29,7 +29,8 @@ def remote_parameters(args: Namespace) -> 'Iterator[RemoteParameters]':
     """Yield the parameters of ``args.node_name``. Raises AmrError if it is not there."""
     with open_session(use_sim_time=args.use_sim_time) as session:
         yield RemoteParameters(
-            session, graph.find_node(session, args.node_name, max(args.timeout, args.spin_time))
+            session,
+            graph.find_node(session, args.node_name, max(args.timeout, args.spin_time or 0.0)),
         )
 
 

@@ -96,6 +96,7 @@ def _call(session: 'Session', client: 'Client', request: Any, timeout: float | N
 def _wait_for_service(session: 'Session', client: 'Client', timeout: float | None) -> None:
     """Wait for the service, and print that. Raises AmrError."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import is_there_within
     from amr_description.ros.message_types import type_name
 
     if client.service_is_ready():
@@ -115,7 +116,7 @@ def _wait_for_service(session: 'Session', client: 'Client', timeout: float | Non
         if session.spin(client.service_is_ready, left - _HINT_AFTER):
             return
         hint = ''
-    elif graph.is_there_within(session, client.service_is_ready, 0.0):
+    elif is_there_within(session, client.service_is_ready, 0.0):
         return
     raise AmrError(
         f"Service '{client.service_name}' did not become available within {timeout:g} s"

@@ -19,13 +19,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print type, clients and servers; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         node = session.node
         service = full_name(node, args.service_name, 'a service')
-        graph.wait_for_discovery(
+        wait_for_discovery(
             session, args.spin_time, lambda: bool(graph.types_of_service(node, service))
         )
         types = graph.types_of_service(node, service)

@@ -30,10 +30,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print the services; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
-        graph.wait_for_discovery(session, args.spin_time)
+        wait_for_discovery(session, args.spin_time)
         found = graph.services(session.node, hidden=args.include_hidden_services)
     if args.count_services:
         print(len(found))

@@ -109,6 +109,7 @@ def _add_appearance(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print messages until ``--once``, ``--timeout`` or Ctrl-C; 0 for the first two."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
@@ -118,7 +119,7 @@ def main(args: Namespace) -> int:
         message_type(args.message_type)
     with open_session(use_sim_time=args.use_sim_time) as session:
         topic = full_name(session.node, args.topic_name)
-        graph.wait_for_discovery(
+        wait_for_discovery(
             session,
             args.spin_time,
             None if args.message_type else lambda: graph.is_published(session.node, topic),

@@ -31,10 +31,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print the topics of exactly that type, perhaps none; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
-        graph.wait_for_discovery(session, args.spin_time)
+        wait_for_discovery(session, args.spin_time)
         topics = graph.topics(session.node, hidden=args.include_hidden_topics)
     found = [name for name, types in topics if args.topic_type in types]
     if args.count_topics:

@@ -24,13 +24,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print type, publishers and subscriptions; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         node = session.node
         topic = full_name(node, args.topic_name)
-        graph.wait_for_discovery(session, args.spin_time, lambda: graph.is_published(node, topic))
+        wait_for_discovery(session, args.spin_time, lambda: graph.is_published(node, topic))
         types = graph.types_of(node, topic)
         if not types:
             raise AmrError(f"Unknown topic '{args.topic_name}'")

@@ -37,10 +37,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print the topics; 0."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
-        graph.wait_for_discovery(session, args.spin_time)
+        wait_for_discovery(session, args.spin_time)
         topics = graph.topics(session.node, hidden=args.include_hidden_topics)
         if args.count_topics:
             print(len(topics))

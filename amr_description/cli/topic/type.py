@@ -16,12 +16,13 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Print one type per line; 0, or 1 and nothing if the topic is not known."""
     from amr_description.cli import graph
+    from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
 
     with open_session(use_sim_time=args.use_sim_time) as session:
         topic = full_name(session.node, args.topic_name)
-        graph.wait_for_discovery(
+        wait_for_discovery(
             session, args.spin_time, lambda: graph.is_published(session.node, topic)
         )
         types = graph.types_of(session.node, topic)

@@ -18,6 +18,7 @@ from support.running_programs import PATIENCE, Program
 from amr_description.ros.discovery import PROFILE
 from amr_description.ros.service_calls import wait_until
 from amr_description.ros.transport import (
+    is_udp_only,
     reaches_other_hosts,
     UDP,
     UDP_LOCALHOST,
@@ -128,6 +129,24 @@ def test_transports_of_the_users_stay(monkeypatch):
     with udp_only():
         assert os.environ[RANGE] == 'LOCALHOST'
         assert os.environ[VARIABLES[0]] == str(PROFILE)
+
+
+@pytest.mark.parametrize(
+    ('variables', 'is_udp'),
+    [
+        ({}, True),
+        ({RANGE: 'SUBNET'}, True),
+        ({TRANSPORTS: 'SHM'}, False),
+        ({VARIABLES[0]: '/of/mine.xml'}, False),
+        ({VARIABLES[1]: '/of/mine.xml'}, False),
+    ],
+)
+def test_whether_it_is_udp_alone(monkeypatch, variables, is_udp):
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    with udp_only():
+        assert is_udp_only() == is_udp
+    assert is_udp_only() == is_udp
 
 
 @pytest.mark.parametrize('profile', [PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK])
