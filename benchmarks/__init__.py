@@ -10,6 +10,7 @@ What ``scripts/bench`` (``python -m benchmarks``) measures; not installed.
 ``figures.py``                 what a part returns
 ``machine.py``                 whether the machine was quiet
 ``stack.py``                   starts, drives and ends what is measured
+``environment.py``            that of a shell without a checkout
 ``processes.py``               processor time and memory of processes
 ``cycle.py``                   one robot in a simulator with a probe: its speed, a cycle by part
 ``probed_simulator.py``        mujoco_sim with the probe

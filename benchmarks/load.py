@@ -4,6 +4,7 @@
 
 from collections.abc import Sequence
 from contextlib import ExitStack
+import os
 from pathlib import Path
 import subprocess
 import tempfile
@@ -15,6 +16,7 @@ from rclpy.node import Node
 from amr_description.errors import BringupError
 from amr_description.ros.service_calls import wait_until
 from benchmarks.cycle import driven_robot, listeners
+from benchmarks.environment import without_checkout
 from benchmarks.figures import Figures
 from benchmarks.processes import name_of, processes_below, processor_time, resident
 from benchmarks.stack import BringUp, driving, ROOT, TIMEOUT
@@ -108,12 +110,13 @@ def cold_figures() -> Figures:
     """
     Measure a new clone of this checkout's last commit: set-up, start, both controllers active.
 
-    What uv and pip have cached stays cached; what is fetched from elsewhere is fetched.
+    What uv and pip have cached stays cached; what is fetched from elsewhere is fetched. Nothing
+    of this checkout is used.
     """
     with tempfile.TemporaryDirectory() as folder:
         clone = Path(folder) / 'clone'
         subprocess.run(['git', 'clone', '-q', str(ROOT), str(clone)], check=True)
-        run = BringUp('simulation', 'viewer:=false', root=clone)
+        run = BringUp('simulation', root=clone, environment=without_checkout(os.environ, ROOT))
         try:
             return Figures({'cold': run.wait_until_ready(_COLD_TIMEOUT)})
         finally:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stacks that are measured: started as a user does it, driven, and ended."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 import signal
@@ -36,8 +36,17 @@ _COMMAND_PERIOD = 0.1
 class BringUp:
     """One run of a stack; each line of its output is kept with its time."""
 
-    def __init__(self, *words: str, root: Path = ROOT) -> None:
-        """Start ``scripts/run`` of a checkout, with the words of its command line."""
+    def __init__(
+        self, *words: str, root: Path = ROOT, environment: Mapping[str, str] | None = None
+    ) -> None:
+        """
+        Start ``scripts/run``.
+
+        Args:
+            words: Of its command line.
+            root: The checkout.
+            environment: None: that of this program.
+        """
         self.lines: list[tuple[float, str]] = []
         self._is_ready = threading.Event()
         self._start = time.monotonic()
@@ -49,6 +58,7 @@ class BringUp:
             text=True,
             errors='replace',
             start_new_session=True,
+            env=environment,
         )
         self._reader = threading.Thread(target=self._read, name='bring-up output')
         self._reader.start()

@@ -71,7 +71,9 @@ def viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
     )
     try:
         assert process.stderr is not None
-        found = next(filter(None, map(_URL.search, process.stderr)))
+        found = next(filter(None, map(_URL.search, process.stderr)), None)
+        if found is None:
+            raise ViewerError('the viewer has ended without a page')
         yield process, found[1]
     finally:
         process.send_signal(signal.SIGINT)
