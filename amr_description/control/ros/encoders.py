@@ -4,10 +4,24 @@
 Samples as the bytes of messages, for what is published in every cycle.
 
 For each of these there is a converter, too, which fills a message: it says what is sent, and this
-is only faster, by 23 µs against 6 for a sample that somebody hears (publication included). An
-:class:`Encoding` says which numbers of a message a sample has; everything else is taken from a
-message that the converter has filled, once and whenever it changes. Then also the first bytes are
-compared with what rclpy makes of that message; should they differ, messages are published.
+is only faster. An :class:`Encoding` says which numbers of a message a sample has; everything else
+is taken from a message that the converter has filled, once and whenever it changes. Then also the
+first bytes are compared with what rclpy makes of that message; should they differ, messages are
+published.
+
+Processor time of one publication, µs (4 joints; readers in other processes, by UDP):
+
+==================  ==================  ==================
+message             no reader           two readers
+==================  ==================  ==================
+Clock               5.3 → 2.5           11.6 → 8.3
+JointState          13.8 → 3.6          26.6 → 10.2
+DynamicJointState   17.4 → 4.1          25.9 → 10.5
+Odometry            16.9 → 2.8          25.5 → 8.8
+TFMessage           12.0 → 2.6          19.2 → 8.4
+==================  ==================  ==================
+
+Of what is left, 2.1 are Fast DDS for any message, and 2.6 the kernel for each reader's process.
 
 A type of sample that is not here is published by its converter alone.
 """
