@@ -105,16 +105,16 @@ def room_of(module: str) -> str:
 
 def imported(source: str, module: str, *, is_package: bool = False) -> Iterator[tuple[int, str]]:
     """Yield (line, dotted name) of every import of a module, and of our names in its strings."""
-    tree = ast.parse(source)
+    nodes = [*ast.walk(ast.parse(source))]
     docstrings = {
         id(node.body[0].value)
-        for node in ast.walk(tree)
+        for node in nodes
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
         and ast.get_docstring(node) is not None
     }
-    prose = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)} | docstrings
+    prose = {id(node.value) for node in nodes if isinstance(node, ast.Expr)} | docstrings
     package = module.split('.') if is_package else module.split('.')[:-1]
-    for node in ast.walk(tree):
+    for node in nodes:
         match node:
             case ast.Import():
                 yield from ((node.lineno, alias.name) for alias in node.names)
@@ -124,6 +124,14 @@ def imported(source: str, module: str, *, is_package: bool = False) -> Iterator[
                 yield from ((node.lineno, f'{name}.{alias.name}') for alias in node.names)
             case ast.Constant(value=str(text)) if id(node) not in prose:
                 yield from ((node.lineno, found[0]) for found in OWN_NAME.finditer(text))
+
+
+def statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield a node and all statements below it; as ast.walk, but not into their expressions."""
+    yield node
+    for field in ('body', 'orelse', 'finalbody', 'handlers', 'cases'):
+        for below in getattr(node, field, ()):
+            yield from statements(below)
 
 
 def target_of(name: str, sources: object = SOURCES) -> str:
@@ -193,9 +201,9 @@ def test_no_modules_import_each_other_in_a_circle():
 
 @cache
 def statement_lines(path: Path) -> frozenset[int]:
-    tree = ast.parse(path.read_text())
-    found = (n for n in ast.walk(tree) if isinstance(n, ast.Import | ast.ImportFrom))
-    return frozenset(node.lineno for node in found)
+    found = statements(ast.parse(path.read_text()))
+    imports = (node for node in found if isinstance(node, ast.Import | ast.ImportFrom))
+    return frozenset(node.lineno for node in imports)
 
 
 def is_statement(path: Path, line: int) -> bool:
@@ -311,6 +319,17 @@ def test_reader_sees_deferred_relative_and_named_imports():
     assert list(imported('from .x import y', 'a.b', is_package=True)) == [(1, 'a.b.x.y')]
 
 
+def test_reader_sees_statements_at_every_depth():
+    source = (
+        'try:\n    import a\nexcept E:\n    import b\nelse:\n    import c\nfinally:\n    import d\n'
+        'match x:\n    case 1:\n        import e\n'
+        'class C:\n    def f():\n        with y:\n            import f\n'
+        'for x in y:\n    import g\nelse:\n    import h\n'
+    )
+    names = [n.names[0].name for n in statements(ast.parse(source)) if isinstance(n, ast.Import)]
+    assert sorted(names) == [*'abcdefgh']
+
+
 def test_reader_sees_rooms_and_circles():
     assert room_of('amr_description') == 'amr_description'
     assert room_of('amr_description.errors') == 'base'
@@ -347,7 +366,7 @@ def test_files_and_functions_stay_readable():
             too_long.append(where(path))
         too_long += [
             f'{where(path, node.lineno)}: {node.name}'
-            for node in ast.walk(ast.parse(text))
+            for node in statements(ast.parse(text))
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
             and node.end_lineno - node.lineno >= MOST_LINES_OF_A_FUNCTION
         ]
