@@ -321,7 +321,8 @@ def test_reader_sees_deferred_relative_and_named_imports():
 
 def test_reader_sees_statements_at_every_depth():
     source = (
-        'try:\n    import a\nexcept E:\n    import b\nelse:\n    import c\nfinally:\n    import d\n'
+        'try:\n    import a\nexcept E:\n    import b\n'
+        'else:\n    import c\nfinally:\n    import d\n'
         'match x:\n    case 1:\n        import e\n'
         'class C:\n    def f():\n        with y:\n            import f\n'
         'for x in y:\n    import g\nelse:\n    import h\n'
