@@ -4,19 +4,17 @@
 
 from collections.abc import Iterator, Mapping
 import contextlib
-from dataclasses import dataclass
 import fcntl
 import os
 from pathlib import Path
-import tempfile
+from typing import NamedTuple
 
 from . import say, SetupError, stamps
 
 PACKAGE = 'amr_description'
 
 
-@dataclass(frozen=True)
-class Checkout:
+class Checkout(NamedTuple):
     """A clone of the repository."""
 
     root: Path
@@ -57,6 +55,8 @@ class Checkout:
 
 def cache_folder(environment: Mapping[str, str]) -> Path:
     """Return the user's cache for this project, or a temporary folder when there is none."""
+    import tempfile  # where there is something to do, which is seldom
+
     home = environment.get('HOME', '')
     base = environment.get('XDG_CACHE_HOME') or (f'{home}/.cache' if home else '')
     try:

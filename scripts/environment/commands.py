@@ -3,20 +3,27 @@
 """Run the programs that do the work: quietly as long as they succeed, but for signs of life."""
 
 from collections import deque
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 import os
 from pathlib import Path
-import subprocess
 import threading
+from typing import TYPE_CHECKING
 
 from . import progress, SetupError
+
+if TYPE_CHECKING:  # imported where there is something to do, which is seldom
+    import subprocess
 
 SHOWN_LINES = 15
 HEARTBEAT = 10.0
 """s between two lines about a program that goes on."""
 WIDTH = 70
 """Characters of its last line that are shown."""
+
+_running: 'set[subprocess.Popen[str]]' = set()
+_stopping = threading.Event()
+"""What runs is to end, and nothing more to start."""
 
 
 def run(
@@ -32,6 +39,10 @@ def run(
     While it runs, its last line is shown every ten seconds. The checkout's lock is handed on
     (``close_fds``), see :func:`.checkout.one_at_a_time`.
     """
+    import subprocess
+
+    if _stopping.is_set():
+        raise SetupError(f'{what}: not begun')
     lines: deque[str] = deque(maxlen=SHOWN_LINES)
     with subprocess.Popen(
         list(map(os.fspath, command)),
@@ -45,6 +56,9 @@ def run(
         errors='replace',
     ) as process:
         assert process.stdout
+        _running.add(process)
+        if _stopping.is_set():  # since it was asked above
+            process.kill()
         reader = threading.Thread(target=lines.extend, args=(process.stdout,), daemon=True)
         reader.start()
         try:
@@ -55,9 +69,35 @@ def run(
         except BaseException:  # Ctrl-C
             process.kill()
             raise
+        finally:
+            _running.discard(process)
     if process.returncode != 0:
         tail = '\n'.join(f'  | {line.rstrip()}' for line in lines)
         raise SetupError(f'{what} failed (exit code {process.returncode}){hint}:\n{tail}')
+
+
+@contextmanager
+def beside(work: Callable[[], object]) -> Iterator[None]:
+    """
+    Do ``work``, which runs commands, in a thread while inside; its failure comes at the end.
+
+    A failure inside, or Ctrl-C, ends what it runs.
+    """
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(1) as pool:
+        future = pool.submit(work)
+        try:
+            yield
+            future.result()
+        except BaseException:
+            _stopping.set()
+            for process in tuple(_running):
+                process.kill()
+            with suppress(BaseException):
+                future.result()
+            _stopping.clear()
+            raise
 
 
 def _last(lines: deque[str]) -> str:

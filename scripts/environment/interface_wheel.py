@@ -12,9 +12,7 @@ import os
 from pathlib import Path
 import platform
 import shutil
-import subprocess
 import sys
-import tempfile
 
 from . import progress, SetupError, stamps
 from .commands import run
@@ -29,6 +27,7 @@ ZIG = 'ziglang==0.17.1'
 NO_COMPILER = 3  # exit code of `python -m interface_build --check`
 # What the build reads of the environment: headers, generators, the template engine, numpy's ABI.
 COMPILED_AGAINST = ('ros-', 'numpy', 'empy', 'setuptools')
+NEEDED_TO_BUILD = (*COMPILED_AGAINST, 'catkin-pkg', 'PyYAML')
 
 
 def key(interfaces: Path, lock: Path) -> str:
@@ -48,17 +47,26 @@ def install(
     interfaces: Path, lock: Path, venv: Path, cache: Path, environment: Mapping[str, str]
 ) -> None:
     """Install the wheel into ``venv``, from the cache or built there and then."""
-    folder = cache / 'interfaces' / key(interfaces, lock)[:24]
-    if not list(folder.glob('*.whl')):
-        _build(interfaces, venv, folder, environment)
-    wheel = next(folder.glob('*.whl'))
+    wheel = built(interfaces, lock, venv, cache, environment)
     options = ['--no-deps', '--no-index', '--force-reinstall']
     command = [python_of(venv), '-m', 'pip', 'install', *options, wheel]
     run(command, environment, f'installing {wheel.name}')
 
 
+def built(
+    interfaces: Path, lock: Path, venv: Path, cache: Path, environment: Mapping[str, str]
+) -> Path:
+    """Return the wheel in the cache; ``venv``, to build it, has :data:`NEEDED_TO_BUILD`."""
+    folder = cache / 'interfaces' / key(interfaces, lock)[:24]
+    if not list(folder.glob('*.whl')):
+        _build(interfaces, venv, folder, environment)
+    return next(folder.glob('*.whl'))
+
+
 def _build(interfaces: Path, venv: Path, target: Path, environment: Mapping[str, str]) -> None:
     """Build in a copy, which keeps the sources clean, and move the wheel to ``target``."""
+    import tempfile
+
     target.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix='amr-interfaces-') as scratch:
         environment = _with_tools(interfaces, venv, Path(scratch), environment)
@@ -80,6 +88,8 @@ def _with_tools(
     interfaces: Path, venv: Path, scratch: Path, environment: Mapping[str, str]
 ) -> Mapping[str, str]:
     """Return the environment to build in: with the parser, and a compiler if there is none."""
+    import subprocess
+
     tools = scratch / 'tools'
     environment = {
         **environment,

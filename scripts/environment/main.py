@@ -20,6 +20,7 @@ from . import (
     workspace,
 )
 from .checkout import cache_folder, Checkout, one_at_a_time, stamp
+from .commands import beside
 
 FAILED, INTERRUPTED = 1, 130
 
@@ -42,7 +43,7 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
     if stale:
         say('this takes 1 to 4 minutes, once; a line every ten seconds says where it is')
         fresh = checkout.venv.with_name('.venv.new')
-        virtual_environment.create(fresh, checkout.requirements, environment)
+        _make_environment(checkout, fresh, environment)
         _install_interfaces(checkout, fresh, environment)
         virtual_environment.relocate(fresh, checkout.venv)
         launchers.write(fresh, checkout.venv, checkout)
@@ -50,6 +51,16 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
         virtual_environment.replace(checkout.venv, fresh)
     launchers.write(checkout.venv, checkout.venv, checkout)
     return stale
+
+
+def _make_environment(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
+    """Install all packages, and build the interfaces meanwhile, which takes longer."""
+    sources, lock = checkout.interfaces, checkout.requirements
+    cache = cache_folder(environment)
+    first = interface_wheel.NEEDED_TO_BUILD
+    virtual_environment.create(venv, lock, environment, first)
+    with beside(lambda: interface_wheel.built(sources, lock, venv, cache, environment)):
+        virtual_environment.complete(venv, lock, environment)
 
 
 def update_interfaces(checkout: Checkout, environment: Mapping[str, str]) -> bool:

@@ -8,7 +8,8 @@ run from the old one, and an interruption, do no harm. pip and venv write the en
 into a few text files of ``bin/``, which :func:`relocate` corrects.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+import os
 from pathlib import Path
 import re
 import shutil
@@ -41,12 +42,15 @@ def pinned_versions(lock: str) -> dict[str, str]:
     return pins
 
 
-def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
+def create(venv: Path, lock: Path, environment: Mapping[str, str], first: tuple[str, ...]) -> None:
     """
-    Make the environment ``venv`` from nothing and install all that ``lock`` pins.
+    Make the environment ``venv`` from nothing, with what is needed to build in it.
 
-    Never resolved: every package is in the lock. Never built from source, but those that have no
-    wheel, for which the pinned setuptools is there first.
+    Args:
+        venv: where.
+        lock: the lock file.
+        environment: of the commands.
+        first: what the names of the packages to install begin with; :func:`complete` the rest.
     """
     pins = pinned_versions(lock.read_text())
     shutil.rmtree(venv, ignore_errors=True)
@@ -55,21 +59,29 @@ def create(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
     progress(f'installing {len(pins)} packages for Python {version} ({base}) ...')
     make = [base, '-m', 'venv', '--prompt', PACKAGE, venv]
     run(make, environment, 'making the virtual environment')
-    pip = [
-        python_of(venv),
-        '-m',
-        'pip',
-        'install',
-        '--no-deps',
-        '--no-build-isolation',
-        '--only-binary=:all:',
-        f'--no-binary={",".join(WITHOUT_WHEEL)}',
-        '--no-input',
-    ]
+    # Before the others: those that have no wheel are built with it.
+    _install(venv, [f'setuptools=={pins["setuptools"]}'], environment)
+    names = [name for name in pins if name.startswith(first)]
+    _install(venv, [f'{name}=={pins[name]}' for name in names], environment)
+
+
+def complete(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
+    """Install all that ``lock`` pins and that is not there."""
+    _install(venv, ['-r', lock], environment)
+
+
+def _install(
+    venv: Path, what: Sequence[str | os.PathLike[str]], environment: Mapping[str, str]
+) -> None:
+    """
+    Install packages: never resolved, as every one is in the lock; never built from source, but
+    those that have no wheel.
+    """
+    options = ['--no-deps', '--no-build-isolation', '--no-input', '--only-binary=:all:']
+    options += [f'--no-binary={",".join(WITHOUT_WHEEL)}']
     hint = '; is the network there? `pip config list` shows the index used'
-    what = 'installing packages'
-    run([*pip, f'setuptools=={pins["setuptools"]}'], environment, what, hint=hint)
-    run([*pip, '-r', lock], environment, what, hint=hint)
+    command = [python_of(venv), '-m', 'pip', 'install', *options, *what]
+    run(command, environment, 'installing packages', hint=hint)
 
 
 def relocate(venv: Path, home: Path) -> None:

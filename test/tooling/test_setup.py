@@ -8,6 +8,7 @@ from pathlib import Path
 import shutil
 import subprocess
 import sys
+import threading
 
 import environment
 from environment import (
@@ -50,7 +51,7 @@ def made(checkout, monkeypatch):
     """What set_up had made, in order; the work itself is left out."""
     calls = []
 
-    def create(venv, _lock, _environment):
+    def create(venv, _lock, _environment, _first):
         calls.append('environment')
         shutil.rmtree(venv, ignore_errors=True)  # as the real one
         python = virtual_environment.python_of(venv)
@@ -68,6 +69,8 @@ def made(checkout, monkeypatch):
         (checkout.install / 'lib').mkdir(parents=True, exist_ok=True)
 
     monkeypatch.setattr(virtual_environment, 'create', create)
+    monkeypatch.setattr(virtual_environment, 'complete', lambda *_: None)
+    monkeypatch.setattr(interface_wheel, 'built', lambda *_: None)
     monkeypatch.setattr(interface_wheel, 'install', lambda *_: calls.append('interfaces'))
     monkeypatch.setattr(workspace, 'build', build)
 
@@ -159,6 +162,8 @@ def test_a_python_that_is_gone_is_noticed(made, checkout):
 @pytest.mark.parametrize(
     ('module', 'step', 'left'),
     [
+        (interface_wheel, 'built', ['environment', 'interfaces', 'workspace']),
+        (virtual_environment, 'complete', ['environment', 'interfaces', 'workspace']),
         (interface_wheel, 'install', ['environment', 'interfaces', 'workspace']),
         (virtual_environment, 'relocate', ['environment', 'interfaces', 'workspace']),
         (virtual_environment, 'replace', ['environment', 'interfaces', 'workspace']),
@@ -287,6 +292,34 @@ def test_a_command_that_goes_on_shows_where_it_is(tmp_path, monkeypatch):
     run(['sh', '-c', 'echo "half   way"; read line < go_on'], os.environ, 'counting', tmp_path)
     assert '  counting: half way' in said
     assert set(said) <= {'  counting: at work', '  counting: half way'}
+
+
+def test_a_failure_ends_what_runs_beside_it():
+    begun = threading.Event()
+    ends = []
+
+    def work():
+        begun.set()
+        try:
+            commands.run([sys.executable, '-c', 'import time; time.sleep(60)'], {}, 'sleeping')
+        except SetupError as error:
+            ends.append(str(error))
+
+    for failure in (SetupError('full'), KeyboardInterrupt()):
+        with pytest.raises(type(failure)), commands.beside(work):
+            assert begun.wait(10.0)
+            raise failure
+    assert len(ends) == 2
+    commands.run([sys.executable, '-c', ''], {}, 'the next one')
+
+
+def test_a_failure_beside_comes_at_the_end():
+    def work():
+        commands.run([sys.executable, '-c', 'print("no disk"); 1 / 0'], {}, 'building')
+
+    with pytest.raises(SetupError, match='building failed'), commands.beside(work):
+        inside = True
+    assert inside
 
 
 def test_a_line_of_progress_has_its_time(capsys, monkeypatch):
