@@ -12,6 +12,7 @@ import contextlib
 import ctypes
 import gc
 import importlib
+import inspect
 import json
 import os
 from pathlib import Path
@@ -73,10 +74,21 @@ def _import_modules(executables: Iterable[str]) -> None:
     for name in executables:
         with contextlib.suppress(Exception):
             importlib.import_module(f'{OWN_NODES}.{name}')
+    note_files_of_modules()
     gc.freeze()
     gc.enable()
     # The threads that this warning is about are those of LTTng, which no program needs.
     warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
+
+
+def note_files_of_modules() -> None:
+    """
+    Note the file of each module, for all forks at once.
+
+    The first line that a program logs has ``inspect`` do so, as rclpy looks for its caller: 18 ms
+    of processor time.
+    """
+    inspect.getmodule(sys._getframe())
 
 
 def _serve_requests(connection: socket.socket) -> Request | None:
