@@ -124,6 +124,8 @@ class CallTree:
             name: sum(each.own for each in tree.walk() if each.name == name) for name in exact
         }
         known = {name: took for name, took in exact.items() if watched[name] > 0.0}
+        if sum(known.values()) >= total:  # measured at another moment: it says nothing
+            known = {}
         rest = tree.total - sum(watched[name] for name in known)
         scale = max(0.0, total - sum(known.values())) / rest if rest > 0.0 else 0.0
         return tree._scaled(scale, {name: took / watched[name] for name, took in known.items()})

@@ -77,6 +77,12 @@ def test_what_is_known_exactly_is_not_scaled():
     assert found['outer'].own == pytest.approx(35.0 * 45.0 / 75.0)
 
 
+def test_what_would_be_more_than_all_is_not_believed():
+    tree = outer_and_inner().without_overhead(0.0, 10.0, {'inner': 15.0})
+    assert tree.total == pytest.approx(10.0)
+    assert min(each.own for each in tree.walk()) > 0.0
+
+
 def test_mean_and_modules():
     tree = outer_and_inner().per(2, 10.0)
     assert tree.total == 5.0

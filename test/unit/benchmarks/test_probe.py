@@ -42,7 +42,7 @@ def test_a_profile_of_a_loop():
     profile = probe.result()
     assert world.time - before >= 2 * CYCLES * 10_000_000
     assert profile.period == 0.01
-    assert 0.0 < profile.bare < profile.cycle
+    assert profile.bare > 0.0
     assert profile.tree.total == pytest.approx(profile.cycle)
     calls = {each.name: each.calls for each in profile.tree.walk()}
     assert calls['Loop.run_once'] == calls['Nothing.pace'] == calls['mj_step'] == 1.0
