@@ -265,3 +265,58 @@ def read_positions(data: bytes, head: JointStateHead) -> tuple[float, ...]:
     reader = Reader(data)
     reader.at = head.end
     return reader.some_doubles()
+
+
+class JointStateReader:
+    """:func:`read_joint_state` of a topic, twice as fast while its names stay the same."""
+
+    def __init__(self) -> None:
+        self._heads = HeadReader()
+
+    def __call__(self, data: bytes) -> JointValues:
+        """Read a message. Raises ValueError."""
+        head = self._heads.read(data)
+        reader = Reader(data)
+        reader.at = head.end
+        return JointValues(list(head.names), reader.some_doubles(), reader.some_doubles())
+
+
+class DynamicJointStateReader:
+    """:func:`read_dynamic_joint_state` of a topic, twice as fast while its names stay the same."""
+
+    def __init__(self) -> None:
+        self._beginning = b''
+        """What came after the stamp, until the names of the first joint's interfaces."""
+        self._names: list[str] = []
+        self._interfaces: list[tuple[bytes, list[str]]] = []
+        """Of each joint: the bytes of the names of its interfaces, and these."""
+
+    def __call__(self, data: bytes) -> InterfaceValues:
+        """Read a message. Raises ValueError."""
+        reader = Reader(data)
+        if self._beginning and data.startswith(self._beginning, _AFTER_STAMP):
+            reader.at = _AFTER_STAMP + len(self._beginning)
+            values = []
+            for names, interfaces in self._interfaces:
+                if not data.startswith(names, reader.at):
+                    return self._read(data)
+                reader.at += len(names)
+                values.append(dict(zip(interfaces, reader.some_doubles(), strict=False)))
+            return InterfaceValues(self._names, values)
+        return self._read(data)
+
+    def _read(self, data: bytes) -> InterfaceValues:
+        """Read all of it, and remember what numbers are not."""
+        self._beginning = b''
+        reader = _after_header(data)
+        names = reader.texts()
+        count = reader.count()
+        beginning = data[_AFTER_STAMP : reader.at]
+        known, values = [], []
+        for _ in range(count):
+            begin = reader.at
+            interfaces = reader.texts()
+            known.append((data[begin : reader.at], interfaces))
+            values.append(dict(zip(interfaces, reader.some_doubles(), strict=False)))
+        self._beginning, self._names, self._interfaces = beginning, names, known
+        return InterfaceValues(names, values)

@@ -101,7 +101,8 @@ class Server:
         self._loop = asyncio.new_event_loop()
         self._loop.set_exception_handler(self._on_exception)
         self._stopping = asyncio.Event()
-        self._has_pages = asyncio.Event()
+        self._states: asyncio.TimerHandle | None = None
+        """The next call of :meth:`_send_state`; None: there are no pages."""
         self._idle: dict[ServerConnection, None] = {}
         self._router = MessageRouter(backend, self._pages, log_error)
         self._thread = threading.Thread(target=self._run, name='viewer')
@@ -156,8 +157,6 @@ class Server:
         quiet = logging.getLogger('amr_description.viewer.websockets')
         quiet.addHandler(logging.NullHandler())  # malformed requests are not errors of ours
         quiet.propagate = False
-        states = asyncio.create_task(self._send_states())
-        states.add_done_callback(self._on_end_of_states)
         server = await serve(
             self._serve_page,
             sock=self._socket,
@@ -174,7 +173,7 @@ class Server:
             create_connection=self._connection,
         )
         await self._stopping.wait()
-        states.cancel()
+        self._stop_states()
         self._router.stop_all()
         server.close(code=CloseCode.SERVICE_RESTART, reason='the viewer has ended')
         for connection in [*self._idle]:
@@ -208,7 +207,7 @@ class Server:
         settings = self._settings
         if not len(self._pages):
             self._backend.open()
-            self._has_pages.set()
+            self._start_states()
         hello = Hello(page.name, settings.version, settings.domain, settings.rate, DRIVE_TIMEOUT)
         self._pages.add(page, hello)
 
@@ -216,26 +215,33 @@ class Server:
         self._pages.remove(page)
         self._router.disconnect(page)
         if not len(self._pages):
-            self._has_pages.clear()
+            self._stop_states()
             self._backend.close()
             self._pages.clear_latched()
 
-    async def _send_states(self) -> None:
-        """Send what is new, at a steady rate, while there are pages."""
-        period, due = 1.0 / self._settings.rate, self._loop.time()
-        while True:
-            await self._has_pages.wait()
+    def _start_states(self) -> None:
+        """Send what is new, at a steady rate, from now on."""
+        now = self._loop.time()
+        self._states = self._loop.call_at(now, self._send_state, now)
+
+    def _stop_states(self) -> None:
+        if self._states is not None:
+            self._states.cancel()
+            self._states = None
+
+    def _send_state(self, due: float) -> None:
+        """Send what is new, and have that done again; a task that sleeps takes 50 µs more."""
+        try:
             messages, state = self._backend.take_state()
             for message in messages:
                 self._publish_message(message)
             if state is not None:
                 self._pages.send_state(state)
-            due = max(due + period, self._loop.time())
-            await asyncio.sleep(due - self._loop.time())
-
-    def _on_end_of_states(self, task: asyncio.Task[None]) -> None:
-        if not task.cancelled() and (error := task.exception()) is not None:
+        except Exception as error:
             self._log_error(f'no more states are sent: {type(error).__name__}: {error}')
+            return
+        due = max(due + 1.0 / self._settings.rate, self._loop.time())
+        self._states = self._loop.call_at(due, self._send_state, due)
 
     def _publish_message(self, message: ServerMessage) -> None:
         match message:

@@ -19,10 +19,10 @@ from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
 from amr_description.ros.cdr import (
+    DynamicJointStateReader,
     InterfaceValues,
+    JointStateReader,
     JointValues,
-    read_dynamic_joint_state,
-    read_joint_state,
     read_odometry,
     read_statistics_names,
     read_statistics_values,
@@ -226,10 +226,10 @@ class RobotTopics:
 
 def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable[[bytes], Any]]]:
     """Yield part of the state, message type, topic, and the function that decodes a message."""
-    yield 'joint_states', JointState, found.joint_states, read_joint_state
+    yield 'joint_states', JointState, found.joint_states, JointStateReader()
     yield 'odometry', Odometry, found.odometry, read_odometry
     yield 'truth', Odometry, found.truth, read_odometry
-    yield 'wheels', DynamicJointState, found.wheels, read_dynamic_joint_state
+    yield 'wheels', DynamicJointState, found.wheels, DynamicJointStateReader()
     if found.command is not None:
         message_type = COMMAND_TYPES[found.command.message]
         read = read_twist if message_type is Twist else read_twist_stamped

@@ -23,13 +23,15 @@ from amr_description.ros import cdr
 TEXTS = st.text(st.characters(blacklist_characters='\0', blacklist_categories=('Cs',)), max_size=9)
 NUMBERS = st.floats(allow_nan=False)
 SEVEN = st.tuples(*[NUMBERS] * 7)
+JOINTS, INTERFACES = cdr.JointStateReader(), cdr.DynamicJointStateReader()
 READERS = (
+    JOINTS, INTERFACES,
     cdr.read_clock, cdr.read_transforms, cdr.read_joint_state, cdr.read_odometry,
     cdr.read_dynamic_joint_state, cdr.read_twist, cdr.read_twist_stamped,
     cdr.read_statistics_names, cdr.read_statistics_values,
 )  # fmt: skip
 
-WHOLE = {
+WHOLE: dict = {
     cdr.read_clock: Clock(clock=Time(sec=-5, nanosec=7)),
     cdr.read_transforms: TFMessage(transforms=[TransformStamped(child_frame_id='base')] * 2),
     cdr.read_joint_state: JointState(name=['a', 'wheel'], position=[1.0, 0.5], velocity=[-1.0]),
@@ -43,6 +45,8 @@ WHOLE = {
     cdr.read_twist: Twist(linear=Vector3(x=0.5), angular=Vector3(z=-1.0)),
     cdr.read_twist_stamped: TwistStamped(twist=Twist(linear=Vector3(x=0.5))),
 }
+WHOLE[JOINTS] = WHOLE[cdr.read_joint_state]
+WHOLE[INTERFACES] = WHOLE[cdr.read_dynamic_joint_state]
 
 
 def written(message, order):
@@ -103,7 +107,9 @@ def test_transforms(frames):
 def test_joint_states(frame, names, positions, velocities):
     message = JointState(name=names, position=positions, velocity=velocities)
     message.header.frame_id = frame
-    read = cdr.read_joint_state(serialize_message(message))
+    data = serialize_message(message)
+    read = cdr.read_joint_state(data)
+    assert JOINTS(data) == JOINTS(data) == read
     assert (read.names, list(read.positions), list(read.velocities)) == (
         names, positions, velocities
     )  # fmt: skip
@@ -129,7 +135,9 @@ def test_dynamic_joint_states(frame, joints):
         InterfaceValue(interface_names=list(values), values=list(values.values()))
         for _, values in joints
     ]
-    read = cdr.read_dynamic_joint_state(serialize_message(message))
+    data = serialize_message(message)
+    read = cdr.read_dynamic_joint_state(data)
+    assert INTERFACES(data) == INTERFACES(data) == read
     assert list(zip(read.names, read.values, strict=True)) == joints
 
 
@@ -204,3 +212,22 @@ def test_every_message_that_is_cut_off_is_refused(read):
 def test_another_encoding_is_refused():
     with pytest.raises(ValueError, match='no plain CDR: 00 0a'):
         cdr.read_clock(b'\x00\x0a\x00\x00' + bytes(8))
+
+
+@given(st.data())
+def test_what_is_remembered_of_a_topic_is_not_taken_for_what_has_changed(data):
+    """Names of the same length, more or fewer of them, other numbers."""
+    texts = st.lists(st.sampled_from(['a', 'b', 'left', 'rear']), max_size=3)
+    interfaces, joints = cdr.DynamicJointStateReader(), cdr.JointStateReader()
+    for _ in range(4):
+        names = data.draw(texts)
+        message = DynamicJointState(joint_names=names)
+        message.interface_values = [
+            InterfaceValue(interface_names=each, values=data.draw(st.lists(NUMBERS, max_size=3)))
+            for each in data.draw(st.lists(texts, max_size=3))
+        ]
+        raw = serialize_message(message)
+        assert interfaces(raw) == cdr.read_dynamic_joint_state(raw)
+        numbers = data.draw(st.lists(NUMBERS, max_size=3))
+        raw = serialize_message(JointState(name=names, position=numbers))
+        assert joints(raw) == cdr.read_joint_state(raw)
