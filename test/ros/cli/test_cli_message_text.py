@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 from geometry_msgs.msg import PoseArray, Twist
+from hypothesis import given, strategies as st
 from nav_msgs.msg import Odometry
 import pytest
 from rcl_interfaces.msg import ParameterValue
@@ -15,7 +16,13 @@ from std_msgs.msg import Byte, Empty, Float64, String
 import yaml
 
 from amr_description.cli.message_fields import set_fields
-from amr_description.cli.message_text import Style, to_csv, to_yaml
+from amr_description.cli.message_text import (
+    dump_with_pyyaml,
+    dump_yaml,
+    Style,
+    to_csv,
+    to_yaml,
+)
 
 JOINTS = JointState(name=['a', 'b'], position=[0.0, 1.5])
 JOINTS.header.stamp.sec = 3
@@ -131,3 +138,35 @@ def test_numpy_is_loaded_only_for_messages_that_hold_something_of_it(module):
         text=True,
     )
     assert said == 'False\n'
+
+
+TEXTS = st.text(max_size=6) | st.sampled_from(
+    [
+        '',
+        'no',
+        '...',
+        '- a',
+        'a: b',
+        "it's",
+        ' a',
+        'a\nb',
+        '1',
+        '1e3',
+        '~',
+        '\u2603',
+        '=',
+        '#',
+        '\t',
+    ]
+)
+NUMBERS = st.integers() | st.floats() | st.sampled_from([1e-5, 1e16, 1e22, -0.0, 5e-324])
+SCALARS = TEXTS | NUMBERS | st.booleans() | st.none()
+
+
+def collections_of(values):
+    return st.lists(values, max_size=4) | st.dictionaries(TEXTS, values, max_size=4)
+
+
+@given(value=st.dictionaries(TEXTS, st.recursive(SCALARS, collections_of), max_size=5))
+def test_yaml_is_that_of_pyyaml(value):
+    assert dump_yaml(value) == dump_with_pyyaml(value)
