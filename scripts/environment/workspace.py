@@ -68,6 +68,8 @@ def build(checkout: Checkout, environment: Mapping[str, str], on_top: bool) -> N
         'colcon build',
         checkout.root,
     )
+    bytecode = ['-m', 'compileall', '-q', '-j', '0', checkout.root / PACKAGE]
+    run([python_of(checkout.venv), *bytecode], environment, 'compiling to bytecode')
     for executable in (checkout.install / 'lib' / PACKAGE).iterdir():
         make_startable(executable, python_of(checkout.venv))
 

@@ -22,7 +22,7 @@ def checkout(tmp_path):
         'scripts/setup': 'echo "$PPID" >"$0.ran"; exec ${SETUP_DOES:-true}',
         'scripts/activate': 'export ACTIVATED="$AMR_ALONE"yes',
         'install/amr_description/lib/amr_description/bringup': (
-            'echo "$$ $ACTIVATED"; printf "%s\\n" "$@"'
+            'echo "$$ $ACTIVATED$PYTHONDONTWRITEBYTECODE"; printf "%s\\n" "$@"'
         ),
     }.items():
         path = root / name
@@ -55,7 +55,7 @@ def start(checkout, *words, **env):
     ],
 )
 def test_it_becomes_the_bring_up_with_the_arguments(checkout, words, passed):
-    with start(checkout, *words) as process:
+    with start(checkout, *words, PYTHONDONTWRITEBYTECODE='1') as process:
         first, *rest = process.communicate(timeout=PATIENCE)[0].splitlines()
     assert first == f'{process.pid} 1yes'
     assert rest == passed
