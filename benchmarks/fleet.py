@@ -3,7 +3,7 @@
 """The speed of a simulator with many robots, each with its own manager and both controllers."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 import signal
 import subprocess
 import sys
@@ -155,12 +155,12 @@ class _Fleet:
             raise BringupError(f'{complaint}: {result.error_message}')
 
     def _activate(self, name: str, controllers: Sequence[str]) -> None:
-        manager = ManagerClient(
-            self._node, f'/{name}/controller_manager', timeout=_TIMEOUT, silent=_TIMEOUT
-        )
-        for controller in controllers:
-            if not (manager.load(controller) and manager.configure(controller)):
-                raise BringupError(f'{name}: {controller} could not be configured')
-        failure = manager.switch(activate=controllers)
+        node, manager_name = self._node, f'/{name}/controller_manager'
+        client = ManagerClient(node, manager_name, timeout=_TIMEOUT, silent=_TIMEOUT)
+        with closing(client) as manager:
+            for controller in controllers:
+                if not (manager.load(controller) and manager.configure(controller)):
+                    raise BringupError(f'{name}: {controller} could not be configured')
+            failure = manager.switch(activate=controllers)
         if failure:
             raise BringupError(f'{name}: the controllers could not be activated: {failure}')

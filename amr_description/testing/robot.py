@@ -3,6 +3,7 @@
 """A robot of a simulation in lock-step: spawned, controlled, and read by its topics."""
 
 from collections.abc import Callable, Collection, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 import math
 from pathlib import Path
@@ -220,14 +221,11 @@ def spawn_controllers(
     """
     of_the_urdf, manager_name = manager_of(description)
     inside = f'/{namespace.strip("/")}' if namespace else of_the_urdf
-    manager = ManagerClient(
-        lock_step.node,
-        f'{inside.rstrip("/")}/{manager_name}',
-        timeout=TIMEOUT,
-        silent=5.0,
-    )
-    _spawn_in(manager, lock_step.node, declared_controllers(files, inside, manager_name), names)
-    listed = manager.query(ListControllers).controller
+    name = f'{inside.rstrip("/")}/{manager_name}'
+    with closing(ManagerClient(lock_step.node, name, timeout=TIMEOUT, silent=5.0)) as manager:
+        declared = declared_controllers(files, inside, manager_name)
+        _spawn_in(manager, lock_step.node, declared, names)
+        listed = manager.query(ListControllers).controller
     active = [(each.type, each.name) for each in listed if each.state == 'active']
     drive = next((name for kind, name in active if _drives(kind)), None)
     broadcaster = next((name for kind, name in active if kind.endswith(_BROADCASTER)), None)

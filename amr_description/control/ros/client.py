@@ -36,7 +36,7 @@ _MAX_DURATION = 2.0**31 - 1.0
 
 
 class ManagerClient:
-    """Calls the services of one controller manager, each by a client that lives with the node."""
+    """Calls the services of one controller manager, each by a client kept until :meth:`close`."""
 
     def __init__(
         self,
@@ -81,6 +81,12 @@ class ManagerClient:
         client = self._client(first or srv.ListControllers)
         self._wait_for(client, timeout, silent)
         self._query(client)
+
+    def close(self) -> None:
+        """Remove the clients, for a node that lives longer: the graph shows their services."""
+        for client in self._clients.values():
+            self._node.destroy_client(client)
+        self._clients.clear()
 
     def is_there(self) -> bool:
         """Return whether it is still there."""

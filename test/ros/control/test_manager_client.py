@@ -145,5 +145,7 @@ def test_its_clients_are_made_once_and_those_that_are_needed_soon_before_the_fir
         client.switch(activate=['a'], timeout=0.1)
         client.states()
         assert [each.srv_type for each in node.clients if each.srv_type in made] == made
+        client.close()
+        assert not {each.srv_type for each in node.clients} & {*made}
     finally:
         node.destroy_node()
