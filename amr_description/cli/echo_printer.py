@@ -22,6 +22,7 @@ class EchoPrinter:
         """Raise AmrError if the class has no such field as ``args.field``."""
         self.count = 0
         """How many messages were printed."""
+        self._failure: Exception | None = None
         self._field = args.field.split('.') if args.field else []
         if not args.raw:
             self._select(message_class())
@@ -35,7 +36,25 @@ class EchoPrinter:
             flow_style=args.flow_style,
         )
 
-    def receive(self, message: Any, info: Mapping[str, Any]) -> None:
+    def receive(self, message: Any) -> None:
+        """
+        Print a message, or the bytes of one, if it passes the filter; until that fails.
+
+        Why it fails is for :meth:`has_printed`: EventsExecutor logs what a callback raises.
+        """
+        if self._failure is None:
+            try:
+                self.receive_with_info(message, {})
+            except Exception as error:
+                self._failure = error
+
+    def has_printed(self) -> bool:
+        """Return whether a message was printed. Raises why it could not be."""
+        if self._failure is not None:
+            raise self._failure
+        return self.count > 0
+
+    def receive_with_info(self, message: Any, info: Mapping[str, Any]) -> None:
         """Print a message, or the bytes of one, if it passes the filter."""
         if not isinstance(message, bytes):
             message = self._select(message)
@@ -43,7 +62,7 @@ class EchoPrinter:
             return
         self.count += 1
         if self._with_info:
-            print(dump_yaml(dict(info), sort_keys=True), end='---\n')
+            print(f'{dump_yaml(dict(info), sort_keys=True)}---')
         self._print(message)
 
     def report_lost(self, lost: QoSMessageLostInfo) -> None:
@@ -66,7 +85,7 @@ class EchoPrinter:
         elif self._csv:
             print(to_csv(value, self._style))
         else:
-            print(to_yaml(value, self._style), end='---\n')
+            print(f'{to_yaml(value, self._style)}---')
 
     def _select(self, message: Any) -> Any:
         try:

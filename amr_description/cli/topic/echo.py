@@ -108,6 +108,9 @@ def _add_appearance(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print messages until ``--once``, ``--timeout`` or Ctrl-C; 0 for the first two."""
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.experimental import EventsExecutor
+
     from amr_description.cli import graph
     from amr_description.cli.discovery import wait_for_discovery
     from amr_description.cli.mismatch import TypeMismatchReporter
@@ -117,7 +120,8 @@ def main(args: Namespace) -> int:
 
     if args.message_type:
         message_type(args.message_type)
-    with open_session(use_sim_time=args.use_sim_time) as session:
+    executor = SingleThreadedExecutor if args.include_message_info else EventsExecutor
+    with open_session(use_sim_time=args.use_sim_time, executor=executor) as session:
         topic = full_name(session.node, args.topic_name)
         wait_for_discovery(
             session,
@@ -128,7 +132,7 @@ def main(args: Namespace) -> int:
         message_class = message_type(type_name)
         TypeMismatchReporter(session.node, topic, message_class, publishing=False).report()
         printed = _subscribe(session, args, topic, message_class)
-        session.serve(lambda: args.once and printed(), args.timeout)
+        session.serve(lambda: printed() and args.once, args.timeout)
     return 0
 
 
@@ -149,7 +153,8 @@ def _subscribe(
     events = SubscriptionEventCallbacks()
     if not args.no_lost_messages:
         events.message_lost = printer.report_lost
+    receive = printer.receive_with_info if args.include_message_info else printer.receive
     session.node.create_subscription(
-        message_class, topic, printer.receive, profile, raw=args.raw, event_callbacks=events
+        message_class, topic, receive, profile, raw=args.raw, event_callbacks=events
     )
-    return lambda: printer.count > 0
+    return printer.has_printed
