@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.duration import Duration
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 
@@ -15,6 +14,7 @@ from amr_description.errors import ParameterError
 from amr_description.nodes.teleop_twist_keyboard.keys import Velocity
 from amr_description.parameters import parameter
 from amr_description.ros.parameters import declare
+from amr_description.ros.polled_topic import PollingNode
 from amr_description.ros.runtime import await_executor
 from amr_description.ros.type_mismatch import (
     await_listeners,
@@ -69,7 +69,7 @@ class TeleopSettings:
     )
 
 
-class TeleopTwistKeyboard(Node):
+class TeleopTwistKeyboard(PollingNode):
     """
     The publisher of commands; it knows no keys.
 
