@@ -22,6 +22,7 @@ from controller_manager_msgs.srv import (
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.client import Client
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.task import Future
 from simulation_interfaces.msg import Result, SimulationState
@@ -119,10 +120,13 @@ class ServiceClients:
         client = self._clients.get(name)
         if client is None:
             raise ViewerError(f'there is no service {name}; is its node running?')
-        await _ready(client)
         loop = asyncio.get_running_loop()
         answered = loop.create_future()
-        pending = client.call_async(request)
+        try:
+            await _ready(client)
+            pending = client.call_async(request)
+        except InvalidHandle:  # the ROS thread has destroyed it in the meantime
+            raise ViewerError(f'service {name} has gone; is its node running?') from None
 
         def settle(_: Future) -> None:
             loop.call_soon_threadsafe(lambda: answered.done() or answered.set_result(None))

@@ -106,6 +106,7 @@ def test_a_board_is_driven_unplugged_and_plugged_in_again(tmp_path):
         before = driver.odometry[-1].pose.pose.position.x
         driver.wait(lambda: driver.component() == UNCONFIGURED)
         assert driver.manager.states() == dict.fromkeys(NAMES, 'inactive')
+        driver.wait(lambda: 'the motor board' in log.read_text())
         (line,) = [text for text in log.read_text().splitlines() if 'the motor board' in text]
         assert f'the motor board on {link} is gone' in line
         assert 'ros2 control set_hardware_component_state AmrSystem active' in line
