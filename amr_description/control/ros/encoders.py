@@ -22,6 +22,9 @@ TFMessage           12.0 → 2.6          19.2 → 8.4
 ==================  ==================  ==================
 
 Of what is left, 2.1 are Fast DDS for any message, and 2.6 the kernel for each reader's process.
+Sent by a thread of Fast DDS instead (``RMW_FASTRTPS_PUBLICATION_MODE=ASYNCHRONOUS``), a cycle
+takes a quarter less, but that thread gets no time where the simulation runs as fast as possible:
+of 37,000 joint states 5,000 arrived, sent as here 38,000 of 49,000, with the same reader.
 
 A type of sample that is not here is published by its converter alone.
 """
