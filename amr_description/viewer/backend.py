@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the server needs from whatever knows the robots."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set as AbstractSet
 from pathlib import Path
 from typing import Protocol
 
 from amr_description.viewer.protocol import ServerMessage
-from amr_description.viewer.requests import Request
+from amr_description.viewer.requests import Part, Request
 
 
 class Backend(Protocol):
@@ -23,6 +23,13 @@ class Backend(Protocol):
 
     def close(self) -> None:
         """The last page has disconnected: stop."""
+
+    def watch(self, parts: AbstractSet[Part]) -> None:
+        """
+        Collect these parts of states, too, for all robots, and no other part of this kind.
+
+        None is collected at first. A part that is not collected is not known, NaN.
+        """
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
         """

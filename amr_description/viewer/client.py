@@ -30,12 +30,19 @@ def page_socket(
 
 
 class PageClient:
-    """A page that counts states and keeps the latest graph; it receives in a thread of its own."""
+    """
+    A page that counts states and keeps what it shows; it receives in a thread of its own.
+
+    It sends no ``watch``, as a page does that shows what it shows at first: none of the tables and
+    layers whose values are collected only while a page shows them.
+    """
 
     def __init__(self, url: str) -> None:
         self.states = 0
         self.robots: tuple[dict[str, Any], ...] = ()
         """The robots of the latest graph message."""
+        self.layouts: tuple[dict[str, Any], ...] = ()
+        """The robots of the latest layout message: what the states have of each."""
         self._socket = page_socket(url)
         self._reader = threading.Thread(target=self._read, name='page')
         self._reader.start()
@@ -56,7 +63,11 @@ class PageClient:
             for frame in self._socket:
                 if isinstance(frame, bytes):
                     self.states += 1
-                elif (message := json.loads(frame))['type'] == 'graph':
+                    continue
+                message = json.loads(frame)
+                if message['type'] == 'graph':
                     self.robots = tuple(message['robots'])
+                elif message['type'] == 'layout':
+                    self.layouts = tuple(message['robots'])
         except ConnectionClosed:
             pass  # the viewer has ended

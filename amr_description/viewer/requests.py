@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, MISSING
 import json
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, get_args, Literal
 
 from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
@@ -21,6 +21,9 @@ _FASTEST = 100.0  # m/s or rad/s; no wheeled robot is faster
 
 type Speed = float
 """m/s or rad/s; its own type, because it has a limit."""
+type Part = Literal['wheels']
+"""A part of a state that is collected only while a page shows it."""
+PARTS: tuple[Part, ...] = get_args(Part.__value__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +52,14 @@ class SetJoints:
     types: ClassVar[tuple[str, ...]] = ('set_joints',)
     robot: str
     positions: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """The parts of a state, beyond those that every state has, that the page shows from now on."""
+
+    types: ClassVar[tuple[str, ...]] = ('watch',)
+    parts: tuple[Part, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,10 +138,10 @@ class Switch:
 
 type Request = Play | Step | ResetSimulation | SetFactor | Spawn | Delete | Switch
 """Messages with an ``id``, which get a reply."""
-type ClientMessage = Drive | Stop | SetJoints | Request
+type ClientMessage = Drive | Stop | SetJoints | Watch | Request
 
 REQUESTS = (Play, Step, ResetSimulation, SetFactor, Spawn, Delete, Switch)
-MESSAGES = (Drive, Stop, SetJoints, *REQUESTS)
+MESSAGES = (Drive, Stop, SetJoints, Watch, *REQUESTS)
 _BY_TYPE = {name: message for message in MESSAGES for name in message.types}
 
 
@@ -195,6 +206,12 @@ def _texts(value: Any) -> tuple[str, ...]:
     return tuple(_text(each) for each in _items(value))
 
 
+def _parts(value: Any) -> tuple[Part, ...]:
+    if not all(each in PARTS for each in _items(value)):
+        raise ValueError
+    return tuple(value)
+
+
 def _items(value: Any) -> list[Any]:
     if not isinstance(value, list):
         raise ValueError
@@ -223,6 +240,7 @@ _READERS: Mapping[Any, Callable[[Any], Any]] = {
     str | None: _text_or_none,
     Vector: _vector,
     tuple[str, ...]: _texts,
+    tuple[Part, ...]: _parts,
     Mapping[str, float]: _numbers,
 }
 """By the type of a field."""

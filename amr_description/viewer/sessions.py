@@ -19,7 +19,15 @@ from amr_description.errors import AmrError
 from amr_description.viewer.backend import Backend
 from amr_description.viewer.drive_lock import DriveLock
 from amr_description.viewer.protocol import Driver, encode, Notice, Reply, ServerMessage
-from amr_description.viewer.requests import ClientMessage, Drive, Request, SetJoints, Stop
+from amr_description.viewer.requests import (
+    ClientMessage,
+    Drive,
+    Part,
+    Request,
+    SetJoints,
+    Stop,
+    Watch,
+)
 
 MOST_PAGES = 32
 _LARGEST_BUFFER = 64 * 1024 * 1024
@@ -38,6 +46,8 @@ class Page:
         self.connection = connection
         self.pending = 0
         """Requests in progress."""
+        self.watched: frozenset[Part] = frozenset()
+        """The parts of a state that it shows beyond those that every state has."""
 
     def send_message(self, message: ServerMessage) -> None:
         """Send a text frame."""
@@ -71,6 +81,11 @@ class Pages:
     def is_full(self) -> bool:
         """Whether no more pages are accepted."""
         return len(self._pages) >= MOST_PAGES
+
+    @property
+    def watched(self) -> frozenset[Part]:
+        """The parts that any page shows."""
+        return frozenset().union(*(page.watched for page in self._pages.values()))
 
     def next_name(self) -> str:
         """Return the name of the next page."""
@@ -140,6 +155,8 @@ class MessageRouter:
         self._lock = DriveLock()
         self._expiry: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
+        self._watched: frozenset[Part] = frozenset()
+        """The parts that the backend collects."""
         self._noticed: dict[tuple[str, str], float] = {}
         """(page, text) -> when it was sent last."""
 
@@ -154,18 +171,28 @@ class MessageRouter:
                 self._attempt(
                     page, lambda: self._backend.set_joints(message.robot, message.positions)
                 )
+            case Watch():
+                page.watched = frozenset(message.parts)
+                self._watch()
             case _:
                 self._start_request(page, message)
 
     def disconnect(self, page: Page) -> None:
-        """Stop the robots of a page that has disconnected."""
+        """Stop the robots of a page that has disconnected; it watches nothing any more."""
         self._command_zero(self._lock.release_all(page.name))
+        self._watch()
         self._noticed = {key: at for key, at in self._noticed.items() if key[0] != page.name}
 
     def stop_all(self) -> None:
         """Stop all robots that pages drive."""
         for robot in self._lock.robots():
             self._stop(robot, '')
+
+    def _watch(self) -> None:
+        """Have the backend collect what the pages show."""
+        if (parts := self._pages.watched) != self._watched:
+            self._watched = parts
+            self._backend.watch(parts)
 
     def _drive(self, page: Page, message: Drive) -> None:
         robot, now = message.robot, asyncio.get_running_loop().time()

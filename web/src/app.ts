@@ -3,6 +3,7 @@
 /** What every part of the page is given, and what a part is. */
 import type { Asked, Connection } from './connection';
 import type { Pilot } from './drive/pilot';
+import type { Part } from './protocol';
 import type { State } from './state';
 import type { Store } from './store';
 
@@ -17,6 +18,8 @@ export interface Panel {
   readonly id: string;
   readonly title: string;
   readonly element: HTMLElement;
+  /** What it shows of the states, of those parts that come only on demand. */
+  readonly watches?: readonly Part[];
   /** Show the numbers of a state; called ten times a second. */
   pulse?(state: State): void;
 }

@@ -25,6 +25,7 @@ import { Store } from './store';
 import { Tabs } from './tabs';
 import { watchTheme } from './theme';
 import { View } from './view';
+import { Watcher } from './watcher';
 
 const PULSE = 100; // ms between two updates of the numbers
 
@@ -41,6 +42,7 @@ const pilot = new Pilot({
 const app: App = { store, connection, pilot };
 const recorder = new Recorder((robot) => store.turningJoints(robot));
 const stream = new StateStream(store);
+const watcher = new Watcher((message) => connection.send(message));
 
 const view = new View(app);
 const drive = new DrivePanel(app);
@@ -88,6 +90,7 @@ listenToGamepads(pilot, (name) => drive.showPad(name));
 connection.onLink = (link) => {
   if (link.state !== 'open') {
     pilot.halt();
+    watcher.forget();
   }
   store.setLink(link);
 };
@@ -106,6 +109,7 @@ connection.onState = (buffer) => {
   }
 };
 setInterval(() => {
+  watcher.show([...tabs.watches, ...view.watches]);
   const state = stream.fresh();
   if (state !== null) {
     for (const part of [header, drive, tabs, shell]) {

@@ -197,6 +197,19 @@ export interface SetJoints {
   positions: Record<string, number>;
 }
 
+/** A part of the states that the node collects only while a page shows it. */
+export type Part = 'wheels';
+
+/**
+ * The parts, beyond those that every state has, that this page shows from now on; none for a new
+ * connection. What no page shows is not known, NaN, in the states of all pages: a simulator need
+ * not work it out. There is no reply.
+ */
+export interface Watch {
+  type: 'watch';
+  parts: Part[]; // any other than those of Part is refused
+}
+
 export type Request =
   | { type: 'play' | 'pause'; id: number; simulator: string }
   | { type: 'step'; id: number; simulator: string; steps: number }
@@ -207,7 +220,7 @@ export type Request =
   | { type: 'delete'; id: number; simulator: string; name: string }
   | { type: 'switch'; id: number; robot: string; activate: string[]; deactivate: string[] };
 
-export type ClientMessage = Drive | Stop | SetJoints | Request;
+export type ClientMessage = Drive | Stop | SetJoints | Watch | Request;
 
 // ---- node -> page: binary ----------------------------------------------------------------------
 
@@ -229,7 +242,7 @@ export type ClientMessage = Drive | Stop | SetJoints | Request;
  *     odometry: x y z qx qy qz qw, linear x, angular z, linear y 10, in the frame of the message
  *     ground truth: the same                                     10, in `world`
  *     command: linear x, angular z, linear y                     3, the latest on the command topic
- *     wheels: contact, normal force, slip along, slip across     4 × wheels
+ *     wheels: contact, normal force, slip along, slip across     4 × wheels, see `Watch`
  */
 export const HEADER_BYTES = 16;
 export const POSE_FLOATS = 7;

@@ -3,6 +3,7 @@
 /** Panels one at a time, chosen by tabs as in the ARIA practices: arrows move, Tab leaves. */
 import type { Panel } from './app';
 import { h, setText } from './dom';
+import type { Part } from './protocol';
 import { recall, remember } from './remember';
 import type { State } from './state';
 
@@ -100,10 +101,19 @@ export class Tabs {
     }
   }
 
+  /** What can be seen now of the parts that come only on demand. */
+  get watches(): readonly Part[] {
+    return (this.isVisible && this.active?.panel.watches) || [];
+  }
+
   pulse(state: State): void {
-    if (this.element.closest('[inert]') === null) {
+    if (this.isVisible) {
       this.active?.panel.pulse?.(state);
     }
+  }
+
+  private get isVisible(): boolean {
+    return this.element.closest('[inert]') === null;
   }
 
   private move(event: KeyboardEvent): void {

@@ -4,6 +4,7 @@
 import type { App } from './app';
 import type { Link } from './connection';
 import { button, h, setText, toggle } from './dom';
+import type { Part } from './protocol';
 import type { State } from './state';
 import { recall, remember } from './remember';
 import { NoWebGL, Scene } from './scene/scene';
@@ -40,6 +41,11 @@ export class View {
       this.connect(this.scene);
     }
     app.store.watch(['graph', 'link', 'robot'], () => this.showWords());
+  }
+
+  /** What is shown of the parts that come only on demand. */
+  get watches(): readonly Part[] {
+    return this.scene?.shows('contacts') === true ? ['wheels'] : [];
   }
 
   /** Show a state. */

@@ -3,7 +3,7 @@
 """The robots of the ROS graph as the backend of the page's server (viewer/backend.py)."""
 
 import asyncio
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence, Set as AbstractSet
 from pathlib import Path
 import time
 from typing import Any
@@ -23,7 +23,7 @@ from amr_description.viewer.protocol import (
     SimulationStatus,
     World,
 )
-from amr_description.viewer.requests import Request, Spawn, Switch
+from amr_description.viewer.requests import Part, Request, Spawn, Switch
 from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
 from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
 from amr_description.viewer.ros.robot import RobotConnection
@@ -69,6 +69,7 @@ class GraphBackend(GraphObserver):
         self._session_count = 0
         self._session = 0
         """From the first page's connection to the last one's end; 0: no pages."""
+        self._watched: AbstractSet[Part] = frozenset()
         self._infos: tuple[RobotInfo, ...] = ()
 
     # --- called by the server --------------------------------------------------------------------
@@ -86,6 +87,11 @@ class GraphBackend(GraphObserver):
         self._executor.create_task(self._set_session)
         if self._refresher is not None:
             self._refresher.cancel()
+
+    def watch(self, parts: AbstractSet[Part]) -> None:
+        """Collect these parts of states, too, and no other part of this kind."""
+        self._watched = parts
+        self._executor.create_task(self._set_watched)
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
         """Return what is new: messages, then a state."""
@@ -161,6 +167,10 @@ class GraphBackend(GraphObserver):
     def _set_session(self) -> None:
         """Pass on the present session: rclpy runs tasks in any order."""
         self._monitor.set_session(self._session)
+
+    def _set_watched(self) -> None:
+        """Pass on what is watched at present, for the same reason."""
+        self._monitor.watch(self._watched)
 
     def _set_groups(self, connection: RobotConnection, groups: Sequence[ControllerJoints]) -> None:
         """Advertise what moves joints, unless the robot has gone in the meantime."""

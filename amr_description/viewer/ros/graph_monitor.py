@@ -8,7 +8,7 @@ Everything here runs on the ROS thread. What the server's thread reads,
 a whole and never modified.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set as AbstractSet
 from functools import partial
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -35,6 +35,7 @@ from amr_description.viewer.graph import (
     TWISTS,
 )
 from amr_description.viewer.joint_groups import POSITIONS, TRAJECTORY
+from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.robot import RobotConnection, WorldSubscription
 from amr_description.viewer.ros.robot_topics import TransformTopics
 from amr_description.viewer.ros.service_clients import (
@@ -97,6 +98,7 @@ class GraphMonitor:
         self._session = 0
         self._descriptions: dict[str, str] = {}
         """Of robots that publish none: id -> URDF."""
+        self._watched: AbstractSet[Part] = frozenset()
         self._timer: Timer | None = None
         self._diagnostics: Subscription | None = None
         self._clock: RosClock | None = None
@@ -116,6 +118,12 @@ class GraphMonitor:
         self._descriptions[robot] = text
         if self._timer is not None:
             self._poll()
+
+    def watch(self, parts: AbstractSet[Part]) -> None:
+        """Subscribe, of what is collected on demand, to these parts of all robots alone."""
+        self._watched = parts
+        for connection in self.connections.values():
+            connection.watch(parts)
 
     def _open(self) -> None:
         node = self._node
@@ -148,6 +156,7 @@ class GraphMonitor:
             self._connect(found)
             self._update_sources()
             self.observer.graph_changed()
+        self.watch(self._watched)  # of new robots, and of those whose layout is known by now
 
     def _forget_dead_clock(self) -> None:
         """Stamp no command with the time of a simulation that has ended: it would be too old."""

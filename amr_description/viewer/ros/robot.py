@@ -6,7 +6,7 @@ The connections of the viewer with one robot, and with the world of one simulato
 They are created and destroyed on the ROS thread; commands are published on the server's thread.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set as AbstractSet
 from typing import Any
 
 from controller_manager_msgs.msg import ControllerManagerActivity
@@ -24,6 +24,7 @@ from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import RobotInfo
+from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.joint_commands import JointCommands
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
@@ -53,6 +54,7 @@ class RobotConnection:
     ) -> None:
         self.found = found
         self.described: DescribedRobot | None = None
+        self._watched: AbstractSet[Part] = frozenset()
         self.topics = RobotTopics(node, found, ())
         self._node = node
         self._on_description = on_description
@@ -92,6 +94,11 @@ class RobotConnection:
         self.described = describe_robot(self.found.id, text)
         self._subscribe_topics()
         self._on_description(self)
+
+    def watch(self, parts: AbstractSet[Part]) -> None:
+        """Subscribe, of what is collected on demand, to these parts, and no others."""
+        self._watched = parts
+        self.topics.watch(parts)
 
     def update(self, found: FoundRobot) -> None:
         """
@@ -184,6 +191,7 @@ class RobotConnection:
         self.topics.destroy()
         joints = self.described.joints if self.described else ()
         self.topics = RobotTopics(self._node, self.found, joints)
+        self.topics.watch(self._watched)
 
 
 def _destroy_publisher(node: Node, publisher: Publisher) -> None:

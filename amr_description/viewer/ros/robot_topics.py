@@ -6,7 +6,7 @@ The topics of everything that moves, polled when the page's server assembles a s
 Created and destroyed on the ROS thread, polled on the server's thread.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set as AbstractSet
 import math
 from typing import Any
 
@@ -34,6 +34,7 @@ from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.qos import LATCHED, TF_STATIC
 from amr_description.viewer.graph import FoundRobot, TWISTS
 from amr_description.viewer.protocol import FrameInfo, RobotLayout
+from amr_description.viewer.requests import Part
 from amr_description.viewer.states import Floats, RobotFloats
 
 COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
@@ -155,8 +156,59 @@ class CommandedVelocities:
         self._values.destroy()
 
 
+class WheelContacts:
+    """
+    How the wheels of a robot stand on the ground, from the topic ``ground_truth/wheels``.
+
+    Whoever hears it has the simulator read all contacts of the wheels, a tenth of a cycle of a
+    control loop. So it is subscribed to until it has given the names of the wheels, and after that
+    only while pages show the values. Polled like a :class:`PolledTopic`.
+    """
+
+    def __init__(self, node: Node, topic: str) -> None:
+        self.names: tuple[str, ...] | None = None
+        """Of the joints; None: no message has been received yet."""
+        self._node = node
+        self._name = topic
+        self._topic: PolledTopic[InterfaceValues] | None = None
+        self._is_watched = self._is_known = False
+        self.watch(False)
+
+    def watch(self, is_watched: bool) -> None:
+        """Subscribe or unsubscribe, on the ROS thread; again when names may be known by now."""
+        self._is_watched = is_watched
+        if not is_watched and self.names is not None:
+            self.destroy()
+        elif self._topic is None:
+            self._topic = PolledTopic(
+                self._node, DynamicJointState, self._name, DynamicJointStateReader()
+            )
+
+    def take(self) -> InterfaceValues | None:
+        """Return the latest, once without any values when nobody watches; None: nothing new."""
+        topic = self._topic
+        latest = topic.take() if topic is not None else None
+        if latest is not None:
+            self.names = tuple(latest.names)
+        if self._is_watched:
+            self._is_known |= latest is not None
+            return latest
+        was_known, self._is_known = self._is_known, False
+        return InterfaceValues([], []) if was_known else None
+
+    def destroy(self) -> None:
+        """Unsubscribe."""
+        topic, self._topic = self._topic, None
+        if topic is not None:
+            topic.destroy()
+
+
 class RobotTopics:
-    """All other topics of one robot; ``joints``: those of its description that move."""
+    """
+    All other topics of one robot; ``joints``: those of its description that move.
+
+    Nothing is watched at first, see :meth:`watch`.
+    """
 
     def __init__(self, node: Node, found: FoundRobot, joints: Sequence[str]) -> None:
         self.found = found
@@ -172,11 +224,14 @@ class RobotTopics:
             'wheels': _write_wheels,
             'command': lambda command, floats: _copy(command, floats.command),
         }
-        self._topics: dict[str, PolledTopic[Any] | CommandedVelocities] = {
+        self._topics: dict[str, PolledTopic[Any] | CommandedVelocities | WheelContacts] = {
             part: PolledTopic(node, message_type, topic, read)
             for part, message_type, topic, read in _sources(found)
             if topic is not None
         }
+        self._wheels = WheelContacts(node, found.wheels) if found.wheels is not None else None
+        if self._wheels is not None:
+            self._topics['wheels'] = self._wheels
         if found.introspection is not None:
             self._topics['commanded'] = CommandedVelocities(node, found.introspection, joints)
 
@@ -184,6 +239,15 @@ class RobotTopics:
         """Unsubscribe."""
         for topic in self._topics.values():
             topic.destroy()
+
+    def watch(self, parts: AbstractSet[Part]) -> None:
+        """
+        Subscribe, of the parts that are collected on demand, to these, and to no others.
+
+        To be called now and then, for those that are wanted until something of them is known.
+        """
+        if self._wheels is not None:
+            self._wheels.watch('wheels' in parts)
 
     def take(self) -> list[str]:
         """Poll the topics; return the parts of a state that have new values."""
@@ -193,8 +257,8 @@ class RobotTopics:
             if message is not None:
                 self._latest[part] = message
                 new.append(part)
-        if 'wheels' in new and tuple(self._latest['wheels'].names) != self.layout.wheels:
-            wheels = tuple(self._latest['wheels'].names)
+        wheels = self._wheels.names if self._wheels is not None else None
+        if wheels is not None and wheels != self.layout.wheels:
             self.layout = RobotLayout(self.layout.id, self.layout.joints, wheels)
         return new
 
@@ -229,7 +293,6 @@ def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable
     yield 'joint_states', JointState, found.joint_states, JointStateReader()
     yield 'odometry', Odometry, found.odometry, read_odometry
     yield 'truth', Odometry, found.truth, read_odometry
-    yield 'wheels', DynamicJointState, found.wheels, DynamicJointStateReader()
     if found.command is not None:
         message_type = COMMAND_TYPES[found.command.message]
         read = read_twist if message_type is Twist else read_twist_stamped
@@ -237,6 +300,7 @@ def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable
 
 
 def _write_wheels(message: InterfaceValues, floats: RobotFloats) -> None:
+    floats.wheels[:] = math.nan
     for index, values in enumerate(message.values[: len(floats.wheels)]):
         floats.wheels[index] = [values.get(name, math.nan) for name in _WHEEL_VALUES]
 

@@ -30,6 +30,7 @@ from amr_description.testing.program import own_domain
 
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 AT_REST = 0.01  # m/s
+CONTACTS = 'button[title="Load and slip of the wheels"]'
 STOPS_WITHIN = 0.5
 """s of simulated time, from the command to stop; from 0.5 m/s the controller's limits allow it."""
 
@@ -255,6 +256,21 @@ def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
     page.wait_until('!amr.now.driving')  # though the key is still down
     page.key_up('KeyW')
     other.close()
+
+
+def test_wheels_are_heard_while_their_table_or_their_layer_is_shown(page, ears):
+    def are_heard(count):
+        ears.wait(lambda: ears.count_subscribers('/ground_truth/wheels') == count)
+
+    are_heard(0)
+    load = "document.querySelector('#panel-health tbody td:nth-child(3)')?.textContent"
+    for on, off in (('#tab-health', '#tab-model'), (CONTACTS, CONTACTS)):
+        page.click(on)
+        are_heard(1)
+        if on == '#tab-health':
+            page.wait_until(f'Number({load}) > 1')
+        page.click(off)
+        are_heard(0)
 
 
 def test_pause_step_play_and_reset(page, ears):

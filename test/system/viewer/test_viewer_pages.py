@@ -39,6 +39,9 @@ class Backend:
     def close(self):
         self.calls.append('close')
 
+    def watch(self, parts):
+        self.calls.append(sorted(parts))
+
     def take_state(self):
         new, self.new = self.new, ()
         if isinstance(new, Exception):
@@ -149,6 +152,26 @@ def test_the_backend_is_open_while_there_are_pages(backend, server):
     with Page(server.url) as page:
         page.wait(lambda: page.last('hello'))
         assert backend.calls == ['open', 'close', 'open']
+
+
+def test_the_backend_watches_what_any_page_shows(backend, server):
+    with Page(server.url) as first, Page(server.url) as second:
+        for number, (page, parts) in enumerate(
+            [(first, ['wheels']), (second, ['wheels']), (first, [])]
+        ):
+            page.say('watch', parts=parts)
+            page.ask('play', number, simulator='/s')
+        assert backend.calls == ['open', ['wheels']]
+    with Page(server.url) as page:  # a new one shows nothing yet
+        page.ask('play', 1, simulator='/s')
+        assert backend.calls == ['open', ['wheels'], [], 'close', 'open']
+
+
+def test_a_page_that_watches_what_there_is_not_is_refused_in_one_line(backend, server):
+    with Page(server.url) as page:
+        page.say('watch', parts=['wheels', 'sky'])
+        assert page.wait_closed() == (1008, "'parts' of 'watch' cannot be ['wheels', 'sky']")
+    assert ['wheels'] not in backend.calls
 
 
 def test_a_late_page_gets_the_latched_message_of_each_subject(server):

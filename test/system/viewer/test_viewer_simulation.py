@@ -151,6 +151,14 @@ def commanded(page, name):
     return numbers[2 * count : 3 * count].tolist()
 
 
+def wheels_of(page, name):
+    """Contact, normal force and slip of each wheel by the last state; None: no wheel is known."""
+    found = last_state(page, name)
+    if found is None or not found[0]['wheels']:
+        return None
+    return found[1][-4 * len(found[0]['wheels']) :].reshape(-1, 4)
+
+
 def distance(page, name, start):
     """How far it is from there, m; 0 while that is not known."""
     return math.dist(place(page, name) or start, start)
@@ -204,6 +212,25 @@ def test_a_page_sees_what_wheels_are_commanded(page, driven):
 
     drive_until(page, '/', all_turn)
     page.wait(lambda: set(commanded(page, '/')) == {0.0})
+
+
+def test_wheels_are_heard_only_while_a_page_shows_them(page, driven):
+    """By default none does: the simulator need not read their contacts. Their names are known."""
+    counter = Node('counter')
+
+    def is_heard():
+        return counter.count_subscribers('/ground_truth/wheels') > 0
+
+    page.wait(lambda: wheels_of(page, '/') is not None and not is_heard())
+    assert np.isnan(wheels_of(page, '/')).all()
+    page.say('watch', parts=['wheels'])
+    page.wait(lambda: np.isfinite(wheels_of(page, '/')).all())
+    assert counter.count_subscribers('/ground_truth/wheels') == 1
+    contact, load, *_ = wheels_of(page, '/').T
+    assert (contact.min(), load.sum() > 10.0) == (1.0, True)
+    page.say('watch', parts=[])
+    page.wait(lambda: np.isnan(wheels_of(page, '/')).all() and not is_heard())
+    counter.destroy_node()
 
 
 def test_a_page_drives_the_robot_in_truth(page, driven):

@@ -75,7 +75,7 @@ def comparable(kind):
 
 
 SAID = {name: getattr(protocol, name) for name in INTERFACES if hasattr(protocol, name)}
-HEARD = {name: getattr(requests, name) for name in ('Drive', 'Stop', 'SetJoints')}
+HEARD = {name: getattr(requests, name) for name in ('Drive', 'Stop', 'SetJoints', 'Watch')}
 REQUESTS = [
     members(body)
     for body in re.findall(
@@ -178,6 +178,11 @@ def test_a_spawn_is_read():
     assert read == requests.Spawn(3, '/sim', 'a', '/a', (1.0, 2.5, 0.0), 0.1, '/')
 
 
+def test_what_a_page_watches_is_read():
+    assert decode('{"type": "watch", "parts": ["wheels"]}') == requests.Watch(('wheels',))
+    assert decode('{"type": "watch", "parts": []}') == requests.Watch(())
+
+
 def test_play_and_pause_are_told_apart():
     assert [decode(f'{{"type": "{kind}", "id": 1, "simulator": "/s"}}').type
             for kind in ('play', 'pause')] == ['play', 'pause']  # fmt: skip
@@ -206,6 +211,10 @@ def test_play_and_pause_are_told_apart():
         ('{"type": "step", "id": 1.5, "simulator": "/s", "steps": 1}', "'id' .* cannot be 1.5"),
         ('{"type": "set_joints", "robot": "/", "positions": {"a": null}}', "'positions' of"),
         ('{"type": "stop", "robot": 1}', "'robot' of 'stop' cannot be 1"),
+        ('{"type": "watch"}', "'watch' lacks 'parts'"),
+        ('{"type": "watch", "parts": "wheels"}', "'parts' of 'watch' cannot be \"wheels\""),
+        ('{"type": "watch", "parts": ["wheels", "sky"]}', r"cannot be \['wheels', 'sky'\]"),
+        ('{"type": "watch", "parts": [["wheels"]]}', r"cannot be \[\['wheels'\]\]"),
     ],
 )
 def test_what_cannot_be_understood_is_refused_in_one_line(frame, text):

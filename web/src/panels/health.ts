@@ -16,6 +16,7 @@ export class HealthPanel implements Panel {
   readonly id = 'health';
   readonly title = 'Health';
   readonly element: HTMLElement;
+  readonly watches = ['wheels'] as const;
   private readonly diagnostics = h('ul', { class: 'rows' });
   private readonly wheels = h('tbody', {});
   private readonly notices = h('ul', { class: 'rows notices' });

@@ -108,6 +108,11 @@ export class Scene {
     this.invalidate();
   }
 
+  /** Whether a layer is shown. */
+  shows(option: keyof SceneOptions): boolean {
+    return this.picture.options[option];
+  }
+
   /** Let the camera go with a robot; null: stay where it is. */
   follow(robot: string | null): void {
     this.followed = robot;

@@ -1,0 +1,124 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The contacts of wheels: heard until the wheels are known, and then while somebody watches."""
+
+import numpy as np
+import pytest
+
+from amr_description.ros.cdr import InterfaceValues
+from amr_description.viewer.graph import FoundRobot
+from amr_description.viewer.protocol import Layout
+from amr_description.viewer.ros import robot_topics
+from amr_description.viewer.ros.robot_topics import RobotTopics
+from amr_description.viewer.states import StateFrame
+
+LEFT = {'contact': 1.0, 'normal_force': 20.0, 'slip_along': 0.5, 'slip_across': -0.5}
+MESSAGE = InterfaceValues(['left', 'right'], [LEFT, {'contact': 0.0}])
+
+
+class Topic:
+    """Instead of a PolledTopic: what it is given is taken once."""
+
+    def __init__(self, *_):
+        self.message = None
+        self.is_open = True
+
+    def take(self):
+        message, self.message = self.message, None
+        return message
+
+    def destroy(self):
+        self.is_open = False
+
+
+@pytest.fixture
+def opened(monkeypatch):
+    """All topics that were subscribed to."""
+    topics = []
+
+    def subscribe(*arguments):
+        topics.append(Topic(*arguments))
+        return topics[-1]
+
+    monkeypatch.setattr(robot_topics, 'PolledTopic', subscribe)
+    return topics
+
+
+@pytest.fixture
+def robot(opened):
+    nothing = dict.fromkeys(
+        ('command', 'odometry', 'truth', 'joint_states', 'joint_publisher', 'manager', 'activity',
+         'introspection')
+    )  # fmt: skip
+    found = FoundRobot(
+        id='/', description='/d', wheels='/ground_truth/wheels', joint_commands=(), **nothing
+    )
+    return RobotTopics(None, found, ())
+
+
+def publish(opened):
+    opened[-1].message = MESSAGE
+
+
+def wheels(robot, frame):
+    """What a state says of the wheels, after what has come since the last one."""
+    (floats,) = frame.robots
+    robot.write(floats, robot.take())
+    return floats.wheels
+
+
+@pytest.fixture
+def frame(robot, opened):
+    """A state, after the wheels are known."""
+    publish(opened)
+    assert robot.take() == []
+    return StateFrame(Layout(1, (), (robot.layout,)))
+
+
+def test_the_names_of_the_wheels_are_learnt_and_then_nobody_listens(robot, opened, frame):
+    assert robot.layout.wheels == ('left', 'right')
+    assert np.isnan(wheels(robot, frame)).all()
+    assert opened[-1].is_open
+    robot.watch(set())
+    assert not opened[-1].is_open
+
+
+def test_wheels_are_heard_until_they_are_known(robot, opened):
+    robot.watch(set())
+    robot.watch(set())
+    assert [each.is_open for each in opened] == [True]
+
+
+def test_what_is_watched_is_in_the_states_and_is_no_longer_known_after_that(robot, opened, frame):
+    robot.watch({'wheels'})
+    publish(opened)
+    for _ in range(2):  # the latest value stays
+        left, right = wheels(robot, frame)
+        assert left.tolist() == [1.0, 20.0, 0.5, -0.5]
+        assert (right[0], np.isnan(right[1:]).all()) == (0.0, True)
+    robot.watch(set())
+    assert np.isnan(wheels(robot, frame)).all()
+    assert robot.take() == []
+    assert robot.layout.wheels == ('left', 'right')
+
+
+def test_what_is_watched_again_begins_unknown(robot, opened, frame):
+    for _ in range(2):
+        robot.watch({'wheels'})
+        assert np.isnan(wheels(robot, frame)).all()
+        publish(opened)
+        assert wheels(robot, frame)[0][1] == 20.0
+        robot.watch(set())
+        assert np.isnan(wheels(robot, frame)).all()
+    assert [each.is_open for each in opened] == [False, False]
+
+
+def test_a_layout_laid_out_anew_has_no_value_that_nobody_watches(robot, opened, frame):
+    robot.watch({'wheels'})
+    publish(opened)
+    wheels(robot, frame)
+    robot.watch(set())
+    robot.take()
+    again = StateFrame(Layout(2, (), (robot.layout,)))
+    robot.write(again.robots[0])
+    assert np.isnan(again.robots[0].wheels).all()
