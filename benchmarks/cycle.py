@@ -134,12 +134,18 @@ def listeners(node: Node, heard: str) -> Iterator[None]:
             stack.enter_context(running('robot_state_publisher', urdf, *use_sim_time))
             _, url = stack.enter_context(viewer())
             page = stack.enter_context(PageClient(url))
-            if not wait_until(node, lambda: page.states or None, timeout=TIMEOUT):
+            if not wait_until(node, lambda: _shows_robot(node, page) or None, timeout=TIMEOUT):
                 raise BringupError('the page shows no robot')
         elif heard == 'clock':
             clock = node.create_subscription(Clock, '/clock', lambda _: None, 10)
             stack.callback(node.destroy_subscription, clock)
         yield
+
+
+def _shows_robot(node: Node, page: PageClient) -> bool:
+    """Whether the page hears what it shows, and no more the wheels, whose names it knows."""
+    is_known = any(robot['joints'] and robot['wheels'] for robot in page.layouts)
+    return is_known and not node.count_subscribers('/ground_truth/wheels')
 
 
 def main() -> int:
