@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A controller manager over fake wheels, served over real DDS, for tests of whoever asks it."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
 from pathlib import Path
-import threading
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from support.control_fakes import FakeHardware, WHEELS
+from support.serving import serving
 
 from amr_description.control.loop import Loop
 from amr_description.control.ros.client import ManagerClient
@@ -99,17 +99,16 @@ class Host:
         self.executor.add_node(self.node)
         self.executor.add_node(self.manager_node.node)
         self.running = prepared.serve(loop.managers[0])
-        self.thread = threading.Thread(target=self.executor.spin)
+        self.serving = ExitStack()
 
     def start(self):
         self.loop_thread.start()
-        self.thread.start()
+        self.serving.enter_context(serving(self.executor))
         self.client = ManagerClient(self.client_node, 'controller_manager', timeout=20.0)
 
     def close(self):
         self.loop_thread.stop()
-        self.executor.shutdown()
-        self.thread.join()
+        self.serving.close()
         self.running.destroy()
         self.node.destroy_node()
         self.client_node.destroy_node()

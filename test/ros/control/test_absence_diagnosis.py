@@ -3,7 +3,6 @@
 """What is seen of a controller manager that does not come, over real DDS."""
 
 from contextlib import contextmanager
-import threading
 
 from controller_manager_msgs.srv import ListControllers
 import pytest
@@ -15,6 +14,7 @@ from rosgraph_msgs.msg import Clock
 from simulation_interfaces.srv import SpawnEntity
 from std_msgs.msg import String
 from support.manager_host import ros_in_this_process
+from support.serving import serving
 
 from amr_description.control.ros import (
     absence_diagnosis,
@@ -56,13 +56,10 @@ def served(*nodes):
     executor = SingleThreadedExecutor()
     for node in nodes:
         executor.add_node(node)
-    thread = threading.Thread(target=executor.spin)
-    thread.start()
     try:
-        yield nodes
+        with serving(executor):
+            yield nodes
     finally:
-        executor.shutdown()
-        thread.join()
         for node in nodes:
             node.destroy_node()
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a manager makes of what it hears on robot_description."""
 
-import threading
-
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -14,6 +12,7 @@ from support.control_fakes import FakeLog, LEFT, RIGHT
 from support.manager_host import ros_in_this_process
 from support.paths import ROOT
 from support.ros_processes import run
+from support.serving import serving
 
 from amr_description.bringup.stacks.hardware import swap_hardware
 from amr_description.control.ros.robot_description import DescriptionSource
@@ -112,7 +111,6 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
     with ros_in_this_process():
         executor = SingleThreadedExecutor()
         robot = StandAloneManager(executor, [])
-        thread = threading.Thread(target=executor.spin)
         observer = Node('observer')
         qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         publisher = observer.create_publisher(String, '/robot_description', qos)
@@ -125,22 +123,20 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
 
         try:
             robot.start()
-            thread.start()
-            publisher.publish(String(data=GOOD.replace('mock_components', 'no_such_package')))
-            assert wait_until(observer, refused, timeout=10.0)
-            assert "'no_such_package/GenericSystem' is not known" in stderr()
-            assert '/controller_manager/list_controllers' not in service_names()
-            assert 'cart' not in observer.get_node_names()
-            publisher.publish(String(data=GOOD))
-            assert wait_until(
-                observer,
-                lambda: '/controller_manager/list_controllers' in service_names() or None,
-                timeout=10.0,
-            )
-            assert 'cart' in observer.get_node_names()
+            with serving(executor):
+                publisher.publish(String(data=GOOD.replace('mock_components', 'no_such_package')))
+                assert wait_until(observer, refused, timeout=10.0)
+                assert "'no_such_package/GenericSystem' is not known" in stderr()
+                assert '/controller_manager/list_controllers' not in service_names()
+                assert 'cart' not in observer.get_node_names()
+                publisher.publish(String(data=GOOD))
+                assert wait_until(
+                    observer,
+                    lambda: '/controller_manager/list_controllers' in service_names() or None,
+                    timeout=10.0,
+                )
+                assert 'cart' in observer.get_node_names()
         finally:
-            executor.shutdown()
-            thread.join()
             robot.close()
             observer.destroy_node()
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a program hears of a controller manager that answers badly, or not at all."""
 
-import threading
-
 from controller_manager_msgs.srv import ListControllers, SwitchController
 import pytest
 from rcl_interfaces.msg import SetParametersResult
@@ -14,6 +12,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from support.manager_host import ros_in_this_process
+from support.serving import serving
 
 from amr_description.control.ros import absence_diagnosis
 from amr_description.control.ros.client import ManagerClient
@@ -60,11 +59,8 @@ def manager():
         node, executor = Manager(), SingleThreadedExecutor()
         node.create_timer(0.01, lambda: node.clock.publish(Clock()))
         executor.add_node(node)
-        thread = threading.Thread(target=executor.spin)
-        thread.start()
-        yield node
-        executor.shutdown()
-        thread.join()
+        with serving(executor):
+            yield node
         node.destroy_node()
 
 

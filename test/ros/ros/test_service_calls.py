@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calls of services that are slow, silent or not there."""
 
-import threading
-
 import pytest
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import SingleThreadedExecutor
@@ -12,6 +10,7 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 from support.manager_host import ros_in_this_process
 from support.ros_processes import PATIENCE
+from support.serving import serving
 
 from amr_description.ros.service_calls import (
     ask_until_answered,
@@ -74,11 +73,8 @@ def ros():
 def server():
     node, executor = Server(), SingleThreadedExecutor()
     executor.add_node(node)
-    thread = threading.Thread(target=executor.spin)
-    thread.start()
-    yield node
-    executor.shutdown()
-    thread.join()
+    with serving(executor):
+        yield node
     node.destroy_node()
 
 
