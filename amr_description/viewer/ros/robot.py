@@ -188,9 +188,11 @@ class RobotConnection:
         )
 
     def _subscribe_topics(self) -> None:
-        self.topics.destroy()
+        before = self.topics
+        before.destroy()
         joints = self.described.joints if self.described else ()
         self.topics = RobotTopics(self._node, self.found, joints)
+        self.topics.keep_joint_states(before)
         self.topics.watch(self._watched)
 
 

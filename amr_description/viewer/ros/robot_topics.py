@@ -240,6 +240,16 @@ class RobotTopics:
         for topic in self._topics.values():
             topic.destroy()
 
+    def keep_joint_states(self, before: 'RobotTopics') -> None:
+        """
+        Begin with what the topics in whose place these are have last heard of the joints.
+
+        Whoever stops a joint now has it stay where it was measured, not go on.
+        """
+        latest = before._latest.get('joint_states')
+        if latest is not None and before.found.joint_states == self.found.joint_states:
+            self._latest['joint_states'] = latest
+
     def watch(self, parts: AbstractSet[Part]) -> None:
         """
         Subscribe, of the parts that are collected on demand, to these, and to no others.

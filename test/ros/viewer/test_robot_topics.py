@@ -1,11 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The contacts of wheels: heard until the wheels are known, and then while somebody watches."""
+"""
+What is heard of a robot. The contacts of wheels: until the wheels are known, and then while
+somebody watches.
+"""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from amr_description.ros.cdr import InterfaceValues
+from amr_description.ros.cdr import InterfaceValues, JointValues
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import Layout
 from amr_description.viewer.ros import robot_topics
@@ -19,7 +24,8 @@ MESSAGE = InterfaceValues(['left', 'right'], [LEFT, {'contact': 0.0}])
 class Topic:
     """Instead of a PolledTopic: what it is given is taken once."""
 
-    def __init__(self, *_):
+    def __init__(self, _node, _type, name, *_, **_options):
+        self.name = name
         self.message = None
         self.is_open = True
 
@@ -122,3 +128,17 @@ def test_a_layout_laid_out_anew_has_no_value_that_nobody_watches(robot, opened, 
     again = StateFrame(Layout(2, (), (robot.layout,)))
     robot.write(again.robots[0])
     assert np.isnan(again.robots[0].wheels).all()
+
+
+@pytest.mark.parametrize(
+    ('topic', 'known'), [('/joint_states', {'arm': 0.25}), ('/other/joint_states', {})]
+)
+def test_joints_stay_known_when_other_topics_of_the_robot_change(robot, opened, topic, known):
+    before = RobotTopics(None, replace(robot.found, joint_states='/joint_states'), ('arm',))
+    joint_states = next(each for each in opened[1:] if each.name == '/joint_states')
+    joint_states.message = JointValues(['arm'], [0.25], [])
+    before.take()
+    found = replace(robot.found, joint_states=topic, odometry='/odom')
+    after = RobotTopics(None, found, ('arm',))
+    after.keep_joint_states(before)
+    assert after.positions() == known
