@@ -22,6 +22,8 @@ module                   what it holds
 ``ros2_control_tag.py``   ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
 ``fixing.py``             a robot bolted to the ground
 ``gazebo.py``             ``<gazebo>`` plugins and sensors
+``sensors.py``            lidars, cameras and contact sensors: what a simulator needs to know
+``gazebo_sensors.py``     … from the ``<sensor>`` tags of ``<gazebo>`` blocks
 ``gazebo_plugins.py``     … the plugins that drive a robot without ros2_control, and what they say
 ``gazebo_drives.py``      … what drives and odometry become
 ``gazebo_joints.py``      … what plugins of single joints, and sensors, become

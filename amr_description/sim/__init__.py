@@ -35,6 +35,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``static_geometry.py``  the visible shapes of a world
+``sensor_schedule.py``  when a sensor measures, and the random numbers of its noise
 ``drop_test.py``        a physical test of a description, in numbers
 
 ``ros/``                the ROS interface of the simulator

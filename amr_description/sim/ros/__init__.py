@@ -17,6 +17,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``posix_regex.py``          the regular expressions of these filters
 
 ``names.py``                names of its topics and frames
+``sensors/``                lidars, cameras, contacts of robots as topics
 ``ground_truth.py``         ``ground_truth/odom`` and ``ground_truth/wheels`` of every robot
 ``world_markers.py``        ``~/world``: the static geometry as markers
 =========================== =======================================================================

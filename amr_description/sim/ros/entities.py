@@ -33,6 +33,7 @@ from amr_description.model.controller_files import files_of, missing_files, name
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo_sensors import robot_sensors_of
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
@@ -49,6 +50,7 @@ from amr_description.sim.ros.plugin_controllers import (
     run_in,
     start_controllers,
 )
+from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.spawning import check_name, free_name, SpawnCode
 from amr_description.sim.world import MujocoWorld
 from amr_description.text import quote_all
@@ -97,6 +99,7 @@ class EntityManager:
         context: LoopContext,
         world: MujocoWorld,
         ground_truth: GroundTruth,
+        sensors: SensorManager,
         *,
         executor: Executor,
         log: Log,
@@ -112,6 +115,7 @@ class EntityManager:
             context: Of the control loop.
             world: The simulated world.
             ground_truth: Gets every entity.
+            sensors: Gets the sensors of every entity.
             executor: Of the ROS thread.
             log: Of the simulator.
             controllers: Path of the managers' parameter file, or empty.
@@ -123,6 +127,7 @@ class EntityManager:
         self._loop_thread = context.loop_thread
         self._world = world
         self._ground_truth = ground_truth
+        self._sensors = sensors
         self._executor = executor
         self._log = log
         self._controllers = controllers
@@ -198,6 +203,7 @@ class EntityManager:
         if prepared is not None:
             running, thread = self._serve(prepared, manager, given)
         self._ground_truth.add(given, namespace)
+        self._sensors.add(given, namespace, robot_sensors_of(robot).sensors)
         self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
         if running is not None and thread is not None:
             starting = start_controllers(running, translation.controllers, self._log)
@@ -216,6 +222,7 @@ class EntityManager:
         self.find(name)
         entity = self._entities.pop(name)
         self._ground_truth.remove(name)
+        self._sensors.remove(name)
         if entity.thread is not None:
             await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
         if name in self._starting:  # who spawns it still waits for the thread that has ended

@@ -35,6 +35,7 @@ from amr_description.ros.runtime import end_wait
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler
+from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import WorldSettings
 
@@ -163,7 +164,8 @@ class Simulation:
             if parameters.paused:
                 self.loop_thread.loop.pause()
             context = LoopContext(self.loop_thread, publisher, self.logs)
-            self.entities = self._entity_manager(context, ground_truth, ros_args)
+            sensors = SensorManager(node, publisher, self.world, self.log, self._is_paced)
+            self.entities = self._entity_manager(context, ground_truth, sensors, ros_args)
         except Exception:
             self.logs.stop()
             raise
@@ -171,12 +173,17 @@ class Simulation:
         node.add_post_set_parameters_callback(self._on_parameters_set)
 
     def _entity_manager(
-        self, context: LoopContext, ground_truth: GroundTruth, ros_args: Sequence[str]
+        self,
+        context: LoopContext,
+        ground_truth: GroundTruth,
+        sensors: SensorManager,
+        ros_args: Sequence[str],
     ) -> EntityManager:
         return EntityManager(
             context,
             self.world,
             ground_truth,
+            sensors,
             executor=self._executor,
             log=self.log,
             controllers=self.parameters.controllers,
@@ -184,6 +191,10 @@ class Simulation:
             lift=self.parameters.lift,
             ros_args=ros_args,
         )
+
+    def _is_paced(self) -> bool:
+        """Whether cycles wait for the wall clock: neither at factor 0 nor in a step."""
+        return self._pacer.factor > 0.0 and self.loop_thread.loop.is_running
 
     def start(self) -> None:
         """Start the control thread; time begins to pass, unless paused."""

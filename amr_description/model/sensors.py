@@ -1,0 +1,182 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The sensors of a robot that look at the world: what a simulator needs to know of each.
+
+Lidars, cameras and contact sensors; the result of reading ``<gazebo>`` blocks, whichever Gazebo
+they were written for. A sensor of ``<ros2_control>``, such as an IMU, has state interfaces instead
+and is published by its broadcaster.
+
+Lengths are in m, angles in rad, times in s. A topic is relative to the namespace of the robot, or
+absolute if it begins with ``/``; '' is a topic that is not published.
+"""
+
+from dataclasses import dataclass
+import math
+
+from amr_description.model.frames import Transform
+from amr_description.model.gazebo import Noise
+
+NO_NOISE = Noise()
+
+
+@dataclass(frozen=True, slots=True)
+class SensorMount:
+    """Where a sensor is, how often it measures, and how its messages are named."""
+
+    name: str
+    link: str
+    pose: Transform = Transform()
+    """``transform_sensor_to_link``."""
+    frame: str = ''
+    """The ``frame_id`` of its messages, without the prefix of a namespace."""
+    rate: float = 0.0
+    """Hz of simulated time; 0: in every control cycle."""
+    namespace: str = ''
+    """Of its topics, if the robot is spawned without one."""
+    line: int = 0
+    """Of its tag in the description."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScanAxis:
+    """The rays of a lidar in one direction: ``samples`` from ``lower`` to ``upper``, rad."""
+
+    samples: int
+    lower: float
+    upper: float
+
+    @property
+    def increment(self) -> float:
+        """The angle between two rays, rad; 0 for a single one."""
+        return (self.upper - self.lower) / (self.samples - 1) if self.samples > 1 else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Lidar:
+    """
+    A lidar, 2-D or 3-D, or a range finder.
+
+    The axes of the sensor are x forward, y to the left, z up; the angle of ``horizontal`` is
+    about z from x to y, that of ``vertical`` is an elevation.
+    """
+
+    mount: SensorMount
+    horizontal: ScanAxis
+    vertical: ScanAxis = ScanAxis(1, 0.0, 0.0)
+    range_min: float = 0.0
+    range_max: float = math.inf
+    range_resolution: float = 0.0
+    """Ranges are multiples of it; 0: they are not rounded."""
+    noise: Noise = NO_NOISE
+    """Of the range, m."""
+    sees_robot: bool = True
+    """Whether the robot's own parts are seen."""
+    scan_topic: str = 'scan'
+    """``sensor_msgs/msg/LaserScan``; of several rings the middle one."""
+    points_topic: str = ''
+    """``sensor_msgs/msg/PointCloud2``."""
+    range_topic: str = ''
+    """``sensor_msgs/msg/Range``: the nearest of all rays."""
+    radiation_type: int = 1
+    """Of that message: 0 ultrasound, 1 infrared."""
+
+
+@dataclass(frozen=True, slots=True)
+class Distortion:
+    """The coefficients of the lens by Brown's model (``plumb_bob``)."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    k3: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+
+    @property
+    def is_none(self) -> bool:
+        """Whether straight lines stay straight."""
+        return not any((self.k1, self.k2, self.k3, self.p1, self.p2))
+
+
+@dataclass(frozen=True, slots=True)
+class Intrinsics:
+    """The matrix K of a camera, pixels: focal lengths and principal point."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """
+    A camera: colour, depth or both.
+
+    The axes of the sensor are those of Gazebo: x forward, y to the left, z up. Its messages are
+    in the optical frame: z forward, x to the right, y down (REP 103), which ``mount.frame`` names.
+    """
+
+    mount: SensorMount
+    width: int
+    height: int
+    horizontal_fov: float
+    """rad, of the undistorted picture; see :attr:`intrinsics`."""
+    near: float = 0.1
+    far: float = 100.0
+    """What is nearer or farther is not seen in colour, m along the optical axis."""
+    depth_near: float = 0.1
+    depth_far: float = 100.0
+    """Likewise in depth."""
+    intrinsics: Intrinsics | None = None
+    """None: those that follow from the field of view, with the centre in the middle."""
+    distortion: Distortion = Distortion()
+    noise: Noise = NO_NOISE
+    """Of colours, 0 to 1; of depth, m, if the camera has no colour."""
+    encoding: str = 'rgb8'
+    """``rgb8``, ``bgr8`` or ``mono8``."""
+    baseline: float = 0.0
+    """m: of the right camera of a stereo pair, to its left one; makes ``P[3]``."""
+    image_topic: str = ''
+    """Colour, ``sensor_msgs/msg/Image``; JPEGs are on ``<image_topic>/compressed``."""
+    camera_info_topic: str = ''
+    depth_topic: str = ''
+    """``sensor_msgs/msg/Image``, 32FC1, m along the optical axis."""
+    depth_camera_info_topic: str = ''
+    points_topic: str = ''
+    """``sensor_msgs/msg/PointCloud2``, coloured if the camera has colours."""
+    points_frame: str = ''
+    """The ``frame_id`` of the points, where it is another one (Gazebo's: x forward)."""
+    points_are_optical: bool = True
+    """Whether the points have the axes of the optical frame; else those of the sensor."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactSensor:
+    """What touches some collisions of a link: a bumper."""
+
+    mount: SensorMount
+    collisions: tuple[str, ...] = ()
+    """Names of ``<collision>`` elements of the link; empty: all of them."""
+    topic: str = 'contact'
+    message: str = 'ros_gz_interfaces/msg/Contacts'
+    """Its type: that of ros_gz_bridge, or Gazebo Classic's ``gazebo_msgs/msg/ContactsState``."""
+
+
+type WorldSensor = Lidar | Camera | ContactSensor
+
+
+@dataclass(frozen=True, slots=True)
+class RobotSensors:
+    """
+    The sensors of one robot.
+
+    Attributes:
+        sensors: those that are sound.
+        notes: what is to be warned of, one line each.
+        lacking: (name, type) of those that are declared and not simulated.
+    """
+
+    sensors: tuple[WorldSensor, ...] = ()
+    notes: tuple[str, ...] = ()
+    lacking: tuple[tuple[str, str], ...] = ()

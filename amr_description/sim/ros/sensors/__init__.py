@@ -1,0 +1,10 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The sensors of simulated robots that look at the world, as topics: lidars, cameras, contacts.
+
+=========================== =======================================================================
+``manager.py``              all sensors of all robots: which one measures, and when
+``topics.py``               what the topics of one sensor are: the contract of the modules below
+=========================== =======================================================================
+"""

@@ -1,0 +1,100 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""All sensors of all robots of a world: which one measures, and when."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from rclpy.node import Node
+
+from amr_description.control.contracts import Log
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.model.sensors import WorldSensor
+from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
+from amr_description.sim.sensor_schedule import SensorSchedule
+from amr_description.sim.world import MujocoWorld
+
+TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {}
+"""Type of a sensor's description → what makes its topics."""
+
+
+class SensorManager:
+    """
+    The sensors of all robots of a world.
+
+    :meth:`add` and :meth:`remove` are called on the ROS thread, :meth:`report` on the control
+    thread.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        loop_publisher: LoopPublisher,
+        world: MujocoWorld,
+        log: Log,
+        is_paced: Callable[[], bool],
+    ) -> None:
+        """
+        Measure and publish from now on, at the end of control cycles.
+
+        Args:
+            node: Has the publishers.
+            loop_publisher: Publishes at the end of a cycle.
+            world: The simulated world.
+            log: Of the simulator.
+            is_paced: See :attr:`SensorContext.is_paced`.
+        """
+        self._node = node
+        self._loop_publisher = loop_publisher
+        self._world = world
+        self._log = log
+        self._is_paced = is_paced
+        self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
+        loop_publisher.reporters.append(self.report)
+
+    def add(self, name: str, namespace: str, sensors: Sequence[WorldSensor]) -> None:
+        """
+        Create the topics of a robot.
+
+        Args:
+            name: Of the robot in the world.
+            namespace: Of its topics, absolute.
+            sensors: Of the robot.
+        """
+        if not sensors:
+            return
+        context = SensorContext(
+            self._node,
+            self._loop_publisher,
+            self._world,
+            self._world.robot(name),
+            namespace,
+            self._log,
+            self._is_paced,
+        )
+        now = self._world.time
+        made = tuple(
+            (SensorSchedule(each.mount.rate, now), TOPICS[type(each)](each, context))
+            for each in sensors
+            if type(each) in TOPICS
+        )
+        self._robots = self._robots | {name: made}
+
+    def remove(self, name: str) -> None:
+        """Remove the topics of a robot that is removed from the world."""
+        sensors = self._robots.get(name)
+        if sensors is not None:
+            self._robots = {key: each for key, each in self._robots.items() if key != name}
+            for _, topics in sensors:
+                topics.destroy()
+
+    def report(self, time: int) -> None:
+        """Have the sensors measure that are due at ``time``, ns, and heard."""
+        if not self._robots:
+            return
+        present = self._world.names
+        for name, sensors in self._robots.items():
+            if name in present:
+                for schedule, topics in sensors:
+                    if schedule.is_due(time) and topics.is_heard:
+                        topics.measure(time)

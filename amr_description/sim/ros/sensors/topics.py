@@ -1,0 +1,79 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of one sensor of one robot: what each kind of sensor implements."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rclpy.node import Node
+
+from amr_description.control.contracts import Log
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.model.sensors import SensorMount
+from amr_description.sim.robot_view import RobotView
+from amr_description.sim.world import MujocoWorld
+
+
+@dataclass(frozen=True, slots=True)
+class SensorContext:
+    """What a sensor is given."""
+
+    node: Node
+    """Has the publishers."""
+    loop_publisher: LoopPublisher
+    """Publishes at the end of a cycle, after the transforms of the same instant."""
+    world: MujocoWorld
+    robot: RobotView
+    """The robot that carries the sensor; its ``seed`` seeds the noise."""
+    namespace: str
+    """Of the robot, absolute: ``/`` or ``/robot1``."""
+    log: Log
+    is_paced: Callable[[], bool]
+    """
+    Whether cycles wait for the wall clock, so that the control thread must not wait for a
+    measurement that another thread makes. While it is False (real-time factor 0, or in a step)
+    time has to wait for measurements, which are all made.
+    """
+
+    def topic(self, name: str, mount: SensorMount) -> str:
+        """Return the full name of a topic of a sensor; '' stays ''."""
+        if not name or name.startswith('/'):
+            return name
+        inside = self.namespace.rstrip('/') or f'/{mount.namespace}'.rstrip('/')
+        return f'{inside}/{name}'
+
+    def frame(self, name: str) -> str:
+        """Return a frame with the prefix that all frames of the robot have: its namespace."""
+        prefix = self.namespace.strip('/')
+        return name if not prefix or name.startswith(f'{prefix}/') else f'{prefix}/{name}'
+
+
+class SensorTopics(ABC):
+    """
+    The topics of one sensor of one robot.
+
+    Made and destroyed on the ROS thread; everything else is called on the control thread, at the
+    end of a cycle.
+    """
+
+    @property
+    @abstractmethod
+    def is_heard(self) -> bool:
+        """Whether anybody subscribes to one of them; nothing is measured else."""
+
+    @abstractmethod
+    def measure(self, time: int) -> None:
+        """
+        Measure, and publish.
+
+        What takes long is done by another thread, from a copy of the state of this instant, with
+        this stamp; see :attr:`SensorContext.is_paced`.
+
+        Args:
+            time: Of this cycle, ns.
+        """
+
+    @abstractmethod
+    def destroy(self) -> None:
+        """Remove the topics; nothing is published after that."""

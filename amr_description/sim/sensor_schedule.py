@@ -1,0 +1,59 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+When a simulated sensor measures, and the random numbers of its noise.
+
+Both follow from simulated time alone: a sensor that was not heard for a while, and a second run,
+measure at the same instants, and with the same noise; a reset begins both anew.
+"""
+
+from collections.abc import Sequence
+import math
+
+import numpy as np
+
+from amr_description.clock import NANOSECONDS
+
+
+class SensorSchedule:
+    """Says in which control cycles a sensor measures: the first at or after k / rate, k ≥ 0."""
+
+    def __init__(self, rate: float, time: int) -> None:
+        """
+        Begin at the next instant that is due.
+
+        Args:
+            rate: Hz of simulated time; 0: in every cycle.
+            time: The present simulated time, ns.
+        """
+        self._rate = rate
+        self._latest = time
+        self._count = self._instants_until(time)
+
+    def is_due(self, time: int) -> bool:
+        """Whether to measure at ``time``, ns; to be asked once in every cycle, in order."""
+        latest, self._latest = self._latest, time
+        if time == latest:  # time stands still
+            return False
+        if self._rate <= 0.0:
+            return True
+        before, self._count = self._count, self._instants_until(time)
+        return time < latest or self._count != before
+
+    def _instants_until(self, time: int) -> int:
+        # Of 15 Hz the third is at 0.2 s: no error of rounding may put it into the next cycle.
+        return math.floor(time / NANOSECONDS * self._rate + 1e-6)
+
+
+def noise_generator(seed: Sequence[int], sensor: str, time: int) -> np.random.Generator:
+    """
+    Return the random numbers of one measurement.
+
+    Args:
+        seed: Of the robot: numbers ≥ 0.
+        sensor: The name of the sensor.
+        time: Of the measurement, ns; for what is drawn only once, such as a bias, a negative one.
+    """
+    words = np.random.SeedSequence((*seed, *sensor.encode())).generate_state(2, np.uint64)
+    counter = np.array([0, 0, 0, time % 2**64], np.uint64)
+    return np.random.Generator(np.random.Philox(key=words, counter=counter))
