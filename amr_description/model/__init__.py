@@ -24,6 +24,7 @@ module                   what it holds
 ``gazebo.py``             ``<gazebo>`` plugins and sensors
 ``sensors.py``            lidars, cameras and contact sensors: what a simulator needs to know
 ``gazebo_sensors.py``     … from the ``<sensor>`` tags of ``<gazebo>`` blocks
+``gazebo_sensor_tags.py`` … the values of these tags, checked
 ``gazebo_plugins.py``     … the plugins that drive a robot without ros2_control, and what they say
 ``gazebo_drives.py``      … what drives and odometry become
 ``gazebo_joints.py``      … what plugins of single joints, and sensors, become
