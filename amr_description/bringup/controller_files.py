@@ -14,9 +14,34 @@ from amr_description.text import one_line
 
 URDF = 'package://amr_description/urdf/amr.urdf'
 """The robot of this package."""
+URDF_WITH_SENSORS = 'package://amr_description/urdf/amr_sensors.urdf.xacro'
+"""The same with a lidar, a depth camera and an IMU."""
+ABOUT_SENSORS = 'whether amr has a lidar, a depth camera and an IMU'
+"""The help text of a stack's ``sensors:=``."""
 SHIPPED = 'package://amr_description/config/controllers.yaml'
 """The parameters of its controllers."""
 _MANAGER = 'controller_manager'
+
+
+def with_sensors(urdf: str, sensors: bool) -> str:
+    """
+    Return the description that a stack is to bring up.
+
+    Args:
+        urdf: as given.
+        sensors: whether amr is to have its sensors.
+
+    Raises:
+        UsageError: sensors are asked for another robot.
+    """
+    if not sensors:
+        return urdf
+    if urdf not in (URDF, URDF_WITH_SENSORS):
+        raise UsageError(
+            f'sensors:=true is for amr, the robot of this package; urdf:={urdf} has the sensors '
+            'of its own <gazebo> tags'
+        )
+    return URDF_WITH_SENSORS
 
 
 def controllers_file(controllers: str, urdf: str, description: str) -> Path:

@@ -6,7 +6,7 @@ from typing import Annotated
 from xml.etree import ElementTree
 
 from amr_description.bringup import Node, notes_on, path_of, robot_description, Stack, started
-from amr_description.bringup.controller_files import URDF
+from amr_description.bringup.controller_files import ABOUT_SENSORS, URDF, with_sensors
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page, rviz
 
 _MOVABLE = ('revolute', 'continuous', 'prismatic')
@@ -15,9 +15,11 @@ _MOVABLE = ('revolute', 'continuous', 'prismatic')
 def display(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
+    sensors: Annotated[bool, ABOUT_SENSORS] = False,
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot of a description, with a slider for every movable joint."""
+    urdf = with_sensors(urdf, sensors)
     description = robot_description(urdf, xacro_args)
 
     # 1. The URDF, published as /robot_description and as transforms.

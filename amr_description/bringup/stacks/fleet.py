@@ -23,7 +23,13 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.controller_files import controllers_file, require_namespaces, URDF
+from amr_description.bringup.controller_files import (
+    ABOUT_SENSORS,
+    controllers_file,
+    require_namespaces,
+    URDF,
+    with_sensors,
+)
 from amr_description.bringup.environment import setup_command
 from amr_description.bringup.stacks.controllers import (
     plan_controllers,
@@ -47,6 +53,7 @@ def fleet(
     robots: Annotated[int, 'how many'] = 3,
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
+    sensors: Annotated[bool, ABOUT_SENSORS] = False,
     controllers: Annotated[
         str, f'{ABOUT_CONTROLLERS}; for any namespace: /**/controller_manager: …'
     ] = '',
@@ -59,6 +66,7 @@ def fleet(
     _require(robots >= 1, f'robots:={robots}: a fleet has 1 robot or more')
     _require(rtf >= 0, f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
     _require(spacing >= 0, f'spacing:={spacing}: a distance is 0 (by their size) or more')
+    urdf = with_sensors(urdf, sensors)
     description = robot_description(urdf, xacro_args)
     needed = 2.0 * horizontal_reach(parse(description, urdf))
     _require(

@@ -16,7 +16,7 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.controller_files import URDF
+from amr_description.bringup.controller_files import ABOUT_SENSORS, URDF, with_sensors
 from amr_description.bringup.description import ParameterValue
 from amr_description.bringup.stacks.controllers import (
     ABOUT_ACTIVATE,
@@ -53,6 +53,7 @@ class SimulatedRobot(Stack):
 def simulation(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
+    sensors: Annotated[bool, ABOUT_SENSORS] = False,
     controllers: Annotated[str, ABOUT_CONTROLLERS] = '',
     activate: Annotated[str, ABOUT_ACTIVATE] = '',
     world: Annotated[str, 'world to simulate'] = 'empty',
@@ -70,6 +71,7 @@ def simulation(
     mock_hardware: Annotated[str, ABOUT_MOCKS] = 'simulate',
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
+    urdf = with_sensors(urdf, sensors)
     description = robot_description(urdf, xacro_args)
     if fixed:
         description = _fixed(description, urdf)

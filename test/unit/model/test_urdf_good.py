@@ -14,6 +14,7 @@ from amr_description.sim.robot_spec import build_robot
 
 FIXTURES = ROOT / 'test/fixtures'
 GOOD = [*sorted((FIXTURES / 'urdf_good').glob('*.urdf')), ROOT / 'urdf/amr.urdf']
+XACRO = ROOT / 'urdf/amr_sensors.urdf.xacro'
 READABLE = [*GOOD, FIXTURES / 'urdf/arm.urdf', FIXTURES / 'tutorial/amr.urdf']
 
 
@@ -21,7 +22,7 @@ def named(paths):
     return pytest.mark.parametrize('path', paths, ids=[f'{p.parent.name}/{p.stem}' for p in paths])
 
 
-@named(GOOD)
+@named([*GOOD, XACRO])
 def test_a_good_robot_has_no_findings(path, capsys):
     assert check_urdf.main([str(path), '--strict']) == 0
     assert capsys.readouterr().err == ''
