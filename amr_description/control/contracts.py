@@ -131,7 +131,7 @@ class Input[Sample]:
             port: name and type.
             capacity: if more samples arrive between two updates, the oldest are dropped.
             check: ``(sample, time in ns) -> why it is dropped``, which is logged; '' to take it.
-                It is called on the ROS thread, so it reads only what ``configure`` has set.
+                It is called in another thread, so it reads only what ``configure`` has set.
         """
         self.port = port
         self.check = check

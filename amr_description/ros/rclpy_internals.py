@@ -7,7 +7,8 @@ Written for rclpy 7.1.6. ``test_rclpy_internals.py`` holds each one, and names t
 another rclpy breaks it.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
 import ctypes
 from functools import cache
 from typing import Any, TYPE_CHECKING
@@ -46,6 +47,7 @@ __all__ = [
     'SubscriptionWaiter',
     'take_message',
     'take_received',
+    'take_with_info',
     'UnknownROSArgsError',
 ]
 
@@ -121,9 +123,7 @@ def take_received(subscription: Subscription) -> tuple[bytes, int] | None:
     Raises:
         InvalidHandle: The subscription was destroyed.
     """
-    handle = subscription.handle
-    with handle:
-        taken = handle.take_message(subscription.msg_type, True)
+    taken = take_with_info(subscription)
     return None if taken is None else (taken[0], taken[1]['received_timestamp'])
 
 
@@ -137,10 +137,15 @@ def take_message(subscription: Subscription) -> Any | None:
     Raises:
         InvalidHandle: The subscription was destroyed.
     """
+    taken = take_with_info(subscription)
+    return None if taken is None else taken[0]
+
+
+def take_with_info(subscription: Subscription) -> tuple[Any, Mapping[str, int]] | None:
+    """Take as :func:`take_message`, with what rclpy hands to a callback as message info."""
     handle = subscription.handle
     with handle:
-        taken = handle.take_message(subscription.msg_type, subscription.raw)
-    return None if taken is None else taken[0]
+        return handle.take_message(subscription.msg_type, subscription.raw)
 
 
 def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:
@@ -160,19 +165,22 @@ def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:
 
 
 class SubscriptionWaiter:
-    """Waits, in one thread, for a message of a subscription that no executor serves."""
+    """Waits, in one thread, for a message of subscriptions that no executor serves."""
 
-    def __init__(self, subscription: Subscription, context: Context) -> None:
-        self._subscription = subscription
+    def __init__(self, subscriptions: Sequence[Subscription], context: Context) -> None:
+        self._subscriptions = tuple(subscriptions)
         self._guard = GuardCondition(None, None, context)
         with context.handle:
-            self._wait_set = _rclpy.WaitSet(1, 1, 0, 0, 0, 0, context.handle)
+            self._wait_set = _rclpy.WaitSet(len(subscriptions), 1, 0, 0, 0, 0, context.handle)
 
     def wait(self) -> None:
-        """Wait for a message, or for :meth:`wake`."""
+        """Wait for a message, or for :meth:`wake`. Raises InvalidHandle: one was destroyed."""
         self._wait_set.clear_entities()
-        with self._subscription.handle, self._guard.handle:
-            self._wait_set.add_subscription(self._subscription.handle)
+        with ExitStack() as in_use:
+            for subscription in self._subscriptions:
+                in_use.enter_context(subscription.handle)
+                self._wait_set.add_subscription(subscription.handle)
+            in_use.enter_context(self._guard.handle)
             self._wait_set.add_guard_condition(self._guard.handle)
             self._wait_set.wait(-1)
 

@@ -61,7 +61,7 @@ class TopicThread:
             raw=True,
             qos_overriding_options=qos_overriding_options,
         )
-        self._waiter = SubscriptionWaiter(self._subscription, node.context)
+        self._waiter = SubscriptionWaiter([self._subscription], node.context)
         self._error: BaseException | None = None
         self._failure = node.create_timer(
             0.0, self._raise, clock=Clock(clock_type=ClockType.STEADY_TIME), autostart=False

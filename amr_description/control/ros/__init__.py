@@ -4,7 +4,8 @@
 ``control`` over ROS: the ``controller_manager`` node, and the programs that ask it.
 
 Two threads: the *control thread* runs the loop, and with it every manager; the *ROS thread* of a
-node serves its callbacks, and submits to the control thread what concerns a manager.
+node serves its callbacks, and submits to the control thread what concerns a manager. A third one
+of each controller that subscribes to something takes its messages.
 
 ============================== ====================================================================
 ``loop_thread.py``             the control thread, its queue of calls, and the LoopContext

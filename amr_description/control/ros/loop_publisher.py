@@ -181,7 +181,7 @@ class LoopPublisher:
         """Take a node in; on the thread that made it, after its constructor."""
 
     def acknowledge(self, topic: str, number: int) -> None:
-        """A controller accepted a publisher's message ``number``, from 1; on the ROS thread."""
+        """A controller accepted a publisher's message ``number``, from 1; on any thread."""
 
     def topic(self, publisher: Publisher, encode: Encoder) -> LoopTopic:
         """
@@ -306,7 +306,7 @@ def _fill_clock(time: int, message: Clock) -> None:
 
 
 class CommandAcknowledgements:
-    """Publishes ``~/received``; on the ROS thread."""
+    """Publishes ``~/received``; from any thread."""
 
     def __init__(self, node: Node) -> None:
         """``node`` has the topic."""

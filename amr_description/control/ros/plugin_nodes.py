@@ -6,7 +6,7 @@ The ROS nodes of controllers and hardware components, which know no ROS themselv
 From outside they are just as in ros2_control: parameters, topics, a logger, and for a controller
 ``~/transition_event``, as a lifecycle node of rclcpp publishes it. The ROS thread makes and
 removes everything here; the control thread calls :meth:`LoopTopic.send`, by way of the ports,
-and :class:`TransitionEvents`.
+and :class:`TransitionEvents`. What a controller subscribes to, a thread of its own takes.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,6 @@ from lifecycle_msgs.msg import State, Transition, TransitionEvent
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.subscription import Subscription
 
 from amr_description.control.contracts import (
     Controller,
@@ -42,6 +41,7 @@ from amr_description.control.ros.port_servers import (
 from amr_description.errors import AmrError
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
@@ -111,7 +111,8 @@ class ControllerNode:
         """
         self._publisher = context.publisher
         self._context = context
-        self._endpoints: list[Publisher | Subscription] = []
+        self._publishers: list[Publisher] = []
+        self._inputs: CallbackThread | None = None
         self._servers: list[ServiceServer | GoalServer] = []
         self.node: Node = context.publisher.make_node(name, namespace, arguments)
         try:
@@ -148,8 +149,12 @@ class ControllerNode:
         earlier ones.
         """
         self.disconnect()
-        self._endpoints += map(self._subscribe, self.controller.inputs())
-        self._endpoints += [
+        if inputs := self.controller.inputs():
+            self._inputs = CallbackThread(self.node, self._context.loop_thread.fail)
+            for each in inputs:
+                self._subscribe(each, self._inputs)
+            self._inputs.start()
+        self._publishers += [
             self._advertise(each) for each in self.controller.outputs() if self._is_possible(each)
         ]
         for service in self.controller.services():
@@ -162,12 +167,12 @@ class ControllerNode:
         for server in self._servers:
             server.close()
         self._servers.clear()
-        for endpoint in self._endpoints:
-            if isinstance(endpoint, Publisher):
-                self.node.destroy_publisher(endpoint)
-            else:
-                self.node.destroy_subscription(endpoint)
-        self._endpoints.clear()
+        if self._inputs is not None:
+            self._inputs.end()
+            self._inputs = None
+        for publisher in self._publishers:
+            self.node.destroy_publisher(publisher)
+        self._publishers.clear()
 
     def destroy(self) -> None:
         """Remove the node."""
@@ -196,7 +201,7 @@ class ControllerNode:
 
     # --- ports --------------------------------------------------------------------------------
 
-    def _subscribe(self, port: Input[Any]) -> Subscription:
+    def _subscribe(self, port: Input[Any], thread: CallbackThread) -> None:
         convert = reader_of(port.port)
 
         def receive(message: Any, info: Any) -> None:
@@ -220,10 +225,9 @@ class ControllerNode:
                     "Can't accept new commands. subscriber is inactive", throttle_duration_sec=1.0
                 )
 
-        subscription = self.node.create_subscription(
+        subscription = thread.subscribe(
             _message_type(port.port), port.port.name, receive, qos(port.port.qos)
         )
-        return subscription
 
     def _now(self) -> int:
         return self.node.get_clock().now().nanoseconds
