@@ -16,7 +16,7 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass
 import re
 import struct
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy.serialization import serialize_message
 
@@ -64,13 +64,17 @@ class Template:
     def has_made(self, data: bytes, message: Any) -> bool:
         """Return whether these bytes are those of ``message`` as rclpy serializes it."""
         expected = serialize_message(message)  # it may be longer: the end is not cut off
+        if expected.startswith(data):
+            return True
         return len(expected) >= len(data) and all(
             byte == other or at in self.padding
             for at, (byte, other) in enumerate(zip(data, expected, strict=False))
         )
 
 
-def template_of(message: Any, changing: Collection[str]) -> Template:
+def template_of(
+    message: Any, changing: Collection[str], *, blocks: Collection[str] = ()
+) -> Template:
     """
     Return the template of a message.
 
@@ -79,15 +83,24 @@ def template_of(message: Any, changing: Collection[str]) -> Template:
         changing: paths of fields, such as ``header.stamp`` and ``transforms.transform``, in any
             order: numbers, messages of numbers, or arrays of numbers. Below an array of messages
             each element has a gap of its own.
+        blocks: those of them that are arrays of numbers which will be given as ``bytes``, little
+            endian, instead of number by number; of the same length.
 
     Raises:
         TypeError: a field is of a type that is not supported, or text would change.
     """
     builder = _Builder()
-    _add_message(builder, message, '', frozenset(changing))
+    _add_message(builder, message, '', _Changing(frozenset(changing), frozenset(blocks)))
     builder.begin_gap()
     pack = struct.Struct(builder.format).pack
     return Template(pack, tuple(builder.constants), frozenset(builder.padding))
+
+
+class _Changing(NamedTuple):
+    """Paths of fields."""
+
+    all: frozenset[str]
+    blocks: frozenset[str]
 
 
 class _Builder:
@@ -122,6 +135,15 @@ class _Builder:
         else:
             self._constant += bytes(padding) + struct.pack(f'<{code}', value)
 
+    def add_block(self, code: str, count: int) -> None:
+        """Add numbers that one ``bytes`` object will have."""
+        width = struct.calcsize(f'<{code}')
+        padding = -self._size % width if count else 0
+        begin = len(_ENCAPSULATION) + self._size
+        self.padding.extend(range(begin, begin + padding))
+        self._size += padding + count * width
+        self.format += f'{padding}x{count * width}s'
+
     def add_text(self, text: str) -> None:
         if self._in_gap:
             raise TypeError('text that changes is not supported')
@@ -131,7 +153,7 @@ class _Builder:
         self._size += len(data)
 
 
-def _add_message(builder: _Builder, message: Any, prefix: str, changing: frozenset[str]) -> None:
+def _add_message(builder: _Builder, message: Any, prefix: str, changing: _Changing) -> None:
     for name, kind in message.get_fields_and_field_types().items():
         path = f'{prefix}{name}'
         value = getattr(message, name)
@@ -142,15 +164,18 @@ def _add_message(builder: _Builder, message: Any, prefix: str, changing: frozens
             kind, values = array[1], value
         else:
             values = (value,)
-        if path in changing:
+        if path in changing.all:
             builder.begin_gap()
+        if path in changing.blocks:
+            builder.add_block(_CODES[kind], len(values))
+            values = ()
         for each in values:
             _add(builder, each, kind, path, changing)
-        if path in changing:
+        if path in changing.all:
             builder.end_gap()
 
 
-def _add(builder: _Builder, value: Any, kind: str, path: str, changing: frozenset[str]) -> None:
+def _add(builder: _Builder, value: Any, kind: str, path: str, changing: _Changing) -> None:
     if kind in _CODES:
         builder.add(_CODES[kind], value)
     elif _STRING.fullmatch(kind):

@@ -35,6 +35,8 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``static_geometry.py``  the visible shapes of a world
+``rays.py``             rays into the world: what is visible, and where they meet it
+``lidar.py``            what a lidar measures
 ``sensor_schedule.py``  when a sensor measures, and the random numbers of its noise
 ``drop_test.py``        a physical test of a description, in numbers
 

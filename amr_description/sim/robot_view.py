@@ -100,7 +100,7 @@ class RobotView:
 
     def pose(self, link: str) -> Transform:
         """Return the transform from a link to the world, now. Raises SimulationError."""
-        body = self._body(link)
+        body = self.body(link)
         if body == 0:
             return self._spawn_pose
         self._engine.refresh_kinematics()
@@ -114,7 +114,7 @@ class RobotView:
 
         Both in the link's own axes. Raises SimulationError.
         """
-        body = self._body(link)
+        body = self.body(link)
         self._engine.refresh_kinematics()
         result = np.empty(6)
         mujoco.mj_objectVelocity(
@@ -145,7 +145,7 @@ class RobotView:
         Raises:
             SimulationError: There is no such link.
         """
-        body = self._body(link)
+        body = self.body(link)
         model, data = self._engine.model, self._engine.data
         self._engine.refresh_kinematics()
         mujoco.mj_rnePostConstraint(model, data)
@@ -183,7 +183,7 @@ class RobotView:
         Raises:
             SimulationError: There is no such link.
         """
-        body = self._body(link)
+        body = self.body(link)
         model, data = self._engine.model, self._engine.data
         self._engine.refresh_kinematics()
         mujoco.mj_rnePostConstraint(model, data)
@@ -206,7 +206,8 @@ class RobotView:
         )
         return None if joint < 0 else int(model.jnt_qposadr[joint]) + 2
 
-    def _body(self, link: str) -> int:
+    def body(self, link: str) -> int:
+        """Return MuJoCo's id of a link, good for one generation. Raises SimulationError."""
         if self._generation != self._engine.generation:
             self._bodies.clear()
             self._generation = self._engine.generation

@@ -28,6 +28,7 @@ from amr_description.sim.engine import compiler_message, compiler_warnings, Engi
 from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
 from amr_description.sim.gazebo_physics import wheel_geom_name
 from amr_description.sim.overlap import find_overlap
+from amr_description.sim.rays import RayScene
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawning import (
@@ -112,6 +113,7 @@ class MujocoWorld:
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
         self._on_wheels: frozenset[str] = frozenset()
+        self._ray_scene: tuple[int, RayScene] | None = None
 
     @property
     def time(self) -> int:
@@ -225,6 +227,15 @@ class MujocoWorld:
     def state(self) -> bytes:
         """Return everything the next step depends on, to compare two runs bit by bit."""
         return self.engine.state()
+
+    def ray_scene(self) -> RayScene:
+        """Return what can be seen, where it is now; the same one until a robot comes or goes."""
+        engine = self.engine
+        if self._ray_scene is None or self._ray_scene[0] != engine.generation:
+            scene = RayScene(engine.model, engine.data, self.names)
+            self._ray_scene = engine.generation, scene
+        engine.refresh_kinematics()
+        return self._ray_scene[1]
 
     def reset(self) -> None:
         """Set the time to 0 and every robot to where it was spawned, its joints held."""

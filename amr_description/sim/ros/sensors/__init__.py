@@ -6,5 +6,6 @@ The sensors of simulated robots that look at the world, as topics: lidars, camer
 =========================== =======================================================================
 ``manager.py``              all sensors of all robots: which one measures, and when
 ``topics.py``               what the topics of one sensor are: the contract of the modules below
+``lidar.py``                scans of lidars
 =========================== =======================================================================
 """

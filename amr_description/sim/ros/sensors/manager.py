@@ -7,14 +7,18 @@ from typing import Any
 
 from rclpy.node import Node
 
-from amr_description.control.contracts import Log
+from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.model.sensors import WorldSensor
+from amr_description.errors import AmrError
+from amr_description.model.sensors import Lidar, WorldSensor
+from amr_description.sim.ros.sensors.lidar import LidarTopics
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
 from amr_description.sim.sensor_schedule import SensorSchedule
 from amr_description.sim.world import MujocoWorld
 
-TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {}
+TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
+    Lidar: LidarTopics,
+}
 """Type of a sensor's description → what makes its topics."""
 
 
@@ -73,12 +77,18 @@ class SensorManager:
             self._is_paced,
         )
         now = self._world.time
-        made = tuple(
-            (SensorSchedule(each.mount.rate, now), TOPICS[type(each)](each, context))
-            for each in sensors
-            if type(each) in TOPICS
-        )
-        self._robots = self._robots | {name: made}
+        made = []
+        for sensor in sensors:
+            if type(sensor) not in TOPICS:
+                continue
+            try:
+                topics = TOPICS[type(sensor)](sensor, context)
+            except AmrError as error:
+                text = f"sensor '{sensor.mount.name}' of '{name}' measures nothing: {error}"
+                self._log(Severity.WARN, text)
+                continue
+            made.append((SensorSchedule(sensor.mount.rate, now), topics))
+        self._robots = self._robots | {name: tuple(made)}
 
     def remove(self, name: str) -> None:
         """Remove the topics of a robot that is removed from the world."""

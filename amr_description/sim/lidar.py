@@ -1,0 +1,257 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Simulated lidars and range finders: what they measure, without ROS.
+
+Ranges are as REP 117 wants them: +inf where nothing is met up to the largest range, -inf where
+something is nearer than the smallest one. Noise, as in gz-sensors, is that of ranges which are
+neither; it follows from seed, sensor and simulated time alone.
+
+Like a rendered sensor of Gazebo, a lidar looks through what it is built into: of the parts that
+cannot move against it, nothing is seen that is nearer than the smallest range, or from inside.
+These parts keep their distances, which are computed once; nothing of them is cast at later.
+"""
+
+from dataclasses import dataclass
+import math
+import threading
+
+import numpy as np
+from numpy.typing import NDArray
+
+from amr_description.model.frames import matrix_from_quaternion
+from amr_description.model.sensors import Lidar, ScanAxis
+from amr_description.sim.rays import Floats, Hits, Mask, RayScene
+from amr_description.sim.robot_view import RobotView
+from amr_description.sim.sensor_schedule import noise_generator
+
+type Singles = NDArray[np.float32]
+
+_FULL_CIRCLE_FROM = 6.10865
+"""rad, 350°; see :func:`scan_angles`."""
+_INCREMENT_OF_ONE = math.radians(1.0)
+_LUMINANCE = 255.0 * np.array([0.2126, 0.7152, 0.0722])
+"""Of linear red, green and blue by ITU-R BT.709; 255 is white."""
+_SKIN = 1e-6
+"""m: how far behind a surface that is looked through the ray goes on."""
+_MOST_LAYERS = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """
+    One measurement of a lidar.
+
+    Attributes:
+        time: Of the measurement, simulated, ns.
+        ranges: (rings, samples) m, as REP 117 wants them; rings from the lowest elevation up.
+        intensities: (rings, samples): the luminance of the surface's color, 0 (black, or nothing
+            met) to 255 (white).
+    """
+
+    time: int
+    ranges: Singles
+    intensities: Singles
+
+    @property
+    def middle_ring(self) -> int:
+        """The index of the ring that a 2-D scan shows, as gz-sim's bridge chooses it."""
+        return len(self.ranges) // 2
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """From where a lidar looks at one instant: its origin and directions, in the world."""
+
+    time: int
+    body: int
+    """The id of its link, of the generation of the scene."""
+    origin: Floats
+    directions: Floats
+
+
+def scan_angles(axis: ScanAxis) -> tuple[float, float, float]:
+    """
+    Return ``angle_min``, ``angle_max`` and ``angle_increment`` of a LaserScan, all float32.
+
+    As in gz, ``angle_increment = (max - min) / (samples - 1)``. slam_toolbox refuses scans whose
+    length is not what it computes of these three (``laser_utils.cpp``, and Karto's
+    ``LaserRangeFinder::Update``): one ray less, where it takes the scan for a full circle whose
+    last ray would be the first one again. It does so for scans of up to 350° that leave a gap
+    smaller than one increment: for these, of less than 36 rays, ``angle_max`` is the end of the
+    last ray's sector, one increment later. So its rule holds for every geometry.
+    """
+    lower, upper = np.float32(axis.lower), np.float32(axis.upper)
+    if axis.samples == 1 or lower == upper:
+        return float(lower), float(lower), float(np.float32(_INCREMENT_OF_ONE))
+    span = float(upper) - float(lower)
+    increment = float(np.float32(span / (axis.samples - 1)))
+    if span <= _FULL_CIRCLE_FROM and abs(span - 2.0 * math.pi) < increment:
+        upper = np.float32(float(lower) + axis.samples * increment)
+    return float(lower), float(upper), increment
+
+
+def ray_directions(lidar: Lidar) -> Floats:
+    """Return the unit directions of all rays, (rings · samples, 3), in the sensor's axes."""
+    azimuth = _angles(lidar.horizontal)[None, :]
+    elevation = _angles(lidar.vertical)[:, None]
+    flat = np.cos(elevation)
+    x, y = flat * np.cos(azimuth), flat * np.sin(azimuth)
+    z = np.broadcast_to(np.sin(elevation), x.shape)
+    return np.stack((x, y, z), axis=-1).reshape(-1, 3)
+
+
+def _angles(axis: ScanAxis) -> Floats:
+    return np.arange(axis.samples, dtype=np.float64) * axis.increment + axis.lower
+
+
+class SimulatedLidar:
+    """
+    A lidar on a robot.
+
+    :meth:`view` is called on the control thread, :meth:`measure` on any one, with the scene or a
+    copy of it.
+    """
+
+    def __init__(self, lidar: Lidar, robot: RobotView) -> None:
+        """
+        Take a lidar.
+
+        Args:
+            lidar: Its description.
+            robot: The robot that carries it.
+
+        Raises:
+            SimulationError: The robot has no such link.
+        """
+        self.lidar = lidar
+        self._robot = robot
+        self._shape = (lidar.vertical.samples, lidar.horizontal.samples)
+        self._name = f'{lidar.mount.link}/{lidar.mount.name}'
+        self._bias = self._draw_bias()
+        self._binding: _Binding | None = None
+        self._changing_binding = threading.Lock()
+        mount = lidar.mount.pose
+        self._offset = np.array(mount.translation)
+        self._turned = ray_directions(lidar) @ np.array(matrix_from_quaternion(mount.rotation)).T
+        robot.body(lidar.mount.link)
+
+    def view(self, time: int, scene: RayScene) -> View:
+        """Return from where the lidar looks now, at ``time``, ns."""
+        return self._view_from(self._robot.body(self.lidar.mount.link), time, scene)
+
+    def _view_from(self, body: int, time: int, scene: RayScene) -> View:
+        position, rotation = scene.pose(body)
+        return View(time, body, position + rotation @ self._offset, self._turned @ rotation.T)
+
+    def measure(self, view: View, scene: RayScene) -> Scan:
+        """
+        Return what the lidar measures.
+
+        Args:
+            view: From where it looks.
+            scene: What there is at the same instant.
+        """
+        binding = self._bound_to(view, scene)
+        hits = scene.cast(
+            view.origin, view.directions, mask=binding.mask, cutoff=self.lidar.range_max
+        )
+        distances, geoms = hits.distances, hits.geoms
+        distances[geoms < 0] = math.inf
+        if binding.own is not None:
+            is_own = binding.own.distances < distances
+            distances[is_own] = binding.own.distances[is_own]
+            geoms[is_own] = binding.own.geoms[is_own]
+        # A miss has the id -1, which is the last one here: 0.
+        intensities = binding.intensities[geoms]
+        intensities[distances > self.lidar.range_max] = 0.0
+        return Scan(
+            view.time,
+            self._measured(distances, view.time).astype(np.float32).reshape(self._shape),
+            intensities.reshape(self._shape),
+        )
+
+    def _measured(self, distances: Floats, time: int) -> Floats:
+        lidar, noise = self.lidar, self.lidar.noise
+        is_near, is_far = distances < lidar.range_min, distances > lidar.range_max
+        if noise.stddev > 0.0:
+            generator = noise_generator(self._robot.seed, self._name, time)
+            distances += noise.stddev * generator.standard_normal(len(distances))
+        distances += noise.mean + self._bias
+        for step in (noise.precision, lidar.range_resolution):
+            if step > 0.0:
+                distances = np.round(distances / step) * step
+        np.clip(distances, lidar.range_min, lidar.range_max, out=distances)
+        distances[is_near], distances[is_far] = -math.inf, math.inf
+        return distances
+
+    def _draw_bias(self) -> float:
+        """Draw the bias, which stays; see :class:`~amr_description.model.gazebo.Noise`."""
+        noise = self.lidar.noise
+        if not (noise.bias_mean or noise.bias_stddev):
+            return 0.0
+        draw, sign = noise_generator(self._robot.seed, self._name, -1).standard_normal(2).tolist()
+        return math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
+
+    def _bound_to(self, view: View, scene: RayScene) -> '_Binding':
+        with self._changing_binding:
+            binding = self._binding
+            if binding is None or binding.key is not scene.all_seen:
+                binding = self._binding = self._bind(view, scene)
+            return binding
+
+    def _bind(self, view: View, scene: RayScene) -> '_Binding':
+        intensities = np.append(scene.colors[:, :3] @ _LUMINANCE, 0.0).astype(np.float32)
+        name = self._robot.name
+        if not self.lidar.sees_robot:
+            mask = scene.mask(without=scene.geoms_of(name))
+            return _Binding(scene.all_seen, mask, intensities)
+        carried = scene.geoms_fixed_to(name, view.body)
+        mask = scene.mask(without=carried)
+        # Where the joints are makes no difference but for rounding; so when this is done does not.
+        start = scene.at_start()
+        view = self._view_from(view.body, 0, start)
+        own = _own_parts(view, start, scene.mask(only=carried), self.lidar)
+        is_seen = bool(np.isfinite(own.distances).any())
+        return _Binding(scene.all_seen, mask, intensities, own if is_seen else None)
+
+
+@dataclass(frozen=True, slots=True)
+class _Binding:
+    """What follows from the geoms of one generation of the world."""
+
+    key: Mask
+    """That of the scene, and of its copies."""
+    mask: Mask
+    intensities: Singles
+    """Of each geom, and of none."""
+    own: Hits | None = None
+    """On the parts that cannot move against the lidar; the distance is inf where none is met."""
+
+
+def _own_parts(view: View, scene: RayScene, mask: Mask, lidar: Lidar) -> Hits:
+    """Return where the lidar sees the parts of ``mask``; the distance is inf where it does not."""
+    first = scene.cast(
+        view.origin, view.directions, mask=mask, cutoff=lidar.range_max, normals=True
+    )
+    distances, geoms, normals = first.distances, first.geoms, first.normals
+    assert normals is not None, 'they were asked for'
+    distances[geoms < 0] = math.inf
+    is_behind = np.einsum('ij,ij->i', view.directions, normals) >= 0.0
+    is_through = np.isfinite(distances) & ((distances < lidar.range_min) | is_behind)
+    for ray in np.flatnonzero(is_through):
+        direction = view.directions[ray]
+        passed = max(distances[ray] + _SKIN, lidar.range_min)
+        distances[ray], geoms[ray] = math.inf, -1
+        for _ in range(_MOST_LAYERS):
+            hits = scene.cast(
+                view.origin + passed * direction, direction[None], mask=mask, normals=True
+            )
+            if hits.geoms[0] < 0 or hits.normals is None:
+                break
+            passed += float(hits.distances[0])
+            if direction @ hits.normals[0] < 0.0:
+                distances[ray], geoms[ray] = passed, hits.geoms[0]
+                break
+            passed += _SKIN
+    return Hits(distances, geoms)

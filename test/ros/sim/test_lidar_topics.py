@@ -1,0 +1,166 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Lidars over DDS, in a world that is stepped by hand."""
+
+from contextlib import contextmanager
+from dataclasses import replace
+import math
+
+from fixtures.sim.driving import AMR
+import numpy as np
+import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data, QoSProfile
+from sensor_msgs.msg import LaserScan
+from support.running_programs import PATIENCE
+
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.model.frames import Transform
+from amr_description.model.gazebo import Noise
+from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
+from amr_description.ros.messages import nanoseconds
+from amr_description.ros.service_calls import wait_until
+from amr_description.sim.ros.sensors.manager import SensorManager
+from amr_description.sim.world import MujocoWorld
+
+MS = 1_000_000
+TURN = 10 * MS
+"""ns, of the loop."""
+MOUNT = SensorMount('lidar', 'base_link', Transform((0.0, 0.0, 0.2)), 'base_scan', 10.0)
+LIDAR = Lidar(MOUNT, ScanAxis(360, -3.14, 3.14), range_min=0.12, range_max=12.0)
+
+
+class Host:
+    """World and topics, as the simulator has them; ``turn`` is its loop."""
+
+    def __init__(self):
+        self.node = Node('host')
+        self.lines = []
+        self.world = MujocoWorld('warehouse')
+        self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
+        self.sensors = SensorManager(
+            self.node, self.loop_publisher, self.world, self.log, lambda: False
+        )
+
+    def log(self, severity, text, *, throttle=0.0):
+        self.lines.append(text)
+
+    def spawn(self, name, namespace, *sensors, pose=None):
+        self.world.spawn(name, AMR, pose or Transform((0.0, 0.0, 0.2)))
+        self.sensors.add(name, namespace, sensors)
+
+    def remove(self, name):
+        self.world.remove(name)
+        self.sensors.remove(name)
+
+    def turn(self, count=1):
+        for _ in range(count):
+            self.world.advance(TURN)
+            self.loop_publisher.publish(self.world.time)
+
+    @contextmanager
+    def heard(self, message_type, topic, qos=qos_profile_sensor_data):
+        """The list of messages on a topic, from the time on when the publisher knows of us."""
+        messages = []
+        before = self.node.count_subscribers(topic)
+        subscription = self.node.create_subscription(message_type, topic, messages.append, qos)
+        self.wait(lambda: self.node.count_subscribers(topic) > before)
+        self.wait(lambda: subscription.get_publisher_count() == self.node.count_publishers(topic))
+        publisher = next(p for p in self.node.publishers if p.topic_name == topic)
+        self.wait(lambda: publisher.get_subscription_count() > 0)
+        yield messages
+        self.node.destroy_subscription(subscription)
+
+    def wait(self, condition):
+        assert wait_until(self.node, lambda: condition() or None, timeout=PATIENCE)
+
+    def next(self, messages, count=1):
+        """Turn as long as ``count`` scans at 10 Hz take, and wait for these."""
+        already = len(messages)
+        self.turn(10 * count)
+        self.wait(lambda: len(messages) >= already + count)
+        return messages[already:]
+
+
+@pytest.fixture
+def host():
+    rclpy.init(args=[])
+    host = Host()
+    yield host
+    host.node.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.mark.parametrize('qos', [qos_profile_sensor_data, QoSProfile(depth=10)])
+def test_a_scan_is_what_the_description_says(host, qos):
+    host.spawn('amr', '/', LIDAR)
+    with host.heard(LaserScan, '/scan', qos) as scans:
+        first, second = host.next(scans, 2)
+    assert [nanoseconds(each.header.stamp) for each in (first, second)] == [100 * MS, 200 * MS]
+    assert first.header.frame_id == 'base_scan'
+    assert (first.angle_min, first.angle_max) == pytest.approx((-3.14, 3.14))
+    assert first.angle_increment == pytest.approx(6.28 / 359)
+    assert (first.range_min, first.range_max) == pytest.approx((0.12, 12.0))
+    assert (first.scan_time, first.time_increment) == (0.0, 0.0)
+    assert len(first.ranges) == len(first.intensities) == 360
+    assert first.ranges[0] == pytest.approx(6.0, abs=0.05), 'the west wall'
+    assert min(first.intensities) > 0.0
+
+
+def test_a_namespace_is_before_topic_and_frame(host):
+    host.spawn('amr', '/robot1', replace(LIDAR, scan_topic='front/scan'))
+    with host.heard(LaserScan, '/robot1/front/scan') as scans:
+        (scan,) = host.next(scans)
+    assert scan.header.frame_id == 'robot1/base_scan'
+
+
+def test_robots_that_come_and_go_are_seen_and_not_seen(host):
+    host.spawn('amr', '/', LIDAR)
+    with host.heard(LaserScan, '/scan') as scans:
+        (alone,) = host.next(scans)
+        host.spawn('other', '/other', LIDAR, pose=Transform((2.0, 0.0, 0.2)))
+        (together,) = host.next(scans)
+        host.remove('other')
+        (again,) = host.next(scans)
+    is_nearer = np.array(together.ranges) < np.array(alone.ranges) - 0.1
+    assert 5 < is_nearer.sum() < 60
+    assert np.array(together.ranges)[is_nearer].min() == pytest.approx(1.7, abs=0.1)
+    assert list(again.ranges) == pytest.approx(list(alone.ranges), abs=1e-3)
+
+
+def test_a_robot_that_goes_takes_its_topics_away(host):
+    host.spawn('amr', '/', LIDAR)
+    host.wait(lambda: host.node.count_publishers('/scan') == 1)
+    host.remove('amr')
+    host.wait(lambda: host.node.count_publishers('/scan') == 0)
+    host.turn(20)
+
+
+def test_nothing_is_measured_that_nobody_hears(host, monkeypatch):
+    monkeypatch.setattr(MujocoWorld, 'ray_scene', None)
+    host.spawn('amr', '/', LIDAR)
+    host.turn(30)
+
+
+def test_a_sensor_without_its_link_is_one_line(host):
+    host.spawn('amr', '/', replace(LIDAR, mount=replace(MOUNT, link='nose')))
+    host.turn(20)
+    (line,) = host.lines
+    assert line.startswith("sensor 'lidar' of 'amr' measures nothing: robot 'amr': there is no li")
+
+
+def test_a_reset_begins_the_noise_anew(host):
+    host.spawn('amr', '/', replace(LIDAR, noise=Noise(stddev=0.01)))
+    with host.heard(LaserScan, '/scan') as scans:
+        host.next(scans, 3)
+        host.world.reset()
+        host.next(scans, 4)  # one at once
+    runs = {}
+    for scan in scans:
+        runs.setdefault(nanoseconds(scan.header.stamp), []).append(scan.ranges.tobytes())
+    for time in (100 * MS, 200 * MS, 300 * MS):
+        first, second = runs[time]
+        assert first == second
+    assert len({first for first, *_ in runs.values()}) == len(runs)
+    assert math.isfinite(sum(scans[0].ranges))
