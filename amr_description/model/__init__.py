@@ -37,6 +37,7 @@ module                   what it holds
 ``xml_reader.py``         XML of unknown origin, and attributes with true line numbers
 
 ``wheels.py``             which links are wheels
+``collision_names.py``    what Gazebo calls the collisions of links
 ``rollers.py``            which of them have rollers: mecanum and omni wheels
 ``axles.py``              where their axles point, and what would mend it
 ``shapes.py``             primitive shapes as solids: inertia, extent, overlap

@@ -34,6 +34,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log
 ``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
+``contacts.py``         what touches the collisions of a robot
 ``static_geometry.py``  the visible shapes of a world
 ``rays.py``             rays into the world: what is visible, and where they meet it
 ``lidar.py``            what a lidar measures

@@ -162,6 +162,8 @@ def _replace_collision(part: etree._Element, source: str, meshes: Meshes) -> str
         other = deepcopy(visual)
         other.tag = 'collision'
         other.tail = None
+        if name := part.get('name'):
+            other.set('name', name)
         part.addnext(other)
         try:
             _resolve(other, source, meshes)

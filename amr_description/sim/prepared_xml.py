@@ -21,6 +21,12 @@ from amr_description.sim.meshes import Meshes, resolve_meshes
 MIN_RANGE = 2e-6
 """rad or m; the range of a joint whose limits are equal."""
 
+COLLISION = '/collision:'
+"""
+Stands in the name of a collision between those of its link and its number, until its geom is known
+(:func:`~amr_description.sim.robot_spec.build_robot`).
+"""
+
 _COMPILER = {
     'fusestatic': 'false',
     'discardvisual': 'false',
@@ -34,7 +40,7 @@ _MOMENTS = ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
 def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
     """
     Return the URDF with MuJoCo's compiler settings and resolved mesh paths, and the meshes that
-    MuJoCo does not read itself.
+    MuJoCo does not read itself. Collisions are named by link and number.
 
     Args:
         robot: A robot that the checker has found sound.
@@ -52,6 +58,10 @@ def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
     for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
         # MuJoCo names its geoms by it, and rejects a name that a visual and a collision share.
         shape.attrib.pop('name', None)
+    for link in root.iterfind('link'):
+        for number, collision in enumerate(link.iterchildren('collision')):
+            collision.set('name', f'{link.get("name")}{COLLISION}{number}')
+    for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
         # The first counts, as in urdfdom; the checker has named the others.
         for geometry in shape.iterfind('geometry'):
             for other in tuple(geometry.iterchildren(etree.Element))[1:]:

@@ -27,7 +27,7 @@ from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
 from amr_description.sim.gazebo_physics import apply_gazebo_physics
 from amr_description.sim.meshes import insert_meshes
-from amr_description.sim.prepared_xml import prepared_xml
+from amr_description.sim.prepared_xml import COLLISION, prepared_xml
 from amr_description.sim.roller_wheels import rollers_of
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.wheel_shapes import make_wheels
@@ -69,6 +69,8 @@ class RobotSpec:
     """Of the joints that do not begin at rest at 0."""
     free_joint: str | None
     """The name of the root's free joint; None: the robot stands fixed in the world."""
+    collisions: Mapping[str, Sequence[int]]
+    """By link, of each of its geoms in order: the number of its collision, -1 of a visual."""
 
 
 def root_joint(robot: Robot) -> str:
@@ -105,9 +107,7 @@ def build_robot(
     if not any(commands.values()):
         commands |= _held_joints(robot, log)
     try:
-        xml, meshes = prepared_xml(robot, log, strict=strict)
-        spec = mujoco.MjSpec.from_string(xml)
-        insert_meshes(spec, meshes)
+        spec, collisions = _read(robot, log, strict=strict)
         _replace_floating_joints(spec, robot)
         if robot.root.name != WORLD_LINK:
             spec.worldbody.first_body().add_freejoint(name=root_joint(robot))
@@ -135,7 +135,28 @@ def build_robot(
     free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     _warn_of_fall(spec, robot, log)
     initial = initial_states(robot, controlled, log, strict=strict)
-    return RobotSpec(spec, wheels, rollers, casters, frictions, commands, initial, free)
+    return RobotSpec(
+        spec, wheels, rollers, casters, frictions, commands, initial, free, collisions
+    )
+
+
+def _read(
+    robot: Robot, log: Log, *, strict: bool
+) -> tuple[mujoco.MjSpec, dict[str, tuple[int, ...]]]:
+    """Return what MuJoCo reads, its geoms without names, and :attr:`RobotSpec.collisions`."""
+    xml, meshes = prepared_xml(robot, log, strict=strict)
+    spec = mujoco.MjSpec.from_string(xml)
+    collisions = {}
+    for body in spec.bodies:
+        numbers = []
+        for geom in body.geoms:
+            _, is_collision, number = geom.name.rpartition(COLLISION)
+            numbers.append(int(number) if is_collision else -1)
+            if is_collision:
+                geom.name = ''
+        collisions[body.name] = tuple(numbers)
+    insert_meshes(spec, meshes)
+    return spec, collisions
 
 
 def _held_joints(robot: Robot, log: Log) -> dict[str, tuple[str, ...]]:

@@ -65,6 +65,8 @@ class RobotView:
         """The links that touch the ground as wheels."""
         self.rollers = model.rollers
         """Those of mecanum and omni wheels, by geom."""
+        self.collisions = model.collisions
+        """Which collision each geom of a link is; see :attr:`RobotSpec.collisions`."""
         self._spawn_pose = pose
         self._log = log
         self._engine = engine
