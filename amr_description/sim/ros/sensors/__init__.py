@@ -6,10 +6,7 @@ The sensors of simulated robots that look at the world, as topics: lidars, camer
 =========================== =======================================================================
 ``manager.py``              all sensors of all robots: which one measures, and when
 ``topics.py``               what the topics of one sensor are: the contract of the modules below
-<<<<<<< HEAD
 ``lidar.py``                scans of lidars
-=======
 ``contact.py``              contact sensors and bumpers
->>>>>>> c426ea0 (interfaces, sim: Publish what touches a robot, as Contacts and as ContactsState)
 =========================== =======================================================================
 """

@@ -9,24 +9,17 @@ from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
-<<<<<<< HEAD
 from amr_description.errors import AmrError
-from amr_description.model.sensors import Lidar, WorldSensor
-from amr_description.sim.ros.sensors.lidar import LidarTopics
-=======
-from amr_description.model.sensors import ContactSensor, WorldSensor
+from amr_description.model.sensors import ContactSensor, Lidar, WorldSensor
 from amr_description.sim.ros.sensors.contact import ContactTopics
->>>>>>> c426ea0 (interfaces, sim: Publish what touches a robot, as Contacts and as ContactsState)
+from amr_description.sim.ros.sensors.lidar import LidarTopics
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
 from amr_description.sim.sensor_schedule import SensorSchedule
 from amr_description.sim.world import MujocoWorld
 
 TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
-<<<<<<< HEAD
     Lidar: LidarTopics,
-=======
     ContactSensor: ContactTopics,
->>>>>>> c426ea0 (interfaces, sim: Publish what touches a robot, as Contacts and as ContactsState)
 }
 """Type of a sensor's description → what makes its topics."""
 
