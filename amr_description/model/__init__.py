@@ -25,6 +25,7 @@ module                   what it holds
 ``sensors.py``            lidars, cameras and contact sensors: what a simulator needs to know
 ``gazebo_sensors.py``     … from the ``<sensor>`` tags of ``<gazebo>`` blocks
 ``gazebo_sensor_tags.py`` … the values of these tags, checked
+``gazebo_classic_sensors.py``  … what Gazebo Classic's plugins in them publish
 ``gazebo_plugins.py``     … the plugins that drive a robot without ros2_control, and what they say
 ``gazebo_drives.py``      … what drives and odometry become
 ``gazebo_joints.py``      … what plugins of single joints, and sensors, become

@@ -33,6 +33,20 @@ _ROS2_CONTROL_LIBRARIES = (
 GAZEBO_POSITION_GAIN = 0.1
 """1/period: the default gain of Gazebo's position servo."""
 
+WORLD_SENSORS = (
+    'gpu_lidar',
+    'lidar',
+    'gpu_ray',
+    'ray',
+    'camera',
+    'depth_camera',
+    'depth',
+    'rgbd_camera',
+    'rgbd',
+    'contact',
+)
+"""Types of sensors that look at the world: :mod:`amr_description.model.gazebo_sensors`."""
+
 GAUSSIAN_TYPES = ('gaussian', 'gaussian_quantized')
 TYPES = ('none', *GAUSSIAN_TYPES)
 IMU_QUANTITIES = ('angular_velocity', 'linear_acceleration')
@@ -146,14 +160,23 @@ class GazeboSensor:
 
 
 def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
-    """Return the sensors of all ``<gazebo>`` blocks. Raises DescriptionError."""
+    """
+    Return the sensors of all ``<gazebo>`` blocks.
+
+    Raises DescriptionError: one is faulty, other than those that look at the world, whose faults
+    are reported where they are read.
+    """
     report = raise_error_of(robot.text)
     xml = parse_xml(robot.text, robot.source, report)
     if xml is None:
         return ()
-    reader = ElementReader(robot.source, report)
+    strict, lenient = (ElementReader(robot.source, each) for each in (report, lambda _: None))
     return tuple(
-        _read_sensor(sensor, gazebo.get('reference', ''), reader)
+        _read_sensor(
+            sensor,
+            gazebo.get('reference', ''),
+            lenient if sensor.get('type', '') in WORLD_SENSORS else strict,
+        )
         for gazebo in xml.iterchildren('gazebo')
         for sensor in gazebo.iterchildren('sensor')
     )

@@ -19,6 +19,7 @@ from amr_description.model.hardware_info import (
     InterfaceInfo,
 )
 from amr_description.model.robot import held_without_commands, Joint, Limit, Robot, WORLD_LINK
+from amr_description.model.sensors import WorldSensor
 from amr_description.text import quote, quote_all
 
 JOINTS = 'gazebo_plugins'
@@ -98,6 +99,7 @@ class GazeboTranslation:
         notes: what is to be warned of, one line each.
         remarks: what is worth to be known, one line each.
         not_simulated: one line that names what is declared and not simulated; '' if nothing is.
+        sensors: lidars, cameras and contact sensors, which publish by themselves.
     """
 
     robot: Robot
@@ -106,6 +108,7 @@ class GazeboTranslation:
     notes: tuple[str, ...] = ()
     not_simulated: str = ''
     remarks: tuple[str, ...] = ()
+    sensors: tuple[WorldSensor, ...] = ()
 
     def twist_topic(self, namespace: str) -> str:
         """Return the topic of ``geometry_msgs/msg/Twist`` that drives the robot; '': none does."""
@@ -255,8 +258,8 @@ class Builder:
         """Return the namespace of the first plugin."""
         return next((each.namespace for each in self.controllers), '')
 
-    def build(self) -> GazeboTranslation:
-        """Return the whole."""
+    def build(self, sensors: tuple[WorldSensor, ...] = ()) -> GazeboTranslation:
+        """Return the whole, with sensors that publish by themselves."""
         moves = bool(self._commands or self._moves_base)
         moves &= any(joint.has_position for joint in self.robot.joints)
         if moves and not any(each.type == BROADCASTER for each in self.controllers):
@@ -274,6 +277,7 @@ class Builder:
             tuple(self.notes),
             _names_of(self.lacking),
             (*self.remarks, *self._lone_joints()),
+            sensors,
         )
 
     def _lone_joints(self) -> Sequence[str]:

@@ -28,10 +28,16 @@ CLASSIC = 'gazebo-ros-'
 """What the kinds of Gazebo Classic's ROS plugins begin with."""
 
 _WORLD_MATTERS = (
+    'air-pressure',
+    'air-speed',
     'altimeter',
     'contact',
+    'force-torque',
+    'forcetorque',
     'imu',
+    'logical-camera',
     'magnetometer',
+    'nav-sat',
     'navsat',
     'physics',
     'scene-broadcaster',

@@ -7,7 +7,7 @@ Each value is read with SDF's default and checked; a fault is a finding that say
 A sensor with one is left out, and the rest of the robot goes on.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 import math
 import re
@@ -18,7 +18,14 @@ from amr_description.model.findings import Finding
 from amr_description.model.frames import rotate, Transform, Vector
 from amr_description.model.gazebo import Noise
 from amr_description.model.robot import JointType, Robot
-from amr_description.model.sensors import Distortion, Intrinsics, ScanAxis
+from amr_description.model.sensors import (
+    Camera,
+    Distortion,
+    Intrinsics,
+    Lidar,
+    ScanAxis,
+    SensorMount,
+)
 from amr_description.model.xml_reader import line_of, parse_number
 from amr_description.text import closest_match, quote, quote_all
 
@@ -44,6 +51,8 @@ _ENCODINGS = {
 }
 _TOPIC = re.compile(r'/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*', re.ASCII)
 _SIMILAR = 0.6
+_COLLISION = re.compile(r'_collision(?:_\d+)?$')
+_LUMP = '_fixed_joint_lump__'
 _NOISES = {'none': False, 'gaussian': True, 'gaussian_quantized': True}
 
 
@@ -137,9 +146,9 @@ class SensorTag:
         """Return the rate of the sensor, Hz."""
         return self.number('update_rate', 0.0, 0.0, 'Hz: a finite number from 0 on')
 
-    def pose(self) -> Transform:
-        """Return ``transform_sensor_to_link``."""
-        element = self.element.find('pose')
+    def pose(self, path: str) -> Transform:
+        """Return the transform that a ``<pose>`` stands for; none is no motion."""
+        element = self.element.find(path)
         if element is None:
             return Transform()
         text = (element.text or '').strip()
@@ -152,21 +161,68 @@ class SensorTag:
         x, y, z, roll, pitch, yaw = values
         return Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
 
+    def is_link(self, frame: str) -> bool:
+        """Return whether a frame is a link of the robot, without the prefix of a namespace."""
+        return self.robot.has_link(frame.rpartition('/')[2])
+
     def frame(self, *paths: str) -> str:
-        """Return the frame that an element names; '' if none does. Warn of one that is no link."""
+        """Return the frame that the first element names that is there; '' if none is."""
         name = self.text(*paths).lstrip('/')
-        if name and not self.robot.has_link(name.rpartition('/')[2]):
-            links = [link.name for link in self.robot.links]
-            meant = closest_match(name, links, _SIMILAR)
+        if name and not self.is_link(name):
             path = next(path for path in paths if self.text(path))
-            self.warning(
-                f'<{path.rpartition("/")[2]}> is no link of the robot, so that tf knows no '
-                'transform to it',
-                self.element.find(path),
-                found=quote(name),
-                fix=f'write {meant}' if meant else f'write the name of a link: {quote_all(links)}',
-            )
+            self.warn_of_frame(path.rpartition('/')[2], name, self.element.find(path))
         return name
+
+    def warn_of_frame(self, tag: str, frame: str, element: etree._Element | None) -> None:
+        """Report a frame that is no link, so that nobody knows a transform to it."""
+        links = [link.name for link in self.robot.links]
+        meant = closest_match(frame, links, _SIMILAR)
+        self.warning(
+            f'<{tag}> is no link of the robot: tf will know no transform to it',
+            element,
+            found=quote(frame),
+            fix=f'write {meant}' if meant else f'there are {quote_all(links)}',
+        )
+
+    def collisions(self) -> tuple[str, tuple[str, ...]]:
+        """
+        Return the link of a contact sensor, and the names of its collisions; none are all.
+
+        SDF names those of a URDF ``LINK_collision``, the next ``LINK_collision_1``, and those of a
+        link that is fixed to another ``OTHER_fixed_joint_lump__LINK_collision``.
+        """
+        named = [(each.text or '').strip() for each in self.element.iterfind('contact/collision')]
+        found: dict[str, list[str]] = {}
+        for name in filter(None, named):
+            link, own = self._collision(name)
+            if not link:
+                self.error(
+                    '<collision> of <contact> is none of the robot',
+                    self.element.find('contact/collision'),
+                    found=quote(name),
+                    fix=f'write {self.link}_collision for those of its link',
+                )
+            found.setdefault(link or self.link, []).append(own)
+        if len(found) > 1:
+            others = [link for link in found if link != self.link]
+            self.warning(
+                'its collisions are of several links',
+                found=quote_all([*found]),
+                taken=f'only those of {quote(next(iter(found)))} are felt',
+                fix=f'write a sensor of its own for each of {quote_all(others)}',
+            )
+        link, names = next(iter(found.items()), (self.link, ['']))
+        return link, () if '' in names else tuple(names)
+
+    def _collision(self, name: str) -> tuple[str, str]:
+        """Return the link of a collision, and its name in the URDF; '' stands for all of it."""
+        for link in (self.link, *(each.name for each in self.robot.links)):
+            if not self.robot.has_link(link):
+                continue
+            if any(each.name == name for each in self.robot.link(link).collisions):
+                return link, name
+        owner = _COLLISION.sub('', name.rpartition(_LUMP)[2])
+        return (owner, '') if self.robot.has_link(owner) else ('', '')
 
     def optical_frame(self) -> str:
         """Return the link for the messages of a camera whose tag names none (REP 103)."""
@@ -194,19 +250,28 @@ class SensorTag:
         forward = rotate((self.poses[self.link] @ pose).rotation, x_axis)
         return _dot(rotate(self.poses[link].rotation, z_axis), forward) > math.sqrt(0.5)
 
-    def topic(self, name: str, element: str = 'topic') -> str:
+    def topic(self, name: str) -> str:
         """Return a topic, or report that it cannot be one."""
         if name and not _TOPIC.fullmatch(name):
-            parts = [re.sub(r'\W', '_', part, flags=re.ASCII) for part in name.split('/')]
-            parts = [f'_{part}' if part[:1].isdigit() else part for part in parts if part]
+            parts = [topic_part(part) for part in name.split('/') if part]
             meant = ('/' if name.startswith('/') else '') + '/'.join(parts)
             self.error(
-                f'<{element}> is no name of a topic of ROS',
-                self.element.find(element),
+                'its topic is no name of one in ROS',
                 found=quote(name),
-                fix=f'write {meant}' if parts else 'write one, or remove it',
+                fix=f'write {meant}' if parts else 'write one',
             )
         return name
+
+    def mount(self, frame: str, inside: str = '') -> SensorMount:
+        """
+        Return where the sensor is, with the frame of its messages.
+
+        Args:
+            frame: of the messages.
+            inside: an element with a pose of its own, such as ``camera``.
+        """
+        pose = self.pose('pose') @ self.pose(f'{inside}/pose') if inside else self.pose('pose')
+        return SensorMount(self.name, self.link, pose, frame, self.rate(), line=self.line)
 
     def axis(self, path: str, samples: int) -> ScanAxis:
         """
@@ -232,8 +297,8 @@ class SensorTag:
             )
         return ScanAxis(count, lower, upper)
 
-    def rays_are_few(self, horizontal: ScanAxis, vertical: ScanAxis) -> bool:
-        """Return whether they can be cast; report it otherwise."""
+    def check_rays(self, horizontal: ScanAxis, vertical: ScanAxis) -> None:
+        """Report more rays than can be cast."""
         rays = horizontal.samples * vertical.samples
         if rays > MOST_RAYS:
             self.error(
@@ -242,7 +307,6 @@ class SensorTag:
                 expected=f'at most {MOST_RAYS}',
                 fix='write fewer <samples>',
             )
-        return rays <= MOST_RAYS
 
     def range(self, path: str) -> tuple[float, float, float]:
         """Return the least and the largest range, m, and the resolution of ``<range>``."""
@@ -393,16 +457,63 @@ class SensorTag:
         return f'gazebo sensor {quote(self.name)}: {what}'
 
 
-def tags_of(
-    sensors: Sequence[tuple[etree._Element, str]], robot: Robot, poses: Mapping[str, Transform]
-) -> list[SensorTag]:
-    """Return the ``<sensor>`` tags of a robot, each with the link that it is mounted on."""
-    return [SensorTag(element, link.strip(), robot, poses) for element, link in sensors]
+def lidar_of(tag: SensorTag, mount: SensorMount) -> Lidar:
+    """Return a lidar by its ``<lidar>`` or ``<ray>`` element, still without topics."""
+    inside = 'ray' if tag.element.find('ray') is not None else 'lidar'
+    if tag.element.find(inside) is None:
+        tag.error('it has no <lidar>', fix='write one, with <scan> and <range>')
+        return Lidar(mount, ScanAxis(1, 0.0, 0.0))
+    horizontal = tag.axis(f'{inside}/scan/horizontal', 640)
+    vertical = ScanAxis(1, 0.0, 0.0)
+    if tag.element.find(f'{inside}/scan/vertical') is not None:
+        vertical = tag.axis(f'{inside}/scan/vertical', 1)
+    tag.check_rays(horizontal, vertical)
+    least, most, resolution = tag.range(f'{inside}/range')
+    noise = tag.noise(f'{inside}/noise')
+    return Lidar(mount, horizontal, vertical, least, most, resolution, noise, scan_topic='')
+
+
+def camera_of(tag: SensorTag, mount: SensorMount, inside: str = 'camera') -> Camera:
+    """
+    Return a camera by its ``<camera>`` element, still without topics.
+
+    Args:
+        tag: of the sensor.
+        mount: of the sensor.
+        inside: that element; of several ``camera[1]``, ``camera[2]``.
+    """
+    width, height = tag.size(f'{inside}/image')
+    near, far = tag.clip(f'{inside}/clip', 0.1, 100.0)
+    depth_near, depth_far = near, far
+    if tag.element.find(f'{inside}/depth_camera/clip') is not None:
+        depth_near, depth_far = tag.clip(f'{inside}/depth_camera/clip', near, far)
+    return Camera(
+        mount,
+        width,
+        height,
+        tag.field_of_view(f'{inside}/horizontal_fov'),
+        near,
+        far,
+        depth_near,
+        depth_far,
+        tag.intrinsics(f'{inside}/lens/intrinsics'),
+        tag.distortion(f'{inside}/distortion'),
+        tag.noise(f'{inside}/noise'),
+        tag.encoding(f'{inside}/image/format'),
+        points_are_optical=tag.is_optical(mount.frame, mount.pose),
+    )
+
+
+def topic_part(name: str) -> str:
+    """Return a name as part of that of a topic."""
+    word = re.sub(r'\W', '_', name, flags=re.ASCII)
+    return f'_{word}' if word[:1].isdigit() or not word else word
 
 
 def _named(path: str) -> str:
     """Return how messages call an element: by its name, and that of the one around it."""
     *_, parent, name = ('', *path.split('/'))
+    parent = parent.partition('[')[0]
     return f'<{name}> of <{parent}>' if parent else f'<{name}>'
 
 

@@ -4,18 +4,20 @@
 Lidars, cameras and contact sensors from the ``<sensor>`` tags of ``<gazebo>`` blocks.
 
 New Gazebo's sensors publish on ``<topic>`` by themselves, those of Classic by the plugin in their
-tag. Here each has the topics that it has in ROS: new Gazebo's as they are usually bridged,
-``<topic>`` without a leading ``/model/NAME``.
+tag (:mod:`amr_description.model.gazebo_classic_sensors`). Here each has the topics that it has in
+ROS: new Gazebo's as they are usually bridged, ``<topic>`` without a leading ``/model/NAME``.
 
 ================================ ==================================================================
 type                             topics; without ``<topic>``
 ================================ ==================================================================
-gpu_lidar, lidar, gpu_ray, ray   ``<topic>``, ``<topic>/points``; ``scan``
+gpu_lidar, lidar, gpu_ray, ray   ``<topic>``, ``<topic>/points``; ``scan``, of several lidars
+                                 ``NAME/scan``
 camera                           ``<topic>``, ``camera_info`` beside it; ``NAME/image``
 depth_camera, depth              ``<topic>``, ``<topic>/points``, ``camera_info`` beside it;
                                  ``NAME/depth_image``
 rgbd_camera, rgbd                ``<topic>/image``, ``/depth_image``, ``/points``,
                                  ``/camera_info``; ``NAME``
+contact                          ``<topic>``; ``NAME/contact``
 ================================ ==================================================================
 
 The frame of the messages is the one that the tag names, else the link that the sensor is on; of a
@@ -23,41 +25,69 @@ camera, the link below it that has ``optical`` in its name (REP 103). Gazebo wou
 ``MODEL/LINK/SENSOR``, which is in no tree of transforms.
 """
 
-from collections.abc import Callable, Iterable, Mapping
-import re
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
 
 from lxml import etree
 
-from amr_description.model.findings import Finding
+from amr_description.model.gazebo import WORLD_SENSORS
 from amr_description.model.gazebo_builder import gz_topic
+from amr_description.model.gazebo_classic_sensors import read_classic
 from amr_description.model.gazebo_plugins import PluginElement, sensors_of
-from amr_description.model.gazebo_sensor_tags import SensorTag, tags_of
+from amr_description.model.gazebo_sensor_tags import (
+    camera_of,
+    lidar_of,
+    SensorTag,
+    topic_part,
+)
 from amr_description.model.kinematics import link_poses
-from amr_description.model.origins import raise_error_of, relocated
+from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
-from amr_description.model.sensors import (
-    Camera,
-    Lidar,
-    NO_NOISE,
-    RobotSensors,
-    ScanAxis,
-    SensorMount,
-    WorldSensor,
-)
+from amr_description.model.sensors import Camera, ContactSensor, Lidar, RobotSensors, WorldSensor
 from amr_description.model.xml_reader import parse_xml
+from amr_description.text import closest_match, quote, quote_all
 
+SERVED_ELSEWHERE = ('force_torque', 'imu', 'magnetometer')
+"""Types whose values are state interfaces of hardware, and published by broadcasters."""
+_LACKING = (
+    'air_flow',
+    'air_pressure',
+    'air_speed',
+    'altimeter',
+    'boundingbox',
+    'boundingbox_camera',
+    'custom',
+    'dvl',
+    'gps',
+    'logical_camera',
+    'multicamera',
+    'navsat',
+    'rfid',
+    'rfidtag',
+    'segmentation',
+    'segmentation_camera',
+    'sonar',
+    'thermal',
+    'thermal_camera',
+    'wide_angle_camera',
+    'wideanglecamera',
+    'wireless_receiver',
+    'wireless_transmitter',
+)
+"""Types that are known to Gazebo and not simulated."""
+_TYPES = (*WORLD_SENSORS, *SERVED_ELSEWHERE, *_LACKING)
 _FRAMES = ('gz_frame_id', 'ignition_frame_id', 'frame_id')
 """New Gazebo's names of the frame, the newest first; SDF's last."""
 _DEFAULT_TOPIC = '__default_topic__'
+_SIMILAR = 0.6
 
 
 def robot_sensors_of(robot: Robot) -> RobotSensors:
     """
     Return the sensors of a robot that look at the world.
 
-    Those that ``<ros2_control>`` has under the same name are its own. Raises DescriptionError: a
-    ``<ros2_control>`` block is invalid.
+    Raises DescriptionError: a ``<ros2_control>`` block is invalid.
     """
     report = raise_error_of(robot.text, strict=False)
     xml = parse_xml(robot.text, robot.source, report)
@@ -68,160 +98,203 @@ def robot_sensors_of(robot: Robot) -> RobotSensors:
 
 
 def read_sensors(
-    xml: etree._Element, robot: Robot, controlled: Iterable[str] = ()
+    xml: etree._Element, robot: Robot, controlled: Collection[str] = ()
 ) -> RobotSensors:
     """
-    Return the sensors below ``xml``.
+    Return the sensors below ``xml`` that look at the world, and what is wrong with any.
 
     Args:
         xml: the root of the description.
-        robot: the description.
-        controlled: the sensors that are those of ``<ros2_control>``.
+        robot: the description; its tree may be broken.
+        controlled: sensors of ``<ros2_control>``, which are its own.
     """
-    found = [each for each in sensors_of(xml) if each[0].get('name', '') not in controlled]
+    found = sensors_of(xml)
     poses = link_poses(robot) if found else {}
-    sensors: list[WorldSensor] = []
+    tags = [SensorTag(element, link.strip(), robot, poses) for element, link in found]
+    sensors: list[tuple[SensorTag, WorldSensor]] = []
     lacking: list[tuple[str, str]] = []
-    findings: list[Finding] = []
-    for tag in tags_of(found, robot, poses):
-        read = _READERS.get(tag.type)
-        if read is None or _classic_plugin(tag) is not None:
+    for tag in tags:
+        _check_place(tag)
+        if tag.name in controlled or tag.is_faulty:
+            continue
+        read = _read(tag)
+        if read is None:
             lacking.append((tag.name, tag.type))
-            continue
-        if not robot.has_link(tag.link):
-            continue
-        sensor = read(tag)
-        findings += tag.findings
-        if not tag.is_faulty:
-            sensors.append(sensor)
-    notes = tuple(relocated(each, robot.text).as_taken().text for each in findings)
-    return RobotSensors(tuple(sensors), notes, tuple(lacking))
+        elif not tag.is_faulty:
+            sensors += [(tag, each) for each in read]
+    sound = _with_own_topics(sensors)
+    findings = tuple(each for tag in tags for each in tag.findings)
+    return RobotSensors(tuple(sound), findings, tuple(lacking))
 
 
-def _classic_plugin(tag: SensorTag) -> PluginElement | None:
+def has_sensors(gazebo: etree._Element) -> bool:
+    """Return whether a ``<gazebo>`` block has sensors, whose link is checked here."""
+    return gazebo.find('sensor') is not None
+
+
+def _read(tag: SensorTag) -> list[WorldSensor] | None:
+    """Return what a tag stands for, which may be nothing; None: it is not simulated."""
+    if not tag.type or tag.type not in _TYPES:
+        meant = closest_match(tag.type, _TYPES, _SIMILAR)
+        tag.error(
+            'its type is none of SDF' if tag.type else 'it has no type',
+            found=quote(tag.type) if tag.type else '',
+            expected=f'one of {", ".join(WORLD_SENSORS)}, imu, …',
+            fix=f'write type="{meant}"' if meant else '',
+        )
+        return []
+    if tag.type in SERVED_ELSEWHERE:
+        return []
+    classic = _classic_plugin(tag.element)
+    if classic is not None:
+        return read_classic(tag, classic)
+    read = _READERS.get(tag.type)
+    return None if read is None else [read(tag)]
+
+
+def _classic_plugin(sensor: etree._Element) -> PluginElement | None:
     """Return the plugin of Gazebo Classic that publishes what a sensor measures."""
-    plugins = (PluginElement(each) for each in tag.element.iterchildren('plugin'))
+    plugins = (PluginElement(each, []) for each in sensor.iterchildren('plugin'))
     return next((each for each in plugins if each.is_classic), None)
 
 
+def _check_place(tag: SensorTag) -> None:
+    """Report a sensor without a name, or one that is on no link."""
+    if not tag.name:
+        tag.error('it has no attribute "name"', fix='give it one, such as name="lidar"')
+    if not tag.link:
+        tag.error(
+            'its <gazebo> has no attribute "reference"',
+            expected='the link that the sensor is mounted on',
+        )
+    elif not tag.robot.has_link(tag.link):
+        has_joint = tag.robot.has_joint(tag.link)
+        if has_joint and tag.type == 'force_torque':
+            return
+        links = [link.name for link in tag.robot.links]
+        meant = closest_match(tag.link, links, _SIMILAR)
+        if has_joint:
+            meant = tag.robot.joint(tag.link).child
+        tag.error(
+            'it is mounted on a link that is not there',
+            tag.element.getparent(),
+            found=quote(tag.link),
+            expected=f'one of {quote_all(links)}',
+            fix=f'write reference="{meant}"' if meant else '',
+        )
+
+
+def _with_own_topics(
+    sensors: Iterable[tuple[SensorTag, WorldSensor]],
+) -> list[WorldSensor]:
+    """
+    Return the sensors without those that would publish on a topic of another type.
+
+    Two on one topic of one type are mixed there, as in Gazebo, which is reported. Cameras that
+    are alike may share what says how they see.
+    """
+    owners: dict[str, tuple[str, WorldSensor]] = {}
+    sound: list[WorldSensor] = []
+    for tag, sensor in sensors:
+        own = {sensor.mount.full_name(name, ''): kind for name, kind in sensor.topics}
+        shared = [topic for topic in own if topic in owners]
+        if shared:
+            kind, other = owners[shared[0]]
+            found = f'{quote_all(shared)}, as {quote(other.mount.name)} on line {other.mount.line}'
+            fix = 'give each a <topic> of its own'
+            if any(owners[topic][0] != own[topic] for topic in shared):
+                tag.error(f'it has a topic of another type, {kind}', found=found, fix=fix)
+                continue
+            if not _see_alike(sensor, other):
+                mixed = 'both are on it'
+                tag.warning(
+                    'it has the topic of another sensor', found=found, taken=mixed, fix=fix
+                )
+        owners = {topic: (kind, sensor) for topic, kind in own.items()} | owners
+        sound.append(sensor)
+    return sound
+
+
+def _see_alike(one: WorldSensor, other: WorldSensor) -> bool:
+    """Return whether the same ``camera_info`` holds for two cameras with other pictures."""
+    if not (isinstance(one, Camera) and isinstance(other, Camera)):
+        return False
+    info = {other.camera_info_topic, other.depth_camera_info_topic}
+    shared = {name for name, _ in one.topics} & {name for name, _ in other.topics}
+    lenses = {
+        (each.width, each.height, each.horizontal_fov, each.intrinsics, each.distortion)
+        for each in (one, other)
+    }
+    return shared <= info and len(lenses) == 1 and one.mount.frame == other.mount.frame
+
+
 def _lidar(tag: SensorTag) -> Lidar:
-    inside = 'lidar' if tag.element.find('lidar') is not None else 'ray'
-    topic = tag.topic(_gz_topic(tag, 'scan'))
-    mount = _mount(tag, tag.frame(*_FRAMES) or tag.link)
-    return lidar_of(tag, inside, mount, topic, f'{topic}/points')
-
-
-def lidar_of(tag: SensorTag, inside: str, mount: SensorMount, scan: str, points: str) -> Lidar:
-    """
-    Return a lidar.
-
-    Args:
-        tag: of the sensor.
-        inside: the element that describes the rays, ``lidar`` or ``ray``.
-        mount: of the sensor.
-        scan: topic of scans.
-        points: topic of clouds.
-    """
-    horizontal = tag.axis(f'{inside}/scan/horizontal', 640)
-    vertical = ScanAxis(1, 0.0, 0.0)
-    if tag.element.find(f'{inside}/scan/vertical') is not None:
-        vertical = tag.axis(f'{inside}/scan/vertical', 1)
-    tag.rays_are_few(horizontal, vertical)
-    least, most, resolution = tag.range(f'{inside}/range')
-    noise = tag.noise(f'{inside}/noise')
-    return Lidar(
-        mount,
-        horizontal,
-        vertical,
-        least,
-        most,
-        resolution,
-        noise,
-        scan_topic=scan,
-        points_topic=points,
-    )
+    unnamed = [
+        each
+        for each in tag.element.getroottree().iterfind('gazebo/sensor')
+        if _READERS.get(each.get('type', '')) is _lidar
+        and not _named_topic(each)
+        and _classic_plugin(each) is None
+    ]
+    default = 'scan' if len(unnamed) < 2 else f'{topic_part(tag.name)}/scan'
+    topic = _topic(tag, default)
+    lidar = lidar_of(tag, tag.mount(tag.frame(*_FRAMES) or tag.link))
+    return replace(lidar, scan_topic=topic, points_topic=f'{topic}/points')
 
 
 def _camera(tag: SensorTag) -> Camera:
-    topic = tag.topic(_gz_topic(tag, f'{_topic_of(tag.name)}/image'))
-    return camera_of(tag, _camera_mount(tag), image=topic, info=_beside(tag, topic))
+    topic = _topic(tag, f'{topic_part(tag.name)}/image')
+    return replace(_any_camera(tag), image_topic=topic, camera_info_topic=_beside(tag, topic))
 
 
 def _depth_camera(tag: SensorTag) -> Camera:
-    topic = tag.topic(_gz_topic(tag, f'{_topic_of(tag.name)}/depth_image'))
-    info = _beside(tag, topic)
-    return camera_of(
-        tag, _camera_mount(tag), depth=topic, depth_info=info, points=f'{topic}/points'
+    topic = _topic(tag, f'{topic_part(tag.name)}/depth_image')
+    return replace(
+        _any_camera(tag),
+        depth_topic=topic,
+        depth_camera_info_topic=_beside(tag, topic),
+        points_topic=f'{topic}/points',
     )
 
 
 def _rgbd_camera(tag: SensorTag) -> Camera:
-    topic = tag.topic(_gz_topic(tag, _topic_of(tag.name)))
-    return camera_of(
-        tag,
-        _camera_mount(tag),
-        image=f'{topic}/image',
-        info=_info_topic(tag) or f'{topic}/camera_info',
-        depth=f'{topic}/depth_image',
-        points=f'{topic}/points',
+    topic = _topic(tag, topic_part(tag.name))
+    return replace(
+        _any_camera(tag),
+        image_topic=f'{topic}/image',
+        camera_info_topic=_info_topic(tag) or f'{topic}/camera_info',
+        depth_topic=f'{topic}/depth_image',
+        points_topic=f'{topic}/points',
     )
 
 
-def camera_of(
-    tag: SensorTag,
-    mount: SensorMount,
-    *,
-    image: str = '',
-    info: str = '',
-    depth: str = '',
-    depth_info: str = '',
-    points: str = '',
-) -> Camera:
-    """Return a camera by its ``<camera>`` element, with topics; '' is one that it has not."""
-    width, height = tag.size('camera/image')
-    near, far = tag.clip('camera/clip', 0.1, 100.0)
-    depth_near, depth_far = near, far
-    if tag.element.find('camera/depth_camera/clip') is not None:
-        depth_near, depth_far = tag.clip('camera/depth_camera/clip', near, far)
-    return Camera(
-        mount,
-        width,
-        height,
-        tag.field_of_view('camera/horizontal_fov'),
-        near,
-        far,
-        depth_near,
-        depth_far,
-        tag.intrinsics('camera/lens/intrinsics'),
-        tag.distortion('camera/distortion'),
-        tag.noise('camera/noise') if tag.element.find('camera/noise') is not None else NO_NOISE,
-        tag.encoding('camera/image/format') if image else 'rgb8',
-        image_topic=image,
-        camera_info_topic=info,
-        depth_topic=depth,
-        depth_camera_info_topic=depth_info,
-        points_topic=points,
-        points_are_optical=tag.is_optical(mount.frame, mount.pose),
-    )
-
-
-def _mount(tag: SensorTag, frame: str) -> SensorMount:
-    return SensorMount(tag.name, tag.link, tag.pose(), frame, tag.rate(), line=tag.line)
-
-
-def _camera_mount(tag: SensorTag) -> SensorMount:
-    """Return the mount of a camera; ``<optical_frame_id>`` counts before the other names."""
+def _any_camera(tag: SensorTag) -> Camera:
+    """Return a camera without topics; ``<optical_frame_id>`` counts before other frames."""
     frame = tag.frame('camera/optical_frame_id', *_FRAMES)
-    return _mount(tag, frame or tag.optical_frame())
+    return camera_of(tag, tag.mount(frame or tag.optical_frame(), 'camera'))
 
 
-def _gz_topic(tag: SensorTag, default: str) -> str:
-    topic = gz_topic(PluginElement(tag.element), 'topic', default)
-    return default if topic.strip('/') == _DEFAULT_TOPIC else topic.rstrip('/')
+def _contact(tag: SensorTag) -> ContactSensor:
+    link, collisions = tag.collisions()
+    mount = replace(tag.mount(tag.frame(*_FRAMES) or tag.link), link=link)
+    named = tag.text('contact/topic') if not _named_topic(tag.element) else ''
+    default = '' if named == _DEFAULT_TOPIC else named
+    topic = _topic(tag, default or f'{topic_part(tag.name)}/contact')
+    return ContactSensor(mount, collisions, topic)
+
+
+def _named_topic(sensor: etree._Element) -> str:
+    """Return a topic of new Gazebo as it is usually bridged to ROS; '' if the tag names none."""
+    topic = gz_topic(PluginElement(sensor), 'topic', '').rstrip('/')
+    return '' if topic.strip('/') == _DEFAULT_TOPIC else topic
+
+
+def _topic(tag: SensorTag, default: str) -> str:
+    return tag.topic(_named_topic(tag.element) or default)
 
 
 def _info_topic(tag: SensorTag) -> str:
-    return tag.topic(tag.text('camera/camera_info_topic'), 'camera/camera_info_topic')
+    return tag.topic(tag.text('camera/camera_info_topic'))
 
 
 def _beside(tag: SensorTag, topic: str) -> str:
@@ -230,16 +303,11 @@ def _beside(tag: SensorTag, topic: str) -> str:
     return _info_topic(tag) or f'{folder}{slash}camera_info'
 
 
-def _topic_of(name: str) -> str:
-    """Return the name of a sensor as part of a topic."""
-    word = re.sub(r'\W', '_', name, flags=re.ASCII)
-    return f'_{word}' if word[:1].isdigit() or not word else word
-
-
 _READERS: Mapping[str, Callable[[SensorTag], WorldSensor]] = {
     **dict.fromkeys(('gpu_lidar', 'lidar', 'gpu_ray', 'ray'), _lidar),
     'camera': _camera,
     **dict.fromkeys(('depth_camera', 'depth'), _depth_camera),
     **dict.fromkeys(('rgbd_camera', 'rgbd'), _rgbd_camera),
+    'contact': _contact,
 }
 """Type of a sensor → what reads its tag."""

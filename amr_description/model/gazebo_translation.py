@@ -18,6 +18,7 @@ JointPositionController, JointController     ``amr_description/GazeboJointComman
 JointTrajectoryController                    ``joint_trajectory_controller/…``
 ros_control of ROS 1, with <transmission>    none: its joints can be commanded by ros2_control
 ``<sensor type="imu">``                      ``imu_sensor_broadcaster/IMUSensorBroadcaster``
+other sensors                                none: :mod:`amr_description.model.gazebo_sensors`
 ============================================ ====================================================
 
 Parameters that are not given have Gazebo's defaults. Topics are those of the plugin: Classic's
@@ -33,6 +34,7 @@ from amr_description.model.gazebo_drives import DRIVES, FIRST
 from amr_description.model.gazebo_joints import add_imu, JOINTS
 from amr_description.model.gazebo_physics import SCRUBBING
 from amr_description.model.gazebo_plugins import plugins_of, sensors_of
+from amr_description.model.gazebo_sensors import read_sensors, SERVED_ELSEWHERE
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
@@ -59,9 +61,14 @@ def translate(robot: Robot) -> GazeboTranslation:
             builder.notes.append(f"Gazebo's WheelSlip is not simulated; {SCRUBBING}")
         elif not plugin.is_world_matter:
             builder.lacking.append(('plugin', plugin.name or plugin.filename, plugin.library))
+    seeing = read_sensors(xml, robot, builder.sensors)
+    builder.lacking += [('sensor', name, kind) for name, kind in seeing.lacking]
     for sensor, link in sensors_of(xml):
         if sensor.get('name', '') in builder.sensors:
             continue  # ros2_control's, which says itself what it cannot do
-        if sensor.get('type') != 'imu' or not add_imu(builder, sensor, link):
-            builder.lacking.append(('sensor', sensor.get('name', ''), sensor.get('type', '')))
-    return builder.build()
+        kind = sensor.get('type', '')
+        if kind not in SERVED_ELSEWHERE or not robot.has_link(link):
+            continue  # read above, where its fault is found
+        if kind != 'imu' or not add_imu(builder, sensor, link):
+            builder.lacking.append(('sensor', sensor.get('name', ''), kind))
+    return builder.build(seeing.sensors)

@@ -14,10 +14,21 @@ absolute if it begins with ``/``; '' is a topic that is not published.
 from dataclasses import dataclass
 import math
 
+from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import Noise
 
 NO_NOISE = Noise()
+_CAMERA_INFO = 'sensor_msgs/msg/CameraInfo'
+_IMAGE = 'sensor_msgs/msg/Image'
+_POINTS = 'sensor_msgs/msg/PointCloud2'
+
+type Topics = tuple[tuple[str, str], ...]
+"""(topic, type of its messages) of those that a sensor publishes."""
+
+
+def _published(*topics: tuple[str, str]) -> Topics:
+    return tuple(each for each in topics if each[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +47,19 @@ class SensorMount:
     """Of its topics, if the robot is spawned without one."""
     line: int = 0
     """Of its tag in the description."""
+
+    def full_name(self, topic: str, namespace: str) -> str:
+        """
+        Return the full name of a topic; '' stays ''.
+
+        Args:
+            topic: relative or absolute.
+            namespace: of the robot, absolute: ``/`` or ``/robot1``.
+        """
+        if not topic or topic.startswith('/'):
+            return topic
+        inside = namespace.rstrip('/') or f'/{self.namespace}'.rstrip('/')
+        return f'{inside}/{topic}'
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +104,15 @@ class Lidar:
     """``sensor_msgs/msg/Range``: the nearest of all rays."""
     radiation_type: int = 1
     """Of that message: 0 ultrasound, 1 infrared."""
+
+    @property
+    def topics(self) -> Topics:
+        """Its topics and their types."""
+        return _published(
+            (self.scan_topic, 'sensor_msgs/msg/LaserScan'),
+            (self.points_topic, _POINTS),
+            (self.range_topic, 'sensor_msgs/msg/Range'),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +183,17 @@ class Camera:
     points_are_optical: bool = True
     """Whether the points have the axes of the optical frame; else those of the sensor."""
 
+    @property
+    def topics(self) -> Topics:
+        """Its topics and their types, without those of JPEGs."""
+        return _published(
+            (self.image_topic, _IMAGE),
+            (self.camera_info_topic, _CAMERA_INFO),
+            (self.depth_topic, _IMAGE),
+            (self.depth_camera_info_topic, _CAMERA_INFO),
+            (self.points_topic, _POINTS),
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class ContactSensor:
@@ -162,6 +206,11 @@ class ContactSensor:
     message: str = 'ros_gz_interfaces/msg/Contacts'
     """Its type: that of ros_gz_bridge, or Gazebo Classic's ``gazebo_msgs/msg/ContactsState``."""
 
+    @property
+    def topics(self) -> Topics:
+        """Its topic and the type of it."""
+        return _published((self.topic, self.message))
+
 
 type WorldSensor = Lidar | Camera | ContactSensor
 
@@ -173,10 +222,10 @@ class RobotSensors:
 
     Attributes:
         sensors: those that are sound.
-        notes: what is to be warned of, one line each.
+        findings: what is wrong with them and with the others, which are left out.
         lacking: (name, type) of those that are declared and not simulated.
     """
 
     sensors: tuple[WorldSensor, ...] = ()
-    notes: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
     lacking: tuple[tuple[str, str], ...] = ()

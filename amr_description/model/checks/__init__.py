@@ -20,6 +20,7 @@ module               what it holds
 ``units.py``         lengths in millimetres, masses in grams
 ``joints.py``        limits, axes, mimics, wheels
 ``axles.py``         the axles of wheels that controllers name, and angles in degrees
+``sensors.py``       lidars, cameras and contact sensors of ``<gazebo>`` blocks
 ``ros2_control.py``  ``<ros2_control>`` blocks, and what controllers assume about the robot
 ===================  =============================================================================
 """
@@ -35,6 +36,7 @@ from amr_description.model.checks import (
     markup,
     meshes,
     ros2_control,
+    sensors,
     shapes,
     units,
 )
@@ -98,6 +100,7 @@ RULES: tuple[Rule, ...] = (
     ros2_control.interface_names_are_spelt_right,
     ros2_control.one_block_commands,
     joints.wheels_roll_forward,
+    sensors.sensors_can_work,
     axles.angles_are_in_radians,
     *_RULES_OF_DRIVES,
 )

@@ -16,6 +16,7 @@ from lxml import etree
 from amr_description.errors import AmrError
 from amr_description.model.checks.context import CheckContext, FileExists
 from amr_description.model.findings import Finding
+from amr_description.model.gazebo_sensors import has_sensors
 from amr_description.model.xml_reader import line_of
 from amr_description.text import closest_match, one_line, quote, quote_all
 
@@ -231,6 +232,8 @@ def gazebo_refers_to_something(context: CheckContext) -> Iterator[Finding]:
         name = element.get('reference')
         if name is None or robot.has_link(name) or robot.has_joint(name):
             continue
+        if has_sensors(element):
+            continue  # told by the rule on sensors
         meant = closest_match(name, known, _MISSPELT_REFERENCE)
         yield context.warning(
             line_of(element),

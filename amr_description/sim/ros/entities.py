@@ -33,7 +33,6 @@ from amr_description.model.controller_files import files_of, missing_files, name
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.gazebo_builder import GazeboTranslation
-from amr_description.model.gazebo_sensors import robot_sensors_of
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
@@ -203,7 +202,7 @@ class EntityManager:
         if prepared is not None:
             running, thread = self._serve(prepared, manager, given)
         self._ground_truth.add(given, namespace)
-        self._sensors.add(given, namespace, robot_sensors_of(robot).sensors)
+        self._sensors.add(given, namespace, translation.sensors)
         self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
         if running is not None and thread is not None:
             starting = start_controllers(running, translation.controllers, self._log)

@@ -20,6 +20,7 @@ from amr_description.control.ros.controller_manager_node import RunningManager
 from amr_description.control.switching import Strictness
 from amr_description.errors import AmrError
 from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
+from amr_description.text import quote
 
 _SWITCH_TIMEOUT = 5_000_000_000
 """ns."""
@@ -72,7 +73,7 @@ def node_arguments(controller: PluginController, namespace: str, update_rate: in
 
 
 def log_translation(robot: str, translation: GazeboTranslation, namespace: str, log: Log) -> None:
-    """Log what was made of a robot's plugins: a line each, and one of what is not simulated."""
+    """Log what was made of plugins and sensors: a line each, and one of what is not simulated."""
     for each in translation.controllers:
         controller = f'{each.name} ({each.type})'
         topics = ', '.join(each.topics_in_use(namespace))
@@ -80,6 +81,9 @@ def log_translation(robot: str, translation: GazeboTranslation, namespace: str, 
             Severity.INFO,
             f"'{robot}': for {each.origin} runs the controller {controller}: {topics}",
         )
+    for sensor in translation.sensors:
+        topics = ', '.join(sensor.mount.full_name(each, namespace) for each, _ in sensor.topics)
+        log(Severity.INFO, f"'{robot}': sensor {quote(sensor.mount.name)}: {topics}")
     for remark in translation.remarks:
         log(Severity.INFO, f"'{robot}': {remark}")
     for note in translation.notes:

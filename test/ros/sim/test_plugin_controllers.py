@@ -28,14 +28,16 @@ def translated(*plugins, reference=''):
 
 
 @pytest.mark.parametrize(
-    'namespace, inside, states',
-    [('/', '/r1', '/r1/joint_states'), ('/r2', '/r2', '/r2/joint_states')],
+    'namespace, inside, states, eye',
+    [('/', '/r1', '/r1/joint_states', '/eye'), ('/r2', '/r2', '/r2/joint_states', '/r2/eye')],
 )
-def test_a_line_for_each_plugin_and_one_for_all_that_is_not_simulated(namespace, inside, states):
+def test_a_line_for_each_plugin_and_one_for_all_that_is_not_simulated(
+    namespace, inside, states, eye
+):
     found = translated(
         classic_drive(f'<publish_odom>1</publish_odom>{RULES}'),
         plugin('libmaker.so', 'maker'),
-        reference='<sensor name="eye" type="camera"/><sensor name="laser" type="ray"/>',
+        reference='<sensor name="eye" type="camera"/><sensor name="fix" type="navsat"/>',
     )
     log = FakeLog()
     log_translation('cart', found, namespace, log)
@@ -57,8 +59,12 @@ def test_a_line_for_each_plugin_and_one_for_all_that_is_not_simulated(namespace,
             f'{states}',
         ),
         (
+            Severity.INFO,
+            f'\'cart\': sensor "eye": {eye}/image, {eye}/camera_info',
+        ),
+        (
             Severity.WARN,
-            "'cart': declared for Gazebo and not simulated: sensors camera (eye), ray (laser); "
+            "'cart': declared for Gazebo and not simulated: sensor navsat (fix); "
             'plugin libmaker.so (maker)',
         ),
     ]

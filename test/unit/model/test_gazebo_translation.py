@@ -315,22 +315,25 @@ def test_a_rate_above_the_highest_is_told():
 
 
 def test_what_is_not_simulated_is_named_once():
-    sensors = """<sensor name="eye" type="camera"/><sensor name="laser" type="gpu_lidar"/>
+    sensors = """<sensor name="eye" type="camera"/><sensor name="height" type="altimeter"/>
+    <sensor name="fix" type="navsat"/><sensor name="fix_2" type="navsat"/>
     <sensor name="rear" type="camera">
-      <plugin filename="libgazebo_ros_camera.so" name="c"/></sensor>
+      <plugin filename="libgazebo_ros_thermal.so" name="c"/></sensor>
     <sensor name="unit" type="imu"/>"""
     found = translated(
         gz_drive(),
         plugin('gz-sim-sensors-system', 'gz::sim::systems::Sensors'),
         plugin('gz-sim-imu-system', 'gz::sim::systems::Imu'),
+        plugin('gz-sim-navsat-system', 'gz::sim::systems::NavSat'),
+        plugin('gz-sim-forcetorque-system', 'gz::sim::systems::ForceTorque'),
         plugin('gz_ros2_control-system', 'gz_ros2_control::GazeboSimROS2ControlPlugin'),
         plugin('libmaker_suspension.so', 'maker::Suspension'),
         plugin('libmaker_suspension.so', 'maker::Suspension'),
         reference=sensors,
     )
     assert found.not_simulated == (
-        'declared for Gazebo and not simulated: sensors camera (eye, rear), gpu_lidar (laser); '
-        'plugin libmaker_suspension.so (maker::Suspension)'
+        'declared for Gazebo and not simulated: sensors altimeter (height), navsat (fix, fix_2), '
+        'camera (rear); plugin libmaker_suspension.so (maker::Suspension)'
     )
     assert not translated(gz_drive()).not_simulated
 

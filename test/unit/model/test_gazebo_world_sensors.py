@@ -1,15 +1,18 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Lidars and cameras of ``<gazebo>`` blocks: what is read, SDF's defaults, topics and frames."""
+"""Sensors of ``<gazebo>`` blocks that look at the world: what is read, SDF's defaults, faults."""
 
 import math
 
 import pytest
 
+from amr_description.model import checks
+from amr_description.model.findings import Severity
 from amr_description.model.gazebo_sensors import robot_sensors_of
 from amr_description.model.sensors import Intrinsics, ScanAxis
 from amr_description.model.urdf import parse
 
+SCAN = '<scan><horizontal><max_angle>1</max_angle></horizontal></scan>'
 RANGE = '<range><min>0.1</min><max>10</max></range>'
 
 
@@ -27,7 +30,7 @@ def robot_of(inside):
 def sensor_of(kind, inside, link='eye', name='s'):
     sensor = f'<sensor name="{name}" type="{kind}">{inside}</sensor>'
     found = robot_sensors_of(robot_of(f'<gazebo reference="{link}">{sensor}</gazebo>'))
-    assert not found.notes
+    assert not found.findings
     (sensor,) = found.sensors
     return sensor
 
@@ -111,3 +114,231 @@ def test_the_lens_of_a_camera():
     assert camera.intrinsics == Intrinsics(50.0, 51.0, 32.0, 24.0)
     assert (camera.distortion.k1, camera.distortion.p2) == (-0.1, 0.2)
     assert camera.noise.stddev == 0.007
+
+
+def test_contacts_are_those_of_collisions_by_the_names_of_sdf():
+    text = """<robot name="r"><link name="base"><collision name="front"><geometry>
+      <sphere radius="1"/></geometry></collision></link><link name="eye"/>
+      <joint name="a" type="fixed"><parent link="base"/><child link="eye"/></joint>
+      <gazebo reference="base"><sensor name="bump" type="contact"><contact>
+        <collision>{}</collision>{}</contact></sensor></gazebo></robot>"""
+
+    def contact_of(collision, inside=''):
+        (sensor,) = robot_sensors_of(parse(text.format(collision, inside))).sensors
+        return sensor.mount.link, sensor.collisions, sensor.topic
+
+    assert contact_of('base_collision') == ('base', (), 'bump/contact')
+    assert contact_of('base_collision_1') == ('base', (), 'bump/contact')
+    assert contact_of('front', '<topic>hit</topic>') == ('base', ('front',), 'hit')
+    lumped = 'base_fixed_joint_lump__eye_collision_2'
+    assert contact_of(lumped, '<topic>__default_topic__</topic>') == ('eye', (), 'bump/contact')
+
+
+def test_several_lidars_without_a_topic_have_their_names():
+    lidar = (
+        f"""<lidar><scan><horizontal><max_angle>1</max_angle></horizontal></scan>{RANGE}</lidar>"""
+    )
+    tags = ''.join(f'<sensor name="{name}" type="lidar">{lidar}</sensor>' for name in 'ab')
+    found = robot_sensors_of(robot_of(f'<gazebo reference="eye">{tags}</gazebo>')).sensors
+    assert [each.scan_topic for each in found] == ['a/scan', 'b/scan']
+
+
+def test_a_sensor_of_ros2_control_is_left_to_it():
+    control = """<ros2_control name="c" type="sensor"><hardware><plugin>p</plugin></hardware>
+      <sensor name="s"><state_interface name="range"/></sensor></ros2_control>"""
+    sensor = '<gazebo reference="eye"><sensor name="s" type="camera"/></gazebo>'
+    found = robot_sensors_of(robot_of(control + sensor))
+    assert not found.sensors and not found.findings and not found.lacking
+
+
+def ranged(inside):
+    return f'<lidar>{SCAN}<range>{inside}</range></lidar>'
+
+
+def scanned(horizontal, vertical=''):
+    inside = f'<horizontal>{horizontal}</horizontal>{vertical}'
+    return f'<lidar><scan>{inside}</scan>{RANGE}</lidar>'
+
+
+FAULTS = [
+    ('lidar', '', 'it has no <lidar>; write one, with <scan> and <range>'),
+    ('lidar', f'<ray>{SCAN}</ray>', 'it has no <range> with a <max>; write, in <ray>,'),
+    ('lidar', ranged(''), '<range> has no <max>'),
+    ('lidar', ranged('<min>-1</min><max>3</max>'), '<min> of <range>: found "-1", expected m: a'),
+    ('lidar', ranged('<min>nan</min><max>3</max>'), '<min> of <range>: found "nan", expected m'),
+    ('lidar', ranged('<max>0x1</max>'), '<max> of <range>: found "0x1", expected m: a number'),
+    ('lidar', ranged('<min>3</min><max>1</max>'), '<range>: found <min> 3, <max> 1, expected a'),
+    ('lidar', ranged('<max>1</max><resolution>-1</resolution>'), '<resolution> of <range>: found'),
+    ('lidar', scanned('<samples>0</samples>'), '<samples> of <horizontal>: found "0", expected a'),
+    (
+        'lidar',
+        scanned('<samples>1.5</samples>'),
+        '<samples> of <horizontal>: found "1.5", expect',
+    ),
+    (
+        'lidar',
+        scanned('<resolution>nan</resolution>'),
+        '<resolution> of <horizontal>: found "na',
+    ),
+    (
+        'lidar',
+        scanned('<min_angle>2</min_angle><max_angle>1</max_angle>'),
+        'the angles of <horizontal>: found <min_angle> 2, <max_angle> 1, 640 samples, expected a '
+        '<max_angle> above <min_angle>; swap them',
+    ),
+    (
+        'lidar',
+        scanned('<max_angle>180</max_angle>'),
+        '<max_angle> of <horizontal>: found "180", expected rad, -6.28 to 6.28; 180° are 3.142 ra',
+    ),
+    (
+        'lidar',
+        scanned('<max_angle>1</max_angle>', '<vertical><max_angle>2</max_angle></vertical>'),
+        '<max_angle> of <vertical>: found "2", expected rad, -1.57 to 1.57',
+    ),
+    (
+        'lidar',
+        scanned('<samples>1000000000</samples><max_angle>1</max_angle>'),
+        'its scan has too many rays for a CPU: found 1000000000 by 1: 1000000000 rays, expected a',
+    ),
+    (
+        'camera',
+        '<update_rate>-5</update_rate>',
+        '<update_rate>: found "-5", expected Hz: a finit',
+    ),
+    ('camera', '<pose>0 0 1</pose>', '<pose>: found "0 0 1", expected 6 numbers, finite'),
+    (
+        'camera',
+        '<topic>my camera</topic>',
+        'its topic is no name of one in ROS: found "my came',
+    ),
+    (
+        'camera',
+        '<camera><image><width>0</width></image></camera>',
+        '<width> of <image>: found "0", expected a whole number from 1 on',
+    ),
+    (
+        'camera',
+        '<camera><image><width>100000</width><height>100000</height></image></camera>',
+        'its picture is too large: found 100000 by 100000 pixels, expected at most 16777216',
+    ),
+    (
+        'camera',
+        '<camera><horizontal_fov>90</horizontal_fov></camera>',
+        '<horizontal_fov> of <camera>: found "90", expected rad: above 0 and below π (3.14); 90° '
+        'are 1.571 rad',
+    ),
+    (
+        'camera',
+        '<camera><horizontal_fov>0</horizontal_fov></camera>',
+        '<horizontal_fov> of <camera>: found "0", expected rad: above 0',
+    ),
+    (
+        'camera',
+        '<camera><clip><near>3</near><far>1</far></clip></camera>',
+        '<clip>: found <near> 3, <far> 1, expected a <far> above <near>; swap them',
+    ),
+    (
+        'camera',
+        '<camera><lens><intrinsics><fx>0</fx></intrinsics></lens></camera>',
+        '<fx> of <intrinsics>: found "0", expected pixels: a finite number above 0',
+    ),
+    (
+        'camera',
+        '<camera><noise><type>gaussian</type><stddev>-1</stddev></noise></camera>',
+        '<stddev> of <noise>: found "-1", expected a finite number from 0 on',
+    ),
+    ('gpu_lidr', '', 'its type is none of SDF: found "gpu_lidr", expected one of gpu_lidar, lid'),
+    ('', '', 'it has no type: expected one of gpu_lidar,'),
+    (
+        'contact',
+        '<contact><collision>front</collision></contact>',
+        '<collision> of <contact> is none of the robot: found "front"; write eye_collision',
+    ),
+]
+
+
+@pytest.mark.parametrize('kind, inside, message', FAULTS)
+def test_a_sensor_that_cannot_work_is_left_out_and_told_with_its_line(kind, inside, message):
+    good = '<sensor name="good" type="camera"/>'
+    tag = f'<sensor name="s" type="{kind}">{inside}</sensor>'
+    robot = robot_of(f'<gazebo reference="eye">{tag}{good}</gazebo>')
+    found = robot_sensors_of(robot)
+    assert [each.mount.name for each in found.sensors] == ['good']
+    assert found.findings[0].text.startswith(f'r.urdf:5: gazebo sensor "s": {message}')
+    assert found.findings[0].as_taken().text.endswith('; the sensor is left out')
+    told = [each.text for each in checks.check(robot.text, 'r.urdf')]
+    assert all(each.text in told for each in found.findings)
+
+
+WARNINGS = [
+    (
+        '<camera><image><format>BAYER_RGGB8</format></image></camera>',
+        '<format>: found "BAYER_RGGB8", expected one of R8G8B8,',
+    ),
+    (
+        '<frame_id>eye_optcal</frame_id>',
+        '<frame_id> is no link of the robot: tf will know no transform to it: found "eye_optcal"; '
+        'write eye_optical',
+    ),
+    ('<camera><noise><type>white</type></noise></camera>', 'type of <noise>: found "white"'),
+]
+
+
+@pytest.mark.parametrize('inside, message', WARNINGS)
+def test_a_sensor_that_works_otherwise_than_meant_is_told(inside, message):
+    tag = f'<sensor name="s" type="camera">{inside}</sensor>'
+    found = robot_sensors_of(robot_of(f'<gazebo reference="eye">{tag}</gazebo>'))
+    (finding,) = found.findings
+    assert len(found.sensors) == 1 and finding.severity is Severity.WARNING
+    assert finding.text.startswith(f'r.urdf:5: gazebo sensor "s": {message}')
+
+
+@pytest.mark.parametrize(
+    'block, message',
+    [
+        (
+            '<gazebo reference="ey">{}</gazebo>',
+            '"s": it is mounted on a link that is not there: found "ey", expected one of "base", '
+            '"eye", "eye_optical"; write reference="eye"',
+        ),
+        (
+            '<gazebo reference="b">{}</gazebo>',
+            '"s": it is mounted on a link that is not there: found "b", expected one of "base", '
+            '"eye", "eye_optical"; write reference="eye_optical"',
+        ),
+        ('<gazebo>{}</gazebo>', '"s": its <gazebo> has no attribute "reference"'),
+        (
+            '<gazebo reference="eye"><sensor type="camera"/></gazebo>',
+            '"": it has no attribute "n',
+        ),
+    ],
+)
+def test_a_sensor_without_a_place_or_a_name_is_told(block, message):
+    robot = robot_of(block.format('<sensor name="s" type="camera"/>'))
+    found = robot_sensors_of(robot)
+    assert not found.sensors
+    (finding,) = found.findings
+    assert finding.text.startswith(f'r.urdf:5: gazebo sensor {message}')
+    told = [each.text for each in checks.check(robot.text, 'r.urdf') if each.line == 5]
+    assert told == [finding.text]
+
+
+def test_two_sensors_on_one_topic_are_told():
+    lidar = f'<topic>front</topic><lidar>{SCAN}{RANGE}</lidar>'
+    tags = (
+        f'<sensor name="a" type="lidar">{lidar}</sensor>',
+        f'<sensor name="b" type="lidar">{lidar}</sensor>',
+        '<sensor name="c" type="camera"><topic>front</topic></sensor>',
+        '<sensor name="d" type="camera"><topic>x/left</topic></sensor>',
+        '<sensor name="e" type="camera"><topic>x/left_2</topic></sensor>',
+    )
+    blocks = '\n'.join(f'<gazebo reference="eye">{tag}</gazebo>' for tag in tags)
+    found = robot_sensors_of(robot_of(blocks))
+    assert [each.mount.name for each in found.sensors] == ['a', 'b', 'd', 'e']
+    assert [each.text for each in found.findings] == [
+        'r.urdf:6: gazebo sensor "b": it has the topic of another sensor: found "/front", '
+        '"/front/points", as "a" on line 5; both are on it; give each a <topic> of its own',
+        'r.urdf:7: gazebo sensor "c": it has a topic of another type, sensor_msgs/msg/LaserScan: '
+        'found "/front", as "a" on line 5; give each a <topic> of its own',
+    ]

@@ -38,10 +38,7 @@ class SensorContext:
 
     def topic(self, name: str, mount: SensorMount) -> str:
         """Return the full name of a topic of a sensor; '' stays ''."""
-        if not name or name.startswith('/'):
-            return name
-        inside = self.namespace.rstrip('/') or f'/{mount.namespace}'.rstrip('/')
-        return f'{inside}/{name}'
+        return mount.full_name(name, self.namespace)
 
     def frame(self, name: str) -> str:
         """Return a frame with the prefix that all frames of the robot have: its namespace."""
