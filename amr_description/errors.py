@@ -106,6 +106,10 @@ class SpawnError(RequestError):
     """An entity cannot be spawned; ``code`` as in ``simulation_interfaces/srv/SpawnEntity``."""
 
 
+class RenderingError(SimulationError):
+    """A renderer of camera pictures does not work on this machine."""
+
+
 class TransformException(AmrError):  # noqa: N818 - these five are called so in tf2
     """A transform between two frames cannot be looked up."""
 

@@ -70,6 +70,7 @@ HOMES = {
     'trimesh': {'model'},
     'collada': {'model'},
     'yourdfpy': {'model'},
+    'simplejpeg': {'sim', 'viewer'},
 }
 IMPURE = {
     'asyncio', 'multiprocessing', 'random', 'selectors', 'socket', 'subprocess', 'threading',
