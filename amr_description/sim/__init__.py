@@ -38,8 +38,8 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``static_geometry.py``  the visible shapes of a world
 ``rays.py``             rays into the world: what is visible, and where they meet it
 ``lidar.py``            what a lidar measures
-``cameras/``              pictures of the world, in colour and depth
-``state_copy.py``         copies of the state, for threads that measure
+``cameras/``            pictures of the world, in colour and depth
+``state_copy.py``       copies of the state, for threads that measure
 ``sensor_schedule.py``  when a sensor measures, and the random numbers of its noise
 ``drop_test.py``        a physical test of a description, in numbers
 

@@ -143,6 +143,8 @@ class LoopPublisher:
         """
         self.reporters: list[Callable[[int], None]] = []
         """Called at the end of a cycle with its time, ns; what they send goes out with it."""
+        self.followers: list[Callable[[], None]] = []
+        """Called when all of a cycle has gone out."""
         self._outbox: list[tuple[LoopTopic, Any]] = []
         self._topics: tuple[LoopTopic, ...] = ()
         self._changing_topics = threading.Lock()
@@ -218,6 +220,8 @@ class LoopPublisher:
                 if topic.newest is not _NOTHING:
                     self._write(topic, topic.newest)
                     topic.newest = _NOTHING
+        for follow in self.followers:
+            follow()
 
     def _must_look(self, time: int) -> bool:
         """Whether it is time to look who subscribes; always, where time stands still."""

@@ -164,8 +164,8 @@ class Simulation:
             if parameters.paused:
                 self.loop_thread.loop.pause()
             context = LoopContext(self.loop_thread, publisher, self.logs)
-            sensors = SensorManager(node, publisher, self.world, self.log, self._is_paced)
-            self.entities = self._entity_manager(context, ground_truth, sensors, ros_args)
+            self._sensors = SensorManager(node, publisher, self.world, self.log, self._is_paced)
+            self.entities = self._entity_manager(context, ground_truth, ros_args)
         except Exception:
             self.logs.stop()
             raise
@@ -176,14 +176,13 @@ class Simulation:
         self,
         context: LoopContext,
         ground_truth: GroundTruth,
-        sensors: SensorManager,
         ros_args: Sequence[str],
     ) -> EntityManager:
         return EntityManager(
             context,
             self.world,
             ground_truth,
-            sensors,
+            self._sensors,
             executor=self._executor,
             log=self.log,
             controllers=self.parameters.controllers,
@@ -203,6 +202,7 @@ class Simulation:
     def close(self) -> None:
         """Stop the control thread; then destroy the robots' nodes."""
         self.loop_thread.stop()
+        self._sensors.close()
         self.entities.destroy()
         self.logs.stop()
 

@@ -8,5 +8,8 @@ The sensors of simulated robots that look at the world, as topics: lidars, camer
 ``topics.py``               what the topics of one sensor are: the contract of the modules below
 ``lidar.py``                scans of lidars
 ``contact.py``              contact sensors and bumpers
+``worker.py``               the thread that measures what takes long
+``camera.py``               cameras: pictures, depth, points
+``image_messages.py``       … their messages
 =========================== =======================================================================
 """

@@ -10,16 +10,21 @@ from rclpy.node import Node
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.errors import AmrError
-from amr_description.model.sensors import ContactSensor, Lidar, WorldSensor
+from amr_description.model.sensors import Camera, ContactSensor, Lidar, WorldSensor
+from amr_description.sim.cameras.ray_renderer import RayRenderer
+from amr_description.sim.ros.sensors.camera import CameraTopics
 from amr_description.sim.ros.sensors.contact import ContactTopics
 from amr_description.sim.ros.sensors.lidar import LidarTopics
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
+from amr_description.sim.ros.sensors.worker import SensorWorker
 from amr_description.sim.sensor_schedule import SensorSchedule
+from amr_description.sim.state_copy import StateCopier
 from amr_description.sim.world import MujocoWorld
 
 TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
     Lidar: LidarTopics,
     ContactSensor: ContactTopics,
+    Camera: CameraTopics,
 }
 """Type of a sensor's description → what makes its topics."""
 
@@ -55,6 +60,9 @@ class SensorManager:
         self._world = world
         self._log = log
         self._is_paced = is_paced
+        self._worker = SensorWorker(loop_publisher, log, is_paced)
+        self._states = StateCopier(world)
+        self._renderer = RayRenderer()
         self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
         loop_publisher.reporters.append(self.report)
 
@@ -77,6 +85,9 @@ class SensorManager:
             namespace,
             self._log,
             self._is_paced,
+            self._worker,
+            self._states,
+            self._renderer,
         )
         now = self._world.time
         made = []
@@ -99,6 +110,10 @@ class SensorManager:
             self._robots = {key: each for key, each in self._robots.items() if key != name}
             for _, topics in sensors:
                 topics.destroy()
+
+    def close(self) -> None:
+        """End the thread that measures; the control thread has ended."""
+        self._worker.close()
 
     def report(self, time: int) -> None:
         """Have the sensors measure that are due at ``time``, ns, and heard."""

@@ -11,7 +11,10 @@ from rclpy.node import Node
 from amr_description.control.contracts import Log
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.model.sensors import SensorMount
+from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView
+from amr_description.sim.ros.sensors.worker import SensorWorker
+from amr_description.sim.state_copy import StateCopier
 from amr_description.sim.world import MujocoWorld
 
 
@@ -35,6 +38,12 @@ class SensorContext:
     measurement that another thread makes. While it is False (real-time factor 0, or in a step)
     time has to wait for measurements, which are all made.
     """
+    worker: SensorWorker
+    """Makes measurements that take long, on its thread."""
+    states: StateCopier
+    """Copies the state of an instant for it."""
+    renderer: Renderer
+    """Makes the pictures of cameras; on the thread of ``worker``."""
 
     def topic(self, name: str, mount: SensorMount) -> str:
         """Return the full name of a topic of a sensor; '' stays ''."""

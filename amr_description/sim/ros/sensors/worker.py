@@ -1,0 +1,171 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The thread that measures what takes long: cameras, and lidars of many rays.
+
+A sensor asks for a measurement while the control thread reports a cycle; the measurement begins
+when all of that cycle is published, so that nothing overtakes ``/clock`` and the transforms of its
+instant. As long as cycles wait for the wall clock (:attr:`SensorContext.is_paced`) the control
+thread goes on meanwhile, and a measurement that is asked for while the one before is not done is
+left out, which is logged. Else it waits, and none is left out.
+"""
+
+from collections import deque
+from collections.abc import Callable
+import threading
+import time as wall
+
+from amr_description.control.contracts import Log, Severity
+from amr_description.control.plugin_errors import describe, log_traceback
+from amr_description.control.ros.loop_publisher import LoopPublisher
+
+_LOG_PERIOD = 10.0
+"""s between two lines of a sensor whose measurements are left out."""
+
+
+class SensorWorker:
+    """
+    One thread for all sensors of a world; it starts with the first measurement.
+
+    :meth:`close` is called on the ROS thread, everything else on the control thread.
+    """
+
+    def __init__(
+        self, loop_publisher: LoopPublisher, log: Log, is_paced: Callable[[], bool]
+    ) -> None:
+        """
+        Begin measurements at the end of control cycles.
+
+        Args:
+            loop_publisher: Tells when a cycle is published.
+            log: Of the simulator.
+            is_paced: See :attr:`SensorContext.is_paced`.
+        """
+        self.log = log
+        self.is_paced = is_paced
+        self._requested: list[SensorTask] = []
+        """Of this cycle."""
+        self._queue: deque[SensorTask | None] = deque()
+        self._changed = threading.Condition()
+        self._thread: threading.Thread | None = None
+        self._is_closed = False
+        loop_publisher.followers.append(self._begin)
+
+    def task(self, name: str, remedy: str) -> 'SensorTask':
+        """
+        Return what a sensor asks for measurements.
+
+        Args:
+            name: Of the sensor, as it is called in a line of log.
+            remedy: What would do if they take too long.
+        """
+        return SensorTask(self, name, remedy)
+
+    def request(self, task: 'SensorTask') -> None:
+        """Measure when this cycle is published."""
+        self._requested.append(task)
+
+    def wait_for(self, task: 'SensorTask') -> None:
+        """Wait until the measurement of a sensor is done, if one is in work."""
+        if task.is_busy:
+            with self._changed:
+                self._changed.wait_for(lambda: self._is_closed or not task.is_busy)
+
+    def close(self) -> None:
+        """End the thread; a measurement that it makes is finished, others are not begun."""
+        with self._changed:
+            self._is_closed = True
+            self._queue.clear()
+            self._queue.append(None)
+            self._changed.notify_all()
+        if self._thread is not None:
+            self._thread.join()
+
+    def _begin(self) -> None:
+        """Hand what was asked for in this cycle to the thread; wait for it if time waits."""
+        if not self._requested:
+            return
+        requested, self._requested = self._requested, []
+        with self._changed:
+            if self._is_closed:
+                return
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name='sensors', daemon=True)
+                self._thread.start()
+            self._queue.extend(requested)
+            self._changed.notify_all()
+        if not self.is_paced():
+            for task in requested:
+                self.wait_for(task)
+
+    def _run(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._queue)
+                task = self._queue.popleft()
+            if task is None:
+                return
+            try:
+                task.make()
+            except Exception as error:  # of one sensor; the others go on
+                self.log(
+                    Severity.ERROR,
+                    f'{task.name} has measured nothing: {describe(error)}',
+                    throttle=_LOG_PERIOD,
+                )
+                log_traceback(self.log, error)
+            with self._changed:
+                task.is_busy = False
+                self._changed.notify_all()
+
+
+class SensorTask:
+    """The measurements of one sensor that another thread makes; made by the worker."""
+
+    def __init__(self, worker: SensorWorker, name: str, remedy: str) -> None:
+        self.name = name
+        self.is_busy = False
+        """Whether a measurement was asked for that is not yet done."""
+        self._worker, self._remedy = worker, remedy
+        self._measure: Callable[[], None] | None = None
+        self._duration = 0.0
+        """Of the latest measurement, s of the wall clock."""
+        self._made = self._left_out = 0
+        self._next_line = 0.0
+
+    def request(self, measure: Callable[[], None]) -> None:
+        """
+        Have a measurement made when this cycle is published.
+
+        Args:
+            measure: Measures from a copy, and publishes; on another thread.
+        """
+        if self.is_busy and self._worker.is_paced():
+            self._leave_out()
+            return
+        self._made += 1
+        self._worker.wait_for(self)  # it began while the control thread did not wait
+        self.is_busy, self._measure = True, measure
+        self._worker.request(self)
+
+    def make(self) -> None:
+        """Make the measurement; on the thread of the worker."""
+        measure = self._measure
+        assert measure is not None
+        begin = wall.monotonic()
+        measure()
+        self._duration = wall.monotonic() - begin
+
+    def _leave_out(self) -> None:
+        self._left_out += 1
+        now = wall.monotonic()
+        if now < self._next_line:
+            return
+        self._next_line = now + _LOG_PERIOD
+        total = self._made + self._left_out
+        self._worker.log(
+            Severity.WARN,
+            f'{self.name}: {self._left_out} of {total} measurements were left out, as one takes '
+            f'{self._duration * 1e3:.0f} ms; {self._remedy}',
+        )
+        self._made = self._left_out = 0
