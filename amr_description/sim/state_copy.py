@@ -4,10 +4,11 @@
 Copies of the state of a world at an instant, from which another thread measures.
 
 The control thread copies only what poses follow from, which takes microseconds; the other thread
-computes the poses, in a ``mjData`` of its own. The model is shared: once compiled it stays as it
-is, and a robot that comes or goes makes a new one.
+computes the poses, in a ``mjData`` of its own. The model is copied once for each generation of it,
+as rays change its geom groups while they are cast.
 """
 
+import copy
 from dataclasses import dataclass
 
 import mujoco
@@ -21,6 +22,7 @@ class StateCopy:
     """The state of a world at one instant, as far as poses follow from it."""
 
     model: mujoco.MjModel
+    """For the thread that measures; the same object until a robot comes or goes."""
     time: int
     """ns."""
     qpos: np.ndarray
@@ -36,19 +38,20 @@ class StateCopier:
     def __init__(self, world: MujocoWorld) -> None:
         """``world``: whose state is copied."""
         self._world = world
+        self._generation = -1
         self._latest: StateCopy | None = None
 
     def copy(self) -> StateCopy:
         """Return the present state; the same object to all who ask at the same instant."""
         engine, latest = self._world.engine, self._latest
-        model, data = engine.model, engine.data
-        if (
-            latest is not None
-            and latest.model is model
-            and latest.time == engine.time
-            and np.array_equal(latest.qpos, data.qpos)
-        ):
+        data = engine.data
+        if latest is None or self._generation != engine.generation:
+            self._generation = engine.generation
+            model = copy.copy(engine.model)
+        elif latest.time == engine.time and np.array_equal(latest.qpos, data.qpos):
             return latest
+        else:
+            model = latest.model
         self._latest = StateCopy(
             model,
             engine.time,

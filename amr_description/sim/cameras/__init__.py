@@ -8,7 +8,6 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 ``ray_renderer.py``         one that casts a ray for each pixel, on the processor
 ``shading.py``              the colours of what rays hit: light
 ``textures.py``             … and textures
-``seen_geoms.py``           which shapes of a model are seen
 ``pictures.py``             what messages are made of them: noise, JPEGs, clouds of points
 ``lens.py``                 where a point is in the picture, and where a pixel looks: K, distortion
 =========================== =======================================================================

@@ -20,8 +20,8 @@ from amr_description.model.frames import matrix_from_quaternion
 from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.lens import intrinsics_of, pixel_directions
 from amr_description.sim.cameras.renderer import BACKGROUND, Picture, Renderer, Shot
-from amr_description.sim.cameras.seen_geoms import HIDDEN, SEEN_GROUPS, seen_model
-from amr_description.sim.cameras.shading import Hits, Shading
+from amr_description.sim.cameras.shading import Shading, Surface
+from amr_description.sim.rays import Hits, RayScene
 from amr_description.sim.state_copy import CopiedPoses
 
 _MOST_LAYERS = 8
@@ -42,15 +42,6 @@ class _Rays:
     """How wide a pixel is at a depth of 1."""
 
 
-@dataclass(slots=True)
-class _Cast:
-    """Where rays end; (n,) each, normals (n, 3)."""
-
-    geom: np.ndarray
-    distance: np.ndarray
-    normal: np.ndarray
-
-
 class RayRenderer(Renderer):
     """See the module."""
 
@@ -65,24 +56,22 @@ class RayRenderer(Renderer):
     def render(self, shot: Shot) -> Picture:
         """Make one picture."""
         state, camera = shot.state, shot.camera
+        data = self._poses.data(state)
         if self._bound is not state.model:
             self._bound = state.model
-            self._model = seen_model(state.model, state.robots)
-            self._shading = Shading(self._model)
-        data = self._poses.data(state)
+            self._scene = RayScene(state.model, data, sorted(state.robots))
+            self._shading = Shading(state.model)
         rays = self._rays_of(camera)
         turn = np.array(matrix_from_quaternion(shot.pose.rotation))
         origin = np.array(shot.pose.translation)
         directions = np.ascontiguousarray(rays.directions @ turn.T)
-        carrier = mujoco.mj_name2id(state.model, mujoco.mjtObj.mjOBJ_BODY, shot.body)
-        near, far = _range_of(camera, shot)
-        cast = self._cast(data, origin, directions, far * rays.longest, (carrier, near))
+        hits = self._cast(shot, origin, directions, rays.longest)
         shape = camera.height, camera.width
         depth = color = None
         if shot.with_depth:
-            depth = _depth_of(cast, camera, rays).reshape(shape)
+            depth = _depth_of(hits, camera, rays).reshape(shape)
         if shot.with_color:
-            pixels = self._colors(data, cast, shot, origin, directions, turn[:, 0], rays)
+            pixels = self._colors(hits, camera, origin, directions, turn[:, 0], rays)
             color = pixels.reshape(*shape, 3)
         return Picture(color, depth)
 
@@ -105,93 +94,62 @@ class RayRenderer(Renderer):
         return rays
 
     def _cast(
-        self,
-        data: mujoco.MjData,
-        origin: np.ndarray,
-        directions: np.ndarray,
-        cutoff: float,
-        carrier: tuple[int, float],
-    ) -> _Cast:
-        """
-        Cast rays from a point.
-
-        Args:
-            data: Has the poses of geoms.
-            origin: In the world, m.
-            directions: (n, 3), in the world.
-            cutoff: m; what is farther may be missed.
-            carrier: The body that carries the camera, and how near it is not seen.
-        """
-        body, near = carrier
-        cast = self._cast_once(data, origin, directions, cutoff)
-        bodies = self._model.geom_bodyid
-        hidden = np.zeros(self._model.ngeom, bool)
-        rays, layer = np.arange(len(directions)), cast
+        self, shot: Shot, origin: np.ndarray, directions: np.ndarray, longest: float
+    ) -> Hits:
+        """Return where rays end; the geoms that they pass are left out."""
+        near, far = _range_of(shot)
+        cutoff = far * longest
+        hits = layer = self._scene.cast(origin, directions, cutoff=cutoff, normals=True)
+        model = self._scene.model
+        carrier = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, shot.body)
+        rays = np.arange(len(directions))
+        mask = self._scene.all_seen
         for _ in range(_MOST_LAYERS):
-            passed = _seen_from_behind(layer, directions[rays])
-            if body >= 0:
-                passed |= (layer.distance < near) & (bodies[layer.geom] == body)
-            passed &= layer.geom >= 0
+            assert hits.normals is not None
+            assert layer.normals is not None
+            passed = np.einsum('ij,ij->i', layer.normals, directions[rays]) > 0.0
+            if carrier >= 0:
+                of_carrier = model.geom_bodyid[layer.geoms] == carrier
+                passed |= (layer.distances < near) & of_carrier
+            passed &= layer.geoms >= 0
             if not passed.any():
                 break
-            # All at once: what one ray of them has passed is hidden from the others, too.
+            # All at once: what one of these rays has passed is hidden from the others, too.
             rays = rays[passed]
-            hidden[layer.geom[passed]] = True
-            groups = self._model.geom_group.copy()
-            self._model.geom_group[hidden] = HIDDEN
-            layer = self._cast_once(data, origin, directions[rays], cutoff)
-            self._model.geom_group[:] = groups
-            cast.geom[rays], cast.distance[rays] = layer.geom, layer.distance
-            cast.normal[rays] = layer.normal
-        return cast
-
-    def _cast_once(
-        self, data: mujoco.MjData, origin: np.ndarray, directions: np.ndarray, cutoff: float
-    ) -> _Cast:
-        count = len(directions)
-        cast = _Cast(np.empty(count, np.int32), np.empty(count), np.empty((count, 3)))
-        mujoco.mj_multiRay(
-            self._model,
-            data,
-            origin,
-            directions.reshape(-1),
-            SEEN_GROUPS,
-            True,
-            -1,
-            cast.geom,
-            cast.distance,
-            cast.normal.reshape(-1),
-            count,
-            cutoff,
-        )
-        return cast
+            mask = self._scene.mask(without=[*np.flatnonzero(mask), *layer.geoms[passed]])
+            layer = self._scene.cast(
+                origin, directions[rays], mask=mask, cutoff=cutoff, normals=True
+            )
+            hits.geoms[rays], hits.distances[rays] = layer.geoms, layer.distances
+            hits.normals[rays] = layer.normals
+        return hits
 
     def _colors(
         self,
-        data: mujoco.MjData,
-        cast: _Cast,
-        shot: Shot,
+        hits: Hits,
+        camera: Camera,
         origin: np.ndarray,
         directions: np.ndarray,
         forward: np.ndarray,
         rays: _Rays,
     ) -> np.ndarray:
         """Return the colours of pixels, (n, 3), uint8."""
-        is_hit = (cast.geom >= 0) & (cast.distance <= shot.camera.far)
+        assert hits.normals is not None
+        is_hit = (hits.geoms >= 0) & (hits.distances <= camera.far)
         if rays.is_blind is not None:
             is_hit &= ~rays.is_blind
         which = np.flatnonzero(is_hit)
-        distance = cast.distance[which].astype(np.float32)
+        distance = hits.distances[which].astype(np.float32)
         point = directions[which].astype(np.float32)
         point *= distance[:, np.newaxis]
         point += origin.astype(np.float32)
-        hits = Hits(
-            cast.geom[which],
-            cast.normal[which].astype(np.float32),
+        surface = Surface(
+            hits.geoms[which],
+            hits.normals[which].astype(np.float32),
             point,
             distance * np.float32(rays.spread),
         )
-        colors = self._shading.colors(data, hits, forward)
+        colors = self._shading.colors(self._scene.data, surface, forward)
         pixels = np.empty((len(is_hit), 3), np.uint8)
         pixels[which] = _as_bytes(colors)
         nothing = np.flatnonzero(~is_hit)
@@ -203,9 +161,9 @@ class RayRenderer(Renderer):
         return pixels
 
 
-def _range_of(camera: Camera, shot: Shot) -> tuple[float, float]:
+def _range_of(shot: Shot) -> tuple[float, float]:
     """Return the near and the far end of what is asked for, m along the optical axis."""
-    ranges = []
+    camera, ranges = shot.camera, []
     if shot.with_color:
         ranges.append((camera.near, camera.far))
     if shot.with_depth:
@@ -213,16 +171,12 @@ def _range_of(camera: Camera, shot: Shot) -> tuple[float, float]:
     return min(near for near, _ in ranges), max(far for _, far in ranges)
 
 
-def _seen_from_behind(cast: _Cast, directions: np.ndarray) -> np.ndarray:
-    return np.asarray(np.einsum('ij,ij->i', cast.normal, directions) > 0.0)
-
-
-def _depth_of(cast: _Cast, camera: Camera, rays: _Rays) -> np.ndarray:
+def _depth_of(hits: Hits, camera: Camera, rays: _Rays) -> np.ndarray:
     """Return depths, (n,), float32, as REP 118 says."""
-    depth = cast.distance.astype(np.float32)
-    depth[cast.distance > camera.depth_far] = np.inf
-    depth[cast.distance < camera.depth_near] = -np.inf
-    depth[cast.geom < 0] = np.inf
+    depth = hits.distances.astype(np.float32)
+    depth[hits.distances > camera.depth_far] = np.inf
+    depth[hits.distances < camera.depth_near] = -np.inf
+    depth[hits.geoms < 0] = np.inf
     if rays.is_blind is not None:
         depth[rays.is_blind] = np.nan
     return depth

@@ -22,12 +22,12 @@ _SPOT = int(mujoco.mjtLightType.mjLIGHT_SPOT)
 
 
 @dataclass(frozen=True, slots=True)
-class Hits:
+class Surface:
     """
-    What rays have met.
+    The surfaces that rays have met.
 
     Attributes:
-        geom: (n,), index; -1: nothing.
+        geom: (n,), ids.
         normal: (n, 3), outward, of length 1, in the world.
         point: (n, 3), in the world, m.
         footprint: (n,), how wide a pixel is there, across the line of sight, m.
@@ -56,27 +56,27 @@ class Shading:
         self._glows = bool(emission.any())
         self._textures = Textures(model)
 
-    def colors(self, data: mujoco.MjData, hits: Hits, forward: np.ndarray) -> np.ndarray:
+    def colors(self, data: mujoco.MjData, surface: Surface, forward: np.ndarray) -> np.ndarray:
         """
-        Return the colours of hits: (n, 3), float32, 0 to 1 and more.
+        Return the colours of surfaces: (n, 3), float32, 0 to 1 and more.
 
         Args:
             data: Has the poses of geoms and lights.
-            hits: All of them hits.
+            surface: What is seen.
             forward: Where the camera looks, in the world.
         """
-        light = self._light(data, hits, forward)
+        light = self._light(data, surface, forward)
         if self._glows:
-            light += self._emission[hits.geom, np.newaxis]
-        light *= self._rgba[hits.geom]
-        self._textures.apply(data, hits.geom, hits.point, hits.footprint, light)
+            light += self._emission[surface.geom, np.newaxis]
+        light *= self._rgba[surface.geom]
+        self._textures.apply(data, surface.geom, surface.point, surface.footprint, light)
         return light
 
     def sky(self, directions: np.ndarray) -> np.ndarray | None:
         """Return the colours of the sky, (n, 3), 0 to 1, by directions; None: it has none."""
         return self._textures.sky(directions)
 
-    def _light(self, data: mujoco.MjData, hits: Hits, forward: np.ndarray) -> np.ndarray:
+    def _light(self, data: mujoco.MjData, surface: Surface, forward: np.ndarray) -> np.ndarray:
         """Return what falls on each hit, (n, 3)."""
         model = self._model
         headlight = model.vis.headlight
@@ -94,21 +94,21 @@ class Shading:
                 diffuse.append(model.light_diffuse[light])
             else:
                 others.append(light)
-        total = np.empty((len(hits.geom), 3), np.float32)
+        total = np.empty((len(surface.geom), 3), np.float32)
         total[:] = ambient
         if towards:
             # One product for all that come from afar.
-            facing = hits.normal @ np.array(towards, np.float32).T
+            facing = surface.normal @ np.array(towards, np.float32).T
             np.maximum(facing, 0.0, out=facing)
             total += facing @ np.array(diffuse, np.float32)
         for light in others:
-            total += self._from_a_place(data, hits, light)
+            total += self._from_a_place(data, surface, light)
         return total
 
-    def _from_a_place(self, data: mujoco.MjData, hits: Hits, light: int) -> np.ndarray:
+    def _from_a_place(self, data: mujoco.MjData, surface: Surface, light: int) -> np.ndarray:
         """Return what a light at a place gives, (n, 3)."""
         model = self._model
-        towards = data.light_xpos[light].astype(np.float32) - hits.point
+        towards = data.light_xpos[light].astype(np.float32) - surface.point
         distance = np.sqrt(np.einsum('ij,ij->i', towards, towards))
         towards /= np.maximum(distance, 1e-6)[:, np.newaxis]
         constant, linear, quadratic = model.light_attenuation[light].tolist()
@@ -118,7 +118,7 @@ class Shading:
             is_lit = along >= np.cos(np.radians(float(model.light_cutoff[light])))
             exponent = float(model.light_exponent[light])
             strength *= is_lit * np.maximum(along, 0.0) ** exponent
-        facing = np.maximum(np.einsum('ij,ij->i', hits.normal, towards), 0.0)
+        facing = np.maximum(np.einsum('ij,ij->i', surface.normal, towards), 0.0)
         lit = facing[:, np.newaxis] * model.light_diffuse[light].astype(np.float32)
         lit += model.light_ambient[light].astype(np.float32)
         lit *= strength[:, np.newaxis]
