@@ -17,8 +17,9 @@ import tempfile
 
 from hypothesis import settings
 import pytest
-from support import failures, ordering
+from support import failures, ordering, preloaded
 
+from amr_description.testing import program
 from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -27,6 +28,7 @@ UNIT = ROOT / 'test' / 'unit'
 sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
 
 pytest_plugins = ['support.stderr_file']
+preloaded.start_for(program)  # the simulators of tests that are written as users write theirs
 KEPT = {}  # what has to last as long as the run
 
 # Everywhere the same numbers, no deadline on a busy machine, and half as many examples as

@@ -10,12 +10,17 @@ process and a child of the test all the same: with a pid, session, environment, 
 signals and an end of its own, and nothing of DDS is initialised before.
 
 What differs: its modules are loaded before it asks for them, so a test of what a program imports
-must use ``subprocess``; these modules are not taken down object by object at its end, which would
-copy all their memory; and ``/proc/PID/cmdline`` is the server's. A command that is no Python
-program, one with options of the interpreter, and one whose environment changes the interpreter is
-started as ever.
+must use ``subprocess``; and these modules are not taken down object by object at its end, which
+would copy all their memory. A command that is no Python program, one with options of the
+interpreter, and one whose environment changes the interpreter is started as ever.
+
+``bringup`` is forked too, and then forks, as its children, what it would start of our Python
+programs: its fork server, its guardian, what watches the graph. So a stack has the processes that
+it always has, and comes up without the 2 s of processor time that imports take.
 """
 
+import atexit
+import contextlib
 import ctypes
 import fcntl
 import functools
@@ -26,25 +31,35 @@ import json
 import os
 from pathlib import Path
 import runpy
+import signal
 import socket
 import struct
 import subprocess
 import sys
 import termios
 import threading
+import traceback
+import types
 import warnings
 
 from support.paths import ROOT
 
-from amr_description.forking import end_without_teardown, ForkTracing
+from amr_description.forking import (
+    command_line,
+    end_without_teardown,
+    ForkTracing,
+    note_files_of_modules,
+)
 
+_MOST_FILES = 16
 _LENGTH = struct.Struct('<I')
 _PID = struct.Struct('<i')
+_PR_SET_NAME = 15
 _PR_SET_CHILD_SUBREAPER = 36
 # What an interpreter, a loader or a library reads as it starts, or as it is imported.
 _READ_AT_START = ('PYTHON', 'LANG', 'LC_', 'LD_', 'RMW_', 'MUJOCO', 'OMP_', 'OPENBLAS', 'MALLOC')
 _READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
-# One server has what ``ros2`` and most nodes load, the other the simulator.
+# One server has what ``ros2`` and most nodes load, the other the simulator and whole stacks.
 _LIGHT = """
 amr_description.cli.main amr_description.cli.ros2 amr_description.cli.action.send_goal
 amr_description.cli.lifecycle amr_description.cli.param.load amr_description.cli.service.call
@@ -52,6 +67,19 @@ amr_description.cli.topic.echo amr_description.cli.topic.hz amr_description.cli.
 amr_description.nodes.spawner numpy rosidl_generator_py std_msgs.msg std_srvs.srv
 """
 _SIMULATOR = 'amr_description.nodes.mujoco_sim'
+_BRINGUP = 'amr_description.bringup.main'
+_BRINGUP_SCRIPT = ('amr_description', 'bringup')
+_STACKS = f"""
+{_SIMULATOR} {_BRINGUP} amr_description.nodes.create amr_description.nodes.graph_watch
+amr_description.nodes.joint_state_publisher amr_description.nodes.robot_state_publisher
+amr_description.nodes.ros2_control_node amr_description.nodes.spawner
+amr_description.nodes.teleop_twist_keyboard amr_description.nodes.viewer
+"""
+_MAIN_PROGRAMS = ('amr_description.nodes.', _BRINGUP)
+# How the commands of ``amr_description.entry.python_command`` and of the guardian begin.
+_FORKED_BY_BRINGUP = ([sys.executable, '-P'], [sys.executable, '-I'])
+_ROOM = 16_384
+"""Bytes of the servers' command line, and of their environment, where programs write their own."""
 _SERVER = f"""
 import sys
 base = sys.path[1:]
@@ -80,7 +108,7 @@ class Popen(subprocess.Popen):
         given = [streams[0], streams[3], streams[5]]
         files = [own if fd == -1 else fd for fd, own in zip(given, range(3), strict=True)]
         variables = dict(os.environ if env is None else env)
-        program = None if executable or preexec_fn or pass_fds or shell else _program(args)
+        program = None if executable or preexec_fn or shell else _program(args)
         takes_terminal = session and os.isatty(files[0])
         if program is None or not _is_plain(variables):
             if takes_terminal:
@@ -90,15 +118,17 @@ class Popen(subprocess.Popen):
             )
             return
         request = {
+            'command': [sys.executable, *(os.fsdecode(word) for word in program)],
+            'kept': list(pass_fds),
             'program': [os.fsdecode(word) for word in program],
             'variables': {os.fsdecode(key): os.fsdecode(variables[key]) for key in variables},
             'folder': os.fsdecode(cwd or os.getcwd()),
             'session': session,
             'terminal': takes_terminal,
         }
-        server = _server(_SIMULATOR if _SIMULATOR in program else _LIGHT)
+        server = _server(_STACKS if _is_large(program) else _LIGHT)
         try:
-            self.pid = server.start(request, files)
+            self.pid = server.start(request, [*files, *pass_fds])
             self._child_created = True
         finally:
             self._close_pipe_fds(*streams)
@@ -116,15 +146,32 @@ def run(command, *, timeout, **options):
     return subprocess.CompletedProcess(command, process.returncode, out, err)
 
 
+def start_for(module):
+    """Have a module that starts programs by ``subprocess`` start them so."""
+    module.subprocess = types.SimpleNamespace(**vars(subprocess) | {'Popen': Popen})
+
+
 def _program(args):
     """The words after the interpreter: ``-m MODULE``, ``-c CODE`` or a file, or None."""
-    if isinstance(args, str | bytes) or len(args) < 2 or args[0] != sys.executable:
+    if isinstance(args, str | bytes):
         return None
-    first, second = (os.fsdecode(word) for word in [*args[1:3], ''][:2])
-    if second.startswith('amr_description.bringup'):
-        return None  # it loads next to nothing, and looks at processes and their command lines
+    if Path(os.fsdecode(args[0])).parts[-2:] == _BRINGUP_SCRIPT:
+        return args
+    if len(args) < 2 or args[0] != sys.executable:
+        return None
+    first = os.fsdecode(args[1])
     is_known = first in ('-m', '-c') and len(args) > 2 or not first.startswith('-')
     return args[1:] if is_known else None
+
+
+def _is_large(program):
+    """Whether it is the simulator or a whole stack."""
+    return _is_bringup(program) or _SIMULATOR in program
+
+
+def _is_bringup(program):
+    first, second = (os.fsdecode(word) for word in [*program[:2], ''][:2])
+    return second == _BRINGUP or Path(first).parts[-2:] == _BRINGUP_SCRIPT
 
 
 def _is_plain(variables):
@@ -154,9 +201,9 @@ class _Server:
         self._socket, theirs = socket.socketpair()
         variables = {key: each for key, each in os.environ.items() if key != 'PYTHONPATH'}
         subprocess.Popen(
-            [sys.executable, '-c', _SERVER, str(theirs.fileno()), *modules.split()],
+            [sys.executable, '-c', _SERVER, str(theirs.fileno()), *modules.split(), ' ' * _ROOM],
             # OpenBLAS's threads do not outlive a fork, and its end waits for them.
-            env=variables | {'OPENBLAS_NUM_THREADS': '1'},
+            env=variables | {'OPENBLAS_NUM_THREADS': '1', 'ROOM': ' ' * _ROOM},
             cwd=ROOT,
             pass_fds=[theirs.fileno()],
             stdin=subprocess.DEVNULL,
@@ -179,11 +226,10 @@ class _Server:
         return _PID.unpack(reply)[0]
 
 
-def _serve(connection):
+def _serve(connection, tracing):
     """Fork a program for each request, until the test run ends; return in each program."""
-    tracing = ForkTracing()
     while True:
-        head, files, _, _ = socket.recv_fds(connection, _LENGTH.size, 3)
+        head, files, _, _ = socket.recv_fds(connection, _LENGTH.size, _MOST_FILES)
         if not head:
             sys.exit()
         request = json.loads(connection.recv(_LENGTH.unpack(head)[0], socket.MSG_WAITALL))
@@ -195,11 +241,8 @@ def _serve(connection):
             os.close(held)
             pid = os.fork()
             if pid == 0:
-                tracing.after_fork_in_child()
                 os.read(begun, 1)
-                for fd in (reader, writer, begun):
-                    os.close(fd)
-                connection.close()
+                connection.detach()  # closed with the rest
                 return request, files
             os.write(writer, _PID.pack(pid))
             os._exit(0)
@@ -215,16 +258,53 @@ def _serve(connection):
 
 def _become(request, files):
     """Make this process what an interpreter is that has just been started."""
-    for fd, standard in zip(files, range(3), strict=True):
-        os.dup2(fd, standard)
-        os.close(fd)
+    _take_files(dict(zip([0, 1, 2, *request['kept']], files, strict=True)))
     if request['session']:
         os.setsid()
     if request['terminal']:
         fcntl.ioctl(0, termios.TIOCSCTTY, 0)
-    os.environ.clear()
-    os.environ.update(request['variables'])
+    _take_variables(request['variables'])
     os.chdir(request['folder'])
+    _show(request['command'])
+    _take_streams()
+
+
+def _take_files(files):
+    """Have files under the numbers that are the keys, and no others."""
+    above = max(files) + 1
+    held = {number: fcntl.fcntl(fd, fcntl.F_DUPFD, above) for number, fd in files.items()}
+    for number, fd in held.items():
+        os.dup2(fd, number)
+    for fd in map(int, os.listdir('/proc/self/fd')):
+        if fd not in files:
+            with contextlib.suppress(OSError):  # that of the folder, closed by now
+                os.close(fd)
+
+
+def _take_variables(variables):
+    os.environ.clear()
+    os.environ.update(variables)
+
+
+def _show(command):
+    """
+    Have ``ps`` and whoever reads ``/proc`` see this command, and the environment as it is now.
+
+    The kernel shows the memory that it once wrote them to; its bounds are the fields 48 to 51 of
+    ``/proc/self/stat`` (proc(5)).
+    """
+    fields = Path('/proc/self/stat').read_bytes().rpartition(b')')[2].split()
+    bounds = [int(field) for field in fields[45:49]]
+    variables = (f'{key}={each}' for key, each in os.environ.items())
+    for (start, end), words in ((bounds[:2], command), (bounds[2:], variables)):
+        text = command_line(words)[: end - start]
+        ctypes.memmove(start, text.ljust(end - start, b'\0'), end - start)
+    program = command[1] if Path(command[1]).parts[-2:] == _BRINGUP_SCRIPT else command[0]
+    ctypes.CDLL(None).prctl(_PR_SET_NAME, os.fsencode(Path(program).name), 0, 0, 0)
+
+
+def _take_streams():
+    """Make the standard streams anew, as an interpreter with these variables has them."""
     unbuffered = bool(os.environ.get('PYTHONUNBUFFERED'))
     sys.dont_write_bytecode = bool(os.environ.get('PYTHONDONTWRITEBYTECODE'))
     for fd, name in enumerate(('stdin', 'stdout', 'stderr')):
@@ -265,6 +345,74 @@ def _execute(program, base):
         runpy.run_path(kind, run_name='__main__')
 
 
+def _fork_from_here(tracing):
+    """Have this process, a ``bringup``, fork what it would start of our Python programs."""
+
+    class Forking(subprocess.Popen):
+        def _execute_child(
+            self, args, executable, preexec_fn, close_fds, pass_fds, cwd, env, *rest
+        ):
+            _startup, _flags, _shell, *streams, _restore, _gid, _gids, _uid, _umask, session, _ = (
+                rest
+            )
+            words = [os.fsdecode(word) for word in args]
+            variables = dict(os.environ if env is None else env)
+            if words[:2] not in _FORKED_BY_BRINGUP or not _is_plain(variables):
+                super()._execute_child(
+                    args, executable, preexec_fn, close_fds, pass_fds, cwd, env, *rest
+                )
+                return
+            tracing.before_fork()
+            self.pid = os.fork()
+            if self.pid == 0:
+                given = enumerate([streams[0], streams[3], streams[5]])
+                files = {number: number if fd == -1 else fd for number, fd in given}
+                files |= {fd: fd for fd in pass_fds}
+                _be_a_child(words, variables, files, session, tracing)
+            tracing.after_fork_in_parent()
+            self._child_created = True
+            self._close_pipe_fds(*streams)
+
+    subprocess.Popen = Forking
+
+
+def _be_a_child(words, variables, files, session, tracing):
+    """Be what ``subprocess`` would have started, and end; in a fork."""
+    code = 1
+    try:
+        for number in signal.valid_signals():
+            if callable(signal.getsignal(number)):
+                signal.signal(number, signal.SIG_DFL)
+        if signal.getsignal(signal.SIGINT) == signal.SIG_DFL:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        _take_files(files)
+        if session:
+            os.setsid()
+        _take_variables(variables)
+        _show(words)
+        _take_streams()
+        tracing.after_fork_in_child()
+        _, *options = words
+        while options[0] in ('-P', '-I', '-S'):
+            del options[0]
+        _execute(options, sys.path[1:])
+        code = 0
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else int(end.code is not None)
+        if code and not isinstance(end.code, int):
+            print(end.code, file=sys.stderr)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        # Not by way of the bring-up's own frames, which are below these.
+        threading._shutdown()
+        atexit._run_exitfuncs()
+        with contextlib.suppress(OSError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+        os._exit(code)
+
+
 def serve(base):
     """
     Import the modules that the command line names, fork programs, and run them in the forks.
@@ -273,15 +421,20 @@ def serve(base):
         base: What the interpreter itself had in ``sys.path``.
     """
     loaded = end_without_teardown()
-    for name in sys.argv[2:]:
+    for name in sys.argv[2:-1]:
         importlib.import_module(name)
-    for name in [name for name in sys.modules if name.startswith('amr_description.nodes.')]:
+    for name in [name for name in sys.modules if name.startswith(_MAIN_PROGRAMS)]:
         del sys.modules[name]  # what is run as the main program must not be loaded under its name
     # The threads that this warning is about are those that LTTng starts and no program needs.
     warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
+    note_files_of_modules()
     gc.freeze()
     loaded |= sys.modules
+    tracing = ForkTracing()
     with socket.socket(fileno=int(sys.argv[1])) as connection:
-        request, files = _serve(connection)
+        request, files = _serve(connection, tracing)
     _become(request, files)
+    tracing.after_fork_in_child()
+    if _is_bringup(request['program']):
+        _fork_from_here(tracing)
     _execute(request['program'], base)

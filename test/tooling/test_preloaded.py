@@ -5,12 +5,14 @@
 import json
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
 
+from fixtures.bringup.running import Bringup, STACKS
 import pytest
-from support import preloaded
+from support import preloaded, running_programs
 from support.running_programs import PATIENCE, Program
 
 REPORT = """
@@ -106,6 +108,68 @@ def test_it_has_a_terminal_and_ctrl_c_reaches_it():
         program.expect(r'tty /dev/pts/\d+ True')
         program.type('\x03')
         assert program.end() == -signal.SIGINT
+
+
+def test_it_shows_its_own_command_and_environment():
+    command = [sys.executable, '-c', 'print(flush=True); input()', 'a word', 'ä']
+    pipes = {'stdin': subprocess.PIPE, 'stdout': subprocess.PIPE}
+    with preloaded.Popen(command, env=os.environ | {'MARK': 'ü'}, **pipes) as process:
+        process.stdout.readline()
+        files = Path(f'/proc/{process.pid}')
+        assert shown(files / 'cmdline') == command
+        variables = shown(files / 'environ')
+        assert 'MARK=ü' in variables
+        assert not any(each.startswith('ROOM=') for each in variables)
+        assert (files / 'comm').read_text() == f'{Path(sys.executable).name}\n'
+        process.communicate(b'\n')
+
+
+def shown(file):
+    """The words that a file of /proc shows; the room behind them is full of zeros."""
+    return [os.fsdecode(word) for word in file.read_bytes().split(b'\0') if word.strip()]
+
+
+def test_it_has_files_that_it_is_given_under_the_same_numbers():
+    reader, writer = os.pipe()
+    high = os.dup(reader)
+    code = f'import os; print(os.read({high}, 9), os.path.exists("/proc/self/fd/{writer}"))'
+    os.write(writer, b'given')
+    with preloaded.Popen(
+        [sys.executable, '-c', code], pass_fds=(high,), stdout=subprocess.PIPE
+    ) as process:
+        assert process.communicate(timeout=PATIENCE)[0] == b"b'given' False\n"
+    for fd in (reader, writer, high):
+        os.close(fd)
+
+
+def family(pid):
+    """The names and commands of a process and its children, and which lead a session."""
+
+    def described(pid):
+        words = ' '.join(shown(Path(f'/proc/{pid}/cmdline')))
+        # A run's name and pids differ, and from where this package is imported.
+        told = re.sub(r"'/\S*'|/\S*/|[\d-]+", '', words)
+        return Path(f'/proc/{pid}/comm').read_text(), told, os.getsid(int(pid)) == int(pid)
+
+    children = Path(f'/proc/{pid}/task/{pid}/children').read_text().split()
+    return described(pid), sorted(map(described, children))
+
+
+def test_a_bring_up_has_the_processes_that_it_always_has(tmp_path, monkeypatch):
+    families = []
+    stack = str(STACKS / 'waiting.py'), f'path:={tmp_path}/no'
+    prefixes = f'{tmp_path}/prefix:{os.environ["AMENT_PREFIX_PATH"]}'
+    for way in WAYS_TO_START:
+        monkeypatch.setattr(running_programs, 'Popen', way)
+        with Bringup(tmp_path, *stack, AMENT_PREFIX_PATH=prefixes) as bringup:
+            bringup.expect(r'\[step-4\]: process has finished cleanly')
+            families.append(family(bringup.process.pid))
+            assert bringup.end(signal.SIGINT) == 0
+            assert bringup.left() == []
+    started, forked = families
+    assert forked == started
+    # The guardian, what watches the graph, and two programs of the fork server, which has ended.
+    assert len(started[1]) == 4
 
 
 def test_it_dies_with_nobody_but_is_reaped_by_the_test():
