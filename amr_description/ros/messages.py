@@ -6,8 +6,7 @@ Stamps, poses, velocities and transforms to and from their ROS messages.
 ``fill_…`` writes into a message that is there already. Times are in ns.
 """
 
-from array import array
-from typing import Any, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform, Vector
@@ -25,13 +24,6 @@ def nanoseconds(stamp: 'Time') -> int:
 def fill_stamp(time: int, stamp: 'Time') -> None:
     """Write integer nanoseconds into a stamp."""
     stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
-
-
-def numbers(code: str, data: bytes) -> 'array[Any]':
-    """Return an array for a field of a message: ``code`` as of :mod:`array`."""
-    result: array[Any] = array(code)
-    result.frombytes(data)
-    return result
 
 
 def fill_pose(transform: Transform, pose: 'Pose') -> None:

@@ -5,10 +5,12 @@ Rays into the world, for whatever looks at it: lidars, range finders, cameras wi
 
 What a ray meets is what is visible, as in Gazebo's rendered sensors:
 
-- of the world each geom that is not wholly transparent, moving or not: also meshes, by their true
-  triangles, and height fields;
+- of the world what MuJoCo's viewer shows, the geoms in groups 0 to 2, moving or not: also meshes,
+  by their true triangles, and height fields;
 - of a robot its visuals, true meshes as well; its collisions are not seen, so that a hull around
   a fork does not close the gap. A robot that has no visual at all is seen by its collisions.
+
+What is wholly transparent is not seen.
 
 :class:`RayScene` is bound to one model, so to one :attr:`Engine.generation`;
 :meth:`MujocoWorld.ray_scene` has the present one. MuJoCo lets go of the GIL while it casts, and
@@ -33,6 +35,7 @@ _SEEN, _UNSEEN = 0, 1
 _GROUPS = np.array([1, 0, 0, 0, 0, 0], np.uint8)
 _VISUAL_GROUP = 1
 """MuJoCo's URDF reader puts visuals into this geom group, collisions into group 0."""
+_FIRST_HIDDEN_GROUP = 3
 _FARTHEST = float(mujoco.mjMAXVAL)
 _POSES = (
     'xpos', 'xquat', 'xmat', 'xipos', 'ximat', 'geom_xpos', 'geom_xmat',
@@ -72,9 +75,9 @@ class RayScene:
         Find out what is visible.
 
         Args:
-            model: Is left as it is, except while rays are cast: then its geom groups, which no
-                physics depends on, say what they meet.
-            data: Its kinematics have to be those of the instant when rays are cast.
+            model: Is left as it is, except while rays are cast: then its geom groups say what
+                they meet, and the bounds of its bodies what they may meet.
+            data: Its kinematics have to be up to date now, and whenever rays are cast.
             robots: Their names, which prefix those of their bodies.
         """
         self.model, self.data = model, data
@@ -82,22 +85,21 @@ class RayScene:
         self.colors = _colors(model)
         """(geoms, 4): red, green, blue, alpha of each geom in 0..1; textures do not count."""
         self._owners = _owners(model, self._robots)
-        self._group = model.geom_group
-        self._own_groups = self._group.copy()
-        seen = self.colors[:, 3] > 0.0
+        self._own_groups = model.geom_group.copy()
+        seen = (self.colors[:, 3] > 0.0) & (self._own_groups < _FIRST_HIDDEN_GROUP)
         for index in range(len(self._robots)):
             own = self._owners == index
             visuals = own & (self._own_groups == _VISUAL_GROUP)
             if visuals.any():
                 seen &= ~own | visuals
         self.all_seen: Mask = np.where(seen, _SEEN, _UNSEEN).astype(np.int32)
+        self._bounds, self._own_bounds, self._true_bounds = _bounds(model, data)
 
     def copy(self) -> Self:
         """Return a scene with a model and poses of its own, for another thread; see `take`."""
         twin = copy.copy(self)
         twin.model = copy.copy(self.model)
         twin.data = mujoco.MjData(twin.model)
-        twin._group = twin.model.geom_group  # noqa: SLF001
         twin.take(self)
         return twin
 
@@ -166,14 +168,17 @@ class RayScene:
         distances, geoms = np.empty(count), np.empty(count, np.int32)
         found = np.empty(3 * count) if normals else None
         rays = np.ascontiguousarray(directions, np.float64).reshape(-1)
-        self._group[:] = self.all_seen if mask is None else mask
+        model, bounds = self.model, self._bounds
+        model.geom_group[:] = self.all_seen if mask is None else mask
+        model.bvh_aabb[bounds] = self._true_bounds
         try:
             mujoco.mj_multiRay(
-                self.model, self.data, origin, rays, _GROUPS, True, -1,
+                model, self.data, origin, rays, _GROUPS, True, -1,
                 geoms, distances, found, count, min(cutoff, _FARTHEST),
             )  # fmt: skip
         finally:
-            self._group[:] = self._own_groups
+            model.geom_group[:] = self._own_groups
+            model.bvh_aabb[bounds] = self._own_bounds
         return Hits(distances, geoms, None if found is None else found.reshape(-1, 3))
 
 
@@ -184,6 +189,44 @@ def _colors(model: mujoco.MjModel) -> Floats:
     has_one = material >= 0
     colors[has_one] = model.mat_rgba[material[has_one]]
     return colors
+
+
+def _bounds(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """
+    Return the bounds with which bodies are culled: indices, as they are, as they should be.
+
+    ``mj_multiRay`` (4.0.0) takes no ray for a body that passes by the box around those geoms of it
+    that collide, even if it has others, such as visuals.
+    """
+    collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    bodies = [
+        int(body)
+        for body in np.unique(model.geom_bodyid[~collides])
+        if model.body_bvhadr[body] >= 0
+    ]
+    rows = model.body_bvhadr[bodies].astype(np.intp)
+    true_bounds = [_bounds_of(model, data, body) for body in bodies]
+    return rows, model.bvh_aabb[rows].copy(), np.array(true_bounds).reshape(-1, 6)
+
+
+_CORNERS = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
+_UNBOUNDED = np.array([0.0, 0.0, 0.0, 1e8, 1e8, 1e8])
+
+
+def _bounds_of(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> Floats:
+    """Return centre and half extents of the box around all geoms, in the inertial frame."""
+    first = model.body_geomadr[body]
+    geoms = np.arange(first, first + model.body_geomnum[body])
+    if (model.geom_type[geoms] == mujoco.mjtGeom.mjGEOM_PLANE).any():
+        return _UNBOUNDED
+    boxes = model.geom_aabb[geoms]
+    corners = boxes[:, None, :3] + boxes[:, None, 3:] * _CORNERS
+    turns = data.geom_xmat[geoms].reshape(-1, 3, 3)
+    points = np.einsum('gij,gcj->gci', turns, corners) + data.geom_xpos[geoms][:, None]
+    local = (points.reshape(-1, 3) - data.xipos[body]) @ data.ximat[body].reshape(3, 3)
+    lowest, highest = local.min(axis=0), local.max(axis=0)
+    # A hair more: of flat visuals the box is flat.
+    return np.concatenate(((lowest + highest) / 2.0, (highest - lowest) / 2.0 + 1e-6))
 
 
 def _owners(model: mujoco.MjModel, robots: Sequence[str]) -> NDArray[np.int32]:

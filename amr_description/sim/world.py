@@ -231,10 +231,10 @@ class MujocoWorld:
     def ray_scene(self) -> RayScene:
         """Return what can be seen, where it is now; the same one until a robot comes or goes."""
         engine = self.engine
+        engine.refresh_kinematics()
         if self._ray_scene is None or self._ray_scene[0] != engine.generation:
             scene = RayScene(engine.model, engine.data, self.names)
             self._ray_scene = engine.generation, scene
-        engine.refresh_kinematics()
         return self._ray_scene[1]
 
     def reset(self) -> None:

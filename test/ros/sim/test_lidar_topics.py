@@ -12,7 +12,7 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data, QoSProfile
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import LaserScan, PointCloud2, Range
 from support.running_programs import PATIENCE
 
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
@@ -21,6 +21,7 @@ from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
+from amr_description.sensor_msgs_py.point_cloud2 import read_points
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 
@@ -106,6 +107,82 @@ def test_a_scan_is_what_the_description_says(host, qos):
     assert len(first.ranges) == len(first.intensities) == 360
     assert first.ranges[0] == pytest.approx(6.0, abs=0.05), 'the west wall'
     assert min(first.intensities) > 0.0
+
+
+RINGS = replace(
+    LIDAR,
+    vertical=ScanAxis(4, -0.15, 0.15),
+    points_topic='scan/points',
+    range_topic='nearest',
+    radiation_type=0,
+)
+
+
+def test_points_are_those_of_the_ranges(host):
+    host.spawn('amr', '/', RINGS)
+    with (
+        host.heard(LaserScan, '/scan') as scans,
+        host.heard(PointCloud2, '/scan/points') as clouds,
+        host.heard(Range, '/nearest') as ranges,
+    ):
+        (scan,), (cloud,), (nearest,) = (host.next(each) for each in (scans, clouds, ranges))
+    assert (cloud.header.stamp, cloud.header.frame_id) == (scan.header.stamp, 'base_scan')
+    assert (cloud.height, cloud.width, cloud.point_step, cloud.row_step) == (4, 360, 32, 360 * 32)
+    layout = [(field.name, field.offset, field.datatype, field.count) for field in cloud.fields]
+    assert layout == [
+        ('x', 0, 7, 1),
+        ('y', 4, 7, 1),
+        ('z', 8, 7, 1),
+        ('intensity', 16, 7, 1),
+        ('ring', 24, 4, 1),
+    ]
+    points = read_points(cloud).reshape(4, 360)
+    assert (points['ring'] == np.arange(4)[:, None]).all()
+    distances = np.sqrt(points['x'] ** 2 + points['y'] ** 2 + points['z'] ** 2)
+    assert distances[2] == pytest.approx(np.array(scan.ranges), rel=1e-5), 'of the middle ring'
+    elevations = np.arctan2(points['z'], np.hypot(points['x'], points['y']))
+    assert elevations[0] == pytest.approx(np.full(360, -0.15), abs=1e-5)
+    assert elevations[3] == pytest.approx(np.full(360, 0.15), abs=1e-5)
+    azimuths = np.arctan2(points['y'], points['x'])
+    assert azimuths[1] == pytest.approx(np.linspace(-3.14, 3.14, 360), abs=1e-5)
+    assert cloud.is_dense
+
+    assert nearest.range == pytest.approx(float(distances.min()), rel=1e-5)
+    assert nearest.field_of_view == pytest.approx(6.28)
+    assert (nearest.min_range, nearest.max_range) == pytest.approx((0.12, 12.0))
+    assert nearest.radiation_type == Range.ULTRASOUND
+
+
+def test_points_without_a_range_are_nan(host):
+    host.spawn('amr', '/', replace(RINGS, range_max=3.0))
+    with (
+        host.heard(PointCloud2, '/scan/points') as clouds,
+        host.heard(Range, '/nearest') as ranges,
+    ):
+        (cloud,), _ = host.next(clouds), host.next(ranges)
+    assert not cloud.is_dense
+    is_nan = np.isnan(read_points(cloud)['x'])
+    assert 0 < is_nan.sum() < len(is_nan)
+    assert len(read_points(cloud, skip_nans=True)) == (~is_nan).sum()
+
+
+def test_a_range_finder_that_meets_nothing_says_inf(host):
+    up = Transform.from_xyz_rpy((0.0, 0.0, 0.2), (0.0, -math.pi / 2.0, 0.0))
+    host.spawn(
+        'amr',
+        '/',
+        Lidar(
+            replace(MOUNT, pose=up),
+            ScanAxis(3, -0.1, 0.1),
+            range_max=4.0,
+            scan_topic='',
+            range_topic='range',
+        ),
+    )
+    with host.heard(Range, '/range') as ranges:
+        (nearest,) = host.next(ranges)
+    assert nearest.range == math.inf
+    assert host.node.count_publishers('/scan') == 0
 
 
 def test_a_namespace_is_before_topic_and_frame(host):

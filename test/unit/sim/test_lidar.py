@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of simulated lidars: geometry, REP 117, noise, what is seen."""
 
+from dataclasses import replace
 import math
 
+from fixtures.sim.driving import AMR
 from hypothesis import given, strategies as st
 import numpy as np
 import pytest
@@ -92,6 +94,110 @@ def test_walls_are_where_they_are(hall, x, y, yaw):
     assert scan.ranges[0] == pytest.approx(expected, rel=1e-6)
 
 
+SHIFT = ScanAxis(41, -0.2, 0.2)
+
+
+@examples(10)
+@given(x=st.floats(-2.0, 2.0), step=st.floats(0.05, 3.0))
+def test_parallel_motion_shortens_the_rays_to_a_wall_by_the_same_factor(hall, x, step):
+    before, after = (
+        hall.scan(lidar(SHIFT), Transform((at, 0.5, 0.0))).ranges[0] for at in (x, x + step)
+    )
+    assert after / before == pytest.approx(np.full(41, (8.0 - x - step) / (8.0 - x)), rel=1e-5)
+
+
+@examples(10)
+@given(turns=st.integers(1, 359))
+def test_turning_the_robot_turns_the_scan(hall, turns):
+    axis = ScanAxis(360, 0.0, 2.0 * math.pi * 359.0 / 360.0)
+    at = (1.0, 0.5, 0.0)
+    turned = Transform.from_xyz_rpy(at, (0.0, 0.0, 2.0 * math.pi * turns / 360.0))
+    before, after = (hall.scan(lidar(axis), pose).ranges[0] for pose in (Transform(at), turned))
+    assert after == pytest.approx(np.roll(before, -turns), rel=1e-5)
+
+
+@examples(10)
+@given(x=st.floats(1.5, 5.0), yaw=st.floats(-0.7, 0.7), half=st.tuples(*[st.floats(0.1, 0.6)] * 2))
+def test_a_box_has_its_size(tmp_path_factory, x, yaw, half):
+    box = f"""<geom type="box" size="{half[0]} {half[1]} 1" pos="{x} 0 0" euler="0 0 {yaw}"/>"""
+    world = f"""<mujoco><compiler angle="radian"/><worldbody>{box}</worldbody></mujoco>"""
+    ranges = Scene(tmp_path_factory.mktemp('box'), world).scan(lidar(ScanAxis(2001, -1.5, 1.5)))
+    angle = np.linspace(-1.5, 1.5, 2001)
+    met = np.isfinite(ranges.ranges[0])
+    points = (ranges.ranges[0] * [np.cos(angle), np.sin(angle)])[:, met] - [[x], [0.0]]
+    turn = np.array([[math.cos(yaw), math.sin(yaw)], [-math.sin(yaw), math.cos(yaw)]])
+    along, across = np.abs(turn @ points)
+    # Each point is on one of the sides, and the corners that are seen are reached.
+    on_side = np.minimum(abs(along - half[0]), abs(across - half[1]))
+    assert on_side == pytest.approx(np.zeros(met.sum()), abs=1e-5)
+    assert across.max() == pytest.approx(half[1], abs=0.02)
+    assert along.max() == pytest.approx(half[0], abs=1e-5)
+
+
+@examples(10)
+@given(elevation=st.floats(0.02, 0.3), height=st.floats(0.2, 2.0))
+def test_rings_meet_the_ground_where_their_elevation_says(ground, elevation, height):
+    rings = lidar(ScanAxis(5, -3.0, 3.0), vertical=ScanAxis(3, -elevation, elevation))
+    down, level, up = ground.scan(rings, Transform((0.0, 0.0, height))).ranges
+    expected = height / math.sin(elevation)
+    assert down == pytest.approx(np.full(5, expected if expected <= 30.0 else math.inf), rel=1e-5)
+    assert np.isinf(level).all()
+    assert np.isinf(up).all()
+
+
+@pytest.fixture(scope='module')
+def ground(tmp_path_factory):
+    world = '<mujoco><worldbody><geom type="plane" size="0 0 1"/></worldbody></mujoco>'
+    return Scene(tmp_path_factory.mktemp('ground'), world)
+
+
+HILL = """
+<mujoco>
+  <asset><hfield name="hill" nrow="3" ncol="3" size="2 2 1 1"
+    elevation="0 0 0 0 1 0 0 0 0"/></asset>
+  <worldbody><geom type="hfield" hfield="hill"/></worldbody>
+</mujoco>
+"""
+
+
+def test_rays_meet_a_height_field(tmp_path):
+    """A pyramid of 1 m in the middle of 4 by 4 m: its sides rise by 1 in 2."""
+    scene = Scene(tmp_path, HILL)
+    down = Transform.from_xyz_rpy((0.0, 0.0, 0.0), (0.0, math.pi / 2.0, 0.0))
+    for x in (-1.5, -0.5, 0.25, 1.0):
+        (distance,) = scene.scan(
+            lidar(ScanAxis(1, 0.0, 0.0), down), Transform((x, 0.0, 4.0))
+        ).ranges[0]
+        assert distance == pytest.approx(3.0 + abs(x) / 2.0, abs=1e-5)
+
+
+def test_rays_go_into_the_mouth_of_a_mesh(tmp_path):
+    """A U of three walls, as one mesh, whose convex hull is closed."""
+    write_obj(tmp_path / 'u.obj')
+    world = """
+    <mujoco><asset><mesh name="u" file="u.obj" inertia="shell"/></asset>
+    <worldbody><geom type="mesh" mesh="u"/></worldbody></mujoco>
+    """
+    scene = Scene(tmp_path, world)
+    # The mesh is centred by MuJoCo, and put back by the pose of its geom.
+    ahead = lidar(ScanAxis(1, 0.0, 0.0))
+    mouth, arm = (scene.scan(ahead, Transform((-3.0, y, 0.5))).ranges[0, 0] for y in (0.0, 0.9))
+    assert (mouth, arm) == (pytest.approx(3.8, abs=1e-4), pytest.approx(2.0, abs=1e-4))
+
+
+def write_obj(path):
+    """Write boxes of a U that is open towards -x: arms at y = ±0.9, the back at x = 0.9."""
+    boxes = [((0.0, 0.9), (1.0, 0.1)), ((0.0, -0.9), (1.0, 0.1)), ((0.9, 0.0), (0.1, 0.8))]
+    lines, faces = [], []
+    quads = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+    for number, ((x, y), (a, b)) in enumerate(boxes):
+        lines += [
+            f'v {x + i * a} {y + j * b} {k}' for k in (0.0, 1.0) for j in (-1, 1) for i in (-1, 1)
+        ]
+        faces += ['f ' + ' '.join(str(8 * number + corner) for corner in quad) for quad in quads]
+    path.write_text('\n'.join(lines + faces))
+
+
 def karto_length(angle_min, angle_max, angle_increment, length):
     """Return how many ranges slam_toolbox expects; from its laser_utils.cpp and Karto."""
     span = np.float32(abs(np.float32(angle_max) - np.float32(angle_min)))
@@ -174,3 +280,114 @@ def test_noise_follows_from_seed_and_time_alone(hall, tmp_path):
 def test_a_link_that_is_not_there(hall):
     with pytest.raises(SimulationError, match="there is no link 'nose' in the world; there are: "):
         hall.scan(Lidar(SensorMount('lidar', 'nose'), CIRCLE))
+
+
+HOUSED = """
+<visual><geometry><box size="0.3 0.3 0.3"/></geometry></visual>
+<visual><origin xyz="1 0 0"/><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
+<collision><origin xyz="0 1 0"/><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
+"""
+"""A housing around the lidar, a part in front of it, and a collision on its left."""
+CROSS = ScanAxis(4, 0.0, 1.5 * math.pi)
+
+
+@pytest.mark.parametrize(('range_min', 'ahead'), [(0.0, 0.9), (0.16, 0.9), (1.0, 8.0)])
+def test_a_lidar_looks_through_its_housing_and_sees_other_parts(tmp_path, range_min, ahead):
+    scene = Scene(tmp_path, HALL, HOUSED)
+    ranges = scene.scan(lidar(CROSS, range_min=range_min)).ranges[0]
+    assert ranges == pytest.approx([ahead, 3.0, 6.0, 2.0])
+
+
+def test_the_parts_of_the_robot_are_not_seen_if_the_tag_says_so(tmp_path):
+    scene = Scene(tmp_path, HALL, HOUSED)
+    assert scene.scan(lidar(CROSS, sees_robot=False)).ranges[0] == pytest.approx([8, 3, 6, 2])
+
+
+ARM = """
+<robot name="post">
+  <link name="world"/>
+  <joint name="stand" type="fixed"><parent link="world"/><child link="post"/></joint>
+  <link name="post">{inertial}
+    <visual><geometry><sphere radius="0.01"/></geometry></visual>
+  </link>
+  <joint name="slide" type="prismatic">
+    <parent link="post"/><child link="hand"/><axis xyz="1 0 0"/><limit lower="0" upper="5"
+      effort="1" velocity="1"/>
+  </joint>
+  <link name="hand">{inertial}
+    <visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
+  </link>
+</robot>
+"""
+INERTIAL = """
+<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+"""
+
+
+def test_parts_that_move_are_seen_where_they_are(tmp_path):
+    scene = Scene(tmp_path, HALL)
+    robot = scene.world.spawn('post', ARM.format(inertial=INERTIAL), Transform())
+    seen = []
+    for position in (2.0, 0.15):
+        scene.world.engine.data.joint('post/slide').qpos = position
+        scene.world.engine.invalidate_kinematics()
+        seen.append(scene.measure(robot, lidar(ScanAxis(1, 0.0, 0.0))).ranges[0, 0])
+    assert seen == [pytest.approx(1.9), -math.inf]
+
+
+SEEN_BY_ITS_VISUAL = """
+<visual><geometry><box size="0.4 0.4 2"/></geometry></visual>
+<collision><geometry><box size="1 1 2"/></geometry></collision>
+"""
+COLLISION_ALONE = '<collision><geometry><box size="1 1 2"/></geometry></collision>'
+TRANSPARENT = """
+<visual><geometry><box size="0.4 0.4 2"/></geometry>
+  <material name="glass"><color rgba="1 1 1 0"/></material></visual>
+"""
+
+
+@pytest.mark.parametrize(
+    ('parts', 'distance'), [(SEEN_BY_ITS_VISUAL, 2.8), (COLLISION_ALONE, 2.5), (TRANSPARENT, 8.0)]
+)
+def test_robots_are_seen_by_their_visuals_if_they_have_any(tmp_path, parts, distance):
+    scene = Scene(tmp_path, HALL)
+    scene.world.spawn('other', POST.format(parts=parts), Transform((3.0, 0.0, 0.0)))
+    assert scene.scan(lidar(ScanAxis(1, 0.0, 0.0))).ranges[0, 0] == pytest.approx(distance)
+
+
+def test_intensity_is_the_luminance_of_what_is_met(tmp_path):
+    colors = {'1 0 0 1': 0.2126, '0 1 0 1': 0.7152, '0 0 1 1': 0.0722, '1 1 1 0.5': 1.0}
+    boxes = ''.join(
+        f'<geom type="box" size="0.5 0.5 0.5" pos="{3 + i} {3 * i - 3} 0" rgba="{color}"/>'
+        for i, color in enumerate(colors)
+    )
+    scene = Scene(tmp_path, f'<mujoco><worldbody>{boxes}</worldbody></mujoco>')
+    bearings = [math.atan2(3 * i - 3, 3 + i) for i in range(4)]
+    for bearing, luminance in zip(bearings, colors.values(), strict=True):
+        scan = scene.scan(lidar(ScanAxis(1, bearing, bearing)))
+        assert scan.intensities[0, 0] == pytest.approx(255.0 * luminance)
+    assert scene.scan(lidar(ScanAxis(1, 2.0, 2.0))).intensities[0, 0] == 0.0
+
+
+def test_scanning_does_not_change_the_future():
+    states = []
+    for scans in (False, True):
+        world = MujocoWorld('warehouse')
+        robot = world.spawn('amr', AMR, Transform((0.0, 0.0, 0.2)))
+        sensor = SimulatedLidar(replace(lidar(), mount=SensorMount('lidar', 'base_link')), robot)
+        for _ in range(20):
+            world.step(5)
+            if scans:
+                sensor.measure(sensor.view(world.time, world.ray_scene()), world.ray_scene())
+        states.append(world.state())
+    assert states[0] == states[1]
+
+
+def test_a_copy_measures_the_same(tmp_path):
+    scene = Scene(tmp_path, HALL)
+    robot = scene.world.spawn('post', POST.format(parts=HOUSED), Transform((1.0, 0.5, 0.0)))
+    there = scene.world.ray_scene()
+    sensor = SimulatedLidar(lidar(noise=Noise(stddev=0.01)), robot)
+    view = sensor.view(5, there)
+    on_copy = sensor.measure(view, there.copy())
+    assert on_copy.ranges.tobytes() == sensor.measure(view, there).ranges.tobytes()

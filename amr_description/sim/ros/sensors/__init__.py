@@ -6,10 +6,11 @@ The sensors of simulated robots that look at the world, as topics: lidars, camer
 =========================== =======================================================================
 ``manager.py``              all sensors of all robots: which one measures, and when
 ``topics.py``               what the topics of one sensor are: the contract of the modules below
-``lidar.py``                scans of lidars
 ``contact.py``              contact sensors and bumpers
 ``worker.py``               the thread that measures what takes long
 ``camera.py``               cameras: pictures, depth, points
 ``image_messages.py``       … their messages
+``lidar.py``                lidars and range finders: scans, points, ranges
+``lidar_messages.py``       … their messages
 =========================== =======================================================================
 """

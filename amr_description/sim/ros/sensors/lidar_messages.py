@@ -1,0 +1,139 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What lidars measure, as the bytes of LaserScan, PointCloud2 and Range.
+
+Everything but the stamp and the numbers that are measured is serialized once. Processor time of
+one publication of 360 ranges and intensities, µs, to a reader in another process: as a message of
+rclpy 30, as bytes 16, of which 5 are ours.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
+
+from amr_description.clock import NANOSECONDS
+from amr_description.model.sensors import Lidar
+from amr_description.ros.cdr_template import template_of
+from amr_description.sim.lidar import ray_directions, Scan, scan_angles
+
+type ScanEncoder = Callable[[Scan], bytes]
+
+POINT = np.dtype(
+    {
+        'names': ['x', 'y', 'z', 'intensity', 'ring'],
+        'formats': ['<f4', '<f4', '<f4', '<f4', '<u2'],
+        'offsets': [0, 4, 8, 16, 24],
+        'itemsize': 32,
+    }
+)
+"""Fields and layout of the points of gz-sensors, as ros_gz_bridge passes them on."""
+_DATA_TYPES = {'f4': PointField.FLOAT32, 'u2': PointField.UINT16}
+
+
+def scan_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
+    """
+    Return what makes LaserScans, of several rings of the middle one.
+
+    All rays are of the same instant: ``time_increment`` and ``scan_time`` are 0, as in gz.
+
+    Args:
+        lidar: The sensor.
+        frame: Of the messages.
+    """
+    message = LaserScan()
+    message.header.frame_id = frame
+    message.angle_min, message.angle_max, message.angle_increment = scan_angles(lidar.horizontal)
+    message.range_min, message.range_max = lidar.range_min, lidar.range_max
+    message.ranges = message.intensities = [0.0] * lidar.horizontal.samples
+    arrays = ('ranges', 'intensities')
+    template = template_of(message, ('header.stamp', *arrays), blocks=arrays)
+    pack = template.pack
+    begin, geometry, size, end = template.constants
+
+    def encode(scan: Scan) -> bytes:
+        ring = scan.middle_ring
+        ranges, intensities = scan.ranges[ring].tobytes(), scan.intensities[ring].tobytes()
+        stamp = divmod(scan.time, NANOSECONDS)
+        return pack(begin, *stamp, geometry, ranges, size, intensities, end)
+
+    return encode
+
+
+def points_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
+    """
+    Return what makes PointCloud2s: a row for each ring, from the lowest elevation up.
+
+    x, y and z are NaN where a range is infinite, which is what ``skip_nans`` of readers leaves
+    out; ``is_dense`` says whether there is none.
+
+    Args:
+        lidar: The sensor.
+        frame: Of the messages.
+    """
+    shape = (lidar.vertical.samples, lidar.horizontal.samples)
+    points = np.zeros(shape, POINT)
+    points['ring'] = np.arange(shape[0])[:, None]
+    rays = ray_directions(lidar).astype(np.float32).reshape(*shape, 3)
+    message = PointCloud2()
+    message.header.frame_id = frame
+    message.height, message.width = shape
+    message.fields = [_field(name) for name in POINT.names or ()]
+    message.point_step = POINT.itemsize
+    message.row_step = POINT.itemsize * shape[1]
+    message.data = bytes(points.nbytes)
+    changing = ('header.stamp', 'data', 'is_dense')
+    template = template_of(message, changing, blocks=('data',))
+    pack = template.pack
+    begin, layout, density, end = template.constants
+
+    def encode(scan: Scan) -> bytes:
+        is_met = np.isfinite(scan.ranges)
+        ranges = np.where(is_met, scan.ranges, np.float32(np.nan))
+        for axis, name in enumerate('xyz'):
+            np.multiply(ranges, rays[:, :, axis], out=points[name])
+        points['intensity'] = scan.intensities
+        stamp, is_dense = divmod(scan.time, NANOSECONDS), bool(is_met.all())
+        return pack(begin, *stamp, layout, points.tobytes(), density, is_dense, end)
+
+    return encode
+
+
+def range_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
+    """
+    Return what makes Ranges: the nearest of all rays.
+
+    As REP 117 wants it, that is -inf if one of them is too near, and +inf if none meets anything.
+    ``field_of_view`` is the larger one of both axes, as of gazebo_ros.
+
+    Args:
+        lidar: The sensor.
+        frame: Of the messages.
+    """
+    message = Range()
+    message.header.frame_id = frame
+    message.radiation_type = lidar.radiation_type
+    axes = lidar.horizontal, lidar.vertical
+    message.field_of_view = max(
+        axis.upper - axis.lower if axis.samples > 1 else 0.0 for axis in axes
+    )
+    message.min_range, message.max_range = lidar.range_min, lidar.range_max
+    message.variance = lidar.noise.stddev**2
+    template = template_of(message, ('header.stamp', 'range'))
+    pack = template.pack
+    begin, geometry, end = template.constants
+
+    def encode(scan: Scan) -> bytes:
+        stamp = divmod(scan.time, NANOSECONDS)
+        return pack(begin, *stamp, geometry, float(scan.ranges.min()), end)
+
+    return encode
+
+
+def _field(name: str) -> Any:
+    fields = POINT.fields
+    assert fields is not None, 'points have fields'
+    kind, offset = fields[name][:2]
+    return PointField(name=name, offset=offset, datatype=_DATA_TYPES[kind.str[1:]], count=1)
