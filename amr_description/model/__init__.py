@@ -30,6 +30,7 @@ module                   what it holds
 ``gazebo_drives.py``      … what drives and odometry become
 ``gazebo_joints.py``      … what plugins of single joints, and sensors, become
 ``gazebo_builder.py``     … collects it: hardware, controllers, lines to say
+``gazebo_bridge.py``      … files of ros_gz_bridge: what topics are called in ROS
 ``gazebo_translation.py`` … of a robot: ``translate(robot)``
 ``base_interfaces.py``    the interfaces of a simulated robot's body as a whole
 ``gazebo_physics.py``     <gazebo reference="…">: friction, springs, gravity, self-collision

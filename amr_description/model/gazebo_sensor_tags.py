@@ -94,6 +94,11 @@ class SensorTag:
             Finding.error(self.robot.source, line, self._says(what), taken=LEFT_OUT, **details)
         )
 
+    def leave_out(self, what: str, element: etree._Element | None = None, **details: str) -> None:
+        """Report what Gazebo leaves out as well, which is no fault of the rest."""
+        self.is_faulty = True
+        self.warning(what, element, taken=LEFT_OUT, **details)
+
     def warning(self, what: str, element: etree._Element | None = None, **details: str) -> None:
         """Report what nobody intends, and the simulator can do; ``taken``: what it does."""
         line = self.line if element is None else line_of(element)
@@ -134,12 +139,16 @@ class SensorTag:
 
     def count(self, path: str, default: int) -> int:
         """Return a whole number from 1 on, or report it and return the default."""
-        value = self.number(path, float(default), 1.0, 'a whole number from 1 on')
+        expected = 'a whole number from 1 on'
+        value = self.number(path, float(default), 1.0, expected)
         if value != int(value):
-            element = self.element.find(path)
-            found = quote(self.text(path))
-            self.error(_named(path), element, found=found, expected='a whole number from 1 on')
-            return default
+            self.warning(
+                _named(path),
+                self.element.find(path),
+                found=quote(self.text(path)),
+                expected=expected,
+                taken=f'{int(value)} is taken',
+            )
         return int(value)
 
     def rate(self) -> float:
@@ -473,7 +482,9 @@ def lidar_of(tag: SensorTag, mount: SensorMount) -> Lidar:
     return Lidar(mount, horizontal, vertical, least, most, resolution, noise, scan_topic='')
 
 
-def camera_of(tag: SensorTag, mount: SensorMount, inside: str = 'camera') -> Camera:
+def camera_of(
+    tag: SensorTag, mount: SensorMount, inside: str = 'camera', *, has_colour: bool = True
+) -> Camera:
     """
     Return a camera by its ``<camera>`` element, still without topics.
 
@@ -481,6 +492,7 @@ def camera_of(tag: SensorTag, mount: SensorMount, inside: str = 'camera') -> Cam
         tag: of the sensor.
         mount: of the sensor.
         inside: that element; of several ``camera[1]``, ``camera[2]``.
+        has_colour: whether it has pictures in colour, whose format counts.
     """
     width, height = tag.size(f'{inside}/image')
     near, far = tag.clip(f'{inside}/clip', 0.1, 100.0)
@@ -499,7 +511,7 @@ def camera_of(tag: SensorTag, mount: SensorMount, inside: str = 'camera') -> Cam
         tag.intrinsics(f'{inside}/lens/intrinsics'),
         tag.distortion(f'{inside}/distortion'),
         tag.noise(f'{inside}/noise'),
-        tag.encoding(f'{inside}/image/format'),
+        tag.encoding(f'{inside}/image/format') if has_colour else 'rgb8',
         points_are_optical=tag.is_optical(mount.frame, mount.pose),
     )
 

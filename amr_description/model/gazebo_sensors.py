@@ -44,7 +44,14 @@ from amr_description.model.kinematics import link_poses
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
-from amr_description.model.sensors import Camera, ContactSensor, Lidar, RobotSensors, WorldSensor
+from amr_description.model.sensors import (
+    Camera,
+    ContactSensor,
+    Lidar,
+    RANGE,
+    RobotSensors,
+    WorldSensor,
+)
 from amr_description.model.xml_reader import parse_xml
 from amr_description.text import closest_match, quote, quote_all
 
@@ -175,7 +182,7 @@ def _check_place(tag: SensorTag) -> None:
         meant = closest_match(tag.link, links, _SIMILAR)
         if has_joint:
             meant = tag.robot.joint(tag.link).child
-        tag.error(
+        tag.leave_out(
             'it is mounted on a link that is not there',
             tag.element.getparent(),
             found=quote(tag.link),
@@ -190,8 +197,8 @@ def _with_own_topics(
     """
     Return the sensors without those that would publish on a topic of another type.
 
-    Two on one topic of one type are mixed there, as in Gazebo, which is reported. Cameras that
-    are alike may share what says how they see.
+    Two on one topic of one type are mixed there, as in Gazebo, which is reported. Range finders
+    may be, each message has its frame; cameras that are alike may share what says how they see.
     """
     owners: dict[str, tuple[str, WorldSensor]] = {}
     sound: list[WorldSensor] = []
@@ -205,7 +212,7 @@ def _with_own_topics(
             if any(owners[topic][0] != own[topic] for topic in shared):
                 tag.error(f'it has a topic of another type, {kind}', found=found, fix=fix)
                 continue
-            if not _see_alike(sensor, other):
+            if kind != RANGE and not _see_alike(sensor, other):
                 mixed = 'both are on it'
                 tag.warning(
                     'it has the topic of another sensor', found=found, taken=mixed, fix=fix
@@ -250,7 +257,7 @@ def _camera(tag: SensorTag) -> Camera:
 def _depth_camera(tag: SensorTag) -> Camera:
     topic = _topic(tag, f'{topic_part(tag.name)}/depth_image')
     return replace(
-        _any_camera(tag),
+        _any_camera(tag, has_colour=False),
         depth_topic=topic,
         depth_camera_info_topic=_beside(tag, topic),
         points_topic=f'{topic}/points',
@@ -268,10 +275,11 @@ def _rgbd_camera(tag: SensorTag) -> Camera:
     )
 
 
-def _any_camera(tag: SensorTag) -> Camera:
+def _any_camera(tag: SensorTag, *, has_colour: bool = True) -> Camera:
     """Return a camera without topics; ``<optical_frame_id>`` counts before other frames."""
     frame = tag.frame('camera/optical_frame_id', *_FRAMES)
-    return camera_of(tag, tag.mount(frame or tag.optical_frame(), 'camera'))
+    mount = tag.mount(frame or tag.optical_frame(), 'camera')
+    return camera_of(tag, mount, has_colour=has_colour)
 
 
 def _contact(tag: SensorTag) -> ContactSensor:

@@ -19,6 +19,7 @@ from amr_description.model.frames import Transform
 from amr_description.model.gazebo import Noise
 
 NO_NOISE = Noise()
+RANGE = 'sensor_msgs/msg/Range'
 _CAMERA_INFO = 'sensor_msgs/msg/CameraInfo'
 _IMAGE = 'sensor_msgs/msg/Image'
 _POINTS = 'sensor_msgs/msg/PointCloud2'
@@ -111,7 +112,7 @@ class Lidar:
         return _published(
             (self.scan_topic, 'sensor_msgs/msg/LaserScan'),
             (self.points_topic, _POINTS),
-            (self.range_topic, 'sensor_msgs/msg/Range'),
+            (self.range_topic, RANGE),
         )
 
 

@@ -30,6 +30,7 @@ from amr_description.model.controller_files import (
     VELOCITY_TOPICS,
 )
 from amr_description.model.frames import Transform
+from amr_description.model.gazebo_bridge import Bridge, bridged, NO_BRIDGE
 from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot as Description
@@ -157,6 +158,7 @@ def spawn(
         pose: Transform from the root link to the world.
         name: Of the entity; empty: that of the URDF.
         namespace: Of the controller manager; empty: what the URDF says, or none.
+        bridge: What topics of Gazebo are called.
 
     Raises:
         SimulationError: The simulator rejects the robot.
@@ -203,6 +205,7 @@ def spawn_controllers(
     files: Sequence[Path],
     names: Sequence[str] | None,
     namespace: str = '',
+    bridge: Bridge = NO_BRIDGE,
 ) -> Topics:
     """
     Load, configure and activate controllers; return the topics of the active ones.
@@ -252,7 +255,8 @@ def spawn_controllers(
         odometry=topic(drive, publishers, 'nav_msgs/msg/Odometry'),
         joints=topic(broadcaster, publishers, 'sensor_msgs/msg/JointState'),
     )
-    return _with_plugins(topics, translate(description), [name for _, name in active], inside)
+    plugins = bridged(translate(description), bridge)
+    return _with_plugins(topics, plugins, [name for _, name in active], inside)
 
 
 def _drives(controller_type: str) -> bool:

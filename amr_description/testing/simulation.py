@@ -44,6 +44,7 @@ from amr_description.errors import SimulationError
 from amr_description.model.controller_files import files_of
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
+from amr_description.model.gazebo_bridge import NO_BRIDGE, read_bridge
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
@@ -141,6 +142,8 @@ class Simulation:
             self._robot_model = parse_urdf(self._description)
             self._is_controlled = bool(hardware_of(translate(self._robot_model).robot))
             self._files = self._parameter_files()
+            given = str(self._parameters.get('bridge', ''))
+            self._bridge = read_bridge(path_of(given)) if given else NO_BRIDGE
             domain = stack.enter_context(own_domain())
             self._simulator = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack, domain)
@@ -210,7 +213,12 @@ class Simulation:
         topics = Topics()
         if self._is_controlled:
             topics = spawn_controllers(
-                lock_step, self._robot_model, self._files, self._activate, namespace
+                lock_step,
+                self._robot_model,
+                self._files,
+                self._activate,
+                namespace,
+                self._bridge,
             )
         self._robots[name] = Robot(lock_step, self._readings, name, namespace, topics)
         return self._robots[name]

@@ -61,7 +61,12 @@ class SpawnPlan:
 
 
 def plan_controllers(
-    urdf: str, description: str, controllers: str = '', activate: str = '', namespace: str = ''
+    urdf: str,
+    description: str,
+    controllers: str = '',
+    activate: str = '',
+    namespace: str = '',
+    bridge: str = '',
 ) -> SpawnPlan:
     """
     Return what is spawned for a robot.
@@ -73,6 +78,7 @@ def plan_controllers(
             one, if it is for this robot.
         activate: the names as given; '': all.
         namespace: that of the robot, absolute; '': that of its URDF.
+        bridge: a configuration file of ros_gz_bridge; '': none.
 
     Raises:
         ResourceError, ParameterError: there is no such file, or it is no parameter file.
@@ -85,13 +91,18 @@ def plan_controllers(
 
     try:
         robot = parse(description, urdf)
-        return _plan(urdf, robot, controllers, wanted, namespace)
+        return _plan(urdf, robot, controllers, wanted, namespace, bridge)
     except DescriptionError:  # the node that reads it says where, and what would do
         return SpawnPlan(files=(controllers_file(controllers, urdf, description),))
 
 
 def _plan(
-    urdf: str, robot: 'Robot', controllers: str, wanted: Sequence[str], inside: str
+    urdf: str,
+    robot: 'Robot',
+    controllers: str,
+    wanted: Sequence[str],
+    inside: str,
+    bridge: str,
 ) -> SpawnPlan:
     from amr_description.model.controller_files import (
         declared_controllers,
@@ -99,11 +110,14 @@ def _plan(
         remapping,
     )
     from amr_description.model.gazebo import ros2_control_host_of
+    from amr_description.model.gazebo_bridge import bridged, read_bridge
     from amr_description.model.gazebo_translation import translate
     from amr_description.model.ros2_control_tag import hardware_of
 
     given = [path_of(controllers, 'controllers')] if controllers else []
     plugins = translate(robot)
+    if bridge:
+        plugins = bridged(plugins, read_bridge(path_of(bridge, 'bridge')))
     if not hardware_of(plugins.robot):
         note = f'urdf:={urdf}: it has no <ros2_control>, and so no controller manager of its own'
         note += f'; controllers:={controllers} has no effect' if controllers else ''

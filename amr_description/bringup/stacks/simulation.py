@@ -39,6 +39,7 @@ ABOUT_CONTROLLERS = (
 ABOUT_FIXED = 'whether the root link is fixed to the world, as that of an arm'
 ABOUT_LIFT = 'whether a robot that would touch the world is lifted until it is free'
 ABOUT_STRICT = 'whether a robot that has to be taken as something else is refused'
+ABOUT_BRIDGE = 'configuration file of ros_gz_bridge, by which topics of Gazebo are called'
 ABOUT_MOCKS = 'mock_components is simulated as other hardware (simulate), or stays a mock (mock)'
 
 
@@ -69,22 +70,18 @@ def simulation(
     lift: Annotated[bool, ABOUT_LIFT] = True,
     strict: Annotated[bool, ABOUT_STRICT] = False,
     mock_hardware: Annotated[str, ABOUT_MOCKS] = 'simulate',
+    bridge: Annotated[str, ABOUT_BRIDGE] = '',
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
     urdf = with_sensors(urdf, sensors)
     description = robot_description(urdf, xacro_args)
     if fixed:
         description = _fixed(description, urdf)
-    plan = plan_controllers(urdf, description, controllers, activate)
+    plan = plan_controllers(urdf, description, controllers, activate, bridge=bridge)
+    options = {'lift': lift, 'strict': strict, 'mock_hardware': mock_hardware, 'bridge': bridge}
 
     # 1. The simulated world, empty so far; it publishes /clock.
-    mujoco_sim = _simulator(
-        world,
-        rtf,
-        paused,
-        plan.parameter,
-        {'lift': lift, 'strict': strict, 'mock_hardware': mock_hardware},
-    )
+    mujoco_sim = _simulator(world, rtf, paused, plan.parameter, options)
 
     # 2. The URDF, published as /robot_description and as transforms.
     robot_state_publisher = Node(
@@ -117,6 +114,7 @@ _OPTIONS: Mapping[str, ParameterValue] = {
     'lift': True,
     'strict': False,
     'mock_hardware': 'simulate',
+    'bridge': '',
 }
 
 
@@ -138,6 +136,8 @@ def _simulator(
     if options['mock_hardware'] not in ('simulate', 'mock'):
         raise UsageError(f'mock_hardware:={options["mock_hardware"]}: it is simulate or mock')
     parameters.update({key: each for key, each in options.items() if each != _OPTIONS[key]})
+    if options['bridge']:
+        parameters['bridge'] = str(path_of(str(options['bridge']), 'bridge'))
     return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
 
 

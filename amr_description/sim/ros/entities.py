@@ -32,6 +32,7 @@ from amr_description.errors import RequestError, SpawnError
 from amr_description.model.controller_files import files_of, missing_files, named_files
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import ros2_control_host_of
+from amr_description.model.gazebo_bridge import Bridge, bridged
 from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.hardware_info import HardwareInfo
@@ -103,6 +104,7 @@ class EntityManager:
         executor: Executor,
         log: Log,
         controllers: str,
+        bridge: Bridge,
         simulates_mocks: bool,
         lift: bool,
         ros_args: Sequence[str],
@@ -118,6 +120,7 @@ class EntityManager:
             executor: Of the ROS thread.
             log: Of the simulator.
             controllers: Path of the managers' parameter file, or empty.
+            bridge: What topics of Gazebo are called.
             simulates_mocks: Mock hardware is simulated; False: it stays a mock.
             lift: Whether a robot that would be inside the world is lifted until it is free.
             ros_args: ROS arguments for every manager and controller.
@@ -130,6 +133,7 @@ class EntityManager:
         self._executor = executor
         self._log = log
         self._controllers = controllers
+        self._bridge = bridge
         self._simulates_mocks = simulates_mocks
         self._lift = lift
         self._ros_args = ros_args
@@ -180,7 +184,7 @@ class EntityManager:
                 constructor of a third-party component raises; nothing is left of the robot then.
         """
         hardware = hardware_of(robot)
-        translation = translate(robot)
+        translation = bridged(translate(robot), self._bridge)
         prepared = self._prepare(robot, hardware, namespace, translation) if hardware else None
         rollers: Mapping[str, Rollers] = {}
         if hardware:

@@ -23,11 +23,14 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from amr_description.ament_index import path_of
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import WallPacer
+from amr_description.errors import ParameterError, ResourceError, SimulationError
+from amr_description.model.gazebo_bridge import Bridge, NO_BRIDGE, read_bridge
 from amr_description.parameters import group, parameter
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
@@ -65,6 +68,12 @@ class SimulationParameters:
         '',
         'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
         'names, else that of this package, if it is for this robot',
+        read_only=True,
+    )
+    bridge: str = parameter(
+        '',
+        'Configuration file of ros_gz_bridge, by which topics of sensors and plugins of Gazebo '
+        'are called; empty: as they are usually bridged',
         read_only=True,
     )
     strict: bool = parameter(
@@ -186,6 +195,7 @@ class Simulation:
             executor=self._executor,
             log=self.log,
             controllers=self.parameters.controllers,
+            bridge=_bridge_of(self.parameters),
             simulates_mocks=self.parameters.mock_hardware == 'simulate',
             lift=self.parameters.lift,
             ros_args=ros_args,
@@ -294,6 +304,16 @@ class Simulation:
                 'paused, as on_fault says; ~/set_simulation_state lets time go on, '
                 '~/reset_simulation begins anew',
             )
+
+
+def _bridge_of(parameters: SimulationParameters) -> Bridge:
+    """Return what topics are called in ROS. Raises SimulationError."""
+    if not parameters.bridge:
+        return NO_BRIDGE
+    try:
+        return read_bridge(path_of(parameters.bridge, 'bridge'))
+    except (ParameterError, ResourceError) as error:
+        raise SimulationError(str(error)) from error
 
 
 def _world_of(parameters: SimulationParameters, log: Log) -> MujocoWorld:

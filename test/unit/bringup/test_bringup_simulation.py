@@ -136,6 +136,19 @@ def test_the_simulator_is_told_what_differs_from_its_defaults(given, parameters)
     assert {key: told[key] for key in told.keys() & OPTIONS} == parameters
 
 
+def test_topics_are_called_as_a_bridge_file_says(tmp_path):
+    (tmp_path / 'bridge.yaml').write_text(
+        '- {ros_topic_name: drive, gz_topic_name: /model/cart/cmd_vel}\n'
+    )
+    (tmp_path / 'cart.urdf').write_text(plugin_robot.cart(plugin_robot.gz_drive()))
+    given = {'urdf': str(tmp_path / 'cart.urdf'), 'bridge': str(tmp_path / 'bridge.yaml')}
+    found = stack(**given)
+    assert found.nodes[0].parameters[0]['bridge'] == given['bridge']
+    assert found.velocity_topic.name == '/drive'
+    with pytest.raises(AmrError, match='^bridge:=.*: no such file: '):
+        stack(bridge='/none.yaml')
+
+
 def test_mock_hardware_is_simulated_or_a_mock():
     with pytest.raises(AmrError, match='^mock_hardware:=fake: it is simulate or mock'):
         stack(mock_hardware='fake')

@@ -172,11 +172,6 @@ FAULTS = [
     ('lidar', scanned('<samples>0</samples>'), '<samples> of <horizontal>: found "0", expected a'),
     (
         'lidar',
-        scanned('<samples>1.5</samples>'),
-        '<samples> of <horizontal>: found "1.5", expect',
-    ),
-    (
-        'lidar',
         scanned('<resolution>nan</resolution>'),
         '<resolution> of <horizontal>: found "na',
     ),
@@ -273,6 +268,10 @@ def test_a_sensor_that_cannot_work_is_left_out_and_told_with_its_line(kind, insi
 
 WARNINGS = [
     (
+        '<camera><image><width>64.5</width></image></camera>',
+        '<width> of <image>: found "64.5", expected a whole number from 1 on; 64 is taken',
+    ),
+    (
         '<camera><image><format>BAYER_RGGB8</format></image></camera>',
         '<format>: found "BAYER_RGGB8", expected one of R8G8B8,',
     ),
@@ -300,12 +299,12 @@ def test_a_sensor_that_works_otherwise_than_meant_is_told(inside, message):
         (
             '<gazebo reference="ey">{}</gazebo>',
             '"s": it is mounted on a link that is not there: found "ey", expected one of "base", '
-            '"eye", "eye_optical"; write reference="eye"',
+            '"eye", "eye_optical"; the sensor is left out; write reference="eye"',
         ),
         (
             '<gazebo reference="b">{}</gazebo>',
             '"s": it is mounted on a link that is not there: found "b", expected one of "base", '
-            '"eye", "eye_optical"; write reference="eye_optical"',
+            '"eye", "eye_optical"; the sensor is left out; write reference="eye_optical"',
         ),
         ('<gazebo>{}</gazebo>', '"s": its <gazebo> has no attribute "reference"'),
         (
