@@ -78,7 +78,8 @@ def simulation(
     if fixed:
         description = _fixed(description, urdf)
     plan = plan_controllers(urdf, description, controllers, activate, bridge=bridge)
-    options = {'lift': lift, 'strict': strict, 'mock_hardware': mock_hardware, 'bridge': bridge}
+    options: dict[str, ParameterValue] = {'lift': lift, 'strict': strict, 'bridge': bridge}
+    options['mock_hardware'] = mock_hardware
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = _simulator(world, rtf, paused, plan.parameter, options)
