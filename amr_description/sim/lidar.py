@@ -14,7 +14,6 @@ These parts keep their distances, which are computed once; nothing of them is ca
 
 from dataclasses import dataclass
 import math
-import threading
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,17 +58,6 @@ class Scan:
         return len(self.ranges) // 2
 
 
-@dataclass(frozen=True, slots=True)
-class View:
-    """From where a lidar looks at one instant: its origin and directions, in the world."""
-
-    time: int
-    body: int
-    """The id of its link, of the generation of the scene."""
-    origin: Floats
-    directions: Floats
-
-
 def scan_angles(axis: ScanAxis) -> tuple[float, float, float]:
     """
     Return ``angle_min``, ``angle_max`` and ``angle_increment`` of a LaserScan, all float32.
@@ -109,8 +97,7 @@ class SimulatedLidar:
     """
     A lidar on a robot.
 
-    :meth:`view` is called on the control thread, :meth:`measure` on any one, with the scene or a
-    copy of it.
+    :meth:`body` is called on the control thread, everything else on any one, but one at a time.
     """
 
     def __init__(self, lidar: Lidar, robot: RobotView) -> None:
@@ -130,32 +117,33 @@ class SimulatedLidar:
         self._name = f'{lidar.mount.link}/{lidar.mount.name}'
         self._bias = self._draw_bias()
         self._binding: _Binding | None = None
-        self._changing_binding = threading.Lock()
         mount = lidar.mount.pose
         self._offset = np.array(mount.translation)
         self._turned = ray_directions(lidar) @ np.array(matrix_from_quaternion(mount.rotation)).T
-        robot.body(lidar.mount.link)
+        self.body()
 
-    def view(self, time: int, scene: RayScene) -> View:
-        """Return from where the lidar looks now, at ``time``, ns."""
-        return self._view_from(self._robot.body(self.lidar.mount.link), time, scene)
+    def body(self) -> int:
+        """Return the id of its link, good for one generation."""
+        return self._robot.body(self.lidar.mount.link)
 
-    def _view_from(self, body: int, time: int, scene: RayScene) -> View:
-        position, rotation = scene.pose(body)
-        return View(time, body, position + rotation @ self._offset, self._turned @ rotation.T)
+    def is_bound_to(self, scene: RayScene) -> bool:
+        """Whether it knows already what is its own in this scene."""
+        return self._binding is not None and self._binding.key is scene.all_seen
 
-    def measure(self, view: View, scene: RayScene) -> Scan:
+    def measure(self, time: int, body: int, scene: RayScene) -> Scan:
         """
         Return what the lidar measures.
 
         Args:
-            view: From where it looks.
-            scene: What there is at the same instant.
+            time: Simulated, ns.
+            body: The id of its link.
+            scene: What there is at this time.
         """
-        binding = self._bound_to(view, scene)
-        hits = scene.cast(
-            view.origin, view.directions, mask=binding.mask, cutoff=self.lidar.range_max
-        )
+        binding = self._binding
+        if binding is None or not self.is_bound_to(scene):
+            binding = self._binding = self._bind(body, scene)
+        origin, directions = self._rays(body, scene)
+        hits = scene.cast(origin, directions, mask=binding.mask, cutoff=self.lidar.range_max)
         distances, geoms = hits.distances, hits.geoms
         distances[geoms < 0] = math.inf
         if binding.own is not None:
@@ -166,8 +154,8 @@ class SimulatedLidar:
         intensities = binding.intensities[geoms]
         intensities[distances > self.lidar.range_max] = 0.0
         return Scan(
-            view.time,
-            self._measured(distances, view.time).astype(np.float32).reshape(self._shape),
+            time,
+            self._measured(distances, time).astype(np.float32).reshape(self._shape),
             intensities.reshape(self._shape),
         )
 
@@ -193,25 +181,23 @@ class SimulatedLidar:
         draw, sign = noise_generator(self._robot.seed, self._name, -1).standard_normal(2).tolist()
         return math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
 
-    def _bound_to(self, view: View, scene: RayScene) -> '_Binding':
-        with self._changing_binding:
-            binding = self._binding
-            if binding is None or binding.key is not scene.all_seen:
-                binding = self._binding = self._bind(view, scene)
-            return binding
+    def _rays(self, body: int, scene: RayScene) -> tuple[Floats, Floats]:
+        """Return origin and directions in the world."""
+        position, rotation = scene.pose(body)
+        return position + rotation @ self._offset, self._turned @ rotation.T
 
-    def _bind(self, view: View, scene: RayScene) -> '_Binding':
+    def _bind(self, body: int, scene: RayScene) -> '_Binding':
         intensities = np.append(scene.colors[:, :3] @ _LUMINANCE, 0.0).astype(np.float32)
         name = self._robot.name
         if not self.lidar.sees_robot:
             mask = scene.mask(without=scene.geoms_of(name))
             return _Binding(scene.all_seen, mask, intensities)
-        carried = scene.geoms_fixed_to(name, view.body)
+        carried = scene.geoms_fixed_to(name, body)
         mask = scene.mask(without=carried)
         # Where the joints are makes no difference but for rounding; so when this is done does not.
         start = scene.at_start()
-        view = self._view_from(view.body, 0, start)
-        own = _own_parts(view, start, scene.mask(only=carried), self.lidar)
+        origin, directions = self._rays(body, start)
+        own = _own_parts(origin, directions, start, scene.mask(only=carried), self.lidar)
         is_seen = bool(np.isfinite(own.distances).any())
         return _Binding(scene.all_seen, mask, intensities, own if is_seen else None)
 
@@ -229,23 +215,23 @@ class _Binding:
     """On the parts that cannot move against the lidar; the distance is inf where none is met."""
 
 
-def _own_parts(view: View, scene: RayScene, mask: Mask, lidar: Lidar) -> Hits:
+def _own_parts(
+    origin: Floats, directions: Floats, scene: RayScene, mask: Mask, lidar: Lidar
+) -> Hits:
     """Return where the lidar sees the parts of ``mask``; the distance is inf where it does not."""
-    first = scene.cast(
-        view.origin, view.directions, mask=mask, cutoff=lidar.range_max, normals=True
-    )
+    first = scene.cast(origin, directions, mask=mask, cutoff=lidar.range_max, normals=True)
     distances, geoms, normals = first.distances, first.geoms, first.normals
     assert normals is not None, 'they were asked for'
     distances[geoms < 0] = math.inf
-    is_behind = np.einsum('ij,ij->i', view.directions, normals) >= 0.0
+    is_behind = np.einsum('ij,ij->i', directions, normals) >= 0.0
     is_through = np.isfinite(distances) & ((distances < lidar.range_min) | is_behind)
     for ray in np.flatnonzero(is_through):
-        direction = view.directions[ray]
+        direction = directions[ray]
         passed = max(distances[ray] + _SKIN, lidar.range_min)
         distances[ray], geoms[ray] = math.inf, -1
         for _ in range(_MOST_LAYERS):
             hits = scene.cast(
-                view.origin + passed * direction, direction[None], mask=mask, normals=True
+                origin + passed * direction, direction[None], mask=mask, normals=True
             )
             if hits.geoms[0] < 0 or hits.normals is None:
                 break

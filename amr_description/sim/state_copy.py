@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from amr_description.sim.rays import RayScene
 from amr_description.sim.world import MujocoWorld
 
 
@@ -84,3 +85,19 @@ class CopiedPoses:
             mujoco.mj_camlight(state.model, data)
             self._state = state
         return self._data
+
+
+class CopiedScenes:
+    """What can be seen in copies; on the thread that measures."""
+
+    def __init__(self) -> None:
+        """Nothing is there yet."""
+        self._poses = CopiedPoses()
+        self._scene: RayScene | None = None
+
+    def scene(self, state: StateCopy) -> RayScene:
+        """Return the scene at the instant of a copy; the same object, for the same model."""
+        data = self._poses.data(state)
+        if self._scene is None or self._scene.model is not state.model:
+            self._scene = RayScene(state.model, data, sorted(state.robots))
+        return self._scene

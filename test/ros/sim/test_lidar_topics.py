@@ -5,6 +5,7 @@
 from contextlib import contextmanager
 from dataclasses import replace
 import math
+import threading
 
 from fixtures.sim.driving import AMR
 import numpy as np
@@ -22,6 +23,8 @@ from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
 from amr_description.sensor_msgs_py.point_cloud2 import read_points
+from amr_description.sim.lidar import SimulatedLidar
+from amr_description.sim.ros.sensors import lidar
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 
@@ -37,11 +40,11 @@ class Host:
 
     def __init__(self):
         self.node = Node('host')
-        self.lines = []
+        self.lines, self.is_paced = [], False
         self.world = MujocoWorld('warehouse')
         self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
         self.sensors = SensorManager(
-            self.node, self.loop_publisher, self.world, self.log, lambda: False
+            self.node, self.loop_publisher, self.world, self.log, lambda: self.is_paced
         )
 
     def log(self, severity, text, *, throttle=0.0):
@@ -89,6 +92,7 @@ def host():
     rclpy.init(args=[])
     host = Host()
     yield host
+    host.sensors.close()
     host.node.destroy_node()
     rclpy.try_shutdown()
 
@@ -151,6 +155,53 @@ def test_points_are_those_of_the_ranges(host):
     assert nearest.field_of_view == pytest.approx(6.28)
     assert (nearest.min_range, nearest.max_range) == pytest.approx((0.12, 12.0))
     assert nearest.radiation_type == Range.ULTRASOUND
+
+
+def test_the_other_thread_measures_the_same(host, monkeypatch):
+    noisy = replace(RINGS, noise=Noise(stddev=0.01))
+    measured = []
+    for most_rays in (10_000, 0):
+        monkeypatch.setattr(lidar, 'MOST_RAYS', most_rays)
+        host.spawn('amr', '/', noisy)
+        with (
+            host.heard(LaserScan, '/scan') as scans,
+            host.heard(PointCloud2, '/scan/points') as clouds,
+        ):
+            host.next(scans, 2)
+            host.wait(lambda: len(clouds) == 2)
+        measured.append([bytes(each.data) for each in clouds])
+        measured[-1] += [each.ranges.tobytes() for each in scans]
+        host.remove('amr')
+        host.world.reset()
+        host.turn()
+        host.world.reset()
+    assert len(measured[0]) == 4
+    assert measured[0] == measured[1]
+
+
+def test_a_robot_that_goes_while_its_lidar_is_in_work(host, monkeypatch):
+    monkeypatch.setattr(lidar, 'MOST_RAYS', 0)
+    host.is_paced = True
+    may_go_on, made = threading.Event(), []
+    measure = SimulatedLidar.measure
+
+    def wait_and_measure(*arguments):
+        assert may_go_on.wait(PATIENCE)
+        made.append(measure(*arguments))
+        return made[-1]
+
+    monkeypatch.setattr(SimulatedLidar, 'measure', wait_and_measure)
+    host.spawn('amr', '/', RINGS)
+    with host.heard(LaserScan, '/scan') as scans:
+        host.turn(40)
+    host.remove('amr')
+    host.turn()
+    may_go_on.set()
+    host.wait(lambda: made)
+    host.sensors.close()
+    assert not scans
+    (line,) = host.lines
+    assert line.startswith("lidar 'lidar' of 'amr': 1 of 2 measurements were left out, as one ")
 
 
 def test_points_without_a_range_are_nan(host):

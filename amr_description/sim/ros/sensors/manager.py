@@ -18,7 +18,7 @@ from amr_description.sim.ros.sensors.lidar import LidarTopics
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
 from amr_description.sim.ros.sensors.worker import SensorWorker
 from amr_description.sim.sensor_schedule import SensorSchedule
-from amr_description.sim.state_copy import StateCopier
+from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
 
 TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
@@ -62,6 +62,7 @@ class SensorManager:
         self._is_paced = is_paced
         self._worker = SensorWorker(loop_publisher, log, is_paced)
         self._states = StateCopier(world)
+        self._scenes = CopiedScenes()
         self._renderer = RayRenderer()
         self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
         loop_publisher.reporters.append(self.report)
@@ -87,6 +88,7 @@ class SensorManager:
             self._is_paced,
             self._worker,
             self._states,
+            self._scenes,
             self._renderer,
         )
         now = self._world.time

@@ -14,7 +14,7 @@ from amr_description.model.sensors import SensorMount
 from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.ros.sensors.worker import SensorWorker
-from amr_description.sim.state_copy import StateCopier
+from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
 
 
@@ -42,6 +42,8 @@ class SensorContext:
     """Makes measurements that take long, on its thread."""
     states: StateCopier
     """Copies the state of an instant for it."""
+    scenes: CopiedScenes
+    """What is to be seen in these copies; on the thread of ``worker``."""
     renderer: Renderer
     """Makes the pictures of cameras; on the thread of ``worker``."""
 
